@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# The helpers every CMakeLists.txt of viewloom uses: one library per folder, one program per test file.
+
+add_library(viewloom_options INTERFACE)
+target_compile_options(viewloom_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wunused-result)
+
+set(VIEWLOOM_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
+if(VIEWLOOM_SANITIZE)
+  add_compile_options(-fsanitize=${VIEWLOOM_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${VIEWLOOM_SANITIZE})
+endif()
+
+# viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...]): static library viewloom_<folder>.
+# Includes are written from server/ (and from client/ below client).
+function(viewloom_add_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK" ${ARGN})
+  set(target viewloom_${folder})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE viewloom_options)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_sources(${target} ${scope} FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR}/server ${PROJECT_SOURCE_DIR}/client FILES ${ARG_HEADERS})
+  target_link_libraries(${target} ${scope} ${ARG_LINK})
+endfunction()
+
+# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...]): one GoogleTest program,
+# registered as one ctest case.
+function(viewloom_add_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE viewloom_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Byte buffers that come back: after warm-up, frames and bands travel without touching the heap.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace viewloom {
+
+// Bytes that several readers share; goes back to its pool with the last of them.
+using SharedBytes = std::shared_ptr<const std::vector<uint8_t>>;
+
+// Lends growable byte buffers. A returned buffer keeps its capacity and serves the next request.
+// Buffers may outlive the pool. Thread-safety: all methods may be called from any thread.
+class BytePool {
+ public:
+  using Buffer = std::shared_ptr<std::vector<uint8_t>>;
+
+  // At most kept_count buffers wait in the pool; further ones are freed on return.
+  explicit BytePool(size_t kept_count);
+  // An empty buffer; of those waiting, the one with the smallest capacity >= capacity_bytes.
+  Buffer take(size_t capacity_bytes);
+
+ private:
+  struct Shelf;
+  std::shared_ptr<Shelf> shelf_;
+};
+
+}  // namespace viewloom

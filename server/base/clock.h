@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Monotonic time in nanoseconds, and one that tests turn by hand.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  // Nanoseconds since an arbitrary start; never goes back.
+  virtual int64_t nowNs() const = 0;
+};
+
+class SteadyClock final : public Clock {
+ public:
+  int64_t nowNs() const override {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  }
+};
+
+class ManualClock final : public Clock {
+ public:
+  int64_t nowNs() const override { return now_ns_; }
+  void advance(int64_t by_ns) { now_ns_ += by_ns; }
+
+ private:
+  std::atomic<int64_t> now_ns_{1};
+};
+
+}  // namespace viewloom

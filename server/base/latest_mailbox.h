@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hand-over with one slot: the newest item wins, the one it replaces is returned and counted.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread; none blocks on anything but the lock.
+template <typename Item>
+class LatestMailbox {
+ public:
+  // Puts the item in the slot. Returns the item it replaced, if nobody had taken it.
+  std::optional<Item> push(Item item) {
+    std::lock_guard lock(mutex_);
+    std::optional<Item> replaced = std::exchange(slot_, std::move(item));
+    replaced_count_ += replaced.has_value();
+    return replaced;
+  }
+
+  std::optional<Item> take() {
+    std::lock_guard lock(mutex_);
+    return std::exchange(slot_, std::nullopt);
+  }
+
+  uint64_t replacedCount() const {
+    std::lock_guard lock(mutex_);
+    return replaced_count_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Item> slot_;
+  uint64_t replaced_count_ = 0;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where each view lies in the atlas and what it sees: a display resolved against a stream.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "display/display_spec.h"
+
+namespace viewloom {
+
+// One output camera. Pixels are those of its tile, rows from the top, centres at +0.5.
+struct View {
+  Camera camera;  // pose relative to the display (see AtlasLayout)
+};
+
+// Top-left corner of a tile in the atlas, px from the top left.
+struct TileOrigin {
+  uint32_t x_px = 0;
+  uint32_t y_px = 0;
+};
+
+// A grid of equal tiles. view_indices is the only statement about order.
+struct AtlasLayout {
+  SizePx size_px;
+  uint32_t columns = 1;
+  uint32_t rows = 1;
+  SizePx tile_size_px;
+  TileOrder order = TileOrder::kTopLeft;
+  double aspect = 1;  // of a view as shown
+  uint32_t padding_right_px = 0;
+  uint32_t padding_top_px = 0;
+  double view_cone_rad = 0;     // quilts
+  double focal_distance_m = 0;  // quilts and stereo
+  std::string suffix;           // quilts: "_qs8x6a0.75"
+  std::vector<View> views;      // [view]
+
+  TileOrigin tileOrigin(uint32_t view) const;
+  // The view whose tile stands in this column and this row from the top; views.size() = none.
+  uint32_t viewAt(uint32_t column, uint32_t row_from_top) const;
+};
+
+// What a stream gives a display that leaves it open.
+struct StreamDefaults {
+  Camera source_camera;
+  SizePx source_size_px;
+  double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, first frame
+};
+
+// Largest atlas of this device and this server.
+struct AtlasLimits {
+  uint32_t side_px_max = 16384;
+  uint64_t area_px_max = uint64_t{16384} * 16384;
+  uint32_t view_count_max = 2500;
+};
+
+// Expects a completed spec. Errors name the field as in proto Display.
+absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults);
+// Without a stream: checks sizes and counts before anything is allocated.
+absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
+
+// Rows of a band: 8 MCU rows, so that restart markers run on from band to band.
+uint32_t bandRowCount(const EncodingSpec& encoding);
+
+}  // namespace viewloom

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Named devices. Published tables lag the hardware: defaults only, none verified on hardware.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "display/display_spec.h"
+
+namespace viewloom {
+
+struct Preset {
+  std::string_view name;    // "portrait"
+  std::string_view device;  // "Looking Glass Portrait"
+  uint32_t columns;
+  uint32_t rows;
+  SizePx size_px;
+  double aspect;
+  double view_cone_deg;
+  std::string_view note;  // where sources disagree; "" = they do not
+};
+
+// Sorted by name.
+std::span<const Preset> allPresets();
+// nullptr when there is none.
+const Preset* findPreset(std::string_view name);
+
+}  // namespace viewloom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What leaves the encoders: bands, and the atlas they make. Immutable and shared by all subscribers.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "display/atlas_layout.h"
+#include "frame/stage_times.h"
+
+namespace viewloom {
+
+enum class AtlasPlane : uint8_t { kColor, kDepth, kMask };
+
+// Values of the mask plane; those of proto RayClass.
+enum class RayClass : uint8_t { kPadding, kHit, kHitAssumed, kHidden, kOutside, kEmpty };
+
+struct EncodedBand {
+  uint32_t image_index = 0;
+  AtlasPlane plane = AtlasPlane::kColor;
+  uint32_t first_row = 0;
+  uint32_t row_count = 0;
+  BandEncoding encoding = BandEncoding::kJpeg;
+  SharedBytes bytes;
+};
+
+// A whole atlas: every band is there. Bands are sorted by plane, then first_row.
+struct EncodedAtlas {
+  uint64_t display_id = 0;
+  uint64_t sequence = 0;  // of its display and encoding, from 1
+  uint64_t frame_number = 0;
+  int64_t capture_time_ns = 0;
+  int64_t present_at_ns = 0;
+  Camera source_camera;
+  Pose display_pose;
+  std::shared_ptr<const AtlasLayout> layout;
+  EncodingSpec encoding;
+  StageTimes times;
+  Coverage coverage;
+  SourceStats stats;
+  std::vector<EncodedBand> bands;
+};
+
+using AtlasPtr = std::shared_ptr<const EncodedAtlas>;
+
+}  // namespace viewloom

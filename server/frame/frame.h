@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The immutable frame: one input instant, decoded, as it travels from ingest to upload.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "frame/camera.h"
+#include "frame/size.h"
+
+namespace viewloom {
+
+enum class PlaneKind : uint8_t { kColor, kDepth };
+enum class PlaneEncoding : uint8_t { kRgba8, kRgb8, kRgba16f, kJpeg, kDepthF32, kDepthF16, kDepthU16 };
+enum class PlaneCompression : uint8_t { kNone, kZstd };
+enum class ColorTransfer : uint8_t { kSrgb, kLinear };
+enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
+enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };
+enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity };
+
+// How depth samples become 1/Z; frame/depth.h holds the only function that does it.
+struct DepthFormat {
+  DepthMeaning meaning = DepthMeaning::kPlanar;
+  double scale = 1;    // metre or 1/m per unit of the sample
+  double offset = 0;   // after the scale
+  double min_depth = 0;  // kWindow, as in XrCompositionLayerDepthInfoKHR
+  double max_depth = 1;
+  double near_z_m = 0;   // may be +inf; near > far is reversed depth
+  double far_z_m = 0;
+  std::optional<double> invalid_value;
+  bool invalid_is_far = false;
+};
+
+// What a plane is, before and apart from its bytes.
+struct PlaneFormat {
+  PlaneKind kind = PlaneKind::kColor;
+  PlaneEncoding encoding = PlaneEncoding::kRgba8;
+  SizePx size_px;
+  uint32_t stride_bytes = 0;  // 0 = packed
+  PlaneCompression compression = PlaneCompression::kNone;
+  ColorTransfer transfer = ColorTransfer::kSrgb;
+  ColorPrimaries primaries = ColorPrimaries::kBt709;
+  AlphaMode alpha = AlphaMode::kOpaque;
+  DepthFormat depth;
+  uint64_t wire_bytes = 0;  // as declared
+};
+
+struct LayerFormat {
+  PlaneFormat color;
+  PlaneFormat depth;
+  bool depth_first = false;  // the order in which the planes came on the wire
+};
+
+struct SourceFormat {
+  Camera camera;  // intrinsics in px of the depth planes
+  std::vector<LayerFormat> layers;  // 1..4, nearest first
+  double connection_tolerance = 0;  // 1/m; 0 = measured
+};
+
+// A frame without its bytes: what a header declares and validateFrame accepts.
+struct FrameFormat {
+  uint64_t number = 0;
+  int64_t capture_time_ns = 0;
+  std::vector<SourceFormat> sources;
+  double exposure_ev = 0;
+};
+
+// Decoded, packed planes. color: uint8_t[h][w][4] for kRgba8 (kRgb8 and kJpeg decode to it), or
+// binary16[h][w][4] for kRgba16f. depth: samples as declared, packed. Top row first.
+struct LayerPlanes {
+  SharedBytes color;
+  PlaneEncoding color_encoding = PlaneEncoding::kRgba8;  // kRgba8 or kRgba16f
+  SharedBytes depth;
+};
+
+// When what happened to a frame, on the server's monotonic clock.
+struct FrameTimes {
+  int64_t first_chunk_ns = 0;
+  int64_t last_chunk_ns = 0;
+  int64_t decoded_ns = 0;
+};
+
+struct Frame {
+  FrameFormat format;
+  std::vector<std::vector<LayerPlanes>> sources;  // [source][layer]
+  FrameTimes times;
+};
+
+using FramePtr = std::shared_ptr<const Frame>;
+
+}  // namespace viewloom

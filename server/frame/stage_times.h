@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is measured on a frame's way: stage times, ray classes, the depth of a source.
+#pragma once
+
+#include <cstdint>
+
+namespace viewloom {
+
+// How the rays of an atlas ended, as counts.
+struct Coverage {
+  uint64_t hit = 0;
+  uint64_t hit_assumed = 0;
+  uint64_t hidden = 0;
+  uint64_t outside = 0;
+  uint64_t empty = 0;
+
+  uint64_t rayCount() const { return hit + hit_assumed + hidden + outside + empty; }
+  bool operator==(const Coverage&) const = default;
+};
+
+// Nanoseconds; the stages of proto viewloom.v1.StageTimes.
+struct StageTimes {
+  int64_t receive_ns = 0;
+  int64_t decode_ns = 0;
+  int64_t upload_ns = 0;
+  int64_t build_ns = 0;
+  int64_t wait_ns = 0;
+  int64_t trace_ns = 0;
+  int64_t encode_ns = 0;
+  int64_t total_ns = 0;
+};
+
+// Measured on the device while a structure is built; 1/m where not said otherwise.
+struct SourceStats {
+  double depth_step = 0;
+  double noise_sigma = 0;
+  double connection_tolerance = 0;
+  uint64_t bad_samples_count = 0;
+  uint64_t unsorted_columns_count = 0;
+  double inv_z_min = 0;
+  double inv_z_max = 0;
+  double inv_z_near = 0;  // 98th percentile of 1/Z
+  double inv_z_far = 0;   // 2nd percentile of 1/Z
+};
+
+}  // namespace viewloom

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who watches which display of which stream; hands each finished atlas to all of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "display/display_spec.h"
+#include "publish/subscriber.h"
+
+namespace viewloom {
+
+// A display that is watched now: distinct in stream, picture and encoding. The demand the loops read.
+struct ActiveDisplay {
+  uint64_t id = 0;
+  std::string stream;
+  DisplaySpec spec;  // completed
+  EncodingSpec encoding;
+  std::string picture_key;  // stream + displayKey: displays that share one trace
+  uint32_t subscriber_count = 0;
+};
+
+using ActiveDisplayPtr = std::shared_ptr<const ActiveDisplay>;
+
+struct BroadcasterLimits {
+  uint32_t display_count_max = 64;
+  uint32_t subscriber_count_max = 1024;
+};
+
+// Thread-safety: all methods may be called from any thread. Subscribers are called without a lock held
+// that a subscriber could want.
+class Broadcaster {
+ public:
+  explicit Broadcaster(BroadcasterLimits limits);
+  ~Broadcaster();
+
+  // A place among the watchers of a display; leaving it is destroying it.
+  class Subscription;
+
+  // Joins or opens the display. A late joiner is offered the newest complete atlas at once.
+  // RESOURCE_EXHAUSTED over a limit, UNAVAILABLE while draining.
+  absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
+                                                          const DisplaySpec& spec,
+                                                          const EncodingSpec& encoding,
+                                                          std::shared_ptr<Subscriber> subscriber);
+
+  // Called, on the subscriber's thread, whenever the set of displays of a stream changed: a joiner
+  // without a finished atlas wants one. Set once, before anybody subscribes.
+  void onDemandChange(std::function<void(const std::string& stream)> callback);
+
+  // One snapshot of the displays of a stream; all of them with an empty name. Sorted by id.
+  std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;
+  uint32_t subscriberCount(const std::string& stream) const;
+
+  // A finished atlas. Its sequence must grow; atlases of a display nobody watches any more are dropped.
+  void publish(AtlasPtr atlas);
+  // The display cannot be served: its subscribers end with this status.
+  void refuse(uint64_t display_id, const absl::Status& status);
+  // The newest complete atlas of a display; nullptr = none yet.
+  AtlasPtr newest(uint64_t display_id) const;
+  // Atlases published for the display so far.
+  uint64_t atlasCount(uint64_t display_id) const;
+
+  // Ends every subscriber with OK and refuses new ones.
+  void drain();
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+class Broadcaster::Subscription {
+ public:
+  Subscription(std::shared_ptr<State> state, uint64_t display_id, uint64_t subscriber_id);
+  ~Subscription();
+  uint64_t displayId() const { return display_id_; }
+
+ private:
+  std::shared_ptr<State> state_;
+  uint64_t display_id_;
+  uint64_t subscriber_id_;
+};
+
+}  // namespace viewloom

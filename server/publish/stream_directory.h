@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which streams exist, who publishes them, and how they fare.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/status.h"
+#include "frame/size.h"
+#include "frame/stage_times.h"
+
+namespace viewloom {
+
+struct StreamEntry {
+  std::string name;
+  bool live = false;          // a publisher is connected
+  uint64_t frame_number = 0;  // newest resident structure
+  SizePx size_px;
+  uint32_t layer_count = 0;
+  double rate_hz = 0;  // frames received whole, over the last two seconds
+  uint64_t received_count = 0;
+  uint64_t replaced_count = 0;
+  uint64_t refused_count = 0;
+  SourceStats stats;
+};
+
+// Thread-safety: all methods may be called from any thread.
+class StreamDirectory {
+ public:
+  StreamDirectory(const Clock& clock, uint32_t stream_count_max);
+  ~StreamDirectory();
+
+  // A publisher's hold on a name; letting go is destroying it. The entry stays, not live, so that
+  // subscribers keep the resident structure.
+  class Claim;
+
+  // ALREADY_EXISTS when another session holds the name, RESOURCE_EXHAUSTED over the limit. The same,
+  // non-empty session id takes the stream over: `on_takeover` of the old claim is called, once.
+  absl::StatusOr<std::unique_ptr<Claim>> claim(const std::string& stream,
+                                               const std::string& session_id,
+                                               std::function<void()> on_takeover);
+
+  bool exists(const std::string& stream) const;
+  // Sorted by name.
+  std::vector<StreamEntry> list() const;
+  // Called whenever a stream appears; for those who wait for it.
+  void onAppear(std::function<void(const std::string& stream)> callback);
+
+  void countReceived(const std::string& stream);
+  void countReplaced(const std::string& stream);
+  void countRefused(const std::string& stream);
+  void noteResident(const std::string& stream, uint64_t frame_number, SizePx size_px,
+                    uint32_t layer_count, const SourceStats& stats);
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+class StreamDirectory::Claim {
+ public:
+  Claim(std::shared_ptr<State> state, std::string stream, uint64_t claim_id);
+  ~Claim();
+
+ private:
+  std::shared_ptr<State> state_;
+  std::string stream_;
+  uint64_t claim_id_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Somebody who wants the newest atlas of a display.
+#pragma once
+
+#include "base/status.h"
+#include "encode/encoded_band.h"
+
+namespace viewloom {
+
+// Called from any thread, one call at a time per subscriber. No method may block.
+class Subscriber {
+ public:
+  virtual ~Subscriber() = default;
+  // The newest complete atlas. Keep it or drop it; it stays valid as long as it is held.
+  virtual void offer(AtlasPtr atlas) = 0;
+  // The display cannot be served (its layout does not fit the stream), or the server drains (OK).
+  // Nothing is offered afterwards.
+  virtual void end(const absl::Status& status) = 0;
+};
+
+}  // namespace viewloom
