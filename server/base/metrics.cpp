@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/metrics.h"
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include <utility>
+#include <vector>
+
+namespace viewloom {
+namespace {
+
+constexpr double kSecondsPerNs = 1e-9;
+
+// Seconds; from a cheap stage of a small frame to a software device on a quilt of 67 Mpx.
+const prometheus::Histogram::BucketBoundaries kStageBounds = {
+    0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033, 0.066, 0.125, 0.25, 0.5, 1, 2, 4, 8};
+
+using LabelValues = std::vector<const char*>;
+const LabelValues kStages = {"receive", "decode", "upload", "build",
+                             "wait",    "trace",  "encode", "total"};
+const LabelValues kHandOvers = {"decode", "structure", "trace", "grpc", "web"};
+const LabelValues kTransports = {"grpc", "web"};
+const LabelValues kRayAnswers = {"hit", "hit_assumed", "hidden", "outside", "empty"};
+const LabelValues kHttpAnswers = {"success", "redirect", "client_error", "server_error"};
+
+Counter counter(prometheus::Registry& registry, const char* name, const char* help) {
+  return Counter(prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add({}));
+}
+
+Gauge gauge(prometheus::Registry& registry, const char* name, const char* help) {
+  return Gauge(prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({}));
+}
+
+template <typename Label, typename Handle, typename Family, typename... Options, size_t... kIndices>
+Labelled<Label, Handle> labelled(Family& family, const char* key, const LabelValues& values,
+                                 std::index_sequence<kIndices...>, const Options&... options) {
+  return Labelled<Label, Handle>({Handle(family.Add({{key, values.at(kIndices)}}, options...))...});
+}
+
+template <typename Label>
+Labelled<Label, Counter> counters(prometheus::Registry& registry, const char* name,
+                                  const char* help, const char* key, const LabelValues& values) {
+  auto& family = prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+  return labelled<Label, Counter>(family, key, values,
+                                  std::make_index_sequence<Labelled<Label, Counter>::kSize>());
+}
+
+template <typename Label>
+Labelled<Label, Gauge> gauges(prometheus::Registry& registry, const char* name, const char* help,
+                              const char* key, const LabelValues& values) {
+  auto& family = prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+  return labelled<Label, Gauge>(family, key, values,
+                                std::make_index_sequence<Labelled<Label, Gauge>::kSize>());
+}
+
+Labelled<Stage, Histogram> stageHistograms(prometheus::Registry& registry) {
+  auto& family = prometheus::BuildHistogram()
+                     .Name("viewloom_stage_seconds")
+                     .Help("Time of a frame or an atlas in each stage.")
+                     .Register(registry);
+  return labelled<Stage, Histogram>(family, "stage", kStages,
+                                    std::make_index_sequence<Labelled<Stage, Histogram>::kSize>(),
+                                    kStageBounds);
+}
+
+}  // namespace
+
+void Counter::add(double amount) const { counter_->Increment(amount); }
+double Counter::value() const { return counter_->Value(); }
+void Gauge::set(double value) const { gauge_->Set(value); }
+void Gauge::add(double amount) const { gauge_->Increment(amount); }
+double Gauge::value() const { return gauge_->Value(); }
+void Histogram::observe(double value) const { histogram_->Observe(value); }
+
+struct Metrics::Store {
+  prometheus::Registry registry;
+};
+
+Metrics::Metrics()
+    : store_(std::make_unique<Store>()),
+      frames_received(counter(store_->registry, "viewloom_frames_received_total",
+                              "Frames received whole.")),
+      frames_refused(counter(store_->registry, "viewloom_frames_refused_total",
+                             "Frames refused by the checks of their header or bytes.")),
+      received_bytes(counter(store_->registry, "viewloom_received_bytes_total",
+                             "Bytes of planes, as they came on the wire.")),
+      structures_built(counter(store_->registry, "viewloom_structures_built_total",
+                               "Acceleration structures built.")),
+      atlases_traced(counter(store_->registry, "viewloom_atlases_traced_total",
+                             "Atlases traced, one per distinct picture.")),
+      atlases_encoded(counter(store_->registry, "viewloom_atlases_encoded_total",
+                              "Atlases encoded, one per distinct picture and encoding.")),
+      bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),
+      encoded_bytes(counter(store_->registry, "viewloom_encoded_bytes_total",
+                            "Bytes of all encoded bands.")),
+      rays(counters<RayAnswer>(store_->registry, "viewloom_rays_total",
+                               "Rays traced, by how they ended.", "answer", kRayAnswers)),
+      replaced(counters<HandOver>(store_->registry, "viewloom_replaced_total",
+                                  "Waiting things replaced by newer ones, by hand-over.",
+                                  "hand_over", kHandOvers)),
+      atlases_sent(counters<Transport>(store_->registry, "viewloom_atlases_sent_total",
+                                       "Atlases written to clients.", "transport", kTransports)),
+      sent_bytes(counters<Transport>(store_->registry, "viewloom_sent_bytes_total",
+                                     "Bytes of atlases written to clients.", "transport",
+                                     kTransports)),
+      http_responses(counters<HttpAnswer>(store_->registry, "viewloom_http_responses_total",
+                                          "HTTP responses, by kind of status.", "answer",
+                                          kHttpAnswers)),
+      subscribers(gauges<Transport>(store_->registry, "viewloom_subscribers",
+                                    "Clients that watch a display now.", "transport",
+                                    kTransports)),
+      streams_live(gauge(store_->registry, "viewloom_streams_live",
+                         "Streams with a connected publisher.")),
+      displays(gauge(store_->registry, "viewloom_displays", "Displays watched now.")),
+      http_connections(gauge(store_->registry, "viewloom_http_connections",
+                             "HTTP and WebSocket connections open now.")),
+      stage(stageHistograms(store_->registry)) {}
+
+Metrics::~Metrics() = default;
+
+std::string Metrics::text() const {
+  return prometheus::TextSerializer().Serialize(store_->registry.Collect());
+}
+
+void Metrics::observeStage(Stage which, int64_t duration_ns) const {
+  stage[which].observe(static_cast<double>(duration_ns) * kSecondsPerNs);
+}
+
+}  // namespace viewloom

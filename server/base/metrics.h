@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the server counts and times, under the names Prometheus reads them by.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace prometheus {
+class Counter;
+class Gauge;
+class Histogram;
+}  // namespace prometheus
+
+namespace viewloom {
+
+// The three kinds of metric. Handles into a Metrics, valid as long as it lives; cheap to copy.
+// Thread-safety: all methods may be called from any thread and do not block.
+class Counter {
+ public:
+  explicit Counter(prometheus::Counter& counter) : counter_(&counter) {}
+  void add(double amount = 1) const;
+  double value() const;
+
+ private:
+  prometheus::Counter* counter_;
+};
+
+class Gauge {
+ public:
+  explicit Gauge(prometheus::Gauge& gauge) : gauge_(&gauge) {}
+  void set(double value) const;
+  void add(double amount) const;  // may be negative
+  double value() const;
+
+ private:
+  prometheus::Gauge* gauge_;
+};
+
+// Thread-safety: as above, but observe() takes a lock for a moment.
+class Histogram {
+ public:
+  explicit Histogram(prometheus::Histogram& histogram) : histogram_(&histogram) {}
+  void observe(double value) const;
+
+ private:
+  prometheus::Histogram* histogram_;
+};
+
+// One handle per value of an enum whose last value is kCount.
+template <typename Label, typename Handle>
+class Labelled {
+ public:
+  static constexpr size_t kSize = static_cast<size_t>(Label::kCount);
+  explicit Labelled(const std::array<Handle, kSize>& handles) : handles_(handles) {}
+  const Handle& operator[](Label label) const { return handles_[static_cast<size_t>(label)]; }
+
+ private:
+  std::array<Handle, kSize> handles_;
+};
+
+// Where the time of an atlas goes; the fields of StageTimes.
+enum class Stage : uint8_t {
+  kReceive, kDecode, kUpload, kBuild, kWait, kTrace, kEncode, kTotal, kCount
+};
+// Where something newer replaces something that waits: ingest to decoding, decoded frames to the
+// structure loop, trace jobs, atlases to a gRPC client, atlases to a browser.
+enum class HandOver : uint8_t { kDecode, kStructure, kTrace, kGrpc, kWeb, kCount };
+enum class Transport : uint8_t { kGrpc, kWeb, kCount };
+// How a ray ended; the fields of Coverage.
+enum class RayAnswer : uint8_t { kHit, kHitAssumed, kHidden, kOutside, kEmpty, kCount };
+enum class HttpAnswer : uint8_t { kSuccess, kRedirect, kClientError, kServerError, kCount };
+
+// All metrics of a server, made once by whoever composes it. Each field is named like its metric:
+// frames_received is viewloom_frames_received_total.
+// Thread-safety: fields and methods may be used from any thread.
+class Metrics {
+  struct Store;
+  std::unique_ptr<Store> store_;  // before the handles, which point into it
+
+ public:
+  Metrics();
+  ~Metrics();
+
+  // Everything in Prometheus' text format.
+  std::string text() const;
+
+  Counter frames_received;   // whole
+  Counter frames_refused;    // by the checks of their header or bytes
+  Counter received_bytes;    // of planes, as they came on the wire
+  Counter structures_built;
+  Counter atlases_traced;
+  Counter atlases_encoded;
+  Counter bands_encoded;
+  Counter encoded_bytes;
+  Labelled<RayAnswer, Counter> rays;                 // {answer}; shares are ratios of their rates
+  Labelled<HandOver, Counter> replaced;              // {hand_over}; drops, newest wins
+  Labelled<Transport, Counter> atlases_sent;         // {transport}
+  Labelled<Transport, Counter> sent_bytes;           // {transport}
+  Labelled<HttpAnswer, Counter> http_responses;      // {answer}
+  Labelled<Transport, Gauge> subscribers;            // {transport}; now
+  Gauge streams_live;                                // now
+  Gauge displays;                                    // watched now
+  Gauge http_connections;                            // open now
+  Labelled<Stage, Histogram> stage;                  // viewloom_stage_seconds{stage}
+
+  void observeStage(Stage which, int64_t duration_ns) const;
+};
+
+}  // namespace viewloom
