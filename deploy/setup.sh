@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian 12 packages viewloom needs. Safe to repeat: what is installed is left alone.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: deploy/setup.sh [--runtime | --dev]
+  (no option)  what it takes to build viewloomd and viewloom, and to run them
+  --runtime    only what built programs need to run
+  --dev        what it takes to build, and what only the tests need
+TEXT
+}
+
+# A Vulkan device in software (lavapipe) comes with mesa-vulkan-drivers; a GPU's own driver is used
+# where there is one.
+runtime_packages=(
+  ca-certificates libabsl20220623 libgrpc++1.51 libjpeg62-turbo libopenexr-3-1-30 libpng16-16
+  libprometheus-cpp-core1.0 libprotobuf32 libspdlog1.10 libturbojpeg0 libvulkan1 libzstd1
+  mesa-vulkan-drivers
+)
+build_packages=(
+  ccache cmake g++ git ninja-build pkg-config
+  glslang-tools libvulkan-dev mesa-vulkan-drivers libglm-dev
+  libabsl-dev libgrpc++-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc grpc-proto
+  libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libpng-dev libzstd-dev
+  libboost-dev libcli11-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev
+  prometheus-cpp-dev
+)
+test_packages=(
+  libbenchmark-dev libgmock-dev libgtest-dev vulkan-validationlayers
+  chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf
+  clang clang-tidy
+)
+
+case "${1:-}" in
+  "") packages=("${build_packages[@]}") ;;
+  --runtime) packages=("${runtime_packages[@]}") ;;
+  --dev) packages=("${build_packages[@]}" "${test_packages[@]}") ;;
+  -h | --help) usage; exit 0 ;;
+  *) usage >&2; exit 2 ;;
+esac
+
+system="$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}" || true)"
+if [[ "$system" != "debian 12" ]]; then
+  echo "setup: this is \"${system:-an unknown system}\"; viewloom is built and tested on Debian 12" \
+    "(bookworm). Use deploy/Dockerfile here, or install by hand what Debian calls:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state="$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)"
+  [[ "$state" == installed ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "setup: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+if [[ "$(id -u)" -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: ${#missing[@]} packages are missing and there is no sudo; as root, run:" >&2
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 "$@"
+}
+lists_are_new=no
+update_lists() {
+  [[ $lists_are_new == no ]] || return 1
+  echo "setup: fetching the package lists"
+  apt update
+  lists_are_new=yes
+}
+install_missing() {
+  apt install -y --no-install-recommends "${missing[@]}"
+}
+
+echo "setup: installing ${#missing[@]} of ${#packages[@]} packages: ${missing[*]}"
+# Lists that are absent or older than the archive show as a plan or a download that fails.
+apt install --simulate --no-install-recommends "${missing[@]}" >/dev/null 2>&1 || update_lists
+install_missing || { update_lists && install_missing; } || {
+  echo "setup: apt-get could not install them; its message is above" >&2
+  exit 1
+}
+echo "setup: done"
