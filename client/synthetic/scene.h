@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The synthetic scene at one instant: balls, lamp posts, a floating panel, ground, two ridges, sky.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace viewloom::synthetic {
+
+// Metres, world space: +x right, +y up, -z into the scene.
+struct Sphere {
+  glm::dvec3 center_m{0.0};
+  double radius_m = 0;
+  double spin_rad = 0;    // around +y; turns the stripes
+  glm::vec3 color{0.0F};  // linear light, 0..1
+  glm::vec3 stripe_color{0.0F};
+};
+
+// An upright cylinder from the ground to top_y_m.
+struct Pole {
+  glm::dvec2 center_xz_m{0.0};
+  double radius_m = 0;
+  double top_y_m = 0;
+};
+
+// A flat rectangle, seen from both sides. right and up have unit length.
+struct Panel {
+  glm::dvec3 center_m{0.0};
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};
+  glm::dvec2 half_size_m{0.0};
+};
+
+// A wall across the whole scene that faces +z and ends at a wavy crest.
+struct Ridge {
+  double z_m = 0;
+  double crest_m = 0;
+  double phase_rad = 0;
+  glm::vec3 color{0.0F};  // linear light
+
+  double crestAt(double x_m) const;
+};
+
+struct Scene {
+  std::vector<Sphere> spheres;
+  std::vector<Pole> poles;
+  Panel panel;
+  std::array<Ridge, 2> ridges;  // nearer first
+  glm::dvec3 to_sun{0.0};       // unit length
+  double time_s = 0;
+};
+
+// The ground rises away from the camera: y = kGroundY_m + kGroundSlope * z, down to the far ridge.
+inline constexpr double kGroundY_m = -0.85;
+inline constexpr double kGroundSlope = -0.06;
+inline constexpr double kGroundEnd_m = -8.0;  // z where it ends; the far ridge stands there
+
+// The same time gives the same scene; it moves smoothly.
+Scene makeScene(double time_s);
+
+}  // namespace viewloom::synthetic
