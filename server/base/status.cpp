@@ -2,7 +2,6 @@
 #include "base/status.h"
 
 #include "absl/strings/cord.h"
-#include "absl/strings/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -10,12 +9,20 @@ namespace {
 constexpr std::string_view kFieldPayload = "viewloom.field";
 constexpr std::string_view kProblemPayload = "viewloom.problem";
 
+// Debian's absl is built with a string_view of its own.
+absl::string_view toAbsl(std::string_view text) { return {text.data(), text.size()}; }
+
+std::string payloadOf(const absl::Status& status, std::string_view name) {
+  return std::string(status.GetPayload(toAbsl(name)).value_or(absl::Cord()));
+}
+
 }  // namespace
 
 absl::Status fieldError(absl::StatusCode code, std::string_view field, std::string_view problem) {
-  absl::Status status(code, absl::StrCat(field, ": ", problem));
-  status.SetPayload(kFieldPayload, absl::Cord(field));
-  status.SetPayload(kProblemPayload, absl::Cord(problem));
+  const std::string message = std::string(field).append(": ").append(problem);
+  absl::Status status(code, message);
+  status.SetPayload(toAbsl(kFieldPayload), absl::Cord(toAbsl(field)));
+  status.SetPayload(toAbsl(kProblemPayload), absl::Cord(toAbsl(problem)));
   return status;
 }
 
@@ -23,17 +30,15 @@ absl::Status invalidField(std::string_view field, std::string_view problem) {
   return fieldError(absl::StatusCode::kInvalidArgument, field, problem);
 }
 
-std::string fieldOf(const absl::Status& status) {
-  return std::string(status.GetPayload(kFieldPayload).value_or(absl::Cord()));
-}
+std::string fieldOf(const absl::Status& status) { return payloadOf(status, kFieldPayload); }
 
 absl::Status withFieldPrefix(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return status;
   const std::string field = fieldOf(status);
-  if (field.empty()) return fieldError(status.code(), prefix, status.message());
-  const std::string problem(*status.GetPayload(kProblemPayload));
-  const bool index = field.front() == '[';
-  return fieldError(status.code(), absl::StrCat(prefix, index ? "" : ".", field), problem);
+  if (field.empty()) return fieldError(status.code(), prefix, std::string(status.message()));
+  const bool is_index = field.front() == '[';
+  const std::string path = std::string(prefix).append(is_index ? "" : ".").append(field);
+  return fieldError(status.code(), path, payloadOf(status, kProblemPayload));
 }
 
 }  // namespace viewloom
