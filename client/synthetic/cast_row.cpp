@@ -100,7 +100,7 @@ void castRidges(const Scene& scene, const RowRays& rays, uint32_t layer_count,
       const double depth_m = (ridge.z_m - rays.eye_m.z) / direction.z;
       if (depth_m <= 0) continue;
       const glm::dvec3 point_m = rays.eye_m + depth_m * direction;
-      if (point_m.y > ridge.crestAt(point_m.x)) continue;
+      if (!ridge.covers(point_m.x, point_m.y)) continue;
       insertHit(columns[x], {depth_m, SurfaceKind::kRidge, i}, layer_count);
     }
   }

@@ -43,7 +43,13 @@ struct Ridge {
   double phase_rad = 0;
   glm::vec3 color{0.0F};  // linear light
 
+  static constexpr double kWave_m = 0.40;  // the crest stays within crest_m +- this
+
   double crestAt(double x_m) const;
+  bool covers(double x_m, double y_m) const {
+    if (y_m <= crest_m - kWave_m) return true;
+    return y_m <= crest_m + kWave_m && y_m <= crestAt(x_m);
+  }
 };
 
 struct Scene {

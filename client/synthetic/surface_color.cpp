@@ -16,7 +16,7 @@ using glm::vec3;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr vec3 kSunLight{1.05F, 0.95F, 0.80F};
-constexpr vec3 kSkyLight{0.30F, 0.36F, 0.48F};
+constexpr vec3 kSkyLight{0.24F, 0.30F, 0.42F};
 constexpr vec3 kGroundLight{0.16F, 0.13F, 0.10F};
 constexpr vec3 kHorizon{0.72F, 0.78F, 0.90F};
 constexpr vec3 kZenith{0.12F, 0.30F, 0.72F};
@@ -39,7 +39,7 @@ vec3 groundTexture(vec2 xz, float edge_m) {
   const vec2 tile = xz / kTile_m;
   const vec3 light{0.62F, 0.50F, 0.36F};
   const vec3 dark{0.30F, 0.20F, 0.15F};
-  const float grain = 0.10F * std::sin(9.0F * xz.x + 4.0F * std::sin(3.0F * xz.y));
+  const float grain = 0.10F * std::sin(9.0F * xz.x + 5.0F * xz.y);
   return glm::mix(dark, light, checker(tile, edge_m / kTile_m)) * (1.0F + grain);
 }
 
@@ -47,7 +47,7 @@ vec3 ridgeTexture(const Ridge& ridge, vec2 xy, float edge_m) {
   constexpr float kContour_m = 0.16F;
   const float drift = 0.10F * std::sin(3.0F * xy.x) + 0.06F * std::sin(7.0F * xy.x + 1.0F);
   const float contour = squareWave((xy.y + drift) / kContour_m, edge_m / kContour_m);
-  return ridge.color * (0.75F + 0.35F * contour + 0.10F * std::sin(5.0F * xy.x));
+  return ridge.color * (0.70F + 0.40F * contour);
 }
 
 vec3 panelTexture(vec2 uv_m, vec2 half_size_m, float edge_m) {
@@ -74,8 +74,8 @@ vec3 skyColor(const glm::dvec3& direction, const glm::dvec3& to_sun, double time
   const vec3 ray(glm::normalize(direction));
   const float height = std::clamp(2.2F * ray.y, 0.0F, 1.0F);
   const float drift = static_cast<float>(0.03 * time_s);
-  const float waves = std::sin(9.0F * ray.x + drift + 3.0F * std::sin(14.0F * ray.y)) +
-                      std::sin(17.0F * ray.x - 2.0F * drift + 21.0F * ray.y);
+  const float waves = std::sin(9.0F * ray.x + drift + 8.0F * ray.y) +
+                      std::sin(17.0F * ray.x - 2.0F * drift - 21.0F * ray.y);
   const float cloud = std::clamp(0.30F * waves - 0.05F, 0.0F, 0.5F);
   const float glow = std::max(0.0F, glm::dot(ray, vec3(to_sun)));
   return glm::mix(glm::mix(kHorizon, kZenith, height), vec3(0.95F), cloud) +
@@ -84,51 +84,55 @@ vec3 skyColor(const glm::dvec3& direction, const glm::dvec3& to_sun, double time
 
 // How much of the sun a thing of half width size_m lets by when the ray to the sun passes its
 // middle line at distance_m: a penumbra of a quarter of its size, at least 2 cm.
-float passing(double distance_m, double size_m) {
-  const double blur_m = std::max(0.25 * size_m, 0.02);
-  return static_cast<float>(glm::smoothstep(size_m - blur_m, size_m + blur_m, distance_m));
+float passing(float distance_m, float size_m) {
+  const float blur_m = std::max(0.25F * size_m, 0.02F);
+  return glm::smoothstep(size_m - blur_m, size_m + blur_m, distance_m);
 }
 
-float sphereShade(const Sphere& sphere, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
-  const glm::dvec3 to_center = sphere.center_m - point_m;
-  const double along_m = glm::dot(to_center, to_sun);
+float sphereShade(const Sphere& sphere, const vec3& point_m, const vec3& to_sun) {
+  const vec3 to_center = vec3(sphere.center_m) - point_m;
+  const float along_m = glm::dot(to_center, to_sun);
   if (along_m <= 0) return 1;
-  const double square_m2 = glm::dot(to_center, to_center) - along_m * along_m;
-  const double reach_m = 1.25 * sphere.radius_m + 0.02;
+  const float square_m2 = glm::dot(to_center, to_center) - along_m * along_m;
+  const float radius_m = static_cast<float>(sphere.radius_m);
+  const float reach_m = 1.25F * radius_m + 0.02F;
   if (square_m2 > reach_m * reach_m) return 1;
-  return passing(std::sqrt(std::max(square_m2, 0.0)), sphere.radius_m);
+  return passing(std::sqrt(std::max(square_m2, 0.0F)), radius_m);
 }
 
-float poleShade(const Pole& pole, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
-  const glm::dvec2 to_pole{pole.center_xz_m.x - point_m.x, pole.center_xz_m.y - point_m.z};
-  const glm::dvec2 flat_sun{to_sun.x, to_sun.z};
-  const double square = glm::dot(flat_sun, flat_sun);
-  const double along = glm::dot(to_pole, flat_sun) / square;
-  if (along <= 0 || point_m.y + along * to_sun.y > pole.top_y_m) return 1;
-  const double cross = to_pole.x * flat_sun.y - to_pole.y * flat_sun.x;
-  return passing(std::abs(cross) / std::sqrt(square), pole.radius_m);
+float poleShade(const Pole& pole, const vec3& point_m, const vec3& to_sun) {
+  const vec2 to_pole = vec2(pole.center_xz_m) - vec2(point_m.x, point_m.z);
+  const vec2 flat_sun{to_sun.x, to_sun.z};
+  const float square = glm::dot(flat_sun, flat_sun);
+  const float along = glm::dot(to_pole, flat_sun) / square;
+  if (along <= 0 || point_m.y + along * to_sun.y > static_cast<float>(pole.top_y_m)) return 1;
+  const float cross = to_pole.x * flat_sun.y - to_pole.y * flat_sun.x;
+  return passing(std::abs(cross) / std::sqrt(square), static_cast<float>(pole.radius_m));
 }
 
-float panelShade(const Panel& panel, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
-  const glm::dvec3 to_center = panel.center_m - point_m;
-  const double along_m = glm::dot(to_center, panel.normal) / glm::dot(to_sun, panel.normal);
+float panelShade(const Panel& panel, const vec3& point_m, const vec3& to_sun) {
+  const vec3 to_center = vec3(panel.center_m) - point_m;
+  const vec3 normal(panel.normal);
+  const float along_m = glm::dot(to_center, normal) / glm::dot(to_sun, normal);
   if (!(along_m > 0)) return 1;
-  const glm::dvec3 on_panel = along_m * to_sun - to_center;
-  return std::max(passing(std::abs(glm::dot(on_panel, panel.right)), panel.half_size_m.x),
-                  passing(std::abs(glm::dot(on_panel, panel.up)), panel.half_size_m.y));
+  const vec3 on_panel = along_m * to_sun - to_center;
+  const vec2 half_size_m(panel.half_size_m);
+  return std::max(passing(std::abs(glm::dot(on_panel, vec3(panel.right))), half_size_m.x),
+                  passing(std::abs(glm::dot(on_panel, vec3(panel.up))), half_size_m.y));
 }
 
 // Share of the sun that reaches the point; a surface never shades itself here (its normal does).
-float sunShare(const Scene& scene, const Hit& hit, const glm::dvec3& point_m) {
+float sunShare(const Scene& scene, const Hit& hit, const vec3& point_m) {
+  const vec3 to_sun(scene.to_sun);
   float share = 1;
   for (size_t i = 0; i < scene.spheres.size(); ++i) {
     if (hit.kind == SurfaceKind::kSphere && hit.index == i) continue;
-    share *= sphereShade(scene.spheres[i], point_m, scene.to_sun);
+    share *= sphereShade(scene.spheres[i], point_m, to_sun);
   }
   if (hit.kind == SurfaceKind::kGround || hit.kind == SurfaceKind::kSphere) {
-    for (const Pole& pole : scene.poles) share *= poleShade(pole, point_m, scene.to_sun);
+    for (const Pole& pole : scene.poles) share *= poleShade(pole, point_m, to_sun);
   }
-  if (hit.kind != SurfaceKind::kPanel) share *= panelShade(scene.panel, point_m, scene.to_sun);
+  if (hit.kind != SurfaceKind::kPanel) share *= panelShade(scene.panel, point_m, to_sun);
   return share;
 }
 
@@ -173,10 +177,10 @@ vec3 surfaceColor(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
   if (hit.kind == SurfaceKind::kSky) return skyColor(direction, scene.to_sun, scene.time_s);
   const Material material = materialAt(scene, hit, point_m, direction, edge_m);
   const float facing = std::max(0.0F, glm::dot(material.normal, vec3(scene.to_sun)));
-  const float sun = facing > 0 ? facing * sunShare(scene, hit, point_m) : 0.0F;
+  const float sun = facing > 0 ? facing * sunShare(scene, hit, vec3(point_m)) : 0.0F;
   const vec3 ambient = glm::mix(kGroundLight, kSkyLight, 0.5F + 0.5F * material.normal.y);
   // Haze by distance in the world, not from the eye: a point looks the same in every view.
-  const float haze = std::clamp(static_cast<float>(-point_m.z - 3.0) * 0.06F, 0.0F, 0.30F);
+  const float haze = std::clamp(static_cast<float>(-point_m.z - 3.0) * 0.04F, 0.0F, 0.18F);
   return glm::mix(material.color * (ambient + kSunLight * sun), kHorizon, haze);
 }
 
