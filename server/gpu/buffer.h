@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GPU buffer with its own memory; shaders reach it by its 64-bit address, never by a descriptor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gpu/device.h"
+
+namespace viewloom {
+
+enum class MemoryIntent : uint8_t {
+  kDeviceOnly,  // fastest for the device, never mapped
+  kUpload,      // written by the CPU, read by the device once
+  kReadback     // written by the device, read by the CPU from its cache
+};
+
+struct BufferOptions {
+  uint64_t size_bytes = 0;  // > 0
+  MemoryIntent intent = MemoryIntent::kDeviceOnly;
+  const char* debug_name = "";
+};
+
+// Invariant: empty, or a buffer bound to memory of its own (coherent and mapped unless kDeviceOnly).
+// The device must outlive it. Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+// Thread-safety: const methods may be called from any thread; what mapped() holds is the caller's care.
+class Buffer {
+ public:
+  Buffer();
+  Buffer(const Device& device, const BufferOptions& options);
+
+  vk::Buffer handle() const { return *buffer_; }
+  vk::DeviceAddress address() const { return address_; }
+  uint64_t sizeBytes() const { return size_bytes_; }
+  std::span<std::byte> mapped() const { return {mapped_, mapped_ ? size_bytes_ : 0}; }
+
+ private:
+  vk::raii::DeviceMemory memory_;
+  vk::raii::Buffer buffer_;
+  uint64_t size_bytes_ = 0;
+  vk::DeviceAddress address_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+// GPU allocations of this process so far; what proves that warm slots allocate nothing.
+uint64_t gpuAllocationCount();
+
+}  // namespace viewloom

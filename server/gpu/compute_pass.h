@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One compute shader, ready to be dispatched: everything it needs comes by push constants.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "gpu/device.h"
+
+namespace viewloom {
+
+struct ComputePassOptions {
+  std::span<const uint32_t> spirv;
+  uint32_t push_bytes = 0;  // at most DeviceLimits::push_bytes_max, a multiple of 4
+  std::span<const uint32_t> specialization = {};  // values of constant_id 0, 1, ...
+  const char* debug_name = "";
+};
+
+// The device must outlive it. Thread-safety: const methods may be called from any thread.
+class ComputePass {
+ public:
+  ComputePass(const Device& device, const ComputePassOptions& options);
+
+  // Dispatches with these push constants; `push` has exactly push_bytes. Does not synchronise.
+  void record(vk::CommandBuffer commands, std::span<const std::byte> push, uint32_t groups_x,
+              uint32_t groups_y = 1, uint32_t groups_z = 1) const;
+
+  template <typename Push>
+    requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
+             (!std::is_convertible_v<Push, std::span<const std::byte>>)
+  void record(vk::CommandBuffer commands, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
+              uint32_t groups_z = 1) const {
+    record(commands, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
+  }
+
+ private:
+  uint32_t push_bytes_;
+  vk::raii::PipelineLayout layout_;
+  vk::raii::Pipeline pipeline_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Vulkan device: chosen, checked, and the one queue all GPU work goes through.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu/validation_log.h"
+#include "gpu/vulkan.h"
+
+namespace viewloom {
+
+struct DeviceOptions {
+  // An index as listDevices() gives it, or part of a name; "" = the first real GPU, else lavapipe.
+  std::string select;
+  bool validation = false;  // core and synchronization validation; needs the Khronos layer
+};
+
+struct DeviceLimits {
+  uint64_t allocation_bytes_max = 0;  // of one buffer
+  uint64_t memory_bytes = 0;          // device-local heaps together
+  uint32_t push_bytes_max = 0;
+  uint32_t groups_max[3] = {};  // of one dispatch, per axis
+  uint32_t group_size_max = 0;  // invocations
+};
+
+struct DeviceInfo {
+  uint32_t index = 0;  // what DeviceOptions::select takes
+  std::string name;
+  std::string driver;  // name, version
+  bool is_software = false;
+  DeviceLimits limits;
+  std::vector<std::string> missing_features;  // empty = viewloom runs on it
+};
+
+// Owns instance, device and queue. Throws std::runtime_error with the remedy when there is no usable
+// device. Thread-safety: all methods may be called from any thread.
+class Device {
+ public:
+  explicit Device(const DeviceOptions& options);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Every device Vulkan offers; none, and no exception, when there is no Vulkan at all.
+  static std::vector<DeviceInfo> listDevices();
+
+  const vk::raii::Device& handle() const { return device_; }
+  const vk::raii::PhysicalDevice& physicalDevice() const { return physical_device_; }
+  uint32_t queueFamily() const { return queue_family_; }
+  const DeviceInfo& info() const { return info_; }
+
+  // Nanoseconds per timestamp tick; 0 = the queue has no timestamps.
+  double timestampPeriodNs() const { return timestamp_period_ns_; }
+  uint32_t timestampValidBits() const { return timestamp_valid_bits_; }
+
+  void submit(const vk::SubmitInfo2& submission) const;
+  // For shutdown only.
+  void waitIdle() const;
+
+  // A name for the validation layers; nothing happens without them.
+  void setName(vk::ObjectType type, uint64_t handle, const char* name) const;
+  const ValidationLog& validationLog() const { return validation_log_; }
+
+ private:
+  ValidationLog validation_log_;  // outlives the messenger
+  bool validation_;
+  vk::raii::Context context_;
+  vk::raii::Instance instance_;
+  vk::raii::DebugUtilsMessengerEXT messenger_;
+  vk::raii::PhysicalDevice physical_device_;
+  DeviceInfo info_;
+  uint32_t queue_family_;
+  double timestamp_period_ns_ = 0;
+  uint32_t timestamp_valid_bits_ = 0;
+  vk::raii::Device device_;
+  mutable std::mutex queue_mutex_;  // guards queue_
+  vk::raii::Queue queue_;
+};
+
+}  // namespace viewloom

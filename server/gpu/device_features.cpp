@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/device_features.h"
+
+namespace viewloom {
+namespace {
+
+struct RequiredFeature {
+  const char* name;
+  vk::Bool32& (*in)(FeatureChain& chain);
+};
+
+template <auto Member, typename Struct>
+vk::Bool32& field(FeatureChain& chain) {
+  return chain.get<Struct>().*Member;
+}
+
+vk::Bool32& shaderInt64(FeatureChain& chain) {
+  return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64;
+}
+
+using Features11 = vk::PhysicalDeviceVulkan11Features;
+using Features12 = vk::PhysicalDeviceVulkan12Features;
+using Features13 = vk::PhysicalDeviceVulkan13Features;
+
+constexpr RequiredFeature kRequired[] = {
+    {"shaderInt64", shaderInt64},
+    {"storageBuffer16BitAccess", field<&Features11::storageBuffer16BitAccess, Features11>},
+    {"storageBuffer8BitAccess", field<&Features12::storageBuffer8BitAccess, Features12>},
+    {"shaderInt8", field<&Features12::shaderInt8, Features12>},
+    {"scalarBlockLayout", field<&Features12::scalarBlockLayout, Features12>},
+    {"timelineSemaphore", field<&Features12::timelineSemaphore, Features12>},
+    {"bufferDeviceAddress", field<&Features12::bufferDeviceAddress, Features12>},
+    {"synchronization2", field<&Features13::synchronization2, Features13>},
+    {"maintenance4", field<&Features13::maintenance4, Features13>},
+};
+
+}  // namespace
+
+FeatureChain requiredFeatures() {
+  FeatureChain chain;
+  for (const RequiredFeature& feature : kRequired) feature.in(chain) = VK_TRUE;
+  return chain;
+}
+
+std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& device) {
+  if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
+  auto offered =
+      device.getFeatures2<vk::PhysicalDeviceFeatures2, Features11, Features12, Features13>();
+  std::vector<std::string> missing;
+  for (const RequiredFeature& feature : kRequired) {
+    if (feature.in(offered) != VK_TRUE) missing.emplace_back(feature.name);
+  }
+  return missing;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The features viewloom asks of a Vulkan device, as one table that both checks and enables them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/vulkan.h"
+
+namespace viewloom {
+
+using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+                                        vk::PhysicalDeviceVulkan12Features,
+                                        vk::PhysicalDeviceVulkan13Features>;
+
+// Exactly the required features switched on, ready for vkCreateDevice.
+FeatureChain requiredFeatures();
+// What the device lacks, by the names of the Vulkan specification; empty = it will do.
+std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& device);
+
+}  // namespace viewloom
