@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rules on what is built: no dead files, no globs, nothing binary or generated in the tree."""
+
+import os
+import re
+
+from layering import INCLUDE, resolve
+from tree import Finding
+
+PICTURES = (".png", ".jpg", ".jpeg")
+GENERATED = re.compile(r"(\.pb\.(h|cc)|_pb2(_grpc)?\.py|\.spv|\.o|\.a|\.so|\.pyc|\.class|\.log)$"
+                       r"|(^|/)(build|__pycache__|node_modules|CMakeFiles)/")
+SOURCES = (".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js", ".css", ".html")
+MARKDOWN_LINK = re.compile(r"\]\(([^)\s]+)\)|<img[^>]*src=\"([^\"]+)\"")
+
+
+def linked_files(tree, path):
+    """What the links of a Markdown file name, relative to the root, with the line of each."""
+    for number, line in enumerate(tree.lines(path), 1):
+        for match in MARKDOWN_LINK.finditer(line):
+            target = (match.group(1) or match.group(2)).split("#")[0]
+            if target and not re.match(r"[a-z]+:", target):
+                joined = os.path.join(os.path.dirname(path), target)
+                yield number, target, os.path.normpath(joined)
+
+
+def check_links(tree):
+    for path in tree.text_files(".md"):
+        for number, target, full in linked_files(tree, path):
+            if full not in tree and not tree.has_folder(full) and full != ".":
+                yield Finding(path, number, "link", f"{target} is not there")
+
+
+def check_artefacts(tree):
+    shown = {full for path in tree.text_files(".md") for _, _, full in linked_files(tree, path)}
+    for path in tree.paths():
+        if GENERATED.search(path):
+            yield Finding(path, 0, "generated", "belongs in the build folder")
+        elif tree.is_binary(path) and not (path.endswith(PICTURES) and path in shown):
+            yield Finding(path, 0, "binary", "only pictures that a Markdown file shows may be")
+
+
+def _words_of_lists(tree):
+    """For each folder with a CMakeLists.txt, the file names written in it."""
+    words = {}
+    for path in tree.text_files("CMakeLists.txt", ".cmake"):
+        text = "\n".join(line.split("#")[0] for line in tree.lines(path))
+        words[os.path.dirname(path)] = set(re.findall(r"[\w./+-]+", text))
+    return words
+
+
+def _is_listed(path, words_of_folder):
+    """Whether a list in the file's folder or above it names the file relative to itself."""
+    folder = os.path.dirname(path)
+    while True:
+        words = words_of_folder.get(folder, ())
+        relative = os.path.relpath(path, folder or ".")
+        if any(word == relative or word.endswith("/" + relative) for word in words):
+            return True
+        if not folder:
+            return False
+        folder = os.path.dirname(folder)
+
+
+def _mentions(tree):
+    """Every file that another file includes, imports or names."""
+    mentioned = set()
+    for path in tree.text_files(".h", ".cpp", ".glsl", ".comp"):
+        for line in tree.lines(path):
+            match = INCLUDE.match(line)
+            included = match and resolve(tree, path, match.group(2))
+            if included and included != path:
+                mentioned.add(included)
+    for path in tree.text_files(".py", ".js", ".html", ".md", ".sh", ".css"):
+        folder = os.path.dirname(path)
+        text = "\n".join(tree.lines(path))
+        for module in re.findall(r"^\s*(?:from|import)\s+([\w.]+)", text, re.MULTILINE):
+            mentioned.add(os.path.join(folder, module.replace(".", "/") + ".py"))
+        for name in re.findall(r"[\w./-]+\.(?:py|js|css|html)\b", text):
+            for base in (folder, ""):
+                mentioned.add(os.path.normpath(os.path.join(base, name.lstrip("/"))))
+    return mentioned
+
+
+def check_dead(tree):
+    words = _words_of_lists(tree)
+    mentioned = _mentions(tree)
+    for path in tree.text_files(*SOURCES):
+        # A header that only its own .cpp includes is alive through it; an unlisted .cpp is dead.
+        is_mentioned = path in mentioned and not path.endswith((".cpp", ".comp", ".proto"))
+        if not is_mentioned and not _is_listed(path, words):
+            yield Finding(path, 0, "dead", "no CMakeLists.txt lists it and nothing includes it")
+
+
+def check_globs(tree):
+    for path in tree.text_files("CMakeLists.txt", ".cmake"):
+        for number, line in enumerate(tree.lines(path), 1):
+            if re.search(r"\bGLOB(_RECURSE)?\b", line.split("#")[0]):
+                yield Finding(path, number, "glob", "list the files")
+
+
+def check(tree):
+    for rule in (check_links, check_artefacts, check_dead, check_globs):
+        yield from rule(tree)

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Data flows one way: which folder may include which, and which third party it may know.
+
+All folders share one include root, so no compiler stops an upward include. This table does.
+"""
+
+import os
+import re
+
+from tree import Finding
+
+BAND = "encode/encoded_band.h"
+SHADERS_SHARED = "shaders/shared"
+
+# Folder: (what of ours it may include beside itself, which third parties). An entry of the first
+# list is a folder or a single header.
+LAYERS = {
+    "server/base": ([], ["absl", "spdlog", "prometheus"]),
+    "server/frame": (["base"], ["absl", "glm"]),
+    "server/config": (["base"], ["absl", "toml++"]),
+    "server/decode": (["base", "frame"], ["absl", "jpeg", "zstd"]),
+    "server/display": (["base", "frame"], ["absl", "glm", "nlohmann"]),
+    "server/gpu": (["base"], ["absl", "vulkan"]),
+    "server/structure": (["base", "frame", "gpu", SHADERS_SHARED], ["absl", "vulkan", "glm"]),
+    "server/trace": (["base", "frame", "display", "gpu", "structure", SHADERS_SHARED],
+                     ["absl", "vulkan", "glm"]),
+    "server/temporal": (["base", "frame", "display"], ["absl", "glm"]),
+    "server/encode": (["base", "frame", "display"], ["absl", "jpeg", "png", "zstd"]),
+    "server/publish": (["base", "frame", "display", BAND], ["absl"]),
+    "server/pipeline": (["base", "frame", "config", "decode", "display", "gpu", "structure",
+                         "trace", "temporal", "encode", "publish", SHADERS_SHARED],
+                        ["absl", "vulkan", "glm"]),
+    "server/rpc": (["base", "frame", "decode", "display", BAND, "publish"],
+                   ["absl", "grpc", "protobuf"]),
+    "server/web": (["base", "frame", "display", "publish", BAND], ["absl", "boost", "nlohmann"]),
+    "client/files": (["base", "frame", "display", "decode"],
+                     ["absl", "glm", "openexr", "png", "jpeg", "nlohmann", "protobuf"]),
+    "client/lib": (["base", "frame", "display"], ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
+    "client/cli": (["base", "frame", "display", "lib", "files"],
+                   ["absl", "glm", "grpc", "protobuf", "cli11", "png", "jpeg", "zstd", "spdlog",
+                    "nlohmann"]),
+    "shaders/shared": ([], []),
+    "shaders/lib": ([SHADERS_SHARED], []),
+    "shaders/structure": (["shaders/lib", SHADERS_SHARED], []),
+    "shaders/trace": (["shaders/lib", SHADERS_SHARED], []),
+}
+
+# These join the stages, so they may include everything (main.cpp, service and their parts).
+COMPOSITION = ("server/main.cpp", "server/service", "server/commands")
+
+# What must stay free of what it judges.
+INDEPENDENT = {
+    "tests/oracle": ["server/structure", "server/trace", "server/gpu", "server/pipeline",
+                     "shaders"],
+}
+
+THIRD_PARTY = [
+    ("absl", r"absl/"), ("spdlog", r"spdlog/|fmt/"), ("prometheus", r"prometheus/"),
+    ("glm", r"glm/"), ("toml++", r"toml\+\+/"), ("nlohmann", r"nlohmann/"),
+    ("zstd", r"zstd(_errors)?\.h"), ("jpeg", r"turbojpeg\.h|jpeglib\.h|jerror\.h|jmorecfg\.h"),
+    ("png", r"png\.h"), ("openexr", r"OpenEXR/|Imath/|Imf|Imath"), ("cli11", r"CLI/"),
+    ("vulkan", r"vulkan/"), ("boost", r"boost/"),
+    ("grpc", r"grpcpp/|grpc/|.*\.grpc\.pb\.h"),
+    ("protobuf", r"google/protobuf/|.*\.pb\.h"),
+    ("gtest", r"gtest/|gmock/"), ("benchmark", r"benchmark/"),
+]
+# The language and the operating system below it are everybody's.
+SYSTEM = re.compile(r"[a-z_0-9]+(\.h)?|c?x?xabi\.h|(sys|arpa|netinet|net|linux)/[a-z_0-9]+\.h")
+
+INCLUDE = re.compile(r'\s*#\s*include\s+([<"])([^>"]+)[>"]')
+ROOTS = ("server", "client", "shaders", "tests", "")
+
+
+def owner(path, folders):
+    """The longest of the folders that holds path, or None."""
+    holding = [folder for folder in folders if path.startswith(folder + "/")]
+    return max(holding, key=len) if holding else None
+
+
+def resolve(tree, path, target):
+    """The repository file that an include names, or None."""
+    for root in (os.path.dirname(path),) + ROOTS:
+        candidate = os.path.normpath(os.path.join(root, target))
+        if candidate in tree:
+            return candidate
+    return None
+
+
+def third_party(target):
+    for name, pattern in THIRD_PARTY:
+        if re.match(pattern, target):
+            return name
+    return None
+
+
+def _allowed_ours(folder, included, allowed):
+    if included.startswith(folder + "/"):
+        return True
+    for entry in allowed:
+        for root in ("server", "client", ""):
+            full = os.path.join(root, entry)
+            if included == full or included.startswith(full + "/"):
+                return True
+    return False
+
+
+def _judge(tree, path, target):
+    """The sentence that is wrong with this include, or None."""
+    included = resolve(tree, path, target)
+    for folder, forbidden in INDEPENDENT.items():
+        if path.startswith(folder + "/") and included and owner(included, forbidden):
+            return f"{folder} judges {owner(included, forbidden)} and must not include {target}"
+    if path.startswith(COMPOSITION):
+        return None
+    folder = owner(path, LAYERS)
+    if folder is None:
+        return None
+    allowed, parties = LAYERS[folder]
+    if included:
+        if _allowed_ours(folder, included, allowed):
+            return None
+        return f"{folder} may include {', '.join(allowed) or 'nothing of ours'}, not {target}"
+    party = third_party(target)
+    if party:
+        if party in parties:
+            return None
+        return f"{folder} may know {', '.join(parties) or 'no third party'}, not {target}"
+    if SYSTEM.fullmatch(target) or target.endswith("_spirv.h"):
+        return None
+    return f"{target} is in no include root and no known library"
+
+
+def check(tree):
+    for path in tree.text_files(".h", ".cpp", ".glsl", ".comp"):
+        for number, line in enumerate(tree.lines(path), 1):
+            match = INCLUDE.match(line)
+            if match:
+                message = _judge(tree, path, match.group(2))
+                if message:
+                    yield Finding(path, number, "layers", message)

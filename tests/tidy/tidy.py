@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the repository and says which of its own rules it breaks: one line each, exit code 1."""
+
+import sys
+
+import build_rules
+import layering
+import proto_rules
+import text_rules
+from tree import Tree
+
+
+def main():
+    tree = Tree.of_repository(sys.argv[1])
+    findings = sorted(finding for rules in (build_rules, layering, proto_rules, text_rules)
+                      for finding in rules.check(tree))
+    for finding in findings:
+        print(finding)
+    print(f"{len(tree.paths())} files read, {len(findings)} findings")
+    return 1 if findings or not tree.paths() else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plants what each rule forbids in a small tree and asks for exactly that finding."""
+
+import unittest
+
+import build_rules
+import layering
+import proto_rules
+import text_rules
+from tree import Tree
+
+LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
+
+
+def rules_broken(check, files):
+    """Sorted (path, rule) of every finding in a tree of {path: text or bytes}."""
+    tree = Tree({path: text if isinstance(text, bytes) else text.encode()
+                 for path, text in files.items()})
+    return sorted((finding.path, finding.rule) for finding in check(tree))
+
+
+class Layers(unittest.TestCase):
+    def broken(self, path, target, **others):
+        files = {path: f"#include {target}\n"}
+        files.update({name.replace("__", "/") + ".h": "" for name in others})
+        return [rule for _, rule in rules_broken(layering.check, files)]
+
+    def test_an_include_downwards_is_allowed(self):
+        self.assertEqual(self.broken("server/trace/a.cpp", '"base/check.h"', server__base__check=1),
+                         [])
+
+    def test_an_include_upwards_is_found(self):
+        self.assertEqual(self.broken("server/base/a.h", '"frame/frame.h"', server__frame__frame=1),
+                         ["layers"])
+
+    def test_a_relative_path_does_not_hide_an_upward_include(self):
+        self.assertEqual(self.broken("server/base/a.h", '"../frame/frame.h"',
+                                     server__frame__frame=1), ["layers"])
+
+    def test_rpc_never_sees_the_gpu(self):
+        self.assertEqual(self.broken("server/rpc/a.cpp", '"gpu/device.h"', server__gpu__device=1),
+                         ["layers"])
+
+    def test_a_single_header_opens_no_folder(self):
+        self.assertEqual(self.broken("server/web/a.cpp", '"encode/encoded_band.h"',
+                                     server__encode__encoded_band=1), [])
+        self.assertEqual(self.broken("server/web/a.cpp", '"encode/jpeg_encoder.h"',
+                                     server__encode__jpeg_encoder=1), ["layers"])
+
+    def test_a_third_party_of_another_layer_is_found(self):
+        self.assertEqual(self.broken("server/publish/a.h", "<grpcpp/server.h>"), ["layers"])
+        self.assertEqual(self.broken("client/lib/a.h", "<vulkan/vulkan_raii.hpp>"), ["layers"])
+        self.assertEqual(self.broken("server/rpc/a.h", "<grpcpp/server.h>"), [])
+
+    def test_the_standard_library_is_everybodys(self):
+        self.assertEqual(self.broken("server/base/a.h", "<vector>"), [])
+        self.assertEqual(self.broken("server/base/a.h", "<sys/socket.h>"), [])
+
+    def test_a_header_nobody_knows_is_found(self):
+        self.assertEqual(self.broken("server/base/a.h", '"base/gone.h"'), ["layers"])
+
+    def test_the_service_may_include_everything(self):
+        self.assertEqual(self.broken("server/service.cpp", '"rpc/server.h"', server__rpc__server=1),
+                         [])
+
+    def test_the_oracle_is_independent_of_what_it_judges(self):
+        self.assertEqual(self.broken("tests/oracle/a.h", '"shared/structure.h"',
+                                     shaders__shared__structure=1), ["layers"])
+
+    def test_a_shader_library_knows_no_entry_point(self):
+        self.assertEqual(self.broken("shaders/lib/a.glsl", '"trace/walk.h"',
+                                     shaders__trace__walk=1), ["layers"])
+
+
+class Text(unittest.TestCase):
+    def broken(self, path, text):
+        return [rule for _, rule in rules_broken(text_rules.check, {path: text})]
+
+    def test_a_clean_file_passes(self):
+        self.assertEqual(self.broken("server/base/a.h", LICENCE + "// One sentence.\n"), [])
+
+    def test_a_missing_licence_is_found(self):
+        self.assertEqual(self.broken("server/base/a.h", "int a;\n"), ["licence"])
+        self.assertEqual(self.broken("tests/CMakeLists.txt", "\n"), ["licence"])
+
+    def test_long_files_and_lines_are_found(self):
+        self.assertEqual(self.broken("a.cpp", LICENCE + "\n" * 299), [])
+        self.assertEqual(self.broken("a.cpp", LICENCE + "\n" * 300), ["length"])
+        self.assertEqual(self.broken("server/main.cpp", LICENCE + "\n" * 60), ["length"])
+        self.assertEqual(self.broken("a.cpp", LICENCE + "/" * 101), ["columns"])
+
+    def test_long_functions_are_found_in_each_language(self):
+        body = "  call();\n" * 59
+        for head in ("void run(int a) {", "void Type::run() const noexcept {"):
+            self.assertEqual(self.broken("a.cpp", f"{LICENCE}{head}\n{body}}}\n"), ["function"])
+        short = "  call();\n" * 58
+        self.assertEqual(self.broken("a.cpp", f"{LICENCE}void run() {{\n{short}}}\n"), [])
+        self.assertEqual(self.broken("a.js", f"{LICENCE}function run(a) {{\n{body}}}\n"),
+                         ["function"])
+        python = "# SPDX-License-Identifier: Apache-2.0\ndef run():\n" + "    call()\n" * 60
+        self.assertEqual(self.broken("a.py", python), ["function"])
+
+    def test_a_signature_over_two_lines_counts_whole(self):
+        body = "  call();\n" * 57
+        text = f"{LICENCE}void run(int a,\n         int b,\n         int c) {{\n{body}}}\n"
+        self.assertEqual(self.broken("a.cpp", text), ["function"])
+
+    def test_namespaces_and_classes_are_no_functions(self):
+        body = "int a;\n" * 80
+        self.assertEqual(self.broken("a.h", f"{LICENCE}namespace viewloom {{\n{body}}}\n"), [])
+
+    def test_unfinished_work_is_found(self):
+        for word in ("TO" "DO", "FIX" "ME", "HA" "CK", "X" "XX"):
+            self.assertEqual(self.broken("a.cpp", LICENCE + f"// {word}: later\n"), ["unfinished"])
+
+    def test_words_about_the_making_are_found(self):
+        for words in ("as issue " "12 asked", "the proto" "type did it", "a placeh" "older"):
+            self.assertEqual(self.broken("README.md", words + "\n"), ["making"])
+        self.assertEqual(self.broken("a.js", LICENCE + "Array.proto" "type.map\n"), [])
+
+    def test_machine_paths_are_found(self):
+        self.assertEqual(self.broken("a.md", "see /wo" "rk/notes\n"), ["machine path"])
+        self.assertEqual(self.broken("a.md", "in /ho" "me/me/viewloom\n"), ["machine path"])
+        self.assertEqual(self.broken("a.md", "https://example.org/wo" "rk/a\n"), [])
+
+    def test_vague_names_are_found(self):
+        self.assertEqual(self.broken("a.h", LICENCE + "class BufferMan" "ager {};\n"), ["name"])
+        self.assertEqual(self.broken("a.h", LICENCE + "namespace ut" "ils {}\n"), ["name"])
+        self.assertEqual(self.broken("server/base/string_utils.h", LICENCE), ["name"])
+        self.assertEqual(self.broken("server/base/ByteView.h", LICENCE), ["name"])
+
+
+class Build(unittest.TestCase):
+    def test_a_source_in_no_list_is_dead(self):
+        listed = {"server/base/CMakeLists.txt": "add(SOURCES a.cpp)", "server/base/a.cpp": ""}
+        self.assertEqual(rules_broken(build_rules.check, listed), [])
+        dead = dict(listed, **{"server/base/b.cpp": ""})
+        self.assertEqual(rules_broken(build_rules.check, dead), [("server/base/b.cpp", "dead")])
+
+    def test_a_name_in_a_comment_lists_nothing(self):
+        files = {"server/base/CMakeLists.txt": "# a.cpp", "server/base/a.cpp": ""}
+        self.assertEqual(rules_broken(build_rules.check, files), [("server/base/a.cpp", "dead")])
+
+    def test_a_header_lives_through_an_include(self):
+        files = {"tests/CMakeLists.txt": "add(unit/a_test.cpp)", "tests/support/scene.h": "",
+                 "tests/unit/a_test.cpp": '#include "support/scene.h"\n'}
+        self.assertEqual(rules_broken(build_rules.check, files), [])
+        files["tests/unit/a_test.cpp"] = ""
+        self.assertEqual(rules_broken(build_rules.check, files),
+                         [("tests/support/scene.h", "dead")])
+
+    def test_globs_are_found(self):
+        self.assertEqual(rules_broken(build_rules.check, {"CMakeLists.txt": "file(GLOB x *.cpp)"}),
+                         [("CMakeLists.txt", "glob")])
+
+    def test_a_broken_link_is_found(self):
+        files = {"README.md": "[a](deploy/a.md) [b](deploy/) [c](https://example.org) [d](#x)",
+                 "deploy/a.md": "[back](../README.md)"}
+        self.assertEqual(rules_broken(build_rules.check, files), [])
+        files["deploy/a.md"] = "[back](README.md)"
+        self.assertEqual(rules_broken(build_rules.check, files), [("deploy/a.md", "link")])
+
+    def test_only_shown_pictures_may_be_binary(self):
+        self.assertEqual(rules_broken(build_rules.check, {"a.png": b"\x89PNG\0"}),
+                         [("a.png", "binary")])
+        self.assertEqual(rules_broken(build_rules.check, {"a.png": b"\x89PNG\0",
+                                                          "README.md": "![a](a.png)"}), [])
+
+    def test_generated_files_are_found(self):
+        self.assertEqual(rules_broken(build_rules.check, {"client/python/frame_pb2.py": ""}),
+                         [("client/python/frame_pb2.py", "dead"),
+                          ("client/python/frame_pb2.py", "generated")])
+
+
+class Proto(unittest.TestCase):
+    def broken(self, text, path="proto/viewloom/v1/a.proto"):
+        return [rule for _, rule in rules_broken(proto_rules.check, {path: text})]
+
+    def test_a_clean_proto_passes(self):
+        self.assertEqual(self.broken(
+            "package viewloom.v1;\nenum TileOrder {\n  TILE_ORDER_UNSPECIFIED = 0;\n"
+            "  TILE_ORDER_TOP_LEFT = 1;\n}\nmessage A {\n  double near_m = 1;\n"
+            "  double gain = 2;  // linear factor, 0..1\n}\n"), [])
+
+    def test_a_package_that_is_not_its_folder_is_found(self):
+        self.assertEqual(self.broken("package viewloom.v2;\n"), ["proto"])
+
+    def test_an_enum_without_an_unspecified_zero_is_found(self):
+        self.assertEqual(self.broken("package viewloom.v1;\nenum Kind {\n  KIND_A = 0;\n}\n"),
+                         ["proto"])
+
+    def test_an_enum_value_without_its_prefix_is_found(self):
+        self.assertEqual(self.broken(
+            "package viewloom.v1;\nenum Kind {\n  KIND_UNSPECIFIED = 0;\n  OTHER = 1;\n}\n"),
+                         ["proto"])
+
+    def test_services_and_messages_are_named_after_their_verb(self):
+        self.assertEqual(self.broken(
+            "package viewloom.v1;\nservice Catalog {\n"
+            "  rpc List(ListRequest) returns (stream Entry);\n}\n"), ["proto", "proto"])
+
+    def test_a_number_without_unit_or_comment_is_found(self):
+        self.assertEqual(self.broken("package viewloom.v1;\nmessage A {\n  float far = 1;\n}\n"),
+                         ["proto unit"])
+
+
+if __name__ == "__main__":
+    unittest.main()
