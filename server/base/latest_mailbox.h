@@ -26,6 +26,11 @@ class LatestMailbox {
     return std::exchange(slot_, std::nullopt);
   }
 
+  bool empty() const {
+    std::lock_guard lock(mutex_);
+    return !slot_.has_value();
+  }
+
   uint64_t replacedCount() const {
     std::lock_guard lock(mutex_);
     return replaced_count_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pinhole camera: spaces as in OpenXR (metres, right-handed, +x right, +y up, -z forward), image
-// rows from the top, sample centres at +0.5.
+// The pinhole camera: spaces as in OpenXR (metres, right-handed, +x right, +y up, -z forward),
+// image rows from the top, sample centres at +0.5.
 #pragma once
 
 #include <string_view>
@@ -22,7 +22,8 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
-// `outer` applied after `inner`: the pose of what stands at `inner` inside a thing that stands at `outer`.
+// `outer` applied after `inner`: the pose of what stands at `inner` inside a thing that stands at
+// `outer`.
 Pose compose(const Pose& outer, const Pose& inner);
 Pose inverse(const Pose& pose);
 
@@ -52,7 +53,8 @@ struct Camera {
 Intrinsics intrinsicsFromFov(const Fov& fov, SizePx size_px);
 Fov fovFromIntrinsics(const Intrinsics& intrinsics, SizePx size_px);
 
-// Checks of foreign values; errors name the field relative to `field`.
+// Checks of foreign values; errors name the field relative to `field`. A quaternion that passes is
+// of unit length within 1e-3: who stores it normalises it first.
 absl::Status validatePose(const Pose& pose, std::string_view field);
 absl::Status validateFov(const Fov& fov, std::string_view field);
 absl::Status validateIntrinsics(const Intrinsics& intrinsics, std::string_view field);

@@ -22,9 +22,9 @@ struct DisplayReport {
 struct FrameReport {
   uint64_t number = 0;
   FrameOutcome outcome = FrameOutcome::kReplaced;
-  std::string reason;  // kRefused
-  std::vector<DisplayReport> displays;
-  SourceStats stats;
+  std::string reason{};  // kRefused
+  std::vector<DisplayReport> displays{};
+  SourceStats stats{};
 };
 
 // Called exactly once per frame, from any thread; must not block.

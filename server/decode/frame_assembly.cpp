@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "decode/frame_assembly.h"
+
+#include <utility>
+
+#include "base/check.h"
+#include "base/str_cat.h"
+
+namespace viewloom {
+
+std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format) {
+  std::vector<const PlaneFormat*> planes;
+  for (const SourceFormat& source : format.sources) {
+    for (const LayerFormat& layer : source.layers) {
+      planes.push_back(layer.depth_first ? &layer.depth : &layer.color);
+      planes.push_back(layer.depth_first ? &layer.color : &layer.depth);
+    }
+  }
+  return planes;
+}
+
+FrameAssembly::FrameAssembly(FrameFormat format, BytePool& pool)
+    : format_(std::move(format)), pool_(pool) {
+  for (const PlaneFormat* plane : wirePlanes(format_)) plane_bytes_.push_back(plane->wire_bytes);
+  planes_.reserve(plane_bytes_.size());
+}
+
+absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes,
+                                     std::string_view data) {
+  if (complete()) {
+    return invalidField("chunk.plane_index",
+                        strCat("is ", plane_index, " after the last byte of frame ", format_.number,
+                               ", a header must come next"));
+  }
+  if (plane_index != current_plane_) {
+    return invalidField("chunk.plane_index", strCat("is ", plane_index, ", must be ",
+                                                    current_plane_, " of ", plane_bytes_.size()));
+  }
+  const uint64_t declared_bytes = plane_bytes_[current_plane_];
+  const uint64_t collected_bytes = filling_ ? filling_->size() : 0;
+  if (offset_bytes != collected_bytes) {
+    return invalidField("chunk.offset_bytes",
+                        strCat("is ", offset_bytes, ", must be ", collected_bytes));
+  }
+  if (data.empty() || data.size() > kChunkBytesMax) {
+    return invalidField("chunk.data",
+                        strCat("has ", data.size(), " bytes, must have 1..", kChunkBytesMax));
+  }
+  if (data.size() > declared_bytes - collected_bytes) {
+    return invalidField("chunk.data",
+                        strCat("has ", data.size(), " bytes, the plane of ", declared_bytes,
+                               " lacks ", declared_bytes - collected_bytes));
+  }
+  if (!filling_) filling_ = pool_.take(declared_bytes);
+  filling_->insert(filling_->end(), data.begin(), data.end());
+  if (filling_->size() == declared_bytes) {
+    planes_.push_back(std::exchange(filling_, nullptr));
+    ++current_plane_;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status FrameAssembly::requireComplete() const {
+  if (complete()) return absl::OkStatus();
+  return invalidField("header", strCat("comes before the end of frame ", format_.number, ": plane ",
+                                       current_plane_, " has ", filling_ ? filling_->size() : 0,
+                                       " of ", plane_bytes_[current_plane_], " bytes"));
+}
+
+CollectedFrame FrameAssembly::take() {
+  VIEWLOOM_CHECK(complete());
+  return {.format = std::move(format_), .planes = std::move(planes_)};
+}
+
+}  // namespace viewloom

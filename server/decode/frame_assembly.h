@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collects the chunks of one frame as they come over the wire, and refuses what does not follow on.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "base/status.h"
+#include "frame/frame.h"
+
+namespace viewloom {
+
+inline constexpr uint64_t kChunkBytesMax = uint64_t{1} << 20;
+
+// A frame whose bytes have all come, still as on the wire.
+struct CollectedFrame {
+  FrameFormat format;
+  std::vector<SharedBytes> planes;  // in the order of the wire: sources, layers, planes
+};
+
+// The declared planes in the order in which their chunks come.
+std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format);
+
+// Thread-safety: none; belongs to one call.
+class FrameAssembly {
+ public:
+  // The format must have passed validateFrame. Memory for a plane is taken when its first chunk
+  // comes.
+  FrameAssembly(FrameFormat format, BytePool& pool);
+
+  // The next piece. Errors are INVALID_ARGUMENT and name chunk.plane_index, chunk.offset_bytes or
+  // chunk.data; the assembly is of no use afterwards.
+  absl::Status addChunk(uint32_t plane_index, uint64_t offset_bytes, std::string_view data);
+
+  bool complete() const { return current_plane_ == plane_bytes_.size(); }
+  // OK, or what is still missing: for a header that comes too early. Names the field "header".
+  absl::Status requireComplete() const;
+  uint64_t frameNumber() const { return format_.number; }
+
+  // Expects complete(); call once.
+  CollectedFrame take();
+
+ private:
+  FrameFormat format_;
+  BytePool& pool_;
+  std::vector<uint64_t> plane_bytes_;  // declared, in wire order
+  std::vector<SharedBytes> planes_;    // whole ones
+  BytePool::Buffer filling_;           // of the current plane; null before its first chunk
+  size_t current_plane_ = 0;
+};
+
+}  // namespace viewloom

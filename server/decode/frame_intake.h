@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hand-over from the network to the loops: newest frame of each stream wins, then it is
+// decoded.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/byte_pool.h"
+#include "base/clock.h"
+#include "decode/frame_assembly.h"
+#include "frame/frame_sink.h"
+
+namespace viewloom {
+
+struct FrameIntakeOptions {
+  uint32_t thread_count = 2;
+};
+
+// Decodes on threads of its own. Of each stream one frame waits at most: a newer one replaces it,
+// and it is reported kReplaced. Frames of one stream are decoded one after the other and reach the
+// sink in the order in which they were offered; one that does not decode is reported kRefused.
+// Thread-safety: all methods may be called from any thread. offer never blocks.
+class FrameIntake {
+ public:
+  // Sink, clock and pool must outlive the intake.
+  FrameIntake(FrameSink& sink, const Clock& clock, BytePool& pool, FrameIntakeOptions options);
+  // Closes.
+  ~FrameIntake();
+
+  // Fills in times.decoded_ns. `report` is called exactly once, by the intake or by the sink.
+  void offer(const std::string& stream, CollectedFrame frame, FrameTimes times, ReportFrame report);
+
+  // Waits until every frame that was accepted has gone to the sink or been reported. Frames offered
+  // from now on are reported kRefused.
+  void close();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "decode/raw_plane.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "frame/limits.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint8_t kOpaque = 255;
+
+void expandToRgba(std::span<const uint8_t> rgb, uint8_t* rgba) {
+  for (size_t from = 0, to = 0; from < rgb.size(); from += 3, to += 4) {
+    rgba[to] = rgb[from];
+    rgba[to + 1] = rgb[from + 1];
+    rgba[to + 2] = rgb[from + 2];
+    rgba[to + 3] = kOpaque;
+  }
+}
+
+}  // namespace
+
+bool isPacked(const PlaneFormat& plane) {
+  return plane.encoding != PlaneEncoding::kRgb8 && plane.encoding != PlaneEncoding::kJpeg &&
+         uncompressedBytes(plane) == decodedBytes(plane);
+}
+
+void packPlane(std::span<const uint8_t> bytes, const PlaneFormat& plane,
+               std::vector<uint8_t>& out) {
+  VIEWLOOM_CHECK(bytes.size() == uncompressedBytes(plane));
+  const size_t stride_bytes = wireRowBytes(plane);
+  const size_t row_bytes = size_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
+  const size_t out_row_bytes = decodedBytes(plane) / plane.size_px.height;
+  out.resize(decodedBytes(plane));
+  for (size_t y = 0; y < plane.size_px.height; ++y) {
+    const std::span<const uint8_t> row = bytes.subspan(y * stride_bytes, row_bytes);
+    uint8_t* out_row = out.data() + y * out_row_bytes;
+    if (plane.encoding == PlaneEncoding::kRgb8) {
+      expandToRgba(row, out_row);
+    } else {
+      std::copy(row.begin(), row.end(), out_row);
+    }
+  }
+}
+
+}  // namespace viewloom

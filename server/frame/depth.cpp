@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/depth.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/check.h"
+#include "base/str_cat.h"
+
+namespace viewloom {
+namespace {
+
+constexpr double kU16Max = 65535;
+// Scales and offsets beyond these leave binary32, in which kernels compute.
+constexpr double kScaleMin = 1e-30;
+constexpr double kScaleMax = 1e30;
+
+// kWindow bounds are binary32 in OpenXR; a sample of the far plane equals the rounded bound.
+double asBinary32(double value) {
+  return static_cast<double>(static_cast<float>(value));
+}
+
+// The invalid value as a sample of this encoding can hold it.
+float storedInvalidValue(double value, PlaneEncoding encoding) {
+  const float rounded = static_cast<float>(value);
+  return encoding == PlaneEncoding::kDepthF16 ? glm::unpackHalf1x16(glm::packHalf1x16(rounded))
+                                              : rounded;
+}
+
+// Window depth is linear in 1/Z between (min_depth, 1/near) and (max_depth, 1/far).
+struct WindowLine {
+  double origin;  // the end with the smaller 1/Z
+  double slope;
+  double inv_z_at_origin;
+};
+
+WindowLine windowLine(const DepthFormat& format) {
+  const double min_depth = asBinary32(format.min_depth);
+  const double max_depth = asBinary32(format.max_depth);
+  const double inv_near = 1 / format.near_z_m;
+  const double inv_far = 1 / format.far_z_m;
+  const bool reversed = inv_near < inv_far;
+  return {.origin = reversed ? min_depth : max_depth,
+          .slope = (inv_far - inv_near) / (max_depth - min_depth),
+          .inv_z_at_origin = reversed ? inv_near : inv_far};
+}
+
+// |ray| of the sample's centre where the ray's z is 1: distance = Z * this.
+double rayLength(glm::uvec2 pixel_px, const Intrinsics& intrinsics) {
+  const glm::dvec2 ray =
+      (glm::dvec2(pixel_px) + 0.5 - intrinsics.principal_px) / intrinsics.focal_px;
+  return std::sqrt(1 + glm::dot(ray, ray));
+}
+
+DepthValue fromInvZ(double inv_z) {
+  if (!(inv_z >= 0 && inv_z <= double{kInvZMax})) return {.kind = DepthClass::kBad};
+  return {.kind = DepthClass::kSurface, .inv_z = inv_z};
+}
+
+DepthValue fromMetric(double metric_m, double ray_length) {
+  if (metric_m == 0) return {.kind = DepthClass::kNoSurface};
+  if (!(metric_m > 0)) return {.kind = DepthClass::kBad};
+  return fromInvZ(ray_length / metric_m);
+}
+
+absl::Status validateWindow(const DepthFormat& format, std::string_view field) {
+  const auto outside = [](double depth) { return !(depth >= 0 && depth <= 1); };
+  if (outside(format.min_depth)) {
+    return invalidField(strCat(field, ".min_depth"),
+                        strCat("is ", format.min_depth, ", must lie in [0, 1]"));
+  }
+  if (outside(format.max_depth) || asBinary32(format.max_depth) <= asBinary32(format.min_depth)) {
+    return invalidField(
+        strCat(field, ".max_depth"),
+        strCat("is ", format.max_depth, ", must lie in (min_depth = ", format.min_depth, ", 1]"));
+  }
+  const auto too_near = [](double z_m) { return !(z_m * double{kInvZMax} >= 1); };
+  if (too_near(format.near_z_m)) {
+    return invalidField(strCat(field, ".near_z_m"),
+                        strCat("is ", format.near_z_m, ", must lie in (0, +inf]"));
+  }
+  if (too_near(format.far_z_m) || format.far_z_m == format.near_z_m) {
+    return invalidField(
+        strCat(field, ".far_z_m"),
+        strCat("is ", format.far_z_m,
+               ", must lie in (0, +inf] and differ from near_z_m = ", format.near_z_m));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validateScale(const DepthFormat& format, std::string_view field) {
+  const double magnitude = std::abs(format.scale);
+  if (!(magnitude >= kScaleMin && magnitude <= kScaleMax)) {
+    return invalidField(strCat(field, ".scale"),
+                        strCat("is ", format.scale, ", must be finite and not 0 (", kScaleMin, "..",
+                               kScaleMax, " in magnitude)"));
+  }
+  if (!(std::abs(format.offset) <= kScaleMax)) {
+    return invalidField(strCat(field, ".offset"),
+                        strCat("is ", format.offset, ", must be finite and within ", kScaleMax));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validateInvalidValue(const DepthFormat& format, PlaneEncoding encoding,
+                                  std::string_view field) {
+  if (!format.invalid_value.has_value()) {
+    if (!format.invalid_is_far) return absl::OkStatus();
+    return invalidField(strCat(field, ".invalid_is_far"),
+                        "is set without an invalid_value that could be far");
+  }
+  const double value = *format.invalid_value;
+  const bool storable_u16 = value >= 0 && value <= kU16Max && std::trunc(value) == value;
+  if (encoding == PlaneEncoding::kDepthU16 ? !storable_u16 : std::isnan(value)) {
+    return invalidField(
+        strCat(field, ".invalid_value"),
+        strCat("is ", value, ", must be a value that a sample can have (",
+               encoding == PlaneEncoding::kDepthU16 ? "a whole number 0..65535)" : "not NaN)"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+DepthValue linearizeDepth(const DepthFormat& format, PlaneEncoding encoding, double sample,
+                          glm::uvec2 pixel_px, const Intrinsics& intrinsics) {
+  if (format.invalid_value &&
+      sample == double{storedInvalidValue(*format.invalid_value, encoding)}) {
+    return {.kind = format.invalid_is_far ? DepthClass::kSurface : DepthClass::kNoSurface};
+  }
+  switch (format.meaning) {
+    case DepthMeaning::kPlanar:
+      return fromMetric(sample * format.scale + format.offset, 1);
+    case DepthMeaning::kRayDistance:
+      return fromMetric(sample * format.scale + format.offset, rayLength(pixel_px, intrinsics));
+    case DepthMeaning::kWindow: {
+      const WindowLine line = windowLine(format);
+      const double depth = encoding == PlaneEncoding::kDepthU16 ? sample / kU16Max : sample;
+      return fromInvZ((depth - line.origin) * line.slope + line.inv_z_at_origin);
+    }
+    case DepthMeaning::kDisparity:
+      return fromInvZ(sample * format.scale + format.offset);
+  }
+  failCheck(__FILE__, __LINE__, "a DepthMeaning that is none");
+}
+
+double depthSample(std::span<const uint8_t> plane, PlaneEncoding encoding, size_t index) {
+  if (encoding == PlaneEncoding::kDepthF32) {
+    float sample = 0;
+    std::memcpy(&sample, plane.subspan(index * sizeof sample, sizeof sample).data(), sizeof sample);
+    return double{sample};
+  }
+  uint16_t bits = 0;
+  std::memcpy(&bits, plane.subspan(index * sizeof bits, sizeof bits).data(), sizeof bits);
+  return encoding == PlaneEncoding::kDepthF16 ? double{glm::unpackHalf1x16(bits)}
+                                              : static_cast<double>(bits);
+}
+
+DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding encoding) {
+  DepthCoefficients coefficients;
+  if (format.meaning == DepthMeaning::kWindow) {
+    const WindowLine line = windowLine(format);
+    const double sample_per_depth = encoding == PlaneEncoding::kDepthU16 ? kU16Max : 1;
+    coefficients.origin = static_cast<float>(line.origin * sample_per_depth);
+    coefficients.scale = static_cast<float>(line.slope / sample_per_depth);
+    coefficients.offset = static_cast<float>(line.inv_z_at_origin);
+  } else {
+    coefficients.scale = static_cast<float>(format.scale);
+    coefficients.offset = static_cast<float>(format.offset);
+  }
+  coefficients.ray_distance = format.meaning == DepthMeaning::kRayDistance;
+  coefficients.reciprocal = coefficients.ray_distance || format.meaning == DepthMeaning::kPlanar;
+  coefficients.has_invalid = format.invalid_value.has_value();
+  coefficients.invalid_is_far = format.invalid_is_far;
+  if (format.invalid_value) {
+    coefficients.invalid_value = storedInvalidValue(*format.invalid_value, encoding);
+  }
+  return coefficients;
+}
+
+absl::Status validateDepthFormat(const DepthFormat& format, PlaneEncoding encoding,
+                                 std::string_view field) {
+  VIEWLOOM_RETURN_IF_ERROR(validateInvalidValue(format, encoding, field));
+  return format.meaning == DepthMeaning::kWindow ? validateWindow(format, field)
+                                                 : validateScale(format, field);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/str_cat.h"
+#include "frame/depth.h"
+
+namespace viewloom {
+namespace {
+
+constexpr double kExposureMaxEv = 32;
+// A row may be padded up to the next page of this size.
+constexpr uint64_t kRowPaddingBytesMax = 65536;
+// More than any zstd encoder adds to bytes it cannot compress.
+constexpr uint64_t zstdBytesMax(uint64_t content_bytes) {
+  return content_bytes + content_bytes / 128 + 1024;
+}
+
+absl::Status overLimit(std::string_view field, std::string_view problem) {
+  return fieldError(absl::StatusCode::kResourceExhausted, field, problem);
+}
+
+bool isColorEncoding(PlaneEncoding encoding) {
+  return encoding == PlaneEncoding::kRgba8 || encoding == PlaneEncoding::kRgb8 ||
+         encoding == PlaneEncoding::kRgba16f || encoding == PlaneEncoding::kJpeg;
+}
+
+std::string sizeText(SizePx size_px) {
+  return strCat(size_px.width, "x", size_px.height);
+}
+
+absl::Status validateSize(SizePx size_px, uint32_t side_px_max) {
+  if (size_px.width == 0 || size_px.height == 0) {
+    return invalidField("size", strCat("is ", sizeText(size_px), ", must be at least 1x1"));
+  }
+  if (std::max(size_px.width, size_px.height) > side_px_max) {
+    return overLimit("size", strCat("is ", sizeText(size_px), ", at most ", side_px_max,
+                                    " px a side are accepted"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validateStride(const PlaneFormat& plane) {
+  if (plane.stride_bytes == 0) return absl::OkStatus();
+  if (plane.encoding == PlaneEncoding::kJpeg) {
+    return invalidField("stride_bytes", strCat("is ", plane.stride_bytes, ", must be 0 for JPEG"));
+  }
+  const uint64_t packed = uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
+  if (plane.stride_bytes < packed || plane.stride_bytes > packed + kRowPaddingBytesMax) {
+    return invalidField("stride_bytes", strCat("is ", plane.stride_bytes, ", must be 0 or ", packed,
+                                               "..", packed + kRowPaddingBytesMax));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validateWireBytes(const PlaneFormat& plane) {
+  const uint64_t got = plane.wire_bytes;
+  const uint64_t content = uncompressedBytes(plane);
+  const bool jpeg = plane.encoding == PlaneEncoding::kJpeg;
+  if (plane.compression == PlaneCompression::kNone && !jpeg && got != content) {
+    return invalidField("bytes_count", strCat("is ", got, ", must be ", content, " for ",
+                                              sizeText(plane.size_px), " and this encoding"));
+  }
+  uint64_t most = jpeg ? jpegBytesMax(plane.size_px.area()) : content;
+  if (plane.compression == PlaneCompression::kZstd) most = zstdBytesMax(most);
+  most = std::min(most, kPlaneWireBytesMax);
+  if (got == 0 || got > most) {
+    return invalidField("bytes_count", strCat("is ", got, ", must lie in 1..", most));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, const FrameLimits& limits) {
+  if (plane.kind != kind || isColorEncoding(plane.encoding) != (kind == PlaneKind::kColor)) {
+    return invalidField("encoding", kind == PlaneKind::kColor
+                                        ? "is not one of RGBA8, RGB8, RGBA16F, JPEG"
+                                        : "is not one of DEPTH_F32, DEPTH_F16, DEPTH_U16");
+  }
+  VIEWLOOM_RETURN_IF_ERROR(validateSize(plane.size_px, limits.plane_side_px_max));
+  VIEWLOOM_RETURN_IF_ERROR(validateStride(plane));
+  VIEWLOOM_RETURN_IF_ERROR(validateWireBytes(plane));
+  if (kind == PlaneKind::kColor) return absl::OkStatus();
+  return validateDepthFormat(plane.depth, plane.encoding, "depth");
+}
+
+std::string planePath(size_t layer, const LayerFormat& format, PlaneKind kind) {
+  const bool second = (kind == PlaneKind::kColor) == format.depth_first;
+  return strCat("layers[", layer, "].planes[", second ? 1 : 0, "]");
+}
+
+// Planes of one source must fit each other: they become one structure.
+absl::Status validateAgreement(const SourceFormat& source, size_t layer) {
+  const LayerFormat& first = source.layers.front();
+  const LayerFormat& format = source.layers[layer];
+  if (format.depth.size_px != first.depth.size_px) {
+    return invalidField(strCat(planePath(layer, format, PlaneKind::kDepth), ".size"),
+                        strCat("is ", sizeText(format.depth.size_px), ", must be that of layer 0, ",
+                               sizeText(first.depth.size_px)));
+  }
+  const auto is_half = [](const LayerFormat& l) {
+    return l.color.encoding == PlaneEncoding::kRgba16f;
+  };
+  if (is_half(format) != is_half(first)) {
+    return invalidField(strCat(planePath(layer, format, PlaneKind::kColor), ".encoding"),
+                        "mixes RGBA16F with 8-bit colour within one source");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status validateSource(const SourceFormat& source, const FrameLimits& limits) {
+  VIEWLOOM_RETURN_IF_ERROR(validatePose(source.camera.pose, "camera.pose"));
+  VIEWLOOM_RETURN_IF_ERROR(validateIntrinsics(source.camera.intrinsics, "camera.intrinsics"));
+  if (source.layers.empty() || source.layers.size() > limits.layer_count_max) {
+    return invalidField("layers", strCat("has ", source.layers.size(), " entries, must have 1..",
+                                         limits.layer_count_max));
+  }
+  for (size_t layer = 0; layer < source.layers.size(); ++layer) {
+    const LayerFormat& format = source.layers[layer];
+    for (const PlaneKind kind : {PlaneKind::kColor, PlaneKind::kDepth}) {
+      const PlaneFormat& plane = kind == PlaneKind::kColor ? format.color : format.depth;
+      VIEWLOOM_RETURN_IF_ERROR(
+          withFieldPrefix(validatePlane(plane, kind, limits), planePath(layer, format, kind)));
+    }
+    VIEWLOOM_RETURN_IF_ERROR(validateAgreement(source, layer));
+  }
+  const double tolerance = source.connection_tolerance;
+  if (!(tolerance >= 0 && tolerance <= double{kInvZMax})) {
+    return invalidField("connection_tolerance",
+                        strCat("is ", tolerance, ", must be finite and not negative"));
+  }
+  return absl::OkStatus();
+}
+
+uint64_t heldBytes(const PlaneFormat& plane) {
+  return std::max(decodedBytes(plane), plane.wire_bytes);
+}
+
+}  // namespace
+
+uint64_t jpegBytesMax(uint64_t area_px) {
+  // Three channels of 8x8 blocks whose 64 coefficients take at most 27 bits each, doubled by byte
+  // stuffing; 1 MiB for metadata segments.
+  return area_px * 3 * 27 * 2 / 8 + (1 << 20);
+}
+
+uint32_t wirePixelBytes(PlaneEncoding encoding) {
+  switch (encoding) {
+    case PlaneEncoding::kRgba8:
+    case PlaneEncoding::kDepthF32:
+      return 4;
+    case PlaneEncoding::kRgb8:
+      return 3;
+    case PlaneEncoding::kRgba16f:
+      return 8;
+    case PlaneEncoding::kDepthF16:
+    case PlaneEncoding::kDepthU16:
+      return 2;
+    case PlaneEncoding::kJpeg:
+      return 0;
+  }
+  return 0;
+}
+
+uint64_t wireRowBytes(const PlaneFormat& plane) {
+  if (plane.stride_bytes != 0) return plane.stride_bytes;
+  return uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
+}
+
+uint64_t uncompressedBytes(const PlaneFormat& plane) {
+  return wireRowBytes(plane) * plane.size_px.height;
+}
+
+uint64_t decodedBytes(const PlaneFormat& plane) {
+  const bool becomes_rgba8 =
+      plane.encoding == PlaneEncoding::kRgb8 || plane.encoding == PlaneEncoding::kJpeg;
+  const uint64_t pixel_bytes = becomes_rgba8 ? 4 : wirePixelBytes(plane.encoding);
+  return plane.size_px.area() * pixel_bytes;
+}
+
+absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits) {
+  if (format.number == 0) return invalidField("header.number", "is 0, must be at least 1");
+  if (!(std::abs(format.exposure_ev) <= kExposureMaxEv)) {
+    return invalidField("header.exposure_ev",
+                        strCat("is ", format.exposure_ev, ", must lie in -32..32"));
+  }
+  const size_t source_count = format.sources.size();
+  if (source_count == 0 || source_count > limits.source_count_max) {
+    return invalidField("header.sources", strCat("has ", source_count, " entries, must have 1..",
+                                                 limits.source_count_max));
+  }
+  if (source_count > 1) {
+    return fieldError(absl::StatusCode::kUnimplemented, "header.sources",
+                      strCat("has ", source_count, " entries; only one is served yet"));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(
+      withFieldPrefix(validateSource(format.sources[0], limits), "header.sources[0]"));
+  uint64_t held_bytes = 0;
+  for (const LayerFormat& layer : format.sources[0].layers) {
+    held_bytes += heldBytes(layer.color) + heldBytes(layer.depth);
+  }
+  if (held_bytes > limits.frame_bytes_max) {
+    return overLimit("header", strCat("declares ", held_bytes, " bytes of planes, at most ",
+                                      limits.frame_bytes_max, " are accepted"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace viewloom

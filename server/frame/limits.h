@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame may be: every declared field is checked before a byte is allocated for it.
+#pragma once
+
+#include <cstdint>
+
+#include "base/status.h"
+#include "frame/frame.h"
+
+namespace viewloom {
+
+struct FrameLimits {
+  uint32_t plane_side_px_max = 8192;
+  // All planes together: each counts with its decoded or its wire bytes, whichever is more.
+  uint64_t frame_bytes_max = uint64_t{3} << 29;  // 1.5 GiB
+  uint32_t layer_count_max = 4;
+  uint32_t source_count_max = 8;
+};
+
+inline constexpr uint64_t kPlaneWireBytesMax = uint64_t{512} << 20;
+
+// More than a baseline JPEG of so many pixels can have.
+uint64_t jpegBytesMax(uint64_t area_px);
+// Bytes of one pixel in memory as sent; 0 for JPEG, which has none.
+uint32_t wirePixelBytes(PlaneEncoding encoding);
+// Bytes from row to row of an uncompressed plane as sent: the declared stride, else packed.
+uint64_t wireRowBytes(const PlaneFormat& plane);
+// Bytes of the plane before compression, with stride; 0 for JPEG.
+uint64_t uncompressedBytes(const PlaneFormat& plane);
+// Bytes of the plane in a Frame: packed, RGB8 and JPEG as RGBA8.
+uint64_t decodedBytes(const PlaneFormat& plane);
+
+// The whole header. Errors name the field as in proto
+// ("header.sources[0].layers[1].planes[0].size"): INVALID_ARGUMENT for what can never be,
+// RESOURCE_EXHAUSTED for what is over these limits, UNIMPLEMENTED for more than one source.
+absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits);
+
+}  // namespace viewloom
