@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/display_from_proto.h"
+
+#include <utility>
+
+#include <google/protobuf/repeated_ptr_field.h>
+
+#include "rpc/enum_from_proto.h"
+#include "rpc/geometry_from_proto.h"
+
+namespace viewloom {
+namespace {
+
+constexpr EnumRow<v1::TileOrder, TileOrder> kQuiltOrders[] = {
+    {v1::TILE_ORDER_UNSPECIFIED, TileOrder::kBottomLeft},
+    {v1::TILE_ORDER_BOTTOM_LEFT, TileOrder::kBottomLeft},
+    {v1::TILE_ORDER_TOP_LEFT, TileOrder::kTopLeft}};
+
+constexpr EnumRow<v1::TileOrder, TileOrder> kCamerasOrders[] = {
+    {v1::TILE_ORDER_UNSPECIFIED, TileOrder::kTopLeft},
+    {v1::TILE_ORDER_BOTTOM_LEFT, TileOrder::kBottomLeft},
+    {v1::TILE_ORDER_TOP_LEFT, TileOrder::kTopLeft}};
+
+constexpr EnumRow<v1::StereoLayout, StereoLayout> kStereoLayouts[] = {
+    {v1::STEREO_LAYOUT_UNSPECIFIED, StereoLayout::kSideBySide},
+    {v1::STEREO_LAYOUT_SIDE_BY_SIDE, StereoLayout::kSideBySide},
+    {v1::STEREO_LAYOUT_TOP_BOTTOM, StereoLayout::kTopBottom}};
+
+constexpr EnumRow<v1::OutsideFill, OutsideFill> kOutsideFills[] = {
+    {v1::OUTSIDE_FILL_UNSPECIFIED, OutsideFill::kBorder},
+    {v1::OUTSIDE_FILL_BORDER, OutsideFill::kBorder},
+    {v1::OUTSIDE_FILL_BACKGROUND, OutsideFill::kBackground}};
+
+absl::Status notServedYet(std::string_view field) {
+  return fieldError(absl::StatusCode::kUnimplemented, field, "is not served yet");
+}
+
+absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
+    const google::protobuf::RepeatedPtrField<v1::Camera>& protos, const char* field) {
+  std::vector<ViewCamera> cameras;
+  for (const v1::Camera& proto : protos) {
+    const std::string path = absl::StrCat(field, "[", cameras.size(), "]");
+    const auto pose = poseFromProto(proto.pose(), "pose");
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(pose.status(), path));
+    const auto projection = projectionFromProto(proto);
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(projection.status(), path));
+    cameras.push_back({.pose = *pose, .projection = *projection});
+  }
+  return cameras;
+}
+
+absl::StatusOr<QuiltSpec> quiltFromProto(const v1::QuiltDisplay& proto) {
+  const auto order = enumFromProto(proto.order(), "order", kQuiltOrders);
+  VIEWLOOM_RETURN_IF_ERROR(order.status());
+  return QuiltSpec{.preset = proto.preset(),
+                   .columns = proto.columns(),
+                   .rows = proto.rows(),
+                   .size_px = sizeFromProto(proto.size()),
+                   .aspect = proto.aspect(),
+                   .view_cone_rad = proto.view_cone_rad(),
+                   .focal_distance_m = proto.focal_distance_m(),
+                   .fov_y_rad = proto.fov_y_rad(),
+                   .order = *order,
+                   .view_count = proto.view_count()};
+}
+
+absl::StatusOr<StereoSpec> stereoFromProto(const v1::StereoDisplay& proto) {
+  if (proto.tracked()) return notServedYet("tracked");
+  const auto layout = enumFromProto(proto.layout(), "layout", kStereoLayouts);
+  VIEWLOOM_RETURN_IF_ERROR(layout.status());
+  auto eyes = camerasFromProto(proto.eyes(), "eyes");
+  VIEWLOOM_RETURN_IF_ERROR(eyes.status());
+  StereoSpec stereo{.layout = *layout,
+                    .eye_size_px = sizeFromProto(proto.eye_size()),
+                    .focal_distance_m = proto.focal_distance_m(),
+                    .fov_y_rad = proto.fov_y_rad(),
+                    .eyes = *std::move(eyes)};
+  if (proto.eye_distance_m() != 0) stereo.eye_distance_m = proto.eye_distance_m();
+  return stereo;
+}
+
+absl::StatusOr<CamerasSpec> camerasDisplayFromProto(const v1::CamerasDisplay& proto) {
+  const auto order = enumFromProto(proto.order(), "order", kCamerasOrders);
+  VIEWLOOM_RETURN_IF_ERROR(order.status());
+  auto cameras = camerasFromProto(proto.cameras(), "cameras");
+  VIEWLOOM_RETURN_IF_ERROR(cameras.status());
+  return CamerasSpec{.cameras = *std::move(cameras),
+                     .tile_size_px = sizeFromProto(proto.tile_size()),
+                     .columns = proto.columns(),
+                     .order = *order};
+}
+
+// One of the converters above, its errors seen from the display.
+template <typename Spec>
+absl::Status assignKind(absl::StatusOr<Spec> kind, std::string_view field, DisplaySpec& spec) {
+  if (!kind.ok()) return withFieldPrefix(kind.status(), field);
+  spec.kind = *std::move(kind);
+  return absl::OkStatus();
+}
+
+absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
+  switch (proto.kind_case()) {
+    case v1::Display::kQuilt:
+      return assignKind(quiltFromProto(proto.quilt()), "quilt", spec);
+    case v1::Display::kStereo:
+      return assignKind(stereoFromProto(proto.stereo()), "stereo", spec);
+    case v1::Display::kCameras:
+      return assignKind(camerasDisplayFromProto(proto.cameras()), "cameras", spec);
+    case v1::Display::kLenticular:
+      return notServedYet("lenticular");
+    case v1::Display::kIntegral:
+      return notServedYet("integral");
+    case v1::Display::kRgbd:
+      return notServedYet("rgbd");
+    case v1::Display::KIND_NOT_SET:
+      break;
+  }
+  return invalidField("kind", "got none; accepted: quilt, stereo or cameras");
+}
+
+absl::Status refuseEffects(const v1::Effects& effects) {
+  if (effects.has_lens()) return notServedYet("effects.lens");
+  if (effects.has_temporal()) return notServedYet("effects.temporal");
+  if (effects.has_reflection()) return notServedYet("effects.reflection");
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
+  DisplaySpec spec;
+  VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
+  VIEWLOOM_RETURN_IF_ERROR(refuseEffects(proto.effects()));
+  if (proto.has_world_pose()) {
+    const auto pose = poseFromProto(proto.world_pose(), "world_pose");
+    VIEWLOOM_RETURN_IF_ERROR(pose.status());
+    spec.world_pose = *pose;
+  }
+  const auto outside_fill = enumFromProto(proto.outside_fill(), "outside_fill", kOutsideFills);
+  VIEWLOOM_RETURN_IF_ERROR(outside_fill.status());
+  spec.outside_fill = *outside_fill;
+  if (proto.tolerance_px() != 0) spec.tolerance_px = proto.tolerance_px();
+  spec.background_rgb = proto.background_rgb();
+  return completeDisplaySpec(std::move(spec));
+}
+
+}  // namespace viewloom

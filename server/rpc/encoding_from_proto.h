@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a client wants its atlases packed → EncodingSpec, every default filled in and checked.
+#pragma once
+
+#include "base/status.h"
+#include "display/display_spec.h"
+#include "viewloom/v1/display.pb.h"
+
+namespace viewloom {
+
+// Errors name the field as in proto AtlasEncoding.
+absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto);
+
+}  // namespace viewloom

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proto enums to ours by a table: what the table lacks is refused, by name or by number.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <google/protobuf/generated_enum_reflection.h>
+
+#include "absl/strings/str_cat.h"
+#include "base/status.h"
+
+namespace viewloom {
+
+template <typename Proto, typename Value>
+struct EnumRow {
+  Proto proto;
+  Value value;
+};
+
+// UNIMPLEMENTED for a value the proto names, INVALID_ARGUMENT for 0 and for numbers it does not
+// know.
+absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int number,
+                        const std::string& accepted, std::string_view field);
+
+// A table that lists the _UNSPECIFIED value has a default; one that does not refuses it.
+template <typename Proto, typename Value, size_t kRowCount>
+absl::StatusOr<Value> enumFromProto(Proto proto, std::string_view field,
+                                    const EnumRow<Proto, Value> (&rows)[kRowCount]) {
+  for (const auto& row : rows) {
+    if (row.proto == proto) return row.value;
+  }
+  const auto& type = *google::protobuf::GetEnumDescriptor<Proto>();
+  std::string accepted;
+  for (const auto& row : rows) {
+    absl::StrAppend(&accepted, accepted.empty() ? "" : ", ",
+                    type.FindValueByNumber(row.proto)->name());
+  }
+  return refuseEnum(type, proto, accepted, field);
+}
+
+}  // namespace viewloom

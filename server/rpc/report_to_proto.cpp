@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/report_to_proto.h"
+
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+v1::FrameOutcome outcomeToProto(FrameOutcome outcome) {
+  switch (outcome) {
+    case FrameOutcome::kTraced:
+      return v1::FRAME_OUTCOME_TRACED;
+    case FrameOutcome::kBuiltWithoutDisplay:
+      return v1::FRAME_OUTCOME_BUILT_WITHOUT_DISPLAY;
+    case FrameOutcome::kReplaced:
+      return v1::FRAME_OUTCOME_REPLACED;
+    case FrameOutcome::kRefused:
+      return v1::FRAME_OUTCOME_REFUSED;
+  }
+  VIEWLOOM_CHECK(false && "unknown FrameOutcome");
+  return v1::FRAME_OUTCOME_UNSPECIFIED;
+}
+
+}  // namespace
+
+v1::Coverage coverageToProto(const Coverage& coverage) {
+  v1::Coverage proto;
+  const auto all = static_cast<double>(coverage.rayCount());
+  if (all == 0) return proto;
+  proto.set_hit(static_cast<double>(coverage.hit) / all);
+  proto.set_hit_assumed(static_cast<double>(coverage.hit_assumed) / all);
+  proto.set_hidden(static_cast<double>(coverage.hidden) / all);
+  proto.set_outside(static_cast<double>(coverage.outside) / all);
+  proto.set_empty(static_cast<double>(coverage.empty) / all);
+  return proto;
+}
+
+v1::StageTimes timesToProto(const StageTimes& times) {
+  v1::StageTimes proto;
+  proto.set_receive_ns(times.receive_ns);
+  proto.set_decode_ns(times.decode_ns);
+  proto.set_upload_ns(times.upload_ns);
+  proto.set_build_ns(times.build_ns);
+  proto.set_wait_ns(times.wait_ns);
+  proto.set_trace_ns(times.trace_ns);
+  proto.set_encode_ns(times.encode_ns);
+  proto.set_total_ns(times.total_ns);
+  return proto;
+}
+
+v1::SourceStats statsToProto(const SourceStats& stats) {
+  v1::SourceStats proto;
+  proto.set_depth_step(stats.depth_step);
+  proto.set_noise_sigma(stats.noise_sigma);
+  proto.set_connection_tolerance(stats.connection_tolerance);
+  proto.set_bad_samples_count(stats.bad_samples_count);
+  proto.set_unsorted_columns_count(stats.unsorted_columns_count);
+  proto.set_inv_z_min(stats.inv_z_min);
+  proto.set_inv_z_max(stats.inv_z_max);
+  return proto;
+}
+
+v1::FrameReport reportToProto(const FrameReport& report) {
+  v1::FrameReport proto;
+  proto.set_number(report.number);
+  proto.set_outcome(outcomeToProto(report.outcome));
+  proto.set_reason(report.reason);
+  for (const DisplayReport& display : report.displays) {
+    v1::DisplayReport& entry = *proto.add_displays();
+    entry.set_display_id(display.display_id);
+    *entry.mutable_coverage() = coverageToProto(display.coverage);
+    *entry.mutable_times() = timesToProto(display.times);
+  }
+  const bool built = report.outcome == FrameOutcome::kTraced ||
+                     report.outcome == FrameOutcome::kBuiltWithoutDisplay;
+  if (built) *proto.mutable_stats() = statsToProto(report.stats);
+  return proto;
+}
+
+}  // namespace viewloom

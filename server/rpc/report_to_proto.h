@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was measured → proto: coverage, stage times, depth statistics, the report of a frame.
+#pragma once
+
+#include "frame/frame_sink.h"
+#include "frame/stage_times.h"
+#include "viewloom/v1/display.pb.h"
+#include "viewloom/v1/ingest_service.pb.h"
+
+namespace viewloom {
+
+// Shares of all rays; all zero when there were none.
+v1::Coverage coverageToProto(const Coverage& coverage);
+v1::StageTimes timesToProto(const StageTimes& times);
+v1::SourceStats statsToProto(const SourceStats& stats);
+v1::FrameReport reportToProto(const FrameReport& report);
+
+}  // namespace viewloom
