@@ -23,7 +23,8 @@ void recordBarrier(vk::CommandBuffer commands, const Scope& before, const Scope&
                                    .srcAccessMask = before.accesses,
                                    .dstStageMask = after.stages,
                                    .dstAccessMask = after.accesses};
-  commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+  commands.pipelineBarrier2(
+      vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
 }
 
 }  // namespace

@@ -16,14 +16,18 @@ std::atomic<uint64_t> allocation_count = 0;
 // Best kind first; Vulkan promises that the last one exists.
 std::span<const vk::MemoryPropertyFlags> preferences(MemoryIntent intent) {
   static const vk::MemoryPropertyFlags kDevice[] = {Property::eDeviceLocal, {}};
-  static const vk::MemoryPropertyFlags kUpload[] = {Property::eHostVisible | Property::eHostCoherent};
+  static const vk::MemoryPropertyFlags kUpload[] = {Property::eHostVisible |
+                                                    Property::eHostCoherent};
   static const vk::MemoryPropertyFlags kReadback[] = {
       Property::eHostVisible | Property::eHostCoherent | Property::eHostCached,
       Property::eHostVisible | Property::eHostCoherent};
   switch (intent) {
-    case MemoryIntent::kUpload: return kUpload;
-    case MemoryIntent::kReadback: return kReadback;
-    case MemoryIntent::kDeviceOnly: break;
+    case MemoryIntent::kUpload:
+      return kUpload;
+    case MemoryIntent::kReadback:
+      return kReadback;
+    case MemoryIntent::kDeviceOnly:
+      break;
   }
   return kDevice;
 }
@@ -42,9 +46,9 @@ uint32_t memoryType(const Device& device, uint32_t allowed_types, MemoryIntent i
 vk::raii::Buffer makeBuffer(const Device& device, const BufferOptions& options) {
   VIEWLOOM_CHECK(options.size_bytes > 0);
   if (options.size_bytes > device.info().limits.allocation_bytes_max) {
-    throw vk::OutOfDeviceMemoryError(absl::StrCat(
-        options.debug_name, " needs a buffer of ", options.size_bytes, " bytes; the device allows ",
-        device.info().limits.allocation_bytes_max));
+    throw vk::OutOfDeviceMemoryError(absl::StrCat(options.debug_name, " needs a buffer of ",
+                                                  options.size_bytes, " bytes; the device allows ",
+                                                  device.info().limits.allocation_bytes_max));
   }
   using Usage = vk::BufferUsageFlagBits;
   return {device.handle(),
@@ -81,6 +85,8 @@ Buffer::Buffer(const Device& device, const BufferOptions& options) : Buffer() {
   device.setName(vk::ObjectType::eBuffer, raw_handle, options.debug_name);
 }
 
-uint64_t gpuAllocationCount() { return allocation_count; }
+uint64_t gpuAllocationCount() {
+  return allocation_count;
+}
 
 }  // namespace viewloom

@@ -22,9 +22,10 @@ struct BufferOptions {
   const char* debug_name = "";
 };
 
-// Invariant: empty, or a buffer bound to memory of its own (coherent and mapped unless kDeviceOnly).
-// The device must outlive it. Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
-// Thread-safety: const methods may be called from any thread; what mapped() holds is the caller's care.
+// Invariant: empty, or a buffer bound to memory of its own (coherent and mapped unless
+// kDeviceOnly). The device must outlive it. Throws vk::OutOfDeviceMemoryError when the device
+// cannot hold it. Thread-safety: const methods may be called from any thread; what mapped() holds
+// is the caller's care.
 class Buffer {
  public:
   Buffer();

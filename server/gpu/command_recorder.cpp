@@ -7,7 +7,8 @@ namespace viewloom {
 namespace {
 
 vk::raii::CommandBuffer allocateCommands(const Device& device, vk::CommandPool pool) {
-  vk::raii::CommandBuffers commands(device.handle(), {.commandPool = pool, .commandBufferCount = 1});
+  vk::raii::CommandBuffers commands(device.handle(),
+                                    {.commandPool = pool, .commandBufferCount = 1});
   return std::move(commands.front());
 }
 

@@ -35,7 +35,8 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
                                                 .module = *module,
                                                 .pName = "main",
                                                 .pSpecializationInfo = &specialization};
-  return {device.handle(), nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = layout}};
+  return {device.handle(), nullptr,
+          vk::ComputePipelineCreateInfo{.stage = stage, .layout = layout}};
 }
 
 }  // namespace

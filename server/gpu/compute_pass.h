@@ -28,10 +28,10 @@ class ComputePass {
               uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
   template <typename Push>
-    requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
-             (!std::is_convertible_v<Push, std::span<const std::byte>>)
-  void record(vk::CommandBuffer commands, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
-              uint32_t groups_z = 1) const {
+  requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
+      (!std::is_convertible_v<Push, std::span<const std::byte>>)void record(
+          vk::CommandBuffer commands, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
+          uint32_t groups_z = 1) const {
     record(commands, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 

@@ -28,7 +28,8 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, ValidationLog*
   });
   if (!installed) {
     throw std::runtime_error(
-        "Vulkan validation was asked for but its layer is missing: install vulkan-validationlayers");
+        "Vulkan validation was asked for but its layer is missing: install "
+        "vulkan-validationlayers");
   }
   const auto enabled = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
   const auto messenger = validation_log->messengerCreateInfo();
@@ -52,12 +53,11 @@ DeviceLimits limitsOf(const vk::raii::PhysicalDevice& device) {
                             vk::PhysicalDeviceVulkan13Properties>();
   const vk::PhysicalDeviceLimits& limits =
       chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
-  DeviceLimits result{
-      .allocation_bytes_max =
-          std::min(chain.get<vk::PhysicalDeviceVulkan11Properties>().maxMemoryAllocationSize,
-                   chain.get<vk::PhysicalDeviceVulkan13Properties>().maxBufferSize),
-      .push_bytes_max = limits.maxPushConstantsSize,
-      .group_size_max = limits.maxComputeWorkGroupInvocations};
+  DeviceLimits result{.allocation_bytes_max = std::min(
+                          chain.get<vk::PhysicalDeviceVulkan11Properties>().maxMemoryAllocationSize,
+                          chain.get<vk::PhysicalDeviceVulkan13Properties>().maxBufferSize),
+                      .push_bytes_max = limits.maxPushConstantsSize,
+                      .group_size_max = limits.maxComputeWorkGroupInvocations};
   std::copy_n(limits.maxComputeWorkGroupCount.begin(), 3, result.groups_max);
   const auto memory = device.getMemoryProperties();
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
@@ -127,8 +127,8 @@ uint32_t choose(const std::vector<DeviceInfo>& infos, const std::string& select)
   const auto name = [](std::string* out, const DeviceInfo& info) {
     absl::StrAppend(out, "\n  ", info.index, " ", info.name);
   };
-  throw std::runtime_error(absl::StrCat("no Vulkan device matches \"", select, "\"; there are:",
-                                        absl::StrJoin(infos, "", name)));
+  throw std::runtime_error(absl::StrCat("no Vulkan device matches \"", select,
+                                        "\"; there are:", absl::StrJoin(infos, "", name)));
 }
 
 uint32_t computeFamily(const vk::raii::PhysicalDevice& device) {
@@ -139,7 +139,8 @@ uint32_t computeFamily(const vk::raii::PhysicalDevice& device) {
   throw std::runtime_error("the Vulkan device has no compute queue; choose another with --device");
 }
 
-vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical_device, uint32_t queue_family) {
+vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical_device,
+                            uint32_t queue_family) {
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = queue_family, .queueCount = 1, .pQueuePriorities = &priority};

@@ -36,8 +36,8 @@ struct DeviceInfo {
   std::vector<std::string> missing_features;  // empty = viewloom runs on it
 };
 
-// Owns instance, device and queue. Throws std::runtime_error with the remedy when there is no usable
-// device. Thread-safety: all methods may be called from any thread.
+// Owns instance, device and queue. Throws std::runtime_error with the remedy when there is no
+// usable device. Thread-safety: all methods may be called from any thread.
 class Device {
  public:
   explicit Device(const DeviceOptions& options);

@@ -9,9 +9,9 @@
 
 namespace viewloom {
 
-using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
-                                        vk::PhysicalDeviceVulkan12Features,
-                                        vk::PhysicalDeviceVulkan13Features>;
+using FeatureChain =
+    vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+                       vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>;
 
 // Exactly the required features switched on, ready for vkCreateDevice.
 FeatureChain requiredFeatures();

@@ -34,9 +34,11 @@ void GpuTimer::recordEnd(vk::CommandBuffer commands) {
 
 std::span<const GpuPassTime> GpuTimer::results() {
   if (query_count_ == 0) return {};
-  const auto result = vk::Device(pool_.getDevice()).getQueryPoolResults(
-      *pool_, 0, query_count_, query_count_ * sizeof(uint64_t), ticks_.data(), sizeof(uint64_t),
-      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+  const auto result =
+      vk::Device(pool_.getDevice())
+          .getQueryPoolResults(*pool_, 0, query_count_, query_count_ * sizeof(uint64_t),
+                               ticks_.data(), sizeof(uint64_t),
+                               vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   if (result != vk::Result::eSuccess) return {};
   for (size_t i = 0; i < passes_.size(); ++i) {
     const uint64_t ticks = (ticks_[2 * i + 1] - ticks_[2 * i]) & tick_mask_;

@@ -24,7 +24,9 @@ struct ScalePush {
 
 constexpr uint32_t kGroupSize = 64;
 
-uint32_t groupCount(uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; }
+uint32_t groupCount(uint32_t count) {
+  return (count + kGroupSize - 1) / kGroupSize;
+}
 
 std::span<float> floats(const Buffer& buffer) {
   return {reinterpret_cast<float*>(buffer.mapped().data()), buffer.sizeBytes() / sizeof(float)};
@@ -70,9 +72,9 @@ TEST_F(ComputePassTest, reachesPast128MiB) {
   CommandRecorder recorder(device());
   const vk::CommandBuffer commands = recorder.begin();
   const uint32_t first = count - kGroupSize;  // the last group alone: its addresses are what counts
-  pass.record(commands,
-              ScalePush{source.address() + 4ull * first, target.address() + 4ull * first, kGroupSize},
-              1);
+  pass.record(
+      commands,
+      ScalePush{source.address() + 4ull * first, target.address() + 4ull * first, kGroupSize}, 1);
   recordComputeToHost(commands);
   ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
   EXPECT_EQ(floats(target).back(), 42.0f);
