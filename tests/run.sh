@@ -17,7 +17,7 @@ install_s=$SECONDS
 
 SECONDS=0
 cmake --preset release
-cmake --build build/release --parallel "$jobs"
+cmake --build build/release --parallel "$jobs" --target all all_verify_interface_header_sets
 build_s=$SECONDS
 
 SECONDS=0

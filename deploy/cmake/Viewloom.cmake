@@ -24,8 +24,24 @@ function(viewloom_add_library folder)
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_sources(${target} ${scope} FILE_SET HEADERS
-    BASE_DIRS ${PROJECT_SOURCE_DIR}/server ${PROJECT_SOURCE_DIR}/client FILES ${ARG_HEADERS})
+  # x.cpp includes x.h first and so proves that it stands alone; the headers without a source are
+  # proven by the target all_verify_interface_header_sets.
+  set(paired ${ARG_HEADERS})
+  set(lone ${ARG_HEADERS})
+  foreach(header IN LISTS ARG_HEADERS)
+    string(REGEX REPLACE "[.]h$" ".cpp" source ${header})
+    if(source IN_LIST ARG_SOURCES)
+      list(REMOVE_ITEM lone ${header})
+    else()
+      list(REMOVE_ITEM paired ${header})
+    endif()
+  endforeach()
+  set(roots ${PROJECT_SOURCE_DIR}/server ${PROJECT_SOURCE_DIR}/client)
+  target_sources(${target} ${scope}
+    FILE_SET HEADERS BASE_DIRS ${roots} FILES ${paired}
+    FILE_SET lone_headers TYPE HEADERS BASE_DIRS ${roots} FILES ${lone})
+  set_target_properties(${target} PROPERTIES
+    VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY lone_headers)
   target_link_libraries(${target} ${scope} ${ARG_LINK})
 endfunction()
 

@@ -92,6 +92,20 @@ def check_dead(tree):
             yield Finding(path, 0, "dead", "no CMakeLists.txt lists it and nothing includes it")
 
 
+def check_own_header(tree):
+    """x.cpp includes x.h before anything else: the proof that x.h stands alone."""
+    for path in tree.text_files(".cpp"):
+        own = path[:-len(".cpp")] + ".h"
+        if own not in tree:
+            continue
+        for number, line in enumerate(tree.lines(path), 1):
+            match = INCLUDE.match(line)
+            if match:
+                if resolve(tree, path, match.group(2)) != own:
+                    yield Finding(path, number, "own header", f"include {own} first")
+                break
+
+
 def check_globs(tree):
     for path in tree.text_files("CMakeLists.txt", ".cmake"):
         for number, line in enumerate(tree.lines(path), 1):
@@ -100,5 +114,6 @@ def check_globs(tree):
 
 
 def check(tree):
-    for rule in (check_links, check_artefacts, check_dead, check_globs):
+    for rule in (check_links, check_artefacts, check_dead, check_own_header,
+                 check_globs):
         yield from rule(tree)

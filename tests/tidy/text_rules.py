@@ -23,7 +23,7 @@ LONG_FILES = {}
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|X" r"XX)\b")
 # Words that tell how the project was made instead of what it is.
 MAKING = re.compile(r"\b((?<!\.)proto" r"types?\b(?!\s*\.)|issue #?\d+|issue tra" r"cker"
-                    r"|co-auth" r"ored-by|placeh" r"older)\b", re.IGNORECASE)
+                    r"|co-auth" r"ored-by)\b", re.IGNORECASE)
 MACHINE_PATH = re.compile(r"(?<![\w.:/-])/(work|home/\w+|Users|root)/")
 VAGUE = r"(Manager|Helper|Utils?|Utilities)"
 VAGUE_TYPE = re.compile(r"\b(?:class|struct|enum|concept|namespace|message|service)\s+"

@@ -114,7 +114,7 @@ class Text(unittest.TestCase):
             self.assertEqual(self.broken("a.cpp", LICENCE + f"// {word}: later\n"), ["unfinished"])
 
     def test_words_about_the_making_are_found(self):
-        for words in ("as issue " "12 asked", "the proto" "type did it", "a placeh" "older"):
+        for words in ("as issue " "12 asked", "the proto" "type did it", "Co-auth" "ored-by: me"):
             self.assertEqual(self.broken("README.md", words + "\n"), ["making"])
         self.assertEqual(self.broken("a.js", LICENCE + "Array.proto" "type.map\n"), [])
 
@@ -148,6 +148,14 @@ class Build(unittest.TestCase):
         files["tests/unit/a_test.cpp"] = ""
         self.assertEqual(rules_broken(build_rules.check, files),
                          [("tests/support/scene.h", "dead")])
+
+    def test_a_source_that_includes_its_own_header_late_is_found(self):
+        files = {"server/CMakeLists.txt": "add(base/a.cpp)", "server/base/a.h": "",
+                 "server/base/a.cpp": '#include "base/a.h"\n#include <vector>\n'}
+        self.assertEqual(rules_broken(build_rules.check, files), [])
+        files["server/base/a.cpp"] = '#include <vector>\n#include "base/a.h"\n'
+        self.assertEqual(rules_broken(build_rules.check, files),
+                         [("server/base/a.cpp", "own header")])
 
     def test_globs_are_found(self):
         self.assertEqual(rules_broken(build_rules.check, {"CMakeLists.txt": "file(GLOB x *.cpp)"}),
