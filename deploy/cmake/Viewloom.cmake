@@ -3,7 +3,8 @@
 
 add_library(viewloom_options INTERFACE)
 target_compile_options(viewloom_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wunused-result)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wunused-result
+  -Wno-missing-field-initializers)  # what a designated initialiser leaves out has its default
 
 set(VIEWLOOM_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
 if(VIEWLOOM_SANITIZE)

@@ -57,7 +57,8 @@ struct AtlasLimits {
 };
 
 // Expects a completed spec. Errors name the field as in proto Display.
-absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults);
+absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
+                                            const StreamDefaults& defaults);
 // Without a stream: checks sizes and counts before anything is allocated.
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
 

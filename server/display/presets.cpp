@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "display/presets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace viewloom {
+namespace {
+
+constexpr double kWide = 16.0 / 9.0;
+constexpr double kTall = 9.0 / 16.0;
+
+// Looking Glass Factory's published quilt settings (keyconcepts/quilts, device templates).
+constexpr auto kPresets = std::to_array<Preset>({
+    {"15_6_gen1", "Looking Glass 15.6\" (LKG-4K)", 5, 9, {4096, 4096}, kWide, 40, ""},
+    {"16_gen2", "Looking Glass 16\" gen2 (LKG-A)", 5, 9, {4096, 4096}, kWide, 40, ""},
+    {"16_gen3_l",
+     "Looking Glass 16\" gen3 landscape (LKG-J)",
+     7,
+     7,
+     {5999, 5999},
+     kWide,
+     50,
+     "published as 7x7 at 5999x5999; a real unit reported 8x6 at 7680x4320"},
+    {"16_gen3_p", "Looking Glass 16\" gen3 portrait (LKG-H)", 11, 6, {5995, 6000}, kTall, 50, ""},
+    {"27_l",
+     "Looking Glass 27\" landscape",
+     8,
+     6,
+     {7680, 4320},
+     kWide,
+     50,
+     "one source; the cone is not published and taken from the 16\" gen3"},
+    {"27_p",
+     "Looking Glass 27\" portrait",
+     12,
+     4,
+     {7680, 4320},
+     kTall,
+     50,
+     "one source; the cone is not published and taken from the 16\" gen3"},
+    {"32_gen2", "Looking Glass 32\" gen2 (LKG-B)", 5, 9, {8192, 8192}, kWide, 40, ""},
+    {"32_gen3_l", "Looking Glass 32\" gen3 landscape (LKG-L)", 7, 7, {8190, 8190}, kWide, 50, ""},
+    {"32_gen3_p", "Looking Glass 32\" gen3 portrait (LKG-K)", 11, 6, {8184, 8184}, kTall, 54, ""},
+    {"65",
+     "Looking Glass 65\" (LKG-D)",
+     8,
+     9,
+     {8192, 8192},
+     kWide,
+     40,
+     "published at 8192x8192; other software uses 8192x8190, which nine rows divide"},
+    {"8_9_gen1", "Looking Glass 8.9\" (LKG-2K)", 5, 9, {4096, 4096}, 1.6, 40, ""},
+    {"8k_gen1", "Looking Glass 8K (LKG-8K)", 5, 9, {8192, 8192}, kWide, 40, ""},
+    {"go_p", "Looking Glass Go (LKG-E)", 11, 6, {4092, 4092}, kTall, 54, ""},
+    {"kiosk",
+     "Looking Glass Kiosk (LKG-F)",
+     8,
+     6,
+     {3360, 3360},
+     0.75,
+     40,
+     "sources disagree: 8x6 at 3360x3360, aspect 0.75, or 11x6 at 4092x4092, aspect 0.5625"},
+    {"portrait", "Looking Glass Portrait (LKG-P)", 8, 6, {3360, 3360}, 0.75, 40, ""},
+});
+static_assert(std::ranges::is_sorted(kPresets, {}, &Preset::name));
+
+}  // namespace
+
+std::span<const Preset> allPresets() {
+  return kPresets;
+}
+
+const Preset* findPreset(std::string_view name) {
+  const auto found = std::ranges::lower_bound(kPresets, name, {}, &Preset::name);
+  return found != kPresets.end() && found->name == name ? &*found : nullptr;
+}
+
+}  // namespace viewloom
