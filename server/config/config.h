@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of viewloomd, typed, with their defaults. deploy/viewloomd.example.toml is the
+// manual; config/settings.cpp holds key, unit and range of each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace viewloom {
+
+struct GrpcConfig {
+  std::string address = "127.0.0.1:50051";
+};
+
+struct HttpConfig {
+  bool enabled = true;
+  std::string address = "127.0.0.1:8080";
+};
+
+struct LimitsConfig {
+  uint64_t frame_bytes_max = uint64_t{3} << 29;  // 1.5 GiB
+  uint32_t plane_side_px_max = 8192;
+  uint32_t streams_max = 16;
+  uint32_t displays_max = 64;
+  uint32_t subscribers_max = 1024;
+  uint32_t atlas_side_px_max = 16384;
+  uint32_t views_max = 2500;
+};
+
+struct PipelineConfig {
+  uint32_t decode_threads = 0;  // 0 = see threadCount
+  uint32_t encode_threads = 0;
+  uint32_t structure_slots = 3;
+  uint32_t trace_slots = 3;
+};
+
+struct LogConfig {
+  std::string level = "info";
+};
+
+struct Config {
+  std::string device;  // part of a device's name, or its index; empty = a real GPU, else lavapipe
+  bool validation = false;
+  GrpcConfig grpc{};
+  HttpConfig http{};
+  LimitsConfig limits{};
+  PipelineConfig pipeline{};
+  LogConfig log{};
+};
+
+// Threads meant by a setting of which 0 says "one per core, 8 at most".
+uint32_t threadCount(uint32_t setting);
+
+}  // namespace viewloom

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the settings: defaults, then a TOML file, then the environment, then flags.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "config/config.h"
+
+namespace viewloom {
+
+// A setting that is unknown or not accepted. what() is one line: the key, where it stands, what
+// came, what is accepted or meant.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ConfigSources {
+  std::optional<std::string> file;  // path of a TOML file
+  // Of these, VIEWLOOM_ and the key in capitals with '_' for '.': VIEWLOOM_GRPC_ADDRESS.
+  std::map<std::string, std::string> environment{};
+  std::map<std::string, std::string> flags{};  // key to text: "grpc.address" to "0.0.0.0:50051"
+};
+
+// Throws ConfigError.
+Config readConfig(const ConfigSources& sources);
+
+// The environment of this process.
+std::map<std::string, std::string> processEnvironment();
+
+}  // namespace viewloom

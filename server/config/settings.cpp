@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/settings.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "base/str_cat.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint64_t kMiB = uint64_t{1} << 20;
+constexpr uint64_t kGiB = uint64_t{1} << 30;
+constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info",
+                                                     "warn",  "error", "off"};
+
+std::optional<uint64_t> parseCount(std::string_view text) {
+  uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::optional<bool> parseBool(std::string_view text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  return std::nullopt;
+}
+
+// "127.0.0.1:8080", "[::1]:8080", "localhost:0".
+bool isHostPort(std::string_view text) {
+  const size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) return false;
+  const std::string_view host = text.substr(0, colon);
+  const bool bracketed = host.front() == '[' && host.back() == ']';
+  if (!bracketed && host.find(':') != std::string_view::npos) return false;
+  const std::optional<uint64_t> port = parseCount(text.substr(colon + 1));
+  return port && *port <= 65535;
+}
+
+bool fits(TextSetting::Form form, std::string_view text) {
+  switch (form) {
+    case TextSetting::Form::kAny:
+      return true;
+    case TextSetting::Form::kHostPort:
+      return isHostPort(text);
+    case TextSetting::Form::kGrpcAddress:
+      return isHostPort(text) || (text.starts_with("unix:") && text.size() > 5);
+    case TextSetting::Form::kLogLevel:
+      return std::find(kLogLevels.begin(), kLogLevels.end(), text) != kLogLevels.end();
+  }
+  return false;
+}
+
+std::optional<bool> boolOf(const SettingValue& value, bool from_text) {
+  if (from_text) return parseBool(std::get<std::string>(value));
+  const bool* typed = std::get_if<bool>(&value);
+  return typed ? std::optional(*typed) : std::nullopt;
+}
+
+std::optional<uint64_t> countOf(const SettingValue& value, bool from_text) {
+  if (from_text) return parseCount(std::get<std::string>(value));
+  const int64_t* typed = std::get_if<int64_t>(&value);
+  return typed && *typed >= 0 ? std::optional(static_cast<uint64_t>(*typed)) : std::nullopt;
+}
+
+struct Assign {
+  const SettingValue& value;
+  bool from_text;
+
+  bool operator()(const BoolSetting& setting) const {
+    const std::optional<bool> parsed = boolOf(value, from_text);
+    if (parsed) *setting.value = *parsed;
+    return parsed.has_value();
+  }
+  bool operator()(const CountSetting& setting) const {
+    const std::optional<uint64_t> parsed = countOf(value, from_text);
+    if (!parsed || *parsed < setting.min || *parsed > setting.max) return false;
+    std::visit(
+        [&](auto* count) {
+          *count = static_cast<std::remove_reference_t<decltype(*count)>>(*parsed);
+        },
+        setting.value);
+    return true;
+  }
+  bool operator()(const TextSetting& setting) const {
+    const std::string* text = std::get_if<std::string>(&value);
+    if (!text || !fits(setting.form, *text)) return false;
+    *setting.value = *text;
+    return true;
+  }
+};
+
+}  // namespace
+
+std::vector<Setting> settingsOf(Config& config) {
+  using Form = TextSetting::Form;
+  LimitsConfig& limits = config.limits;
+  PipelineConfig& pipeline = config.pipeline;
+  return {
+      {"device", "", TextSetting{&config.device}},
+      {"validation", "", BoolSetting{&config.validation}},
+      {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
+      {"http.enabled", "", BoolSetting{&config.http.enabled}},
+      {"http.address", "", TextSetting{&config.http.address, Form::kHostPort}},
+      {"limits.frame_bytes_max", "bytes", CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
+      {"limits.plane_side_px_max", "px", CountSetting{&limits.plane_side_px_max, 1, 8192}},
+      {"limits.streams_max", "", CountSetting{&limits.streams_max, 1, 1024}},
+      {"limits.displays_max", "", CountSetting{&limits.displays_max, 1, 4096}},
+      {"limits.subscribers_max", "", CountSetting{&limits.subscribers_max, 1, 65536}},
+      {"limits.atlas_side_px_max", "px", CountSetting{&limits.atlas_side_px_max, 1, 16384}},
+      {"limits.views_max", "", CountSetting{&limits.views_max, 1, 2500}},
+      {"pipeline.decode_threads", "", CountSetting{&pipeline.decode_threads, 0, 64}},
+      {"pipeline.encode_threads", "", CountSetting{&pipeline.encode_threads, 0, 64}},
+      {"pipeline.structure_slots", "", CountSetting{&pipeline.structure_slots, 2, 16}},
+      {"pipeline.trace_slots", "", CountSetting{&pipeline.trace_slots, 2, 16}},
+      {"log.level", "", TextSetting{&config.log.level, Form::kLogLevel}},
+  };
+}
+
+std::string acceptedText(const Setting& setting) {
+  if (std::holds_alternative<BoolSetting>(setting.target)) return "true or false";
+  if (const auto* count = std::get_if<CountSetting>(&setting.target)) {
+    return strCat(count->min, "..", count->max, setting.unit.empty() ? "" : " ", setting.unit);
+  }
+  switch (std::get<TextSetting>(setting.target).form) {
+    case TextSetting::Form::kAny:
+      return "any text";
+    case TextSetting::Form::kHostPort:
+      return "HOST:PORT";
+    case TextSetting::Form::kGrpcAddress:
+      return "HOST:PORT or unix:PATH";
+    case TextSetting::Form::kLogLevel:
+      return "trace, debug, info, warn, error or off";
+  }
+  return "";
+}
+
+std::string valueText(const Setting& setting) {
+  if (const auto* flag = std::get_if<BoolSetting>(&setting.target)) {
+    return *flag->value ? "true" : "false";
+  }
+  if (const auto* count = std::get_if<CountSetting>(&setting.target)) {
+    return std::visit([](const auto* value) { return strCat(*value); }, count->value);
+  }
+  return strCat("\"", *std::get<TextSetting>(setting.target).value, "\"");
+}
+
+bool assign(const Setting& setting, const SettingValue& value, bool from_text) {
+  return std::visit(Assign{value, from_text}, setting.target);
+}
+
+}  // namespace viewloom
