@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/frame_from_proto.h"
+
+#include <optional>
+#include <utility>
+
+#include "rpc/enum_from_proto.h"
+#include "rpc/geometry_from_proto.h"
+
+namespace viewloom {
+namespace {
+
+constexpr EnumRow<v1::PlaneKind, PlaneKind> kKinds[] = {{v1::PLANE_KIND_COLOR, PlaneKind::kColor},
+                                                        {v1::PLANE_KIND_DEPTH, PlaneKind::kDepth}};
+
+constexpr EnumRow<v1::PlaneEncoding, PlaneEncoding> kEncodings[] = {
+    {v1::PLANE_ENCODING_RGBA8, PlaneEncoding::kRgba8},
+    {v1::PLANE_ENCODING_RGB8, PlaneEncoding::kRgb8},
+    {v1::PLANE_ENCODING_RGBA16F, PlaneEncoding::kRgba16f},
+    {v1::PLANE_ENCODING_JPEG, PlaneEncoding::kJpeg},
+    {v1::PLANE_ENCODING_DEPTH_F32, PlaneEncoding::kDepthF32},
+    {v1::PLANE_ENCODING_DEPTH_F16, PlaneEncoding::kDepthF16},
+    {v1::PLANE_ENCODING_DEPTH_U16, PlaneEncoding::kDepthU16}};
+
+constexpr EnumRow<v1::PlaneCompression, PlaneCompression> kCompressions[] = {
+    {v1::PLANE_COMPRESSION_UNSPECIFIED, PlaneCompression::kNone},
+    {v1::PLANE_COMPRESSION_NONE, PlaneCompression::kNone},
+    {v1::PLANE_COMPRESSION_ZSTD, PlaneCompression::kZstd}};
+
+constexpr EnumRow<v1::ColorTransfer, ColorTransfer> kTransfers[] = {
+    {v1::COLOR_TRANSFER_SRGB, ColorTransfer::kSrgb},
+    {v1::COLOR_TRANSFER_LINEAR, ColorTransfer::kLinear}};
+
+constexpr EnumRow<v1::ColorPrimaries, ColorPrimaries> kPrimaries[] = {
+    {v1::COLOR_PRIMARIES_UNSPECIFIED, ColorPrimaries::kBt709},
+    {v1::COLOR_PRIMARIES_BT709, ColorPrimaries::kBt709},
+    {v1::COLOR_PRIMARIES_DISPLAY_P3, ColorPrimaries::kDisplayP3},
+    {v1::COLOR_PRIMARIES_BT2020, ColorPrimaries::kBt2020}};
+
+constexpr EnumRow<v1::AlphaMode, AlphaMode> kAlphas[] = {
+    {v1::ALPHA_MODE_UNSPECIFIED, AlphaMode::kOpaque},
+    {v1::ALPHA_MODE_OPAQUE, AlphaMode::kOpaque},
+    {v1::ALPHA_MODE_PREMULTIPLIED, AlphaMode::kPremultiplied},
+    {v1::ALPHA_MODE_STRAIGHT, AlphaMode::kStraight}};
+
+constexpr EnumRow<v1::DepthMeaning, DepthMeaning> kMeanings[] = {
+    {v1::DEPTH_MEANING_PLANAR, DepthMeaning::kPlanar},
+    {v1::DEPTH_MEANING_RAY_DISTANCE, DepthMeaning::kRayDistance},
+    {v1::DEPTH_MEANING_WINDOW, DepthMeaning::kWindow},
+    {v1::DEPTH_MEANING_DISPARITY, DepthMeaning::kDisparity}};
+
+absl::Status colorFromProto(const v1::Plane& proto, PlaneFormat& plane) {
+  if (proto.transfer() == v1::COLOR_TRANSFER_UNSPECIFIED) {
+    const bool linear = plane.encoding == PlaneEncoding::kRgba16f;
+    plane.transfer = linear ? ColorTransfer::kLinear : ColorTransfer::kSrgb;
+  } else {
+    const auto transfer = enumFromProto(proto.transfer(), "transfer", kTransfers);
+    VIEWLOOM_RETURN_IF_ERROR(transfer.status());
+    plane.transfer = *transfer;
+  }
+  const auto primaries = enumFromProto(proto.primaries(), "primaries", kPrimaries);
+  VIEWLOOM_RETURN_IF_ERROR(primaries.status());
+  const auto alpha = enumFromProto(proto.alpha(), "alpha", kAlphas);
+  VIEWLOOM_RETURN_IF_ERROR(alpha.status());
+  plane.primaries = *primaries;
+  plane.alpha = *alpha;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<PlaneFormat> planeFromProto(const v1::Plane& proto) {
+  const auto kind = enumFromProto(proto.kind(), "kind", kKinds);
+  VIEWLOOM_RETURN_IF_ERROR(kind.status());
+  const auto encoding = enumFromProto(proto.encoding(), "encoding", kEncodings);
+  VIEWLOOM_RETURN_IF_ERROR(encoding.status());
+  const auto compression = enumFromProto(proto.compression(), "compression", kCompressions);
+  VIEWLOOM_RETURN_IF_ERROR(compression.status());
+  PlaneFormat plane;
+  plane.kind = *kind;
+  plane.encoding = *encoding;
+  plane.size_px = sizeFromProto(proto.size());
+  plane.stride_bytes = proto.stride_bytes();
+  plane.compression = *compression;
+  plane.wire_bytes = proto.bytes_count();
+  if (plane.kind == PlaneKind::kColor) {
+    VIEWLOOM_RETURN_IF_ERROR(colorFromProto(proto, plane));
+  } else {
+    const auto depth = depthFormatFromProto(proto.depth());
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(depth.status(), "depth"));
+    plane.depth = *depth;
+  }
+  return plane;
+}
+
+absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
+  std::optional<PlaneFormat> color;
+  std::optional<PlaneFormat> depth;
+  bool depth_first = false;
+  for (int i = 0; i < proto.planes_size(); ++i) {
+    const std::string path = absl::StrCat("planes[", i, "]");
+    const auto plane = planeFromProto(proto.planes(i));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(plane.status(), path));
+    auto& place = plane->kind == PlaneKind::kColor ? color : depth;
+    if (place.has_value()) {
+      return invalidField(path + ".kind", "got a second plane of this kind; accepted: one of each");
+    }
+    place = *plane;
+    if (!color.has_value()) depth_first = true;
+  }
+  if (!color.has_value() || !depth.has_value()) {
+    return invalidField("planes", absl::StrCat("got ", proto.planes_size(),
+                                               "; accepted: one COLOR and one DEPTH plane"));
+  }
+  return LayerFormat{.color = *color, .depth = *depth, .depth_first = depth_first};
+}
+
+absl::Status cameraFromProto(const v1::Camera& proto, SizePx size_px, Camera& camera) {
+  const auto pose = poseFromProto(proto.pose(), "pose");
+  VIEWLOOM_RETURN_IF_ERROR(pose.status());
+  const auto projection = projectionFromProto(proto);
+  VIEWLOOM_RETURN_IF_ERROR(projection.status());
+  camera.pose = *pose;
+  const auto* fov = std::get_if<Fov>(&*projection);
+  if (fov == nullptr) {
+    camera.intrinsics = std::get<Intrinsics>(*projection);
+  } else if (size_px.area() != 0) {
+    camera.intrinsics = intrinsicsFromFov(*fov, size_px);
+  }  // An empty plane has no pixels to measure angles in; validateFrame refuses its size.
+  return absl::OkStatus();
+}
+
+absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const FrameLimits& limits) {
+  if (proto.cube_map()) {
+    return fieldError(absl::StatusCode::kUnimplemented, "cube_map", "is not served yet");
+  }
+  const auto layer_count = static_cast<uint32_t>(proto.layers_size());
+  if (layer_count == 0 || layer_count > limits.layer_count_max) {
+    return invalidField("layers", absl::StrCat("has ", layer_count, " entries, must have 1..",
+                                               limits.layer_count_max));
+  }
+  SourceFormat source;
+  source.connection_tolerance = proto.connection_tolerance();
+  for (const v1::Layer& layer_proto : proto.layers()) {
+    const auto layer = layerFromProto(layer_proto);
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(layer.status(), absl::StrCat("layers[", source.layers.size(), "]")));
+    source.layers.push_back(*layer);
+  }
+  const SizePx size_px = source.layers.front().depth.size_px;
+  VIEWLOOM_RETURN_IF_ERROR(
+      withFieldPrefix(cameraFromProto(proto.camera(), size_px, source.camera), "camera"));
+  return source;
+}
+
+absl::Status validateSourceCount(uint32_t source_count, const FrameLimits& limits) {
+  if (source_count == 0 || source_count > limits.source_count_max) {
+    return invalidField("sources", absl::StrCat("has ", source_count, " entries, must have 1"));
+  }
+  if (source_count == 1) return absl::OkStatus();
+  return fieldError(absl::StatusCode::kUnimplemented, "sources",
+                    absl::StrCat("has ", source_count, " entries, only one is served yet"));
+}
+
+absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
+                                            const FrameLimits& limits) {
+  VIEWLOOM_RETURN_IF_ERROR(
+      validateSourceCount(static_cast<uint32_t>(proto.sources_size()), limits));
+  auto source = sourceFromProto(proto.sources(0), limits);
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(source.status(), "sources[0]"));
+  FrameFormat format;
+  format.number = proto.number();
+  format.capture_time_ns = proto.capture_time_ns();
+  format.sources.push_back(*std::move(source));
+  format.exposure_ev = proto.exposure_ev();
+  return format;
+}
+
+}  // namespace
+
+absl::StatusOr<DepthFormat> depthFormatFromProto(const v1::DepthFormat& proto) {
+  const auto meaning = enumFromProto(proto.meaning(), "meaning", kMeanings);
+  VIEWLOOM_RETURN_IF_ERROR(meaning.status());
+  DepthFormat depth{.meaning = *meaning,
+                    .scale = proto.scale() == 0 ? 1 : proto.scale(),
+                    .offset = proto.offset(),
+                    .min_depth = proto.min_depth(),
+                    .max_depth = proto.max_depth() == 0 ? 1 : proto.max_depth(),
+                    .near_z_m = proto.near_z_m(),
+                    .far_z_m = proto.far_z_m(),
+                    .invalid_value = std::nullopt,
+                    .invalid_is_far = proto.invalid_is_far()};
+  if (proto.has_invalid_value()) depth.invalid_value = proto.invalid_value();
+  return depth;
+}
+
+absl::StatusOr<FrameFormat> frameFormatFromProto(const v1::FrameHeader& proto,
+                                                 const FrameLimits& limits) {
+  auto format = formatFromProto(proto, limits);
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(format.status(), "header"));
+  VIEWLOOM_RETURN_IF_ERROR(validateFrame(*format, limits));
+  return format;
+}
+
+}  // namespace viewloom
