@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace viewloom::oracle {
+namespace {
+
+// Units in the last place of binary32 that a chain of clip, step and solve may lose.
+constexpr double kRoundingUlps = 16;
+constexpr double kUlp = 1.0 / (1 << 23);
+constexpr size_t kWorstCount = 6;
+
+// Eight directions stand for a circle: at this multiple of its radius their octagon encloses it,
+// 1 / cos(pi / 8).
+constexpr double kOctagonRadius = 1.0824;
+
+bool isHit(RayClass ray_class) {
+  return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
+}
+
+bool namesLayer(const OracleHit& hit, int layer) {
+  return hit.facet.layer == layer || hit.linked_facet.layer == layer;
+}
+
+// Follows links from `from` to the column (column, row), first along one axis, then along the
+// other.
+FacetAt followLinks(const OracleSource& source, FacetAt from, int column, int row, bool x_first) {
+  while (from.layer >= 0 && (from.column != column || from.row != row)) {
+    FacetAt next{-1, from.column, from.row};
+    const bool along_x = x_first ? from.column != column : from.row == row;
+    (along_x ? next.column : next.row) +=
+        along_x ? (column > from.column ? 1 : -1) : (row > from.row ? 1 : -1);
+    FacetAt found;
+    for (int layer = 0; layer < source.layerCount() && found.layer < 0; ++layer) {
+      next.layer = layer;
+      if (source.linked(from, next)) found = next;
+    }
+    from = found;
+  }
+  return from;
+}
+
+std::string describe(const OracleAnswer& answer) {
+  std::ostringstream text;
+  text << nameOf(answer.ray_class);
+  if (!answer.hits.empty()) {
+    const OracleHit& hit = answer.hits.front();
+    text << " layer " << hit.facet.layer << " at (" << hit.x_px << ", " << hit.y_px << ", "
+         << hit.inv_z << ")";
+  }
+  return text.str();
+}
+
+std::string describe(const TestedAnswer& answer) {
+  std::ostringstream text;
+  text << nameOf(answer.ray_class);
+  if (isHit(answer.ray_class)) {
+    text << " layer " << answer.layer << " at (" << answer.x_px << ", " << answer.y_px << ", "
+         << answer.inv_z << ")";
+  }
+  return text.str();
+}
+
+std::string describe(const Ray& ray) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "ray from (" << ray.origin_m.x << ", " << ray.origin_m.y << ", " << ray.origin_m.z
+       << ") along (" << ray.direction.x << ", " << ray.direction.y << ", " << ray.direction.z
+       << ")";
+  return text.str();
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool holds(double value, double slack) const {
+    return value >= low - slack && value <= high + slack;
+  }
+};
+
+}  // namespace
+
+bool onOneSurface(const OracleSource& source, const FacetAt& a, const FacetAt& b) {
+  return followLinks(source, a, b.column, b.row, true) == b ||
+         followLinks(source, a, b.column, b.row, false) == b;
+}
+
+JudgeTolerance toleranceOf(const OracleSource& source, double output_px) {
+  double largest = 0;
+  for (const float inv_z : source.planes().inv_z) largest = std::max(largest, double(inv_z));
+  const double extent_px = std::max(source.width(), source.height());
+  return {output_px, kRoundingUlps * kUlp * extent_px, kRoundingUlps * kUlp * largest};
+}
+
+void Verdict::add(const Verdict& other) {
+  rays += other.rays;
+  exact += other.exact;
+  within += other.within;
+  excused += other.excused;
+  differing += other.differing;
+  for (const std::string& line : other.worst) {
+    if (worst.size() < kWorstCount) worst.push_back(line);
+  }
+}
+
+std::string Verdict::summary() const {
+  std::ostringstream text;
+  text << rays << " rays: " << exact << " exact, " << within << " within tolerance, " << excused
+       << " excused (" << 100 * excusedShare() << " %), " << differing << " differing";
+  for (const std::string& line : worst) text << "\n  " << line;
+  return text.str();
+}
+
+void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where) {
+  ++verdict_.rays;
+  const OracleAnswer own = traceOracle(source_, ray.ray);
+  if (matches(own, tested)) {
+    ++verdict_.exact;
+    return;
+  }
+  const std::vector<OracleAnswer> answers = answersOfMovedRays(ray);
+  if (!agreeing(answers)) {
+    ++verdict_.excused;
+    return;
+  }
+  if (amongThem(answers, tested)) {
+    ++verdict_.within;
+    return;
+  }
+  ++verdict_.differing;
+  if (verdict_.worst.size() < kWorstCount) {
+    verdict_.worst.push_back(where + ": oracle " + describe(own) + ", tested " + describe(tested) +
+                             ", " + describe(ray.ray));
+  }
+}
+
+bool Judge::matches(const OracleAnswer& oracle, const TestedAnswer& tested) const {
+  if (oracle.ray_class != tested.ray_class) return false;
+  if (!isHit(oracle.ray_class)) return true;
+  const OracleHit& hit = oracle.hits.front();
+  return namesLayer(hit, tested.layer) &&
+         std::abs(hit.x_px - tested.x_px) <= tolerance_.source_px &&
+         std::abs(hit.y_px - tested.y_px) <= tolerance_.source_px &&
+         std::abs(hit.inv_z - tested.inv_z) <= tolerance_.inv_z;
+}
+
+// The ray itself, its picture moved all around by the tolerance, and itself moved by what rounding
+// may do to a position. A surface off by dw in 1/Z moves the picture along the epipolar line, so
+// moved pictures also stand for surfaces that are off by as much as the tolerance allows.
+std::vector<OracleAnswer> Judge::answersOfMovedRays(const ViewRay& ray) const {
+  const double straight = tolerance_.output_px * kOctagonRadius;
+  const double slanted = straight * std::sqrt(0.5);
+  const glm::dvec2 moves_px[] = {{0, 0},
+                                 {straight, 0},
+                                 {-straight, 0},
+                                 {0, straight},
+                                 {0, -straight},
+                                 {slanted, slanted},
+                                 {slanted, -slanted},
+                                 {-slanted, slanted},
+                                 {-slanted, -slanted}};
+  std::vector<OracleAnswer> answers;
+  for (const glm::dvec2& move_px : moves_px) {
+    answers.push_back(traceOracle(source_, ray.movedBy(move_px.x, move_px.y)));
+  }
+  const ProjectedRay own = projectRay(source_.pinhole(), ray.ray);
+  for (const double sign : {-1.0, 1.0}) {
+    answers.push_back(traceOracle(source_, movedBy(own, sign * tolerance_.source_px, 0, 0)));
+    answers.push_back(traceOracle(source_, movedBy(own, 0, sign * tolerance_.source_px, 0)));
+    answers.push_back(traceOracle(source_, movedBy(own, 0, 0, sign * tolerance_.inv_z)));
+  }
+  return answers;
+}
+
+bool Judge::agreeing(const std::vector<OracleAnswer>& answers) const {
+  const OracleAnswer& own = answers.front();
+  return std::all_of(answers.begin(), answers.end(), [&](const OracleAnswer& moved) {
+    if (moved.ray_class != own.ray_class) return false;
+    return own.hits.empty() ||
+           onOneSurface(source_, own.hits.front().facet, moved.hits.front().facet);
+  });
+}
+
+// Whether the tested answer lies among those of the moved rays, which agree with each other.
+bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const TestedAnswer& tested) const {
+  if (tested.ray_class != answers.front().ray_class) return false;
+  if (!isHit(tested.ray_class)) return true;
+  Range x_px, y_px, inv_z;
+  bool layer_named = false;
+  for (const OracleAnswer& answer : answers) {
+    const OracleHit& hit = answer.hits.front();
+    x_px.include(hit.x_px);
+    y_px.include(hit.y_px);
+    inv_z.include(hit.inv_z);
+    layer_named = layer_named || namesLayer(hit, tested.layer);
+  }
+  return layer_named && x_px.holds(tested.x_px, tolerance_.source_px) &&
+         y_px.holds(tested.y_px, tolerance_.source_px) &&
+         inv_z.holds(tested.inv_z, tolerance_.inv_z);
+}
+
+}  // namespace viewloom::oracle

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "oracle/analytic_scenes.h"
+
+namespace viewloom::oracle {
+namespace {
+
+constexpr double kTolerance_px = 0.25;
+
+TestedAnswer testedFrom(const OracleAnswer& answer) {
+  if (answer.hits.empty()) return {.ray_class = answer.ray_class};
+  const OracleHit& hit = answer.hits.front();
+  return {answer.ray_class, hit.facet.layer, hit.x_px, hit.y_px, hit.inv_z};
+}
+
+Scene layeredScene() {
+  return stepScene({0, 0, 1.0}, {1.0 / 4096, 0, 0.25}, 32, true, 64, 16);
+}
+
+OutputView besideView(const Scene& scene, double x_m) {
+  OutputView view = ownView(scene);
+  view.position_m.x = x_m;
+  return view;
+}
+
+// Judges every pixel of a view; `distort` makes the tested answer from the oracle's.
+template <typename Distort>
+Verdict judgeView(const Scene& scene, const OutputView& view, Distort distort) {
+  const OracleSource source(scene.planes, scene.pinhole, scene.kappa);
+  Judge judge(source, toleranceOf(source, kTolerance_px));
+  for (int row = 0; row < view.height; ++row) {
+    for (int column = 0; column < view.width; ++column) {
+      const ViewRay ray = rayOf(view, column + 0.5, row + 0.5);
+      judge.consider(ray, distort(source, ray), "pixel");
+    }
+  }
+  return judge.verdict();
+}
+
+TestedAnswer ofMovedRay(const OracleSource& source, const ViewRay& ray, double x_px) {
+  return testedFrom(traceOracle(source, ray.movedBy(x_px, 0)));
+}
+
+TEST(Judge, acceptsTheOracleItself) {
+  const Scene scene = layeredScene();
+  const Verdict verdict =
+      judgeView(scene, besideView(scene, -0.1), [](const auto& source, const ViewRay& ray) {
+        return testedFrom(traceOracle(source, ray.ray));
+      });
+  EXPECT_EQ(verdict.exact, verdict.rays);
+}
+
+TEST(Judge, acceptsAPictureMovedWithinTheTolerance) {
+  const Scene scene = layeredScene();
+  const Verdict verdict = judgeView(
+      scene, besideView(scene, -0.1),
+      [](const auto& source, const ViewRay& ray) { return ofMovedRay(source, ray, 0.2); });
+  EXPECT_EQ(verdict.differing, 0u) << verdict.summary();
+  EXPECT_LT(verdict.excusedShare(), 0.05) << verdict.summary();
+}
+
+TEST(Judge, rejectsAPictureMovedByTwiceTheTolerance) {
+  const Scene scene = layeredScene();
+  const Verdict verdict = judgeView(
+      scene, besideView(scene, -0.1),
+      [](const auto& source, const ViewRay& ray) { return ofMovedRay(source, ray, 0.5); });
+  EXPECT_GT(verdict.differing, verdict.rays / 2) << verdict.summary();
+}
+
+TEST(Judge, rejectsAForgottenLayer) {
+  const Scene scene = layeredScene();
+  Scene forgotten = scene;
+  forgotten.planes.inv_z.resize(forgotten.planes.inv_z.size() / 2);
+  forgotten.planes.layer_count = 1;
+  const OracleSource one_layer(forgotten.planes, scene.pinhole, scene.kappa);
+  const Verdict verdict = judgeView(
+      scene, besideView(scene, -0.1),
+      [&](const auto&, const ViewRay& ray) { return testedFrom(traceOracle(one_layer, ray.ray)); });
+  EXPECT_GT(verdict.differing, 0u) << verdict.summary();
+}
+
+TEST(Judge, rejectsAClassThatNoMovedRayHas) {
+  const Scene scene = layeredScene();
+  const Verdict verdict =
+      judgeView(scene, besideView(scene, -0.1), [](const auto& source, const ViewRay& ray) {
+        TestedAnswer tested = testedFrom(traceOracle(source, ray.ray));
+        if (tested.ray_class == RayClass::kHitAssumed) tested.ray_class = RayClass::kHit;
+        return tested;
+      });
+  EXPECT_GT(verdict.differing, 0u) << verdict.summary();
+}
+
+TEST(Judge, toleratesRoundingOnEveryKindOfScene) {
+  Random random(3);
+  Verdict sum;
+  for (uint64_t seed = 0; seed < 28; ++seed) {
+    Scene scene = randomScene(seed);
+    scene.planes = canonicalPlanes(scene.planes, 1e-5f);
+    const OutputView view = randomView(random, int(seed) % kViewKindCount, 12, 12);
+    sum.add(judgeView(scene, view, [&](const auto& source, const ViewRay& ray) {
+      const JudgeTolerance rounding = toleranceOf(source, 0);
+      const auto within = [&](double bound) { return random.uniform(-bound, bound); };
+      return testedFrom(traceOracle(
+          source, movedBy(projectRay(source.pinhole(), ray.ray), within(rounding.source_px),
+                          within(rounding.source_px), within(rounding.inv_z))));
+    }));
+  }
+  EXPECT_EQ(sum.differing, 0u) << sum.summary();
+}
+
+}  // namespace
+}  // namespace viewloom::oracle

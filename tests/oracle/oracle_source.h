@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// One source as the surface model of shaders/README.md sees it: facets and links, by definition
+// alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace viewloom::oracle {
+
+// The pinhole of a source, px of its depth planes.
+struct Pinhole {
+  glm::dvec2 focal_px{1.0};
+  glm::dvec2 principal_px{0.0};
+};
+
+constexpr float kNoSurface = -1.0f;
+
+// Depth planes of one source. inv_z: float[layer][row][column], 1/m, kNoSurface where there is
+// none.
+struct InvZPlanes {
+  int width = 0;
+  int height = 0;
+  int layer_count = 0;
+  std::vector<float> inv_z;
+
+  size_t index(int layer, int column, int row) const {
+    return (size_t(layer) * size_t(height) + size_t(row)) * size_t(width) + size_t(column);
+  }
+  float& at(int layer, int column, int row) { return inv_z[index(layer, column, row)]; }
+  float at(int layer, int column, int row) const { return inv_z[index(layer, column, row)]; }
+};
+
+// Empty planes of this size.
+InvZPlanes makePlanes(int width, int height, int layer_count);
+
+// Sorts every column, drops surfaces within depth_step (1/m) of the last one kept, closes gaps.
+InvZPlanes canonicalPlanes(const InvZPlanes& planes, float depth_step);
+
+// kappa(a, b) = max(absolute, relative * max(a, b)), 1/m.
+struct ConnectionTolerance {
+  float absolute = 0;
+  float relative = 0;
+};
+
+// Names a facet: a layer of a column. layer -1 names none.
+struct FacetAt {
+  int layer = -1;
+  int column = -1;
+  int row = -1;
+
+  bool operator==(const FacetAt&) const = default;
+};
+
+// The plane of one sample over its footprint; inv_z 1/m, slopes 1/m per px.
+struct Facet {
+  float inv_z = kNoSurface;
+  float slope_x = 0;
+  float slope_y = 0;
+};
+
+// Immutable. What the model decides (slopes, links) is decided in binary32, as specified;
+// everything measured afterwards is double. Thread-safety: all methods may be called from any
+// thread.
+class OracleSource {
+ public:
+  OracleSource(InvZPlanes canonical_planes, Pinhole pinhole, ConnectionTolerance kappa);
+
+  int width() const { return planes_.width; }
+  int height() const { return planes_.height; }
+  int layerCount() const { return planes_.layer_count; }
+  const Pinhole& pinhole() const { return pinhole_; }
+  const InvZPlanes& planes() const { return planes_; }
+
+  bool exists(const FacetAt& at) const { return facet(at).inv_z >= 0; }
+  const Facet& facet(const FacetAt& at) const {
+    return facets_[planes_.index(at.layer, at.column, at.row)];
+  }
+  // inv_z of the facet's plane at an image position in px, without the bound at 0.
+  double planeInvZ(const FacetAt& at, double x_px, double y_px) const;
+
+  // Whether two facets in columns that share an edge are one connected surface there.
+  bool linked(const FacetAt& a, const FacetAt& b) const;
+
+ private:
+  float slope(const FacetAt& at, int step_x, int step_y) const;
+  float differenceTo(const FacetAt& from, int step_x, int step_y, FacetAt& neighbour) const;
+  float oneSidedSlope(const FacetAt& at, int step_x, int step_y) const;
+  float invZAtEdge(const FacetAt& at, const FacetAt& towards) const;
+  bool mayBeLinked(const FacetAt& a, const FacetAt& b) const;
+  FacetAt nearestUnlinked(const FacetAt& from, const FacetAt& towards) const;
+
+  InvZPlanes planes_;
+  Pinhole pinhole_;
+  ConnectionTolerance kappa_;
+  std::vector<Facet> facets_;
+};
+
+// Rounds to 10 significant bits, half away from zero; what is below 2^-39 becomes 0.
+float roundSlope(float slope);
+
+}  // namespace viewloom::oracle

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random sources with everything that is hard on a structure: seeded, equal on every machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "oracle/oracle_source.h"
+
+namespace viewloom::oracle {
+
+// Equal numbers from equal seeds everywhere (the standard distributions promise that only per
+// library).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  uint64_t bits();
+  double uniform(double low, double high);  // [low, high)
+  int integer(int low, int high);           // [low, high]
+  bool chance(double probability) { return uniform(0, 1) < probability; }
+  double normal();
+
+ private:
+  uint64_t state_;
+};
+
+struct Scene {
+  std::string name;   // what it was made of, for messages
+  InvZPlanes planes;  // as a publisher would send them: may be unsorted
+  Pinhole pinhole;
+  ConnectionTolerance kappa;
+};
+
+// Every size and kind comes up within a few dozen seeds.
+Scene randomScene(uint64_t seed);
+
+// A scene of given size and layer count.
+Scene randomScene(uint64_t seed, int width, int height, int layer_count);
+
+// A smooth, slightly curved surface that fills the image.
+Scene smoothScene(int width, int height, int layer_count);
+
+}  // namespace viewloom::oracle
