@@ -12,8 +12,9 @@ namespace viewloom {
 class JpegEncoder;
 class LosslessEncoder;
 
-// Keeps compressor state from band to band, so that packing touches the heap only while it warms up.
-// Thread-safety: none; one thread at a time. Which instance packs which band does not change a byte.
+// Keeps compressor state from band to band, so that packing touches the heap only while it warms
+// up. Thread-safety: none; one thread at a time. Which instance packs which band does not change a
+// byte.
 class BandEncoder {
  public:
   // The bands' bytes come from `pool`, which must outlive the encoder (not the bands).

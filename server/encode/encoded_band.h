@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaves the encoders: bands, and the atlas they make. Immutable and shared by all subscribers.
+// What leaves the encoders: bands, and the atlas they make. Immutable, shared by all who watch.
 #pragma once
 
 #include <cstdint>

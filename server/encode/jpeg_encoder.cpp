@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode/jpeg_encoder.h"
+
+#include <bit>
+
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+// Second bytes of JPEG markers (ITU-T T.81, table B.1).
+constexpr uint8_t kSof0 = 0xC0;
+constexpr uint8_t kRst7 = 0xD7;
+constexpr uint8_t kEoi = 0xD9;
+constexpr uint8_t kSos = 0xDA;
+constexpr size_t kMarker_bytes = 2;
+
+constexpr size_t kFirstStream_bytes = size_t{64} * 1024;
+
+// What jpeg_write_* calls when something is wrong: every parameter was checked, so it is our bug.
+[[noreturn]] void failOnJpegError(j_common_ptr compressor) {
+  compressor->err->output_message(compressor);
+  failCheck(__FILE__, __LINE__, "libjpeg accepts the band");
+}
+
+void setParameters(jpeg_compress_struct& compressor, const BandPixels& pixels,
+                   const EncodingSpec& encoding) {
+  compressor.image_width = pixels.width_px;
+  compressor.image_height = pixels.row_count;
+  compressor.input_components = 4;
+  compressor.in_color_space = JCS_EXT_RGBX;
+  jpeg_set_defaults(&compressor);
+  jpeg_set_quality(&compressor, static_cast<int>(encoding.jpeg_quality), TRUE);
+  const int luma_sampling = encoding.chroma == Chroma::k420 ? 2 : 1;
+  compressor.comp_info[0].h_samp_factor = luma_sampling;
+  compressor.comp_info[0].v_samp_factor = luma_sampling;
+  compressor.restart_in_rows = 1;
+  compressor.dct_method = JDCT_ISLOW;
+}
+
+// Where a JPEG's header ends, and where in it the frame header holds the height.
+struct JpegHeader {
+  size_t size_bytes;
+  size_t height_offset;
+};
+
+JpegHeader readHeader(const std::vector<uint8_t>& stream) {
+  JpegHeader header{};
+  for (size_t at = kMarker_bytes; header.size_bytes == 0;) {  // behind SOI: marker, length, ...
+    VIEWLOOM_CHECK(at + 4 < stream.size());
+    const uint8_t marker = stream[at + 1];
+    const size_t segment_bytes = size_t{stream[at + 2]} << 8 | stream[at + 3];
+    if (marker == kSof0) header.height_offset = at + 5;  // marker, length, precision
+    at += kMarker_bytes + segment_bytes;
+    if (marker == kSos) header.size_bytes = at;
+  }
+  return header;
+}
+
+}  // namespace
+
+JpegEncoder::JpegEncoder(BytePool& pool) : pool_(pool), stream_(kFirstStream_bytes) {
+  compressor_.err = jpeg_std_error(&errors_);
+  errors_.error_exit = failOnJpegError;
+  jpeg_create_compress(&compressor_);
+  memory_ = std::make_unique<JpegMemory>(compressor_);
+  destination_.stream = &stream_;
+  destination_.init_destination = [](j_compress_ptr compressor) {
+    auto& to = *static_cast<Destination*>(compressor->dest);
+    to.next_output_byte = to.stream->data();
+    to.free_in_buffer = to.stream->size();
+  };
+  destination_.empty_output_buffer = [](j_compress_ptr compressor) -> boolean {
+    growStream(*static_cast<Destination*>(compressor->dest));
+    return TRUE;
+  };
+  destination_.term_destination = [](j_compress_ptr) {};
+  compressor_.dest = &destination_;
+}
+
+JpegEncoder::~JpegEncoder() {
+  jpeg_destroy_compress(&compressor_);
+}
+
+// libjpeg calls this when every byte is used, whatever free_in_buffer says.
+void JpegEncoder::growStream(Destination& destination) {
+  std::vector<uint8_t>& stream = *destination.stream;
+  const size_t used_bytes = stream.size();
+  stream.resize(2 * used_bytes);
+  destination.next_output_byte = stream.data() + used_bytes;
+  destination.free_in_buffer = stream.size() - used_bytes;
+}
+
+size_t JpegEncoder::compress(const BandPixels& pixels, const EncodingSpec& encoding) {
+  setParameters(compressor_, pixels, encoding);
+  jpeg_start_compress(&compressor_, TRUE);
+  while (compressor_.next_scanline < compressor_.image_height) {
+    // libjpeg reads through this pointer only; its type predates const.
+    JSAMPROW row =
+        const_cast<JSAMPROW>(pixels.bytes.data()) + compressor_.next_scanline * pixels.stride_bytes;
+    jpeg_write_scanlines(&compressor_, &row, 1);
+  }
+  jpeg_finish_compress(&compressor_);
+  return stream_.size() - destination_.free_in_buffer;
+}
+
+SharedBytes JpegEncoder::encode(const BandPixels& pixels, const EncodingSpec& encoding,
+                                uint32_t image_height_px) {
+  const size_t stream_bytes = compress(pixels, encoding);
+  const JpegHeader header = readHeader(stream_);
+  const bool is_first = pixels.first_row == 0;
+  const bool is_last = pixels.first_row + pixels.row_count == image_height_px;
+  stream_[header.height_offset] = static_cast<uint8_t>(image_height_px >> 8);
+  stream_[header.height_offset + 1] = static_cast<uint8_t>(image_height_px);
+  stream_[stream_bytes - 1] = is_last ? kEoi : kRst7;
+
+  const size_t begin = is_first ? 0 : header.size_bytes;
+  // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
+  BytePool::Buffer bytes = pool_.take(std::bit_ceil(stream_bytes - begin));
+  bytes->assign(stream_.data() + begin, stream_.data() + stream_bytes);
+  return bytes;
+}
+
+}  // namespace viewloom

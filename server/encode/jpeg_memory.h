@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives a libjpeg object memory for its images that is kept from one image to the next.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <jpeglib.h>
+
+namespace viewloom {
+
+// libjpeg allocates a few sample rows of full image width for each image and frees them after it:
+// for bands that is an allocation above 64 KiB per band. This takes over the image pool of one
+// compressor and serves it from blocks that are only rewound. Thread-safety: that of the
+// compressor.
+class JpegMemory {
+ public:
+  // Call after jpeg_create_compress; must live until after jpeg_destroy_compress. Uses client_data.
+  explicit JpegMemory(jpeg_compress_struct& compressor);
+  JpegMemory(const JpegMemory&) = delete;
+  JpegMemory& operator=(const JpegMemory&) = delete;
+
+ private:
+  struct Block {
+    std::unique_ptr<uint8_t[]> bytes;
+    size_t size_bytes;
+  };
+
+  static JpegMemory& of(j_common_ptr compressor);
+  static void* allocate(j_common_ptr compressor, int pool, size_t size_bytes);
+  static JSAMPARRAY allocateRows(j_common_ptr compressor, int pool, JDIMENSION samples_per_row,
+                                 JDIMENSION row_count);
+  static void freePool(j_common_ptr compressor, int pool);
+
+  void* take(size_t size_bytes);
+
+  jpeg_memory_mgr original_;
+  std::vector<Block> blocks_;
+  size_t block_index_ = 0;  // the block that is being filled
+  size_t used_bytes_ = 0;   // of it
+};
+
+}  // namespace viewloom
