@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The newest atlas of a display, kept for one reader until it is ready for it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "base/clock.h"
+#include "base/latest_mailbox.h"
+#include "base/metrics.h"
+#include "publish/subscriber.h"
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread; none blocks on anything but the lock.
+class AtlasInbox final : public Subscriber {
+ public:
+  struct Arrival {
+    AtlasPtr atlas;
+    int64_t arrived_ns = 0;
+  };
+
+  // `on_change` is called, without a lock held, whenever there is something new to take or to learn.
+  AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change);
+
+  void offer(AtlasPtr atlas) override;
+  void end(const absl::Status& status) override;
+
+  // Empties the slot.
+  std::optional<Arrival> take() { return mailbox_.take(); }
+  // Set once nothing will come any more.
+  std::optional<absl::Status> ended() const;
+  // Atlases that a newer one replaced before they were taken.
+  uint64_t replacedCount() const { return mailbox_.replacedCount(); }
+
+ private:
+  const Clock& clock_;
+  const Counter replaced_;
+  const std::function<void()> on_change_;
+  LatestMailbox<Arrival> mailbox_;
+  mutable std::mutex mutex_;  // of ended_
+  std::optional<absl::Status> ended_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/atlas_message.h"
+
+#include <nlohmann/json.hpp>
+
+#include "web/catalog_json.h"
+
+namespace viewloom {
+namespace {
+
+using nlohmann::json;
+
+json timesJson(const StageTimes& times) {
+  return {{"receive_ns", times.receive_ns}, {"decode_ns", times.decode_ns},
+          {"upload_ns", times.upload_ns},   {"build_ns", times.build_ns},
+          {"wait_ns", times.wait_ns},       {"trace_ns", times.trace_ns},
+          {"encode_ns", times.encode_ns},   {"total_ns", times.total_ns}};
+}
+
+// Shares of all rays.
+json coverageJson(const Coverage& coverage) {
+  const double rays = static_cast<double>(coverage.rayCount());
+  const auto share = [rays](uint64_t count) {
+    return rays > 0 ? static_cast<double>(count) / rays : 0.0;
+  };
+  return {{"hit", share(coverage.hit)},
+          {"hit_assumed", share(coverage.hit_assumed)},
+          {"hidden", share(coverage.hidden)},
+          {"outside", share(coverage.outside)},
+          {"empty", share(coverage.empty)}};
+}
+
+json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
+  return {{"sequence", atlas.sequence},
+          {"frame_number", std::to_string(atlas.frame_number)},
+          {"capture_time_ns", std::to_string(atlas.capture_time_ns)},
+          {"present_at_ns", std::to_string(atlas.present_at_ns)},
+          {"layout", layoutJson(*atlas.layout)},
+          {"encoding", encodingJson(atlas.encoding)},
+          {"times", timesJson(atlas.times)},
+          {"coverage", coverageJson(atlas.coverage)},
+          {"delivery", delivery.delivery},
+          {"dropped_count", delivery.dropped_count},
+          {"mailbox_ns", delivery.mailbox_ns},
+          {"shown_ns", delivery.shown_ns}};
+}
+
+}  // namespace
+
+AtlasMessage::AtlasMessage(AtlasPtr atlas, const Delivery& delivery)
+    : atlas_(std::move(atlas)), header_(headerJson(*atlas_, delivery).dump()) {
+  const size_t length = header_.size();
+  for (size_t i = 0; i < header_length_.size(); ++i) {
+    header_length_[i] = static_cast<uint8_t>(length >> (8 * i));
+  }
+  parts_.emplace_back(header_length_);
+  parts_.emplace_back(reinterpret_cast<const uint8_t*>(header_.data()), length);
+  for (const SharedBytes& band : jpegBands(*atlas_)) parts_.emplace_back(*band);
+}
+
+uint64_t AtlasMessage::sizeBytes() const {
+  uint64_t size_bytes = 0;
+  for (const auto& part : parts_) size_bytes += part.size();
+  return size_bytes;
+}
+
+std::vector<SharedBytes> jpegBands(const EncodedAtlas& atlas) {
+  std::vector<SharedBytes> bands;
+  for (const EncodedBand& band : atlas.bands) {
+    if (band.plane == AtlasPlane::kColor && band.image_index == 0) bands.push_back(band.bytes);
+  }
+  return bands;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/catalog_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "display/presets.h"
+
+namespace viewloom {
+
+using nlohmann::json;
+
+namespace {
+
+json sizeJson(SizePx size_px) { return {{"width", size_px.width}, {"height", size_px.height}}; }
+
+json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
+  return {{"name", entry.name},
+          {"live", entry.live},
+          {"frame_number", std::to_string(entry.frame_number)},
+          {"size", sizeJson(entry.size_px)},
+          {"layer_count", entry.layer_count},
+          {"rate_hz", entry.rate_hz},
+          {"received_count", entry.received_count},
+          {"replaced_count", entry.replaced_count},
+          {"refused_count", entry.refused_count},
+          {"subscriber_count", subscriber_count}};
+}
+
+}  // namespace
+
+json layoutJson(const AtlasLayout& layout) {
+  return {{"size", sizeJson(layout.size_px)},
+          {"columns", layout.columns},
+          {"rows", layout.rows},
+          {"tile_size", sizeJson(layout.tile_size_px)},
+          {"order", layout.order == TileOrder::kBottomLeft ? "BOTTOM_LEFT" : "TOP_LEFT"},
+          {"aspect", layout.aspect},
+          {"view_count", layout.views.size()},
+          {"padding_right_px", layout.padding_right_px},
+          {"padding_top_px", layout.padding_top_px},
+          {"view_cone_rad", layout.view_cone_rad},
+          {"focal_distance_m", layout.focal_distance_m},
+          {"suffix", layout.suffix}};
+}
+
+json encodingJson(const EncodingSpec& encoding) {
+  return {{"jpeg_quality", encoding.jpeg_quality},
+          {"chroma", encoding.chroma == Chroma::k444 ? "444" : "420"}};
+}
+
+json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster) {
+  json entries = json::array();
+  for (const StreamEntry& entry : streams.list()) {
+    entries.push_back(streamJson(entry, broadcaster.subscriberCount(entry.name)));
+  }
+  return {{"streams", std::move(entries)}};
+}
+
+json displaysJson(const Broadcaster& broadcaster) {
+  json entries = json::array();
+  for (const ActiveDisplayPtr& display : broadcaster.displays("")) {
+    const AtlasPtr newest = broadcaster.newest(display->id);
+    entries.push_back({{"id", display->id},
+                       {"stream", display->stream},
+                       {"layout", newest ? layoutJson(*newest->layout) : json()},
+                       {"encoding", encodingJson(display->encoding)},
+                       {"subscriber_count", display->subscriber_count},
+                       {"atlas_count", broadcaster.atlasCount(display->id)}});
+  }
+  return {{"displays", std::move(entries)}};
+}
+
+json presetsJson() {
+  json entries = json::array();
+  for (const Preset& preset : allPresets()) {
+    entries.push_back({{"name", preset.name},
+                       {"device", preset.device},
+                       {"columns", preset.columns},
+                       {"rows", preset.rows},
+                       {"size", sizeJson(preset.size_px)},
+                       {"aspect", preset.aspect},
+                       {"view_cone_deg", preset.view_cone_deg},
+                       {"note", preset.note}});
+  }
+  return {{"presets", std::move(entries)}};
+}
+
+}  // namespace viewloom

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams, displays, presets and layouts as JSON. Names and units are those of the protos; a 64-bit
+// number that may pass 2^53 is a string, as in proto's own JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "display/atlas_layout.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+nlohmann::json layoutJson(const AtlasLayout& layout);
+nlohmann::json encodingJson(const EncodingSpec& encoding);
+nlohmann::json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster);
+nlohmann::json displaysJson(const Broadcaster& broadcaster);
+nlohmann::json presetsJson();
+
+}  // namespace viewloom

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/connection.h"
+
+#include <utility>
+#include <vector>
+
+namespace viewloom {
+namespace {
+
+constexpr unsigned kHttpVersion11 = 11;
+
+std::string text(beast::string_view view) { return std::string(view.data(), view.size()); }
+
+HttpRequest requestOf(const http::request<http::empty_body>& request) {
+  return {.method = text(request.method_string()),
+          .target = text(request.target()),
+          .host = text(request[http::field::host]),
+          .origin = text(request[http::field::origin]),
+          .if_none_match = text(request[http::field::if_none_match]),
+          .upgrade = websocket::is_upgrade(request)};
+}
+
+// The reply to bytes that are no request; none when the other side just went.
+std::optional<HttpReply> replyToBroken(const ErrorCode& error) {
+  if (error == http::error::header_limit) {
+    return errorReply(431, invalidField("header", "longer than this server accepts"));
+  }
+  if (error == http::error::body_limit) {
+    return errorReply(413, invalidField("body", "accepted are requests without one"));
+  }
+  const bool is_http = error.category() == make_error_code(http::error::bad_method).category();
+  if (!is_http || error == http::error::end_of_stream) return std::nullopt;
+  return errorReply(400, invalidField("request", "no HTTP: " + error.message()));
+}
+
+HttpAnswer answerKind(unsigned status) {
+  if (status >= 500) return HttpAnswer::kServerError;
+  if (status >= 400) return HttpAnswer::kClientError;
+  return status >= 300 ? HttpAnswer::kRedirect : HttpAnswer::kSuccess;
+}
+
+std::vector<net::const_buffer> bodyOf(const HttpReply& reply) {
+  std::vector<net::const_buffer> body;
+  body.push_back(net::buffer(reply.text));
+  body.emplace_back(reply.fixed.data(), reply.fixed.size());
+  for (const SharedBytes& bytes : reply.shared) body.push_back(net::buffer(*bytes));
+  return body;
+}
+
+}  // namespace
+
+Connection::Connection(WebContext& context, tcp::socket socket)
+    : context_(context), strand_(socket.get_executor()), stream_(std::move(socket)) {
+  ErrorCode ignored;  // a socket that is gone already shows at the first read
+  stream_.socket().set_option(tcp::no_delay(true), ignored);
+  context_.metrics.http_connections.add(1);
+}
+
+Connection::~Connection() { context_.metrics.http_connections.add(-1); }
+
+void Connection::start() {
+  const auto self = shared_from_this();
+  net::co_spawn(strand_, [self] { return self->serve(); }, net::detached);
+}
+
+void Connection::startRefused() {
+  const auto self = shared_from_this();
+  net::co_spawn(strand_, [self] { return self->refuse(); }, net::detached);
+}
+
+void Connection::leave() {
+  net::post(strand_, [self = shared_from_this()] {
+    if (self->viewer_) {
+      self->viewer_->leave();
+    } else if (self->idle_) {
+      self->stream_.close();
+    }
+  });
+}
+
+void Connection::cut() {
+  net::post(strand_, [self = shared_from_this()] {
+    if (self->viewer_) {
+      self->viewer_->cut();
+    } else {
+      self->stream_.close();
+    }
+  });
+}
+
+net::awaitable<void> Connection::serve() {
+  const auto self = shared_from_this();
+  for (bool keep = true; keep;) {
+    Parser parser;
+    ErrorCode error;
+    co_await read(parser, error);
+    if (error) {
+      if (const auto reply = replyToBroken(error)) {
+        co_await write(*reply, parser, false, error);
+      }
+      break;
+    }
+    const HttpRequest request = requestOf(parser.get());
+    std::optional<HttpReply> reply = refusal(context_, request);
+    if (!reply && request.upgrade) {
+      co_await watch(parser, request);
+      co_return;
+    }
+    if (!reply) reply = co_await answer(context_, request);
+    keep = parser.get().keep_alive() && !context_.draining;
+    co_await write(*reply, parser, keep, error);
+    if (error) break;
+  }
+  ErrorCode ignored;
+  stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+}
+
+net::awaitable<void> Connection::refuse() {
+  const auto self = shared_from_this();
+  const HttpReply reply =
+      errorReply(absl::ResourceExhaustedError("too many connections, try again later"));
+  const Parser unread;
+  ErrorCode error;
+  co_await write(reply, unread, false, error);
+}
+
+net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
+  parser.header_limit(context_.options.header_bytes_max);
+  parser.body_limit(0);
+  idle_ = buffer_.size() == 0;
+  if (idle_ && context_.draining) {
+    error = net::error::operation_aborted;
+    co_return;
+  }
+  stream_.expires_after(context_.options.request_timeout);
+  co_await http::async_read_header(stream_, buffer_, parser, into(error));
+  idle_ = false;
+  if (error) co_return;
+  co_await http::async_read(stream_, buffer_, parser, into(error));
+}
+
+net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& request) {
+  const absl::StatusOr<Url> url = parseUrl(request.target);
+  ErrorCode error;
+  if (!url.ok() || url->path != kWebSocketPath ||
+      !parseWatchRequest(url->parameters, context_.streams).ok()) {
+    const HttpReply reply = co_await answer(context_, request);
+    co_await write(reply, parser, false, error);
+    co_return;
+  }
+  viewer_ = std::make_shared<Viewer>(context_, std::move(stream_), url->parameters);
+  if (context_.draining) viewer_->leave();
+  co_await viewer_->run(parser.release());
+}
+
+net::awaitable<void> Connection::write(const HttpReply& reply, const Parser& parser, bool keep,
+                                       ErrorCode& error) {
+  const std::vector<net::const_buffer> body = bodyOf(reply);
+  http::response<http::empty_body> response(http::int_to_status(reply.status), kHttpVersion11);
+  response.set(http::field::server, "viewloom");
+  response.set("X-Content-Type-Options", "nosniff");
+  if (!reply.type.empty()) response.set(http::field::content_type, reply.type);
+  for (const auto& [name, value] : reply.headers) response.set(name, value);
+  response.content_length(net::buffer_size(body));
+  response.keep_alive(keep);
+  http::response_serializer<http::empty_body> serializer(response);
+  stream_.expires_after(context_.options.transfer_timeout);
+  co_await http::async_write_header(stream_, serializer, into(error));
+  context_.metrics.http_responses[answerKind(reply.status)].add();
+  if (error || parser.get().method() == http::verb::head || reply.status == 304) co_return;
+  co_await net::async_write(stream_, body, into(error));
+}
+
+}  // namespace viewloom

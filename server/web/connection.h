@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// One connection of the web server, from its first request to its end.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "web/asio.h"
+#include "web/http_reply.h"
+#include "web/routes.h"
+#include "web/viewer.h"
+#include "web/web_context.h"
+
+namespace viewloom {
+
+// Thread-safety: start(), leave() and cut() may be called from any thread; the rest happens on the
+// strand of its socket.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(WebContext& context, tcp::socket socket);
+  ~Connection();
+
+  // Serves requests until either side goes; stays alive by itself until then.
+  void start();
+  // Answers "too many connections", and ends.
+  void startRefused();
+  // The server drains: ends as soon as what is under way is answered.
+  void leave();
+  // Ends at once.
+  void cut();
+
+ private:
+  using Parser = http::request_parser<http::empty_body>;
+
+  net::awaitable<void> serve();
+  net::awaitable<void> refuse();
+  net::awaitable<void> read(Parser& parser, ErrorCode& error);
+  net::awaitable<void> watch(Parser& parser, const HttpRequest& request);
+  net::awaitable<void> write(const HttpReply& reply, const Parser& parser, bool keep,
+                             ErrorCode& error);
+
+  WebContext& context_;
+  const net::any_io_executor strand_;
+  beast::tcp_stream stream_;  // until upgraded
+  beast::flat_buffer buffer_;
+  std::shared_ptr<Viewer> viewer_;  // once upgraded
+  bool idle_ = false;  // waits for a request of which nothing has come
+};
+
+}  // namespace viewloom

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the web server listens and what it allows.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace viewloom {
+
+struct HttpOptions {
+  std::string address = "127.0.0.1";  // numeric, IPv4 or IPv6
+  uint16_t port = 0;                  // 0 = any free one
+  uint32_t thread_count = 2;
+  uint32_t connection_count_max = 1024;
+  // Names a request may call this server by, beside localhost and numeric loopback addresses. Checked
+  // on loopback only: it keeps web pages from reading streams by DNS rebinding.
+  std::vector<std::string> allowed_hosts;
+
+  uint32_t header_bytes_max = 8192;
+  uint32_t message_bytes_max = 4096;  // of a viewer's text message
+  std::chrono::milliseconds request_timeout{10'000};   // to send a request or to shake hands
+  std::chrono::milliseconds idle_timeout{60'000};      // between requests, and of a silent viewer
+  std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply
+  std::chrono::milliseconds still_timeout{10'000};     // until a still's atlas is there
+  std::chrono::milliseconds drain_timeout{2'000};      // for viewers to take their leave
+};
+
+}  // namespace viewloom

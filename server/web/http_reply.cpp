@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/http_reply.h"
+
+#include <nlohmann/json.hpp>
+
+namespace viewloom {
+
+unsigned httpStatusOf(absl::StatusCode code) {
+  switch (code) {
+    case absl::StatusCode::kOk: return 200;
+    case absl::StatusCode::kInvalidArgument:
+    case absl::StatusCode::kOutOfRange: return 400;
+    case absl::StatusCode::kPermissionDenied: return 403;
+    case absl::StatusCode::kNotFound: return 404;
+    case absl::StatusCode::kAlreadyExists:
+    case absl::StatusCode::kAborted:
+    case absl::StatusCode::kFailedPrecondition: return 409;
+    case absl::StatusCode::kUnimplemented: return 501;
+    case absl::StatusCode::kUnavailable:
+    case absl::StatusCode::kResourceExhausted: return 503;
+    case absl::StatusCode::kDeadlineExceeded: return 504;
+    default: return 500;
+  }
+}
+
+std::string errorJson(const absl::Status& status) {
+  const nlohmann::json json = {{"error",
+                                {{"code", absl::StatusCodeToString(status.code())},
+                                 {"field", fieldOf(status)},
+                                 {"message", std::string(status.message())}}}};
+  // Foreign text in a message may be no UTF-8.
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+HttpReply jsonReply(std::string json) {
+  HttpReply reply;
+  reply.type = "application/json";
+  reply.headers = {{"Cache-Control", "no-store"}};
+  reply.text = std::move(json);
+  return reply;
+}
+
+HttpReply errorReply(const absl::Status& status) {
+  return errorReply(httpStatusOf(status.code()), status);
+}
+
+HttpReply errorReply(unsigned http_status, const absl::Status& status) {
+  HttpReply reply = jsonReply(errorJson(status) + "\n");
+  reply.status = http_status;
+  return reply;
+}
+
+HttpReply redirectReply(std::string location) {
+  HttpReply reply;
+  reply.status = 302;
+  reply.type = "text/plain; charset=utf-8";
+  reply.text = "see " + location + "\n";
+  reply.headers = {{"Location", std::move(location)}, {"Cache-Control", "no-store"}};
+  return reply;
+}
+
+}  // namespace viewloom

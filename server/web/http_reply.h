@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is answered to an HTTP request, apart from how it is written.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "base/status.h"
+
+namespace viewloom {
+
+// The body is `text`, or the bytes of `fixed` (of the program itself), or `shared` joined.
+struct HttpReply {
+  unsigned status = 200;
+  std::string type;  // MIME
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string text;
+  std::string_view fixed;
+  std::vector<SharedBytes> shared;
+};
+
+unsigned httpStatusOf(absl::StatusCode code);
+
+// {"error": {"code": "INVALID_ARGUMENT", "field": "columns", "message": "columns: got ..."}}
+std::string errorJson(const absl::Status& status);
+
+HttpReply jsonReply(std::string json);
+HttpReply errorReply(const absl::Status& status);
+HttpReply errorReply(unsigned http_status, const absl::Status& status);
+HttpReply redirectReply(std::string location);
+
+}  // namespace viewloom

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/http_server.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "web/connection.h"
+
+namespace viewloom {
+namespace {
+
+// Handles left for the rest of the program when accepting fails: how long until it is tried again.
+constexpr std::chrono::milliseconds kAcceptPause{100};
+
+tcp::endpoint endpointOf(const HttpOptions& options) {
+  ErrorCode error;
+  const auto address = net::ip::make_address(options.address, error);
+  if (!error) return {address, options.port};
+  throw std::runtime_error(absl::StrCat("web address \"", options.address,
+                                        "\": accepted is a numeric IPv4 or IPv6 address"));
+}
+
+tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
+  const tcp::endpoint endpoint = endpointOf(options);
+  try {
+    return tcp::acceptor(io, endpoint);
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error(absl::StrCat("cannot listen on ", options.address, ":", options.port,
+                                          " for the web page: ", error.code().message(),
+                                          "; choose another address or port"));
+  }
+}
+
+}  // namespace
+
+struct HttpServer::State {
+  State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
+        const Metrics& metrics, const Clock& clock)
+      : io(static_cast<int>(options.thread_count)),
+        acceptor(listen(io, options)),
+        endpoint(acceptor.local_endpoint()),
+        context{options,
+                HostPolicy(endpoint.address().is_loopback(), options.allowed_hosts),
+                streams,
+                broadcaster,
+                metrics,
+                clock} {}
+
+  net::io_context io;
+  tcp::acceptor acceptor;  // used by accept() alone
+  const tcp::endpoint endpoint;
+  WebContext context;
+
+  std::mutex mutex;
+  std::condition_variable fewer;
+  std::unordered_map<uint64_t, std::weak_ptr<Connection>> connections;
+  uint64_t connection_id = 0;
+
+  std::vector<std::jthread> threads;
+
+  net::awaitable<void> accept();
+  void take(tcp::socket socket);
+  std::vector<std::shared_ptr<Connection>> living();
+};
+
+net::awaitable<void> HttpServer::State::accept() {
+  while (!context.draining) {
+    ErrorCode error;
+    tcp::socket socket(net::make_strand(io));
+    co_await acceptor.async_accept(socket, into(error));
+    if (!error) {
+      take(std::move(socket));
+    } else if (error != net::error::operation_aborted) {
+      net::steady_timer pause(acceptor.get_executor(), kAcceptPause);
+      co_await pause.async_wait(into(error));
+    }
+  }
+}
+
+void HttpServer::State::take(tcp::socket socket) {
+  std::unique_lock lock(mutex);
+  const uint64_t id = ++connection_id;
+  const bool full = connections.size() >= context.options.connection_count_max;
+  const std::shared_ptr<Connection> connection(
+      new Connection(context, std::move(socket)), [this, id](Connection* ended) {
+        delete ended;
+        std::lock_guard relock(mutex);
+        connections.erase(id);
+        fewer.notify_all();
+      });
+  connections.emplace(id, connection);
+  lock.unlock();
+  full ? connection->startRefused() : connection->start();
+}
+
+std::vector<std::shared_ptr<Connection>> HttpServer::State::living() {
+  std::vector<std::shared_ptr<Connection>> living;
+  std::lock_guard lock(mutex);
+  for (const auto& [id, connection] : connections) {
+    if (auto alive = connection.lock()) living.push_back(std::move(alive));
+  }
+  return living;
+}
+
+HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
+                       Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock)
+    : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock)) {
+  State& state = *state_;
+  net::co_spawn(state.acceptor.get_executor(), state.accept(), net::detached);
+  for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {
+    state.threads.emplace_back([&state] { state.io.run(); });
+  }
+}
+
+HttpServer::~HttpServer() {
+  drain();
+  state_->threads.clear();
+}
+
+uint16_t HttpServer::port() const { return state_->endpoint.port(); }
+
+std::string HttpServer::url() const {
+  const auto& address = state_->endpoint.address();
+  const std::string host = address.is_v6() ? absl::StrCat("[", address.to_string(), "]")
+                                           : address.to_string();
+  return absl::StrCat("http://", host, ":", port(), "/");
+}
+
+uint32_t HttpServer::connectionCount() const {
+  std::lock_guard lock(state_->mutex);
+  return static_cast<uint32_t>(state_->connections.size());
+}
+
+void HttpServer::drain() {
+  State& state = *state_;
+  state.context.draining = true;
+  net::post(state.acceptor.get_executor(), [&state] {
+    ErrorCode ignored;  // closed already when drained twice
+    state.acceptor.close(ignored);
+  });
+  for (const auto& connection : state.living()) connection->leave();
+  std::unique_lock lock(state.mutex);
+  const auto none = [&state] { return state.connections.empty(); };
+  if (state.fewer.wait_for(lock, state.context.options.drain_timeout, none)) return;
+  lock.unlock();
+  for (const auto& connection : state.living()) connection->cut();
+  lock.lock();
+  state.fewer.wait(lock, none);
+}
+
+}  // namespace viewloom

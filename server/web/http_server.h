@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer page, live atlases over WebSocket, stills, the catalogue as JSON and the metrics, over HTTP.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/clock.h"
+#include "base/metrics.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+#include "web/http_options.h"
+
+namespace viewloom {
+
+// Serves from its construction to its end, on a fixed number of threads however many viewers there are.
+// Thread-safety: all methods may be called from any thread.
+class HttpServer {
+ public:
+  // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is handed
+  // in outlives the server.
+  HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
+             const Metrics& metrics, const Clock& clock);
+  // Drains first.
+  ~HttpServer();
+
+  uint16_t port() const;
+  // "http://127.0.0.1:8080/"
+  std::string url() const;
+  uint32_t connectionCount() const;
+
+  // Takes no more connections, lets requests under way be answered and viewers leave (close code 1001,
+  // going away), at most as long as options.drain_timeout; then ends what is left.
+  void drain();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/routes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "web/catalog_json.h"
+#include "web/page_assets.h"
+#include "web/still.h"
+#include "web/watch_request.h"
+
+namespace viewloom {
+namespace {
+
+// Everything comes from the server itself; pictures are made from bytes the page received.
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+HttpReply assetReply(const PageAsset& asset, const HttpRequest& request) {
+  HttpReply reply;
+  reply.type = asset.type;
+  reply.headers = {{"ETag", std::string(asset.etag)},
+                   {"Cache-Control", "no-cache"},
+                   {"Content-Security-Policy", kContentSecurityPolicy},
+                   {"Referrer-Policy", "no-referrer"}};
+  if (request.if_none_match == asset.etag) {
+    reply.status = 304;
+  } else {
+    reply.fixed = asset.bytes;
+  }
+  return reply;
+}
+
+HttpReply metricsReply(const WebContext& context) {
+  size_t live_count = 0;
+  for (const StreamEntry& entry : context.streams.list()) live_count += entry.live;
+  context.metrics.streams_live.set(static_cast<double>(live_count));
+  context.metrics.displays.set(static_cast<double>(context.broadcaster.displays("").size()));
+  HttpReply reply;
+  reply.type = "text/plain; version=0.0.4; charset=utf-8";
+  reply.text = context.metrics.text();
+  return reply;
+}
+
+HttpReply healthReply(const WebContext& context) {
+  HttpReply reply;
+  reply.type = "text/plain; charset=utf-8";
+  reply.status = context.draining ? 503 : 200;
+  reply.text = context.draining ? "draining\n" : "serving\n";
+  return reply;
+}
+
+// A plain GET of the WebSocket's URL tells a browser, which does not let pages read why an upgrade was
+// refused, what is wrong with it.
+HttpReply webSocketReply(const WebContext& context, const Url& url) {
+  const absl::StatusOr<WatchRequest> request =
+      parseWatchRequest(url.parameters, context.streams);
+  if (!request.ok()) return errorReply(request.status());
+  HttpReply reply = errorReply(426, absl::FailedPreconditionError("accepted is a WebSocket upgrade"));
+  reply.headers.emplace_back("Upgrade", "websocket");
+  return reply;
+}
+
+HttpReply notFoundReply(const std::string& path) {
+  return errorReply(fieldError(
+      absl::StatusCode::kNotFound, "url",
+      absl::StrCat("there is no ", path,
+                   "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
+                   "/still/STREAM/PRESET and /ws?stream=STREAM")));
+}
+
+}  // namespace
+
+std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request) {
+  if (request.method != "GET" && request.method != "HEAD") {
+    HttpReply reply = errorReply(
+        405, fieldError(absl::StatusCode::kUnimplemented, "method",
+                        absl::StrCat("got ", request.method, ", accepted are GET and HEAD")));
+    reply.headers.emplace_back("Allow", "GET, HEAD");
+    return reply;
+  }
+  absl::Status allowed = context.host_policy.checkHost(request.host);
+  if (allowed.ok() && request.upgrade) {
+    allowed = context.host_policy.checkOrigin(request.origin, request.host);
+  }
+  if (!allowed.ok()) return errorReply(allowed);
+  return std::nullopt;
+}
+
+net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
+  const absl::StatusOr<Url> url = parseUrl(request.target);
+  if (!url.ok()) co_return errorReply(url.status());
+  for (const PageAsset& asset : pageAssets()) {
+    if (url->path == asset.path) co_return assetReply(asset, request);
+  }
+  if (url->path == "/api/streams") {
+    co_return jsonReply(streamsJson(context.streams, context.broadcaster).dump());
+  }
+  if (url->path == "/api/displays") co_return jsonReply(displaysJson(context.broadcaster).dump());
+  if (url->path == "/api/presets") co_return jsonReply(presetsJson().dump());
+  if (url->path == "/metrics") co_return metricsReply(context);
+  if (url->path == "/healthz") co_return healthReply(context);
+  if (url->path == kWebSocketPath) co_return webSocketReply(context, *url);
+  if (url->path.starts_with("/still/")) co_return co_await answerStill(context, *url);
+  co_return notFoundReply(url->path);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/viewer.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "web/atlas_message.h"
+#include "web/http_reply.h"
+
+namespace viewloom {
+namespace {
+
+// One being shown while the next is on its way.
+constexpr size_t kUnderWayCountMax = 2;
+// A close frame holds 125 bytes, two of them the code.
+constexpr size_t kCloseReasonBytesMax = 123;
+
+std::string parameterText(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+Viewer::Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters)
+    : context_(context),
+      socket_(std::move(stream)),
+      awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
+      parameters_(std::move(parameters)) {
+  context_.metrics.subscribers[Transport::kWeb].add(1);
+}
+
+Viewer::~Viewer() { context_.metrics.subscribers[Transport::kWeb].add(-1); }
+
+net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
+  const auto self = shared_from_this();
+  beast::get_lowest_layer(socket_).expires_never();
+  socket_.set_option(websocket::stream_base::timeout{.handshake_timeout =
+                                                         context_.options.request_timeout,
+                                                     .idle_timeout = context_.options.idle_timeout,
+                                                     .keep_alive_pings = true});
+  socket_.auto_fragment(false);
+  socket_.read_message_max(context_.options.message_bytes_max);
+  ErrorCode error;
+  co_await socket_.async_accept(request, into(error));
+  if (error) co_return;
+  if (const absl::Status status = subscribe(parameters_); !status.ok()) {
+    co_await writeText(errorJson(status), error);
+    co_await close(status);
+    co_return;
+  }
+  net::co_spawn(socket_.get_executor(), [self] { return self->writeMessages(); }, net::detached);
+  co_await readMessages();
+  gone_ = true;
+  subscription_.reset();
+  cut();  // also what is being written: nobody reads it
+  wake();
+}
+
+void Viewer::leave() {
+  leaving_ = true;
+  wake();
+}
+
+void Viewer::cut() { beast::get_lowest_layer(socket_).close(); }
+
+absl::Status Viewer::subscribe(const QueryParameters& parameters) {
+  const absl::StatusOr<WatchRequest> request = parseWatchRequest(parameters, context_.streams);
+  VIEWLOOM_RETURN_IF_ERROR(request.status());
+  const std::weak_ptr<Viewer> viewer = weak_from_this();
+  const auto executor = socket_.get_executor();
+  auto inbox = std::make_shared<AtlasInbox>(
+      context_.clock, context_.metrics.replaced[HandOver::kWeb], [executor, viewer] {
+        net::post(executor, [viewer] {
+          if (const auto self = viewer.lock()) self->wake();
+        });
+      });
+  auto subscription = context_.broadcaster.subscribe(request->stream, request->display,
+                                                     request->encoding, inbox);
+  VIEWLOOM_RETURN_IF_ERROR(subscription.status());
+  if (inbox_) dropped_before_ += inbox_->replacedCount();
+  inbox_ = std::move(inbox);
+  subscription_ = *std::move(subscription);
+  parameters_ = parameters;
+  return absl::OkStatus();
+}
+
+net::awaitable<void> Viewer::readMessages() {
+  beast::flat_buffer buffer;
+  for (;;) {
+    ErrorCode error;
+    co_await socket_.async_read(buffer, into(error));
+    if (error) co_return;
+    const auto bytes = buffer.cdata();
+    const absl::Status status =
+        takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
+    buffer.consume(bytes.size());
+    if (!status.ok()) pending_error_ = errorJson(status);
+    wake();
+  }
+}
+
+absl::Status Viewer::takeMessage(std::string_view text) {
+  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
+  if (message.is_object() && message.size() == 1) {
+    const auto shown = message.find("shown");
+    const auto changes = message.find("change");
+    if (shown != message.end() && shown->is_number_unsigned()) {
+      noteShown(shown->get<uint64_t>());
+      return absl::OkStatus();
+    }
+    if (changes != message.end() && changes->is_object()) return change(*changes);
+  }
+  return invalidField("message",
+                      "accepted are {\"shown\": DELIVERY} and {\"change\": {PARAMETER: VALUE}}");
+}
+
+absl::Status Viewer::change(const nlohmann::json& changes) {
+  QueryParameters changed = parameters_;
+  for (const auto& [name, value] : changes.items()) {
+    if (value.is_null()) {
+      changed.erase(name);
+    } else {
+      changed[name] = parameterText(value);
+    }
+  }
+  return withFieldPrefix(subscribe(changed), "change");
+}
+
+void Viewer::noteShown(uint64_t delivery) {
+  while (!under_way_.empty() && under_way_.front().delivery <= delivery) {
+    shown_ns_ = context_.clock.nowNs() - under_way_.front().written_ns;
+    under_way_.pop_front();
+  }
+}
+
+net::awaitable<void> Viewer::writeMessages() {
+  const auto self = shared_from_this();
+  ErrorCode error;
+  while (!error && !gone_) {
+    if (pending_error_) {
+      std::string text = *std::exchange(pending_error_, std::nullopt);
+      co_await writeText(std::move(text), error);
+      continue;
+    }
+    std::optional<absl::Status> ended = inbox_->ended();
+    if (leaving_) ended = absl::OkStatus();
+    if (ended) {
+      if (!ended->ok()) co_await writeText(errorJson(*ended), error);
+      co_await close(*ended);
+      co_return;
+    }
+    if (under_way_.size() < kUnderWayCountMax) {
+      if (auto arrival = inbox_->take()) {
+        co_await writeAtlas(*std::move(arrival), error);
+        continue;
+      }
+    }
+    ErrorCode woken;
+    co_await awake_.async_wait(into(woken));
+  }
+}
+
+net::awaitable<void> Viewer::writeText(std::string text, ErrorCode& error) {
+  socket_.text(true);
+  co_await socket_.async_write(net::buffer(text), into(error));
+}
+
+net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error) {
+  const int64_t now_ns = context_.clock.nowNs();
+  under_way_.push_back({++delivery_count_, now_ns});
+  const AtlasMessage message(arrival.atlas,
+                             {.delivery = delivery_count_,
+                              .dropped_count = dropped_before_ + inbox_->replacedCount(),
+                              .mailbox_ns = now_ns - arrival.arrived_ns,
+                              .shown_ns = shown_ns_});
+  std::vector<net::const_buffer> buffers;
+  for (const auto& part : message.parts()) buffers.emplace_back(part.data(), part.size());
+  socket_.binary(true);
+  co_await socket_.async_write(buffers, into(error));
+  if (error) co_return;
+  context_.metrics.atlases_sent[Transport::kWeb].add();
+  context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(message.sizeBytes()));
+}
+
+net::awaitable<void> Viewer::close(const absl::Status& status) {
+  subscription_.reset();
+  websocket::close_reason reason(websocket::close_code::going_away);
+  if (!status.ok()) {
+    reason.code = websocket::close_code::policy_error;
+    reason.reason = std::string(status.message()).substr(0, kCloseReasonBytesMax);
+  }
+  ErrorCode error;
+  co_await socket_.async_close(reason, into(error));
+}
+
+}  // namespace viewloom

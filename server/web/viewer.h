@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// One browser (or other WebSocket client) that watches a stream.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "web/asio.h"
+#include "web/atlas_inbox.h"
+#include "web/url.h"
+#include "web/watch_request.h"
+#include "web/web_context.h"
+
+namespace viewloom {
+
+// Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1) and
+// text messages {"error": ...}. Up come text messages:
+//   {"shown": 17}                      delivery 17 is on the screen, or was dropped: room for another
+//   {"change": {"focus_m": 0.8}}       parameters of the URL, as they shall be from now on; null = default
+// At most two atlases are under way to a client; of those that come meanwhile only the newest is kept.
+//
+// Thread-safety: run() once, leave() from the strand of the stream; everything happens on it.
+class Viewer : public std::enable_shared_from_this<Viewer> {
+ public:
+  Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters);
+  ~Viewer();
+
+  // Shakes hands and serves until either side goes.
+  net::awaitable<void> run(http::request<http::empty_body> request);
+  // Sends a close frame (going away) as soon as the atlas under way is written.
+  void leave();
+  // Ends the connection at once.
+  void cut();
+
+ private:
+  struct UnderWay {
+    uint64_t delivery = 0;
+    int64_t written_ns = 0;
+  };
+
+  absl::Status subscribe(const QueryParameters& parameters);
+  net::awaitable<void> readMessages();
+  net::awaitable<void> writeMessages();
+  net::awaitable<void> writeText(std::string text, ErrorCode& error);
+  net::awaitable<void> writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error);
+  net::awaitable<void> close(const absl::Status& status);
+  absl::Status takeMessage(std::string_view text);
+  absl::Status change(const nlohmann::json& changes);
+  void noteShown(uint64_t delivery);
+  void wake() { awake_.cancel(); }
+
+  WebContext& context_;
+  websocket::stream<beast::tcp_stream> socket_;
+  net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
+  QueryParameters parameters_;
+  std::shared_ptr<AtlasInbox> inbox_;
+  std::unique_ptr<Broadcaster::Subscription> subscription_;
+  std::deque<UnderWay> under_way_;
+  std::optional<std::string> pending_error_;  // the newest
+  uint64_t delivery_count_ = 0;
+  uint64_t dropped_before_ = 0;  // by the displays watched earlier
+  int64_t shown_ns_ = 0;
+  bool leaving_ = false;
+  bool gone_ = false;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a viewer or a still asks for, read from the parameters of a URL.
+#pragma once
+
+#include <string>
+
+#include "base/status.h"
+#include "display/display_spec.h"
+#include "publish/stream_directory.h"
+#include "web/url.h"
+
+namespace viewloom {
+
+struct WatchRequest {
+  std::string stream;
+  DisplaySpec display;  // completed; a quilt
+  EncodingSpec encoding;
+};
+
+// Parameters: stream, preset (default "portrait" when neither columns nor rows say otherwise),
+// columns, rows, width, height, aspect, cone_deg, focus_m, fov_deg, quality, chroma (420, 444).
+// NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for anything else, with the parameter as
+// the field.
+absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
+                                               const StreamDirectory& streams);
+
+// "_qs8x6a0.75": what the name of a still must end with.
+absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display);
+
+}  // namespace viewloom
