@@ -2,25 +2,38 @@
 #include "base/byte_pool.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace viewloom {
+namespace {
+
+// Buffers are made in steps of a quarter of a power of two, so that sizes that vary a little from
+// frame to frame (JPEG, zstd) find the same buffers again.
+size_t roundedUp(size_t capacity_bytes) {
+  constexpr size_t kStepMin = 256;
+  const size_t step = std::max(std::bit_floor(capacity_bytes) / 4, kStepMin);
+  return (capacity_bytes + step - 1) / step * step;
+}
+
+// A larger buffer than this would be missing where it is needed.
+constexpr size_t kWasteFactorMax = 4;
+
+}  // namespace
 
 struct BytePool::Shelf {
   size_t kept_count;
   std::mutex mutex;
-  std::vector<std::unique_ptr<std::vector<uint8_t>>> waiting;
+  std::vector<std::unique_ptr<std::vector<uint8_t>>> waiting;  // longest waiting first
 
   std::unique_ptr<std::vector<uint8_t>> takeFitting(size_t capacity_bytes) {
     std::lock_guard lock(mutex);
-    auto fits_better = [&](const auto& a, const auto& b) {
-      // Buffers that are large enough first, then the smallest of them; else the largest.
-      const bool a_fits = a->capacity() >= capacity_bytes;
-      const bool b_fits = b->capacity() >= capacity_bytes;
-      if (a_fits != b_fits) return a_fits;
-      return a_fits ? a->capacity() < b->capacity() : a->capacity() > b->capacity();
-    };
-    auto best = std::min_element(waiting.begin(), waiting.end(), fits_better);
+    auto best = waiting.end();
+    for (auto it = waiting.begin(); it != waiting.end(); ++it) {
+      const size_t got = (*it)->capacity();
+      if (got < capacity_bytes || got > roundedUp(capacity_bytes) * kWasteFactorMax) continue;
+      if (best == waiting.end() || got < (*best)->capacity()) best = it;
+    }
     if (best == waiting.end()) return nullptr;
     auto taken = std::move(*best);
     waiting.erase(best);
@@ -29,8 +42,10 @@ struct BytePool::Shelf {
 
   void putBack(std::unique_ptr<std::vector<uint8_t>> buffer) {
     buffer->clear();
+    if (kept_count == 0) return;
     std::lock_guard lock(mutex);
-    if (waiting.size() < kept_count) waiting.push_back(std::move(buffer));
+    if (waiting.size() == kept_count) waiting.erase(waiting.begin());
+    waiting.push_back(std::move(buffer));
   }
 };
 
@@ -41,8 +56,10 @@ BytePool::BytePool(size_t kept_count) : shelf_(std::make_shared<Shelf>()) {
 
 BytePool::Buffer BytePool::take(size_t capacity_bytes) {
   auto buffer = shelf_->takeFitting(capacity_bytes);
-  if (!buffer) buffer = std::make_unique<std::vector<uint8_t>>();
-  buffer->reserve(capacity_bytes);
+  if (!buffer) {
+    buffer = std::make_unique<std::vector<uint8_t>>();
+    buffer->reserve(roundedUp(capacity_bytes));
+  }
   return Buffer(buffer.release(), [shelf = shelf_](std::vector<uint8_t>* returned) {
     shelf->putBack(std::unique_ptr<std::vector<uint8_t>>(returned));
   });

@@ -20,9 +20,11 @@ class BytePool {
  public:
   using Buffer = std::shared_ptr<std::vector<uint8_t>>;
 
-  // At most kept_count buffers wait in the pool; further ones are freed on return.
+  // At most kept_count buffers wait in the pool; when one more returns, the one that has waited
+  // longest is freed.
   explicit BytePool(size_t kept_count);
-  // An empty buffer; of those waiting, the one with the smallest capacity >= capacity_bytes.
+  // An empty buffer with room for capacity_bytes: the smallest of those waiting, unless even that
+  // is several times too large; else a new one.
   Buffer take(size_t capacity_bytes);
 
  private:
