@@ -16,7 +16,7 @@ deploy/setup.sh --dev
 install_s=$SECONDS
 
 SECONDS=0
-cmake --preset release
+cmake --preset release -DVIEWLOOM_TESTS=ON
 cmake --build build/release --parallel "$jobs" --target all all_verify_interface_header_sets
 build_s=$SECONDS
 
