@@ -57,7 +57,7 @@ INDEPENDENT = {
 }
 
 THIRD_PARTY = [
-    ("absl", r"absl/"), (r"spdlog/|fmt/"), ("prometheus", r"prometheus/"),
+    ("absl", r"absl/"), ("spdlog", r"spdlog/|fmt/"), ("prometheus", r"prometheus/"),
     ("glm", r"glm/"), ("toml++", r"toml\+\+/"), ("nlohmann", r"nlohmann/"),
     ("zstd", r"zstd(_errors)?\.h"), ("jpeg", r"turbojpeg\.h|jpeglib\.h|jerror\.h|jmorecfg\.h"),
     ("png", r"png\.h"), ("openexr", r"OpenEXR/|Imath/|Imf|Imath"), ("cli11", r"CLI/"),
