@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The types that C++ and GLSL both know. Only 4-byte scalars and their vectors; buffers are scalar layout.
+#ifndef VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_
+#define VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace viewloom::abi {
+
+using uint = uint32_t;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+#define VIEWLOOM_ABI_BEGIN namespace viewloom::abi {
+#define VIEWLOOM_ABI_END }
+#define VIEWLOOM_ABI_CONST inline constexpr
+
+}  // namespace viewloom::abi
+#else
+#define VIEWLOOM_ABI_BEGIN
+#define VIEWLOOM_ABI_END
+#define VIEWLOOM_ABI_CONST const
+#endif
+
+VIEWLOOM_ABI_BEGIN
+
+// A buffer device address: x = low, y = high 32 bits.
+#define Address uvec2
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_

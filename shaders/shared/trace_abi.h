@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the trace kernels are told, and what they write.
+#ifndef VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
+#define VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
+
+#include "shared/gpu_types.h"
+
+VIEWLOOM_ABI_BEGIN
+
+// One output camera, seen from the source. The point at depth s (m along the view's axis) of the ray
+// through tile px (x, y) is, in homogeneous image coordinates of the source (px * Z, px * Z, Z),
+//   eye + s * (direction + x * direction_dx + y * direction_dy).
+struct ViewParams {
+  vec3 eye;
+  vec3 direction;
+  vec3 direction_dx;
+  vec3 direction_dy;
+  // Largest error in inv_z that moves the picture by the display's tolerance, for an eye in the
+  // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/trace/view_params.h.
+  float inv_z_tolerance;
+  uint is_used;  // 0: no view stands here
+};
+
+// Values of the mask plane, as proto RayClass.
+VIEWLOOM_ABI_CONST uint kClassPadding = 0u;
+VIEWLOOM_ABI_CONST uint kClassHit = 1u;
+VIEWLOOM_ABI_CONST uint kClassHitAssumed = 2u;
+VIEWLOOM_ABI_CONST uint kClassHidden = 3u;
+VIEWLOOM_ABI_CONST uint kClassOutside = 4u;
+VIEWLOOM_ABI_CONST uint kClassEmpty = 5u;
+VIEWLOOM_ABI_CONST uint kClassCount = 6u;
+
+// The full answer to a ray, for tests, statistics and the heat map.
+struct RayRecord {
+  float x_px;      // of the hit, in the source
+  float y_px;
+  float inv_z;     // of the hit, in the source; 1/m
+  uint ray_class;  // kClass...
+  uint layer;      // of the hit
+  uint visits;     // nodes and facets looked at
+};
+
+// A band: full-width rows of the atlas, top row first. Addresses of planes that are not wanted are 0.
+struct TraceParams {
+  Address structure;   // Structure
+  Address views;       // ViewParams per tile, row-major from the top left
+  Address color;       // uint[rows][width]: sRGB, red in the low byte, alpha 255
+  Address depth;       // float[rows][width]: 1/Z of the view, 1/m
+  Address mask;        // uint8[rows][width]: kClass...
+  Address linear;      // vec4[rows][width]: colour before rounding, sRGB-encoded floats
+  Address records;     // RayRecord[rows][width]
+  Address counters;    // uint[kClassCount]: rays by class, added to
+  uint atlas_width_px;
+  uint first_row;      // of the band, in the atlas
+  uint row_count;
+  uint tile_width_px;
+  uint tile_height_px;
+  uint tile_columns;
+  uint tile_rows;
+  uint padding_top_px;
+  uint background_rgb;     // 0xRRGGBB
+  uint outside_is_border;  // 1: the border goes on; 0: background
+};
+
+// Specialisation constants of walk_views.comp.
+VIEWLOOM_ABI_CONST uint kTraceGroupSize = 64u;
+VIEWLOOM_ABI_CONST uint kWantDepth = 1u;
+VIEWLOOM_ABI_CONST uint kWantMask = 2u;
+VIEWLOOM_ABI_CONST uint kWantLinear = 4u;
+VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
+
+struct TracePush {
+  Address params;  // TraceParams
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ViewParams) == 56);
+static_assert(offsetof(TraceParams, atlas_width_px) == 64);
+static_assert(sizeof(TraceParams) == 104);
+static_assert(sizeof(RayRecord) == 24);
+#endif
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lowest level of the pyramid: a node for every 4x4 facets.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "lib/node.glsl"
+#include "lib/plane_fit.glsl"
+#include "lib/structure_access.glsl"
+
+layout(local_size_x = kNodeGroupSize) in;
+layout(push_constant, scalar) uniform Push { BuildPush push; };
+
+const int kBlockSize = 4;
+
+// Whether a link leads to a lower layer, and how far up the linked surface may stand at the edge.
+// A walk in this layer must look at such an edge: the surface goes on in front of it.
+bool leadsForward(uint links, uint layer) {
+  bool forward = false;
+  for (uint edge = 0u; edge < 4u; ++edge) {
+    const uint link = linkOfEdge(links, edge);
+    forward = forward || (link > 0u && link - 1u < layer);
+  }
+  return forward;
+}
+
+void main() {
+  StructureRef structure = StructureRef(push.structure);
+  MeasuredRef measured = MeasuredRef(structure.value.measured);
+  const uint layer = gl_WorkGroupID.z;
+  const uvec2 level_size = uvec2(structure.value.level_width[0], structure.value.level_height[0]);
+  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  if (cell.x >= level_size.x) return;
+  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
+  const ivec2 origin = ivec2(cell) * kBlockSize;
+  const ivec2 extent = min(size - origin, ivec2(kBlockSize));
+  const float kappa_abs = measured.value.kappa_abs;
+  const float kappa_rel = measured.value.kappa_rel;
+
+  PlaneFit fit = startFit();
+  vec2 box = vec2(3.4e38, kNoSurface);
+  float inv_z_min = 3.4e38;
+  bool has_hole = false;
+  bool has_forward_link = false;
+  float inv_z[kBlockSize * kBlockSize];
+  uint slopes[kBlockSize * kBlockSize];
+  for (int y = 0; y < extent.y; ++y) {
+    for (int x = 0; x < extent.x; ++x) {
+      const ivec2 pixel = origin + ivec2(x, y);
+      const uvec2 facet = loadFacet(structure, layer, pixel);
+      inv_z[y * kBlockSize + x] = uintBitsToFloat(facet.x);
+      slopes[y * kBlockSize + x] = facet.y;
+      const float center = uintBitsToFloat(facet.x);
+      if (center < 0.0) {
+        has_hole = true;
+        continue;
+      }
+      const vec2 slope = unpackSlopes(facet.y);
+      vec2 facet_box = facetBox(center, slope);
+      if (layer > 0u && leadsForward(loadLinks(structure, layer, pixel), layer)) {
+        has_forward_link = true;
+        // |a - b| <= max(kappa_abs, kappa_rel b) and b > a: b is at most this.
+        facet_box.y = max(facet_box.y + kappa_abs, facet_box.y / (1.0 - kappa_rel) * 1.000001);
+      }
+      box = vec2(min(box.x, facet_box.x), max(box.y, facet_box.y));
+      inv_z_min = min(inv_z_min, facet_box.x);
+      addSample(fit, vec2(x, y) + 0.5 - 0.5 * float(kBlockSize), center, slope);
+    }
+  }
+  if (has_hole) box.x = 0.0;
+
+  uvec2 node = packBox(kLevelFirst, box);
+  if (!has_hole && !has_forward_link) {
+    const vec2 fitted = fittedSlope(fit);
+    const float fitted_center = fittedCenter(fit, fitted);
+    // The error is that of the plane as stored.
+    const float center = planeCenter(packPlane(kLevelFirst, max(fitted_center, 0.0), fitted, 0u));
+    const vec2 slope = unpackSlopes(packSlopes(fitted));
+    float error = 0.0;
+    for (int y = 0; y < extent.y; ++y) {
+      for (int x = 0; x < extent.x; ++x) {
+        const vec2 position = vec2(x, y) + 0.5 - 0.5 * float(kBlockSize);
+        const vec2 lean = abs(unpackSlopes(slopes[y * kBlockSize + x]) - slope);
+        const float apart = abs(inv_z[y * kBlockSize + x] - (center + dot(slope, position)));
+        error = max(error, apart + 0.5 * (lean.x + lean.y));
+      }
+    }
+    // A few roundings of the sums above, of numbers no larger than the box.
+    error += box.y * (8.0 / 8388608.0);
+    const uint exponent = errorExponent(error);
+    const float kappa = connectionTolerance(kappa_abs, kappa_rel, inv_z_min);
+    if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
+      node = packPlane(kLevelFirst, center, slope, exponent);
+    }
+  }
+  Uvec2Ref(structure.value.nodes[layer]).at[nodeIndex(structure, kLevelFirst, cell)] = node;
+}

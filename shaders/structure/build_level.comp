@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A level of the pyramid from the one below it: planes where four planes fit one, boxes elsewhere.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "lib/node.glsl"
+#include "lib/plane_fit.glsl"
+#include "lib/structure_access.glsl"
+
+layout(local_size_x = kNodeGroupSize) in;
+layout(push_constant, scalar) uniform Push { BuildPush push; };
+
+void main() {
+  StructureRef structure = StructureRef(push.structure);
+  MeasuredRef measured = MeasuredRef(structure.value.measured);
+  const uint layer = gl_WorkGroupID.z;
+  const uint below = push.level - kLevelFirst - 1u;
+  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  if (cell.x >= structure.value.level_width[below + 1u]) return;
+  const uvec2 below_size = uvec2(structure.value.level_width[below], structure.value.level_height[below]);
+  const float child_size = float(1u << (push.level - 1u));
+
+  Node children[4];
+  bool exists[4];
+  PlaneFit fit = startFit();
+  vec2 box = vec2(3.4e38, kNoSurface);
+  bool all_planes = true;
+  for (uint i = 0u; i < 4u; ++i) {
+    const uvec2 child_cell = 2u * cell + uvec2(i & 1u, i >> 1);
+    exists[i] = all(lessThan(child_cell, below_size));
+    if (!exists[i]) continue;
+    children[i] = unpackNode(loadNode(structure, layer, push.level - 1u, child_cell));
+    all_planes = all_planes && children[i].is_plane;
+    const vec2 child_box = nodeBox(children[i]);
+    box = vec2(min(box.x, child_box.x), max(box.y, child_box.y));
+    const vec2 position = (vec2(i & 1u, i >> 1) - 0.5) * child_size;
+    addSample(fit, position, children[i].inv_z, children[i].slope);
+  }
+
+  uvec2 node = packBox(push.level, box);
+  if (all_planes) {
+    const vec2 fitted = fittedSlope(fit);
+    const float fitted_center = fittedCenter(fit, fitted);
+    const float center = planeCenter(packPlane(push.level, max(fitted_center, 0.0), fitted, 0u));
+    const vec2 slope = unpackSlopes(packSlopes(fitted));
+    float error = 0.0;
+    for (uint i = 0u; i < 4u; ++i) {
+      if (!exists[i]) continue;
+      const vec2 position = (vec2(i & 1u, i >> 1) - 0.5) * child_size;
+      const vec2 lean = abs(children[i].slope - slope);
+      const float apart = abs(children[i].inv_z - (center + dot(slope, position)));
+      error = max(error, children[i].error + apart + 0.5 * child_size * (lean.x + lean.y));
+    }
+    error += box.y * (8.0 / 8388608.0);
+    const uint exponent = errorExponent(error);
+    const float kappa = connectionTolerance(measured.value.kappa_abs, measured.value.kappa_rel, box.x);
+    if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
+      node = packPlane(push.level, center, slope, exponent);
+    }
+  }
+  Uvec2Ref(structure.value.nodes[layer]).at[nodeIndex(structure, push.level, cell)] = node;
+
+  if (push.level == kLevelLast && box.y >= 0.0) {
+    atomicMax(measured.value.inv_z_max_bits, floatBitsToUint(box.y));
+    atomicMin(measured.value.inv_z_min_bits, floatBitsToUint(box.x));
+  }
+}

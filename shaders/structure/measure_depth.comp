@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Histograms of layer 0: of inv_z, and of its second differences. One px of every 4x4 block is enough,
+// and which one is fixed: the result depends on nothing but the frame.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "lib/histogram.glsl"
+#include "lib/structure_access.glsl"
+
+layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
+layout(push_constant, scalar) uniform Push { BuildPush push; };
+
+// Differences of a few roundings are none: 8 ulp.
+const float kRoundingShare = 8.0 / 8388608.0;
+
+void main() {
+  StructureRef structure = StructureRef(push.structure);
+  MeasuredRef measured = MeasuredRef(structure.value.measured);
+  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
+  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(block * 4, size))) return;
+  const ivec2 pixel = min(block * 4 + 2, size - 1);
+
+  const float inv_z = loadInvZ(structure, 0u, pixel);
+  if (inv_z < 0.0) return;
+  atomicAdd(measured.value.surface_count, 1u);
+  atomicAdd(measured.value.depth_histogram[depthBin(inv_z)], 1u);
+
+  const ivec2 along = ((block.x + block.y) & 1) == 0 ? ivec2(1, 0) : ivec2(0, 1);
+  const ivec2 before = pixel - along;
+  const ivec2 after = pixel + along;
+  if (any(lessThan(before, ivec2(0))) || any(greaterThanEqual(after, size))) return;
+  const float inv_z_before = loadInvZ(structure, 0u, before);
+  const float inv_z_after = loadInvZ(structure, 0u, after);
+  if (inv_z_before < 0.0 || inv_z_after < 0.0) return;
+  const float difference = abs((inv_z_after - inv_z) - (inv_z - inv_z_before));
+  const float seen = difference <= inv_z * kRoundingShare ? 0.0 : difference;
+  atomicAdd(measured.value.noise_histogram[noiseBin(seen)], 1u);
+}

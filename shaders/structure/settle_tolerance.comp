@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the histograms: depth percentiles, quantisation step, noise, and the connection tolerance kappa.
+// One invocation: three passes over a few thousand counters.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "lib/histogram.glsl"
+#include "lib/structure_access.glsl"
+
+layout(local_size_x = 1) in;
+layout(push_constant, scalar) uniform Push { BuildPush push; };
+
+// kappa of a source that does not state its own (see shaders/README.md, Links).
+const float kKappaSteps = 1.5;
+const float kKappaSigmas = 8.0;
+const float kKappaRelative = 0.005;
+// |second difference| of independent noise: sigma sqrt(1 + 4 + 1), and a median of 0.6745 of that.
+const float kMedianPerSigma = 0.6745 * 2.44949;
+// Among differences that are not zero, a quantised source has none below its step.
+const float kStepQuantile = 0.01;
+
+float depthQuantile(MeasuredRef measured, float share) {
+  const float wanted = share * float(measured.value.surface_count);
+  float below = 0.0;
+  for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
+    const float here = float(measured.value.depth_histogram[bin]);
+    if (here > 0.0 && below + here >= wanted) {
+      const float start = binStart(bin, kDepthMantissaBits);
+      const float end = binStart(bin + 1u, kDepthMantissaBits);
+      return bin == 0u ? 0.0 : mix(start, end, clamp((wanted - below) / here, 0.0, 1.0));
+    }
+    below += here;
+  }
+  return 0.0;
+}
+
+// The end of the bin that holds the quantile, counted from bin `first`.
+float noiseQuantile(MeasuredRef measured, uint first, float share) {
+  float total = 0.0;
+  for (uint bin = first; bin < kNoiseHistogramBinCount; ++bin) {
+    total += float(measured.value.noise_histogram[bin]);
+  }
+  float below = 0.0;
+  for (uint bin = first; bin < kNoiseHistogramBinCount && total > 0.0; ++bin) {
+    below += float(measured.value.noise_histogram[bin]);
+    if (below >= share * total) return bin == 0u ? 0.0 : binStart(bin + 1u, kNoiseMantissaBits);
+  }
+  return 0.0;
+}
+
+void main() {
+  StructureRef structure = StructureRef(push.structure);
+  MeasuredRef measured = MeasuredRef(structure.value.measured);
+  const float depth_step = noiseQuantile(measured, 1u, kStepQuantile);
+  const float noise_sigma = noiseQuantile(measured, 0u, 0.5) / kMedianPerSigma;
+  const float given = structure.value.given_kappa;
+  measured.value.depth_step = depth_step;
+  measured.value.noise_sigma = noise_sigma;
+  measured.value.kappa_abs =
+      given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
+  measured.value.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
+  measured.value.inv_z_far = depthQuantile(measured, 0.02);
+  measured.value.inv_z_near = depthQuantile(measured, 0.98);
+}
