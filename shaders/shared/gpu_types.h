@@ -14,6 +14,7 @@
 namespace viewloom::abi {
 
 using uint = uint32_t;
+using Address = glm::uvec2;  // a buffer device address: x = low, y = high 32 bits
 using glm::uvec2;
 using glm::vec2;
 using glm::vec3;
@@ -25,16 +26,10 @@ using glm::vec4;
 
 }  // namespace viewloom::abi
 #else
+#define Address uvec2
 #define VIEWLOOM_ABI_BEGIN
 #define VIEWLOOM_ABI_END
 #define VIEWLOOM_ABI_CONST const
 #endif
-
-VIEWLOOM_ABI_BEGIN
-
-// A buffer device address: x = low, y = high 32 bits.
-#define Address uvec2
-
-VIEWLOOM_ABI_END
 
 #endif  // VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_

@@ -92,7 +92,6 @@ struct Structure {
   float principal_x_px;
   float principal_y_px;
   float given_kappa;            // 1/m; 0 = measured
-  float color_scale;            // linear factor of the exposure, 1 = none
   Address measured;             // Measured
   Address inv_z[kLayerCountMax];    // float[height][width]
   Address facets[kLayerCountMax];   // uvec2[height][width]: inv_z bits, slopes (lib/facet.glsl)
@@ -114,25 +113,33 @@ struct BuildPush {
 };
 
 // Source of convert_color.comp: an RGBA8 or RGBA16F plane of any transfer, primaries and alpha.
+VIEWLOOM_ABI_CONST uint kPrimariesBt709 = 0u;
+VIEWLOOM_ABI_CONST uint kPrimariesDisplayP3 = 1u;
+VIEWLOOM_ABI_CONST uint kPrimariesBt2020 = 2u;
+VIEWLOOM_ABI_CONST uint kAlphaOpaque = 0u;
+VIEWLOOM_ABI_CONST uint kAlphaPremultiplied = 1u;
+VIEWLOOM_ABI_CONST uint kAlphaStraight = 2u;
+
 struct ConvertColorPush {
   Address from;
   Address to;  // RGBA16F, linear BT.709, premultiplied
   uint texel_count;
   uint from_format;  // kColor...
   uint is_linear;
-  uint primaries;    // 0 BT.709, 1 Display P3, 2 BT.2020
-  uint alpha;        // 0 opaque, 1 premultiplied, 2 straight
+  uint primaries;    // kPrimaries...
+  uint alpha;        // kAlpha...
+  float light_scale;  // 2^exposure
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlane) == 60);
 static_assert(sizeof(ColorPlane) == 16);
 static_assert(offsetof(Measured, noise_histogram) == 44 + 4 * kDepthHistogramBinCount);
-static_assert(offsetof(Structure, inv_z) == 48);
-static_assert(offsetof(Structure, level_offset) == 48 + 5 * 32);
-static_assert(sizeof(Structure) == 48 + 5 * 32 + 3 * 20 + 4 * 16 + 4 * 60);
+static_assert(offsetof(Structure, inv_z) == 44);
+static_assert(offsetof(Structure, level_offset) == 44 + 5 * 32);
+static_assert(sizeof(Structure) == 44 + 5 * 32 + 3 * 20 + 4 * 16 + 4 * 60);
 static_assert(sizeof(BuildPush) == 16);
-static_assert(sizeof(ConvertColorPush) == 36);
+static_assert(sizeof(ConvertColorPush) == 40);
 #endif
 
 VIEWLOOM_ABI_END

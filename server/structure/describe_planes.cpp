@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/describe_planes.h"
+
+#include <cmath>
+
+#include "frame/depth.h"
+
+namespace viewloom {
+namespace {
+
+// How far two surfaces may be apart in 1/Z and still be one sample's worth: a step of the stored number,
+// carried through inv_z = value or 1 / value. Terms of step(w) = x + y w + z w^2.
+abi::vec3 formatStep(PlaneEncoding encoding, const DepthCoefficients& coefficients) {
+  constexpr float kRelativeStepF16 = 0x1p-10F;
+  constexpr float kRelativeStepF32 = 0x1p-22F;  // an ulp, and one of the division
+  if (encoding == PlaneEncoding::kDepthU16) {
+    const float step = std::abs(coefficients.scale);
+    return coefficients.reciprocal ? abi::vec3(0, 0, step) : abi::vec3(step, 0, 0);
+  }
+  const float relative = encoding == PlaneEncoding::kDepthF16 ? kRelativeStepF16 : kRelativeStepF32;
+  return {0, relative, 0};
+}
+
+uint32_t sampleType(PlaneEncoding encoding) {
+  switch (encoding) {
+    case PlaneEncoding::kDepthF16:
+      return abi::kDepthSampleF16;
+    case PlaneEncoding::kDepthU16:
+      return abi::kDepthSampleU16;
+    default:
+      return abi::kDepthSampleF32;
+  }
+}
+
+}  // namespace
+
+abi::DepthPlane describeDepth(const PlaneFormat& depth) {
+  const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
+  return {.samples = {},
+          .sample_type = sampleType(depth.encoding),
+          .origin = coefficients.origin,
+          .scale = coefficients.scale,
+          .offset = coefficients.offset,
+          .invalid_value = coefficients.invalid_value,
+          .inv_z_max = coefficients.inv_z_max,
+          .reciprocal = coefficients.reciprocal,
+          .ray_distance = coefficients.ray_distance,
+          .has_invalid = coefficients.has_invalid,
+          .invalid_is_far = coefficients.invalid_is_far,
+          .format_step = formatStep(depth.encoding, coefficients)};
+}
+
+abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
+                                         double exposure_ev) {
+  return {.from = {},
+          .to = {},
+          .texel_count = uint32_t(color.size_px.area()),
+          .from_format =
+              decoded_encoding == PlaneEncoding::kRgba8 ? abi::kColorRgba8 : abi::kColorRgba16f,
+          .is_linear = color.transfer == ColorTransfer::kLinear,
+          .primaries = uint32_t(color.primaries),
+          .alpha = uint32_t(color.alpha),
+          .light_scale = float(std::exp2(exposure_ev))};
+}
+
+static_assert(uint32_t(ColorPrimaries::kBt709) == abi::kPrimariesBt709);
+static_assert(uint32_t(ColorPrimaries::kDisplayP3) == abi::kPrimariesDisplayP3);
+static_assert(uint32_t(ColorPrimaries::kBt2020) == abi::kPrimariesBt2020);
+static_assert(uint32_t(AlphaMode::kOpaque) == abi::kAlphaOpaque);
+static_assert(uint32_t(AlphaMode::kPremultiplied) == abi::kAlphaPremultiplied);
+static_assert(uint32_t(AlphaMode::kStraight) == abi::kAlphaStraight);
+
+}  // namespace viewloom

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/frame_shape.h"
+
+#include "structure/structure_layout.h"
+
+namespace viewloom {
+namespace {
+
+// Planes start at multiples of this: enough for every texel type and for vkCmdCopyBuffer.
+constexpr uint64_t kStagingAlignment_bytes = 256;
+
+uint64_t alignedEnd(uint64_t offset, uint64_t size_bytes) {
+  const uint64_t end = offset + size_bytes;
+  return (end + kStagingAlignment_bytes - 1) / kStagingAlignment_bytes * kStagingAlignment_bytes;
+}
+
+bool isPlainColor(const PlaneFormat& color, PlaneEncoding decoded_encoding) {
+  return decoded_encoding == PlaneEncoding::kRgba8 && color.transfer == ColorTransfer::kSrgb &&
+         color.primaries == ColorPrimaries::kBt709 && color.alpha == AlphaMode::kOpaque;
+}
+
+}  // namespace
+
+FrameShape shapeOf(const Frame& frame) {
+  const SourceFormat& source = frame.format.sources.front();
+  const std::vector<LayerPlanes>& planes = frame.sources.front();
+  FrameShape shape;
+  shape.depth_px = source.layers.front().depth.size_px;
+  bool all_plain = frame.format.exposure_ev == 0;
+  for (size_t i = 0; i < source.layers.size(); ++i) {
+    shape.color_px.push_back(source.layers[i].color.size_px);
+    all_plain = all_plain && isPlainColor(source.layers[i].color, planes[i].color_encoding);
+  }
+  shape.color_storage = all_plain ? ColorStorage::kRgba8Srgb : ColorStorage::kRgba16fLinear;
+  const std::vector<StagedLayer> staged = stagedLayers(frame);
+  shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
+  return shape;
+}
+
+std::vector<StagedLayer> stagedLayers(const Frame& frame) {
+  std::vector<StagedLayer> staged;
+  uint64_t offset = 0;
+  for (const LayerPlanes& planes : frame.sources.front()) {
+    StagedLayer layer;
+    layer.depth = {offset, planes.depth->size()};
+    offset = alignedEnd(offset, layer.depth.size_bytes);
+    layer.color = {offset, planes.color->size()};
+    offset = alignedEnd(offset, layer.color.size_bytes);
+    staged.push_back(layer);
+  }
+  return staged;
+}
+
+uint64_t structureBytes(const FrameShape& shape) {
+  uint64_t total_bytes = shape.staged_bytes;
+  for (const SizePx& color_px : shape.color_px) {
+    total_bytes += colorBytes(shape.color_storage, color_px);
+    total_bytes += structureLayout(shape.depth_px).layerBytes();
+  }
+  return total_bytes;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a frame decides the size of its GPU resources: frames of one shape share slots.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frame/frame.h"
+
+namespace viewloom {
+
+// How colour lies on the device.
+enum class ColorStorage : uint8_t {
+  kRgba8Srgb,     // opaque sRGB BT.709 as it came, 4 bytes a px
+  kRgba16fLinear  // linear BT.709, premultiplied, 8 bytes a px: everything else
+};
+
+struct FrameShape {
+  SizePx depth_px;
+  std::vector<SizePx> color_px;  // [layer]
+  ColorStorage color_storage = ColorStorage::kRgba8Srgb;
+  uint64_t staged_bytes = 0;  // decoded planes of all layers, each aligned for upload
+
+  uint32_t layerCount() const { return uint32_t(color_px.size()); }
+  bool operator==(const FrameShape&) const = default;
+};
+
+FrameShape shapeOf(const Frame& frame);
+
+// Device and host memory one slot of this shape takes, bytes; to check before anything is allocated.
+uint64_t structureBytes(const FrameShape& shape);
+
+// Where each plane of the frame lies in the upload buffer, bytes.
+struct StagedPlane {
+  uint64_t offset = 0;
+  uint64_t size_bytes = 0;
+};
+
+struct StagedLayer {
+  StagedPlane depth;
+  StagedPlane color;
+};
+
+std::vector<StagedLayer> stagedLayers(const Frame& frame);
+
+}  // namespace viewloom

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/structure_builder.h"
+
+#include <algorithm>
+
+#include "gpu/barrier.h"
+#include "shaders/build_blocks.h"
+#include "shaders/build_facets.h"
+#include "shaders/build_level.h"
+#include "shaders/build_links.h"
+#include "shaders/convert_color.h"
+#include "shaders/flatten_entries.h"
+#include "shaders/linearise_depth.h"
+#include "shaders/measure_depth.h"
+#include "shaders/settle_tolerance.h"
+
+namespace viewloom {
+namespace {
+
+ComputePass makePass(const Device& device, std::span<const uint32_t> spirv, uint32_t push_bytes,
+                     const char* name) {
+  return ComputePass(device, {.spirv = spirv, .push_bytes = push_bytes, .debug_name = name});
+}
+
+uint32_t groups(uint32_t count, uint32_t group_size) { return (count + group_size - 1) / group_size; }
+
+// Runs one pass between its time stamps.
+class Timed {
+ public:
+  Timed(vk::CommandBuffer commands, GpuTimer* timer, const char* name)
+      : commands_(commands), timer_(timer) {
+    if (timer_) timer_->recordBegin(commands_, name);
+  }
+  ~Timed() {
+    if (timer_) timer_->recordEnd(commands_);
+  }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  vk::CommandBuffer commands_;
+  GpuTimer* timer_;
+};
+
+// All counters 0, and a minimum that anything is below.
+void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
+  constexpr uint64_t kMin = offsetof(abi::Measured, inv_z_min_bits);
+  commands.fillBuffer(measured.handle(), 0, kMin, 0);
+  commands.fillBuffer(measured.handle(), kMin, sizeof(uint32_t), UINT32_MAX);
+  commands.fillBuffer(measured.handle(), kMin + sizeof(uint32_t), VK_WHOLE_SIZE, 0);
+}
+
+}  // namespace
+
+StructureBuilder::StructureBuilder(const Device& device)
+    : convert_color_(makePass(device, convert_color_spirv, sizeof(abi::ConvertColorPush),
+                              "convert color")),
+      linearise_depth_(
+          makePass(device, linearise_depth_spirv, sizeof(abi::BuildPush), "linearise depth")),
+      measure_depth_(makePass(device, measure_depth_spirv, sizeof(abi::BuildPush), "measure depth")),
+      settle_tolerance_(
+          makePass(device, settle_tolerance_spirv, sizeof(abi::BuildPush), "settle tolerance")),
+      build_facets_(makePass(device, build_facets_spirv, sizeof(abi::BuildPush), "build facets")),
+      build_links_(makePass(device, build_links_spirv, sizeof(abi::BuildPush), "build links")),
+      build_blocks_(makePass(device, build_blocks_spirv, sizeof(abi::BuildPush), "build blocks")),
+      build_level_(makePass(device, build_level_spirv, sizeof(abi::BuildPush), "build level")),
+      flatten_entries_(
+          makePass(device, flatten_entries_spirv, sizeof(abi::BuildPush), "flatten entries")) {}
+
+void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& slot,
+                              GpuTimer* timer) const {
+  {
+    const Timed timed(commands, timer, "color");
+    commands.copyBuffer(slot.structureUpload().handle(), slot.structure().handle(),
+                        vk::BufferCopy{.size = sizeof(abi::Structure)});
+    recordClear(commands, slot.measured());
+    recordColor(commands, slot);
+    recordTransferToCompute(commands);
+  }
+  const abi::BuildPush push{.structure = addressWords(slot.address()), .layer = 0, .level = 0};
+  const SizePx size = slot.shape().depth_px;
+  const uint32_t groups_x = groups(size.width, abi::kBuildGroupWidth);
+  const uint32_t groups_y = groups(size.height, abi::kBuildGroupHeight);
+  {
+    const Timed timed(commands, timer, "linearise");
+    linearise_depth_.record(commands, push, groups_x, groups_y);
+    recordComputeBarrier(commands);
+  }
+  {
+    const Timed timed(commands, timer, "measure");
+    measure_depth_.record(commands, push, groups(groups(size.width, 4), abi::kBuildGroupWidth),
+                          groups(groups(size.height, 4), abi::kBuildGroupHeight));
+    recordComputeBarrier(commands);
+    settle_tolerance_.record(commands, push, 1);
+  }
+  {
+    const Timed timed(commands, timer, "facets");
+    build_facets_.record(commands, push, groups_x, groups_y, slot.shape().layerCount());
+    recordComputeBarrier(commands);
+  }
+  {
+    const Timed timed(commands, timer, "links");
+    build_links_.record(commands, push, groups_x, groups_y);
+    recordComputeBarrier(commands);
+  }
+  recordPyramid(commands, slot, timer);
+  recordComputeToTransfer(commands);
+  commands.copyBuffer(slot.measured().handle(), slot.measuredReadback().handle(),
+                      vk::BufferCopy{.size = slot.measuredReadback().sizeBytes()});
+  recordTransferToHost(commands);
+}
+
+void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const {
+  for (size_t i = 0; i < slot.color().size(); ++i) {
+    if (slot.shape().color_storage == ColorStorage::kRgba8Srgb) {
+      commands.copyBuffer(slot.staging().handle(), slot.color()[i].handle(),
+                          vk::BufferCopy{.srcOffset = slot.staged()[i].color.offset,
+                                         .size = slot.staged()[i].color.size_bytes});
+      continue;
+    }
+    // Two dimensions of groups: one alone would pass the least limit of 65535 from 2048 x 2048 px on.
+    const uint32_t group_count = groups(slot.conversions()[i].texel_count, abi::kNodeGroupSize);
+    const uint32_t groups_x = std::min(group_count, 1024u);
+    convert_color_.record(commands, slot.conversions()[i], groups_x, groups(group_count, groups_x));
+  }
+}
+
+void StructureBuilder::recordPyramid(vk::CommandBuffer commands, const StructureSlot& slot,
+                                     GpuTimer* timer) const {
+  abi::BuildPush push{.structure = addressWords(slot.address()), .layer = 0, .level = 0};
+  const uint32_t layer_count = slot.shape().layerCount();
+  const auto record = [&](const ComputePass& pass, const LevelLayout& level) {
+    pass.record(commands, push, groups(level.size.width, abi::kNodeGroupSize), level.size.height,
+                layer_count);
+    recordComputeBarrier(commands);
+  };
+  {
+    const Timed timed(commands, timer, "blocks");
+    record(build_blocks_, slot.layout().levels[0]);
+  }
+  const Timed timed(commands, timer, "levels");
+  for (uint32_t i = 1; i < abi::kLevelCount; ++i) {
+    push.level = abi::kLevelFirst + i;
+    record(build_level_, slot.layout().levels[i]);
+  }
+  record(flatten_entries_, slot.layout().levels[0]);
+}
+
+}  // namespace viewloom

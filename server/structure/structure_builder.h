@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records the build of a structure: linearise, measure, facets, links, pyramid.
+#pragma once
+
+#include "gpu/compute_pass.h"
+#include "gpu/gpu_timer.h"
+#include "structure/structure_slot.h"
+
+namespace viewloom {
+
+// Passes a recording times at most.
+inline constexpr uint32_t kStructurePassCountMax = 16;
+
+// The device must outlive it. Thread-safety: record() may be called from one thread at a time.
+class StructureBuilder {
+ public:
+  explicit StructureBuilder(const Device& device);
+
+  // From uploaded planes to a structure that can be traced, and its stats in host memory. Commands
+  // recorded afterwards in the same submission see it, too. `timer` was reset in this recording;
+  // nullptr = untimed.
+  void record(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+
+ private:
+  void recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const;
+  void recordPyramid(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+
+  ComputePass convert_color_;
+  ComputePass linearise_depth_;
+  ComputePass measure_depth_;
+  ComputePass settle_tolerance_;
+  ComputePass build_facets_;
+  ComputePass build_links_;
+  ComputePass build_blocks_;
+  ComputePass build_level_;
+  ComputePass flatten_entries_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/trace_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace viewloom {
+namespace {
+
+// An eye at the source's own place sees no error in inv_z: any plane will do.
+constexpr double kInvZToleranceMax = 1e30;
+
+// Camera space (y up, looking along -z) to homogeneous image px (y down): px * Z, px * Z, Z.
+glm::dvec3 homogeneousPx(const Intrinsics& intrinsics, const glm::dvec3& point_m) {
+  const double depth_m = -point_m.z;
+  return {intrinsics.focal_px.x * point_m.x + intrinsics.principal_px.x * depth_m,
+          -intrinsics.focal_px.y * point_m.y + intrinsics.principal_px.y * depth_m, depth_m};
+}
+
+double largestCross(const glm::dvec3& eye_m, const Intrinsics& intrinsics, SizePx size_px) {
+  double largest = 0;
+  for (const double x_px : {0.0, double(size_px.width)}) {
+    for (const double y_px : {0.0, double(size_px.height)}) {
+      const glm::dvec3 ray((x_px - intrinsics.principal_px.x) / intrinsics.focal_px.x,
+                           -(y_px - intrinsics.principal_px.y) / intrinsics.focal_px.y, -1.0);
+      largest = std::max(largest, glm::length(glm::cross(ray, eye_m)));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+Pose displayPose(const DisplaySpec& spec, const Camera& source_camera) {
+  return spec.world_pose.value_or(source_camera.pose);
+}
+
+abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
+                               const Camera& source_camera, SizePx source_px, double tolerance_px) {
+  const Pose source_from_view =
+      compose(inverse(source_camera.pose), compose(display_pose, view.camera.pose));
+  const Intrinsics& in = source_camera.intrinsics;
+  const Intrinsics& out = view.camera.intrinsics;
+  // A step of one metre along the view's axis, so that s is the depth in the view.
+  const auto direction = [&](double x, double y, double z) {
+    return abi::vec3(homogeneousPx(in, source_from_view.orientation * glm::dvec3(x, y, z)));
+  };
+  const double moved_px =
+      std::max(out.focal_px.x, out.focal_px.y) * largestCross(source_from_view.position_m, in, source_px);
+  return {.eye = abi::vec3(homogeneousPx(in, source_from_view.position_m)),
+          .direction = direction(-out.principal_px.x / out.focal_px.x,
+                                 out.principal_px.y / out.focal_px.y, -1.0),
+          .direction_dx = direction(1.0 / out.focal_px.x, 0.0, 0.0),
+          .direction_dy = direction(0.0, -1.0 / out.focal_px.y, 0.0),
+          .inv_z_tolerance = float(std::min(tolerance_px / std::max(moved_px, 1e-300), kInvZToleranceMax)),
+          .is_used = 1};
+}
+
+TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
+                      const Pose& display_pose, const Camera& source_camera, SizePx source_px) {
+  TraceJob job;
+  job.outside_fill = spec.outside_fill;
+  job.background_rgb = spec.background_rgb;
+  for (uint32_t row = 0; row < layout->rows; ++row) {
+    for (uint32_t column = 0; column < layout->columns; ++column) {
+      const uint32_t view = layout->viewAt(column, row);
+      job.tiles.push_back(view < layout->views.size()
+                              ? makeViewParams(layout->views[view], display_pose, source_camera,
+                                               source_px, spec.tolerance_px)
+                              : abi::ViewParams{});
+    }
+  }
+  job.layout = std::move(layout);
+  return job;
+}
+
+}  // namespace viewloom

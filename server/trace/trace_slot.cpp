@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/trace_slot.h"
+
+#include "gpu/barrier.h"
+
+namespace viewloom {
+namespace {
+
+ReadablePlane planeIf(bool wanted, const Device& device, uint64_t size_bytes, const char* name) {
+  return wanted ? ReadablePlane(device, size_bytes, name) : ReadablePlane();
+}
+
+template <typename T>
+std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
+  return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
+}
+
+}  // namespace
+
+bool TraceSlotShape::holds(const TraceSlotShape& other) const {
+  return width_px >= other.width_px && row_count_max >= other.row_count_max &&
+         tile_count_max >= other.tile_count_max && outputs == other.outputs;
+}
+
+ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
+    : readback_(device, {.size_bytes = size_bytes,
+                         .intent = MemoryIntent::kReadback,
+                         .debug_name = name}),
+      is_direct_(device.info().is_software) {
+  if (!is_direct_) device_only_ = Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
+}
+
+void ReadablePlane::recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const {
+  if (isEmpty() || is_direct_) return;
+  commands.copyBuffer(device_only_.handle(), readback_.handle(), vk::BufferCopy{.size = size_bytes});
+}
+
+TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_(shape) {
+  const uint64_t area_px = uint64_t{shape.width_px} * shape.row_count_max;
+  color_ = ReadablePlane(device, area_px * sizeof(uint32_t), "band color");
+  depth_ = planeIf(shape.outputs.depth, device, area_px * sizeof(float), "band depth");
+  // Filled in words: rounded up to whole ones.
+  mask_ = planeIf(shape.outputs.mask, device, (area_px + 3) / 4 * 4, "band mask");
+  linear_ = planeIf(shape.outputs.linear, device, area_px * 4 * sizeof(float), "band linear");
+  records_ = planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
+  counters_ = ReadablePlane(device, abi::kClassCount * sizeof(uint32_t), "band counters");
+  const uint64_t params_bytes =
+      sizeof(abi::TraceParams) + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);
+  upload_ = Buffer(device, {.size_bytes = params_bytes,
+                            .intent = MemoryIntent::kUpload,
+                            .debug_name = "trace upload"});
+  params_ = Buffer(device, {.size_bytes = params_bytes, .debug_name = "trace params"});
+}
+
+uint64_t TraceSlot::sizeBytes() const {
+  uint64_t total_bytes = 0;
+  for (const ReadablePlane* plane : {&color_, &depth_, &mask_, &linear_, &records_, &counters_}) {
+    total_bytes += plane->bytes().size();
+  }
+  return total_bytes + 2 * upload_.sizeBytes();
+}
+
+std::span<const uint32_t> TraceSlot::color() const {
+  return readAs<uint32_t>(color_, uint64_t{shape_.width_px} * row_count_);
+}
+
+std::span<const float> TraceSlot::depth() const {
+  return readAs<float>(depth_, uint64_t{shape_.width_px} * row_count_);
+}
+
+std::span<const uint8_t> TraceSlot::mask() const {
+  return readAs<uint8_t>(mask_, uint64_t{shape_.width_px} * row_count_);
+}
+
+std::span<const float> TraceSlot::linear() const {
+  return readAs<float>(linear_, uint64_t{shape_.width_px} * row_count_ * 4);
+}
+
+std::span<const abi::RayRecord> TraceSlot::records() const {
+  return readAs<abi::RayRecord>(records_, uint64_t{shape_.width_px} * row_count_);
+}
+
+Coverage TraceSlot::coverage() const {
+  const auto counts = readAs<uint32_t>(counters_, abi::kClassCount);
+  return {.hit = counts[abi::kClassHit],
+          .hit_assumed = counts[abi::kClassHitAssumed],
+          .hidden = counts[abi::kClassHidden],
+          .outside = counts[abi::kClassOutside],
+          .empty = counts[abi::kClassEmpty]};
+}
+
+}  // namespace viewloom

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GPU resources of one band in flight, and its px once they are traced.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "frame/stage_times.h"
+#include "gpu/buffer.h"
+#include "shared/trace_abi.h"
+
+namespace viewloom {
+
+// Which planes of a band are wanted beside its 8-bit colour.
+struct TraceOutputs {
+  bool depth = false;    // 1/Z of the view
+  bool mask = false;     // ray classes
+  bool linear = false;   // colour before it is rounded to 8 bits
+  bool records = false;  // abi::RayRecord per px: for tests, statistics and the heat map
+
+  bool operator==(const TraceOutputs&) const = default;
+};
+
+struct TraceSlotShape {
+  uint32_t width_px = 0;
+  uint32_t row_count_max = 0;
+  uint32_t tile_count_max = 0;
+  TraceOutputs outputs;
+
+  // Whether a slot of this shape can hold a band of that one.
+  bool holds(const TraceSlotShape& other) const;
+};
+
+// A plane that kernels write and the CPU reads. On a device whose memory is the CPU's, one buffer;
+// elsewhere a device buffer and the copy of it.
+class ReadablePlane {
+ public:
+  ReadablePlane() = default;
+  ReadablePlane(const Device& device, uint64_t size_bytes, const char* name);
+
+  bool isEmpty() const { return readback_.sizeBytes() == 0; }
+  const Buffer& target() const { return is_direct_ ? readback_ : device_only_; }
+  // Makes what kernels wrote readable: a barrier, and a copy where one is needed.
+  void recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const;
+  std::span<const std::byte> bytes() const { return readback_.mapped(); }
+
+ private:
+  Buffer device_only_;
+  Buffer readback_;
+  bool is_direct_ = true;
+};
+
+// Owner decides when the slot is free. Thread-safety: none.
+class TraceSlot {
+ public:
+  TraceSlot(const Device& device, const TraceSlotShape& shape);
+
+  const TraceSlotShape& shape() const { return shape_; }
+  uint64_t sizeBytes() const;
+
+  // Once the band's submission is done. Rows from the top, packed.
+  std::span<const uint32_t> color() const;  // uint32_t[rows][width]: R, G, B, 255 in memory order
+  std::span<const float> depth() const;     // float[rows][width], 1/m
+  std::span<const uint8_t> mask() const;    // uint8_t[rows][width], RayClass
+  std::span<const float> linear() const;    // float[rows][width][4], sRGB-encoded
+  std::span<const abi::RayRecord> records() const;
+  Coverage coverage() const;
+
+ private:
+  friend class ViewTracer;
+
+  TraceSlotShape shape_;
+  uint32_t row_count_ = 0;  // of the band in it
+  ReadablePlane color_;
+  ReadablePlane depth_;
+  ReadablePlane mask_;
+  ReadablePlane linear_;
+  ReadablePlane records_;
+  ReadablePlane counters_;
+  Buffer upload_;  // abi::TraceParams, then the tiles
+  Buffer params_;
+};
+
+}  // namespace viewloom

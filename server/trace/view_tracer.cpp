@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/view_tracer.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/check.h"
+#include "gpu/barrier.h"
+#include "shaders/walk_views.h"
+
+namespace viewloom {
+namespace {
+
+// With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring px instead of
+// neighbouring views, and an invocation then takes one px: measured in shaders/README.md.
+constexpr uint32_t kColumnsForViewLanes = 5;
+constexpr uint32_t kPixelsWithViewLanes = 8;
+constexpr uint32_t kPixelsWithPixelLanes = 1;
+
+constexpr uint32_t kOpaqueBlack = 0xff000000;
+
+uint32_t wantedFlags(const TraceOutputs& outputs) {
+  return (outputs.depth ? abi::kWantDepth : 0) | (outputs.mask ? abi::kWantMask : 0) |
+         (outputs.linear ? abi::kWantLinear : 0) | (outputs.records ? abi::kWantRecords : 0);
+}
+
+bool colorIsScaled(const FrameShape& shape) {
+  return std::any_of(shape.color_px.begin(), shape.color_px.end(),
+                     [&](const SizePx& color_px) { return color_px != shape.depth_px; });
+}
+
+bool hasUnusedPixels(const TraceJob& job) {
+  const AtlasLayout& layout = *job.layout;
+  return layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
+         layout.views.size() < size_t{layout.columns} * layout.rows;
+}
+
+abi::Address addressOf(const ReadablePlane& plane) {
+  return plane.isEmpty() ? abi::Address{0, 0} : addressWords(plane.target().address());
+}
+
+// What no view covers is black; every plane is cleared, so that no byte of an older band is left.
+void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_t value) {
+  if (!plane.isEmpty()) commands.fillBuffer(plane.target().handle(), 0, VK_WHOLE_SIZE, value);
+}
+
+}  // namespace
+
+ViewTracer::ViewTracer(const Device& device) : device_(&device) {}
+
+const ComputePass& ViewTracer::pass(const Variant& variant) {
+  std::lock_guard lock(mutex_);
+  std::unique_ptr<ComputePass>& made = passes_[variant];
+  if (!made) {
+    const uint32_t constants[] = {variant.wanted, variant.color_format, variant.pixels_per_invocation,
+                                  variant.lanes_are_views, variant.color_is_scaled};
+    made = std::make_unique<ComputePass>(
+        *device_, ComputePassOptions{.spirv = walk_views_spirv,
+                                     .push_bytes = sizeof(abi::TracePush),
+                                     .specialization = constants,
+                                     .debug_name = "walk views"});
+  }
+  return *made;
+}
+
+void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& structure,
+                            const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
+  const AtlasLayout& layout = *job.layout;
+  VIEWLOOM_CHECK(slot.shape_.width_px == layout.size_px.width &&
+                 slot.shape_.row_count_max >= rows.row_count &&
+                 slot.shape_.tile_count_max >= job.tiles.size());
+  slot.row_count_ = rows.row_count;
+  const abi::TraceParams params{
+      .structure = addressWords(structure.address()),
+      .views = addressWords(slot.params_.address() + sizeof(abi::TraceParams)),
+      .color = addressOf(slot.color_),
+      .depth = addressOf(slot.depth_),
+      .mask = addressOf(slot.mask_),
+      .linear = addressOf(slot.linear_),
+      .records = addressOf(slot.records_),
+      .counters = addressOf(slot.counters_),
+      .atlas_width_px = layout.size_px.width,
+      .first_row = rows.first_row,
+      .row_count = rows.row_count,
+      .tile_width_px = layout.tile_size_px.width,
+      .tile_height_px = layout.tile_size_px.height,
+      .tile_columns = layout.columns,
+      .tile_rows = layout.rows,
+      .padding_top_px = layout.padding_top_px,
+      .background_rgb = job.background_rgb,
+      .outside_is_border = job.outside_fill == OutsideFill::kBorder};
+  const size_t tiles_bytes = job.tiles.size() * sizeof(abi::ViewParams);
+  std::memcpy(slot.upload_.mapped().data(), &params, sizeof params);
+  std::memcpy(slot.upload_.mapped().data() + sizeof params, job.tiles.data(), tiles_bytes);
+
+  const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
+  const uint32_t pixels = lanes_are_views ? kPixelsWithViewLanes : kPixelsWithPixelLanes;
+  const ComputePass& walk =
+      pass({.wanted = wantedFlags(slot.shape_.outputs),
+            .color_format = structure.shape().color_storage == ColorStorage::kRgba8Srgb
+                                ? abi::kColorRgba8
+                                : abi::kColorRgba16f,
+            .pixels_per_invocation = pixels,
+            .lanes_are_views = lanes_are_views,
+            .color_is_scaled = colorIsScaled(structure.shape())});
+
+  if (timer) timer->recordBegin(commands, "trace");
+  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
+                      vk::BufferCopy{.size = sizeof params + tiles_bytes});
+  recordClear(commands, slot.counters_, 0);
+  if (hasUnusedPixels(job)) {
+    recordClear(commands, slot.color_, kOpaqueBlack);
+    for (const ReadablePlane* plane : {&slot.depth_, &slot.mask_, &slot.linear_, &slot.records_}) {
+      recordClear(commands, *plane, 0);
+    }
+  }
+  recordTransferToCompute(commands);
+  const uint32_t invocations = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
+  walk.record(commands, abi::TracePush{.params = addressWords(slot.params_.address())},
+              (invocations + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize, rows.row_count);
+  if (timer) timer->recordEnd(commands);
+
+  recordComputeToTransfer(commands);
+  const uint64_t area_px = uint64_t{layout.size_px.width} * rows.row_count;
+  slot.color_.recordReadback(commands, area_px * sizeof(uint32_t));
+  slot.depth_.recordReadback(commands, area_px * sizeof(float));
+  slot.mask_.recordReadback(commands, area_px);
+  slot.linear_.recordReadback(commands, area_px * 4 * sizeof(float));
+  slot.records_.recordReadback(commands, area_px * sizeof(abi::RayRecord));
+  slot.counters_.recordReadback(commands, abi::kClassCount * sizeof(uint32_t));
+  recordTransferToHost(commands);
+  recordComputeToHost(commands);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records the trace of bands of an atlas by the walk.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "gpu/compute_pass.h"
+#include "gpu/gpu_timer.h"
+#include "structure/structure_slot.h"
+#include "trace/trace_job.h"
+#include "trace/trace_slot.h"
+
+namespace viewloom {
+
+struct BandRows {
+  uint32_t first_row = 0;
+  uint32_t row_count = 0;
+};
+
+// The device must outlive it. Thread-safety: all methods may be called from any thread.
+class ViewTracer {
+ public:
+  explicit ViewTracer(const Device& device);
+
+  // Traces these rows of the job's atlas into the slot. The slot is `layout->size_px.width` wide and
+  // holds the rows and tiles; the structure is built, earlier in this submission or before. `timer` was
+  // reset in this recording; nullptr = untimed. The first band of a new combination of outputs and
+  // color storage compiles its pipeline.
+  void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
+                  BandRows rows, TraceSlot& slot, GpuTimer* timer);
+
+ private:
+  // What the pipeline is specialised to.
+  struct Variant {
+    uint32_t wanted;  // abi::kWant... flags
+    uint32_t color_format;
+    uint32_t pixels_per_invocation;
+    uint32_t lanes_are_views;
+    uint32_t color_is_scaled;
+
+    auto operator<=>(const Variant&) const = default;
+  };
+
+  const ComputePass& pass(const Variant& variant);
+
+  const Device* device_;
+  std::mutex mutex_;  // guards passes_
+  std::map<Variant, std::unique_ptr<ComputePass>> passes_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# Every entry point, in the order in which a frame passes them.
+set(VIEWLOOM_SHADERS
+  structure/convert_color.comp
+  structure/linearise_depth.comp
+  structure/measure_depth.comp
+  structure/settle_tolerance.comp
+  structure/build_facets.comp
+  structure/build_links.comp
+  structure/build_blocks.comp
+  structure/build_level.comp
+  structure/flatten_entries.comp
+  trace/walk_views.comp)
