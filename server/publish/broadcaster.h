@@ -15,7 +15,7 @@
 
 namespace viewloom {
 
-// A display that is watched now: distinct in stream, picture and encoding. The demand the loops read.
+// A display that is watched now, distinct in stream, picture and encoding: what the loops read.
 struct ActiveDisplay {
   uint64_t id = 0;
   std::string stream;
@@ -32,8 +32,8 @@ struct BroadcasterLimits {
   uint32_t subscriber_count_max = 1024;
 };
 
-// Thread-safety: all methods may be called from any thread. Subscribers are called without a lock held
-// that a subscriber could want.
+// Thread-safety: all methods may be called from any thread. Subscribers are called without a lock
+// held that a subscriber could want.
 class Broadcaster {
  public:
   explicit Broadcaster(BroadcasterLimits limits);
@@ -57,7 +57,8 @@ class Broadcaster {
   std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;
   uint32_t subscriberCount(const std::string& stream) const;
 
-  // A finished atlas. Its sequence must grow; atlases of a display nobody watches any more are dropped.
+  // A finished atlas. Its sequence must grow. Atlases of a display that nobody watches any more are
+  // dropped.
   void publish(AtlasPtr atlas);
   // The display cannot be served: its subscribers end with this status.
   void refuse(uint64_t display_id, const absl::Status& status);

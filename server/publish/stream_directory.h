@@ -32,6 +32,7 @@ struct StreamEntry {
 // Thread-safety: all methods may be called from any thread.
 class StreamDirectory {
  public:
+  // The clock must outlive the directory and its claims.
   StreamDirectory(const Clock& clock, uint32_t stream_count_max);
   ~StreamDirectory();
 
@@ -50,6 +51,10 @@ class StreamDirectory {
   std::vector<StreamEntry> list() const;
   // Called whenever a stream appears; for those who wait for it.
   void onAppear(std::function<void(const std::string& stream)> callback);
+
+  // Asked, when the directory is full, about streams without a publisher, the one longest without it
+  // first. Whoever answers true lets go of what it keeps for the stream; its entry goes.
+  void onRoomNeeded(std::function<bool(const std::string& stream)> may_forget);
 
   void countReceived(const std::string& stream);
   void countReplaced(const std::string& stream);

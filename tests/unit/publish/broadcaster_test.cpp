@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/broadcaster.h"
+
+#include <atomic>
+#include <future>
+#include <mutex>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace viewloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+DisplaySpec quiltOf(uint32_t columns) {
+  const auto spec = completeDisplaySpec(
+      {.kind = QuiltSpec{.columns = columns, .rows = 2, .size_px = {100, 100}}});
+  EXPECT_TRUE(spec.ok()) << spec.status();
+  return *spec;
+}
+
+AtlasPtr atlasOf(uint64_t display_id, uint64_t sequence) {
+  EncodedAtlas atlas;
+  atlas.display_id = display_id;
+  atlas.sequence = sequence;
+  return std::make_shared<EncodedAtlas>(atlas);
+}
+
+// Remembers what it was offered and how it ended; notes calls that overlap or come after the end.
+class Watcher : public Subscriber {
+ public:
+  void offer(AtlasPtr atlas) override {
+    const bool overlaps = is_called_.exchange(true);
+    std::lock_guard lock(mutex_);
+    misused_ |= overlaps || !ends_.empty();
+    sequences_.push_back(atlas->sequence);
+    is_called_ = false;
+  }
+  void end(const absl::Status& status) override {
+    const bool overlaps = is_called_.exchange(true);
+    std::lock_guard lock(mutex_);
+    misused_ |= overlaps;
+    ends_.push_back(status);
+    is_called_ = false;
+  }
+  std::vector<uint64_t> sequences() const {
+    std::lock_guard lock(mutex_);
+    return sequences_;
+  }
+  std::vector<absl::Status> ends() const {
+    std::lock_guard lock(mutex_);
+    return ends_;
+  }
+  bool misused() const {
+    std::lock_guard lock(mutex_);
+    return misused_;
+  }
+
+ private:
+  std::atomic<bool> is_called_ = false;
+  mutable std::mutex mutex_;
+  std::vector<uint64_t> sequences_;
+  std::vector<absl::Status> ends_;
+  bool misused_ = false;
+};
+
+using SubscriptionPtr = std::unique_ptr<Broadcaster::Subscription>;
+
+SubscriptionPtr join(Broadcaster& broadcaster, const std::string& stream, const DisplaySpec& spec,
+                     std::shared_ptr<Subscriber> subscriber, const EncodingSpec& encoding = {}) {
+  auto subscription = broadcaster.subscribe(stream, spec, encoding, std::move(subscriber));
+  EXPECT_TRUE(subscription.ok()) << subscription.status();
+  return *std::move(subscription);
+}
+
+TEST(Broadcaster, givesEqualDisplaysOneIdAndOnePictureToOtherEncodings) {
+  Broadcaster broadcaster({});
+  const auto watcher = std::make_shared<Watcher>();
+  const auto first = join(broadcaster, "a", quiltOf(2), watcher);
+  const auto same = join(broadcaster, "a", quiltOf(2), watcher);
+  const auto other_stream = join(broadcaster, "b", quiltOf(2), watcher);
+  const auto other_picture = join(broadcaster, "a", quiltOf(3), watcher);
+  const auto other_encoding = join(broadcaster, "a", quiltOf(2), watcher, {.jpeg_quality = 50});
+  EXPECT_EQ(first->displayId(), same->displayId());
+  const auto displays = broadcaster.displays("");
+  ASSERT_EQ(displays.size(), 4u);
+  EXPECT_EQ(displays[0]->subscriber_count, 2u);
+  EXPECT_EQ(displays[0]->picture_key, displays[3]->picture_key);
+  EXPECT_NE(displays[0]->picture_key, displays[1]->picture_key);
+  EXPECT_NE(displays[0]->picture_key, displays[2]->picture_key);
+  EXPECT_EQ(broadcaster.displays("a").size(), 3u);
+  EXPECT_EQ(broadcaster.subscriberCount("a"), 4u);
+  EXPECT_EQ(broadcaster.subscriberCount("c"), 0u);
+}
+
+TEST(Broadcaster, handsEachAtlasToAllWatchersOfItsDisplayAlone) {
+  Broadcaster broadcaster({});
+  const auto one = std::make_shared<Watcher>();
+  const auto two = std::make_shared<Watcher>();
+  const auto stranger = std::make_shared<Watcher>();
+  const auto a = join(broadcaster, "s", quiltOf(2), one);
+  const auto b = join(broadcaster, "s", quiltOf(2), two);
+  const auto c = join(broadcaster, "s", quiltOf(3), stranger);
+  broadcaster.publish(atlasOf(a->displayId(), 1));
+  broadcaster.publish(atlasOf(a->displayId(), 2));
+  EXPECT_THAT(one->sequences(), ElementsAre(1, 2));
+  EXPECT_THAT(two->sequences(), ElementsAre(1, 2));
+  EXPECT_THAT(stranger->sequences(), IsEmpty());
+  EXPECT_EQ(broadcaster.atlasCount(a->displayId()), 2u);
+  EXPECT_EQ(broadcaster.newest(a->displayId())->sequence, 2u);
+  EXPECT_EQ(broadcaster.newest(c->displayId()), nullptr);
+}
+
+TEST(Broadcaster, givesALateJoinerTheNewestCompleteAtlasAtOnce) {
+  Broadcaster broadcaster({});
+  std::vector<std::string> demands;
+  broadcaster.onDemandChange([&](const std::string& stream) { demands.push_back(stream); });
+  const auto first = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  broadcaster.publish(atlasOf(first->displayId(), 1));
+  broadcaster.publish(atlasOf(first->displayId(), 2));
+  const auto late = std::make_shared<Watcher>();
+  const auto second = join(broadcaster, "s", quiltOf(2), late);
+  EXPECT_THAT(late->sequences(), ElementsAre(2));
+  EXPECT_THAT(demands, ElementsAre("s")) << "the late joiner is served and asks for nothing";
+}
+
+TEST(Broadcaster, asksForAnAtlasWhenAJoinerFindsNone) {
+  Broadcaster broadcaster({});
+  int demand_count = 0;
+  broadcaster.onDemandChange([&](const std::string&) { ++demand_count; });
+  const auto first = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  const auto second = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  EXPECT_EQ(demand_count, 2);
+}
+
+TEST(Broadcaster, forgetsADisplayThatNobodyWatches) {
+  Broadcaster broadcaster({});
+  std::vector<std::string> demands;
+  broadcaster.onDemandChange([&](const std::string& stream) { demands.push_back(stream); });
+  auto first = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  auto second = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  const uint64_t id = first->displayId();
+  broadcaster.publish(atlasOf(id, 1));
+  std::weak_ptr<const EncodedAtlas> atlas = broadcaster.newest(id);
+  first.reset();
+  EXPECT_EQ(broadcaster.displays("s").at(0)->subscriber_count, 1u);
+  demands.clear();
+  second.reset();
+  EXPECT_THAT(broadcaster.displays("s"), IsEmpty());
+  EXPECT_EQ(broadcaster.newest(id), nullptr);
+  EXPECT_TRUE(atlas.expired());
+  EXPECT_THAT(demands, ElementsAre("s"));
+  broadcaster.publish(atlasOf(id, 2));  // finished too late: dropped
+  EXPECT_EQ(broadcaster.atlasCount(id), 0u);
+}
+
+TEST(Broadcaster, refusesOverItsLimitsAndServesAgainWhenThereIsRoom) {
+  Broadcaster broadcaster({.display_count_max = 1, .subscriber_count_max = 2});
+  const auto watcher = std::make_shared<Watcher>();
+  auto first = join(broadcaster, "s", quiltOf(2), watcher);
+  EXPECT_EQ(broadcaster.subscribe("s", quiltOf(3), {}, watcher).status().code(),
+            absl::StatusCode::kResourceExhausted);
+  auto second = join(broadcaster, "s", quiltOf(2), watcher);
+  EXPECT_EQ(broadcaster.subscribe("s", quiltOf(2), {}, watcher).status().code(),
+            absl::StatusCode::kResourceExhausted);
+  first.reset();
+  second.reset();
+  const auto third = join(broadcaster, "s", quiltOf(3), watcher);
+  EXPECT_EQ(broadcaster.displays("s").size(), 1u);
+}
+
+TEST(Broadcaster, endsTheWatchersOfADisplayThatCannotBeServed) {
+  Broadcaster broadcaster({});
+  const auto refused = std::make_shared<Watcher>();
+  const auto served = std::make_shared<Watcher>();
+  const auto a = join(broadcaster, "s", quiltOf(2), refused);
+  const auto b = join(broadcaster, "s", quiltOf(3), served);
+  broadcaster.refuse(a->displayId(), absl::FailedPreconditionError("no"));
+  ASSERT_EQ(refused->ends().size(), 1u);
+  EXPECT_EQ(refused->ends()[0].code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(served->ends(), IsEmpty());
+  broadcaster.publish(atlasOf(a->displayId(), 1));
+  EXPECT_THAT(refused->sequences(), IsEmpty());
+  EXPECT_EQ(broadcaster.displays("s").size(), 1u);
+}
+
+TEST(Broadcaster, endsEverybodyWithOkWhenItDrainsAndTakesNobodyNew) {
+  Broadcaster broadcaster({});
+  const auto one = std::make_shared<Watcher>();
+  const auto two = std::make_shared<Watcher>();
+  const auto a = join(broadcaster, "s", quiltOf(2), one);
+  const auto b = join(broadcaster, "t", quiltOf(3), two);
+  broadcaster.drain();
+  broadcaster.drain();
+  EXPECT_THAT(one->ends(), ElementsAre(absl::OkStatus()));
+  EXPECT_THAT(two->ends(), ElementsAre(absl::OkStatus()));
+  EXPECT_THAT(broadcaster.displays(""), IsEmpty());
+  EXPECT_EQ(broadcaster.subscribe("s", quiltOf(2), {}, one).status().code(),
+            absl::StatusCode::kUnavailable);
+}
+
+// Leaves with its first atlas, from within the call that brings it.
+class OneShotWatcher final : public Watcher {
+ public:
+  void offer(AtlasPtr atlas) override {
+    Watcher::offer(std::move(atlas));
+    subscription.reset();
+  }
+  SubscriptionPtr subscription;
+};
+
+TEST(Broadcaster, letsAWatcherLeaveFromWithinAnOffer) {
+  Broadcaster broadcaster({});
+  const auto watcher = std::make_shared<OneShotWatcher>();
+  watcher->subscription = join(broadcaster, "s", quiltOf(2), watcher);
+  const uint64_t id = watcher->subscription->displayId();
+  broadcaster.publish(atlasOf(id, 1));
+  broadcaster.publish(atlasOf(id, 2));
+  EXPECT_THAT(watcher->sequences(), ElementsAre(1));
+  EXPECT_THAT(broadcaster.displays("s"), IsEmpty());
+}
+
+// Stands in an offer until it is let go.
+class StuckWatcher final : public Subscriber {
+ public:
+  void offer(AtlasPtr) override {
+    entered.set_value();
+    release.get_future().wait();
+  }
+  void end(const absl::Status&) override {}
+  std::promise<void> entered;
+  std::promise<void> release;
+};
+
+TEST(Broadcaster, keepsServingOthersWhileOneWatcherIsStuck) {
+  Broadcaster broadcaster({});
+  const auto stuck = std::make_shared<StuckWatcher>();
+  const auto well = std::make_shared<Watcher>();
+  const auto a = join(broadcaster, "s", quiltOf(2), stuck);
+  const auto b = join(broadcaster, "s", quiltOf(3), well);
+  std::jthread blocked([&] { broadcaster.publish(atlasOf(a->displayId(), 1)); });
+  stuck->entered.get_future().wait();
+  for (uint64_t sequence = 1; sequence <= 100; ++sequence) {
+    broadcaster.publish(atlasOf(b->displayId(), sequence));
+  }
+  auto joiner = join(broadcaster, "s", quiltOf(3), std::make_shared<Watcher>());
+  joiner.reset();
+  EXPECT_EQ(well->sequences().size(), 100u);
+  stuck->release.set_value();
+}
+
+TEST(Broadcaster, keepsOrderForEveryWatcherUnderThreads) {
+  constexpr uint64_t kAtlasCount = 2000;
+  constexpr int kJoinerThreads = 3;
+  Broadcaster broadcaster({});
+  std::atomic<int> demand_count = 0;
+  broadcaster.onDemandChange([&](const std::string&) { ++demand_count; });
+  const auto steady = std::make_shared<Watcher>();
+  const auto hold = join(broadcaster, "s", quiltOf(2), steady);
+  std::atomic<bool> published = false;
+  std::vector<std::shared_ptr<Watcher>> joined[kJoinerThreads];
+  {
+    std::vector<std::jthread> threads;
+    for (auto& watchers : joined) {
+      threads.emplace_back([&] {
+        while (!published) {
+          watchers.push_back(std::make_shared<Watcher>());
+          const auto brief = join(broadcaster, "s", quiltOf(2), watchers.back());
+          EXPECT_GE(broadcaster.displays("s").at(0)->subscriber_count, 2u);
+          std::this_thread::yield();
+        }
+      });
+    }
+    for (uint64_t sequence = 1; sequence <= kAtlasCount; ++sequence) {
+      broadcaster.publish(atlasOf(hold->displayId(), sequence));
+    }
+    published = true;
+  }
+  EXPECT_EQ(steady->sequences().size(), kAtlasCount);
+  EXPECT_FALSE(steady->misused());
+  for (const auto& watchers : joined) {
+    for (const auto& watcher : watchers) {
+      const std::vector<uint64_t> sequences = watcher->sequences();
+      EXPECT_TRUE(std::ranges::is_sorted(sequences, std::less_equal<>()));
+      EXPECT_FALSE(watcher->misused());
+    }
+  }
+  EXPECT_EQ(broadcaster.subscriberCount("s"), 1u);
+}
+
+TEST(Broadcaster, offersNothingAfterTheEndUnderThreads) {
+  for (int round = 0; round < 50; ++round) {
+    Broadcaster broadcaster({});
+    const auto watcher = std::make_shared<Watcher>();
+    const auto subscription = join(broadcaster, "s", quiltOf(2), watcher);
+    {
+      std::jthread publisher([&] {
+        for (uint64_t sequence = 1; sequence <= 50; ++sequence) {
+          broadcaster.publish(atlasOf(subscription->displayId(), sequence));
+        }
+      });
+      std::jthread drainer([&] { broadcaster.drain(); });
+      std::jthread refuser(
+          [&] { broadcaster.refuse(subscription->displayId(), absl::InternalError("refused")); });
+    }
+    EXPECT_EQ(watcher->ends().size(), 1u);
+    EXPECT_FALSE(watcher->misused());
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
