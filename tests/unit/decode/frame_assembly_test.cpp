@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "decode/frame_assembly.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace viewloom {
+namespace {
+
+// Planes of 6 and 4 bytes on the wire, depth first.
+FrameFormat twoPlanes() {
+  LayerFormat layer;
+  layer.depth_first = true;
+  layer.depth.kind = PlaneKind::kDepth;
+  layer.depth.wire_bytes = 6;
+  layer.color.wire_bytes = 4;
+  return {.number = 7, .sources = {{.layers = {layer}}}};
+}
+
+class FrameAssemblyTest : public testing::Test {
+ protected:
+  std::string fieldAfter(uint32_t plane_index, uint64_t offset_bytes, std::string_view data) {
+    const absl::Status status = assembly_.addChunk(plane_index, offset_bytes, data);
+    EXPECT_TRUE(status.ok() || status.code() == absl::StatusCode::kInvalidArgument);
+    return fieldOf(status);
+  }
+
+  BytePool pool_{4};
+  FrameAssembly assembly_{twoPlanes(), pool_};
+};
+
+TEST_F(FrameAssemblyTest, joinsPiecesInTheOrderOfTheWire) {
+  EXPECT_TRUE(assembly_.addChunk(0, 0, "abc").ok());
+  EXPECT_TRUE(assembly_.addChunk(0, 3, "def").ok());
+  EXPECT_FALSE(assembly_.complete());
+  EXPECT_TRUE(assembly_.addChunk(1, 0, "ghij").ok());
+  ASSERT_TRUE(assembly_.complete());
+  const CollectedFrame frame = assembly_.take();
+  ASSERT_EQ(frame.planes.size(), 2U);
+  EXPECT_EQ(std::string(frame.planes[0]->begin(), frame.planes[0]->end()), "abcdef");
+  EXPECT_EQ(std::string(frame.planes[1]->begin(), frame.planes[1]->end()), "ghij");
+  EXPECT_EQ(frame.format.number, 7U);
+}
+
+TEST_F(FrameAssemblyTest, refusesAPlaneThatIsNotDue) {
+  EXPECT_EQ(fieldAfter(1, 0, "a"), "chunk.plane_index");
+  EXPECT_EQ(fieldAfter(4000000000, 0, "a"), "chunk.plane_index");
+}
+
+TEST_F(FrameAssemblyTest, refusesGapsAndRepetitions) {
+  EXPECT_EQ(fieldAfter(0, 1, "a"), "chunk.offset_bytes");
+  EXPECT_EQ(fieldAfter(0, 0, "abc"), "");
+  EXPECT_EQ(fieldAfter(0, 0, "abc"), "chunk.offset_bytes");
+  EXPECT_EQ(fieldAfter(0, ~uint64_t{0}, "abc"), "chunk.offset_bytes");
+}
+
+TEST_F(FrameAssemblyTest, refusesEmptyAndOversizedPieces) {
+  EXPECT_EQ(fieldAfter(0, 0, ""), "chunk.data");
+  EXPECT_EQ(fieldAfter(0, 0, std::string(kChunkBytesMax + 1, 'a')), "chunk.data");
+}
+
+TEST_F(FrameAssemblyTest, refusesTheByteBeyondThePlane) {
+  EXPECT_EQ(fieldAfter(0, 0, "abcdefg"), "chunk.data");
+  EXPECT_EQ(fieldAfter(0, 0, "abcde"), "");
+  EXPECT_EQ(fieldAfter(0, 5, "fg"), "chunk.data");
+}
+
+TEST_F(FrameAssemblyTest, refusesAnyPieceAfterTheLast) {
+  EXPECT_EQ(fieldAfter(0, 0, "abcdef"), "");
+  EXPECT_EQ(fieldAfter(1, 0, "abcd"), "");
+  EXPECT_EQ(fieldAfter(2, 0, "a"), "chunk.plane_index");
+  EXPECT_EQ(fieldAfter(1, 4, "a"), "chunk.plane_index");
+}
+
+TEST_F(FrameAssemblyTest, tellsWhatIsMissing) {
+  EXPECT_TRUE(assembly_.addChunk(0, 0, "ab").ok());
+  const absl::Status status = assembly_.requireComplete();
+  EXPECT_EQ(fieldOf(status), "header");
+  EXPECT_EQ(status.message(), "header: comes before the end of frame 7: plane 0 has 2 of 6 bytes");
+}
+
+}  // namespace
+}  // namespace viewloom

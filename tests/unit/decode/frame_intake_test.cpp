@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "decode/frame_intake.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace viewloom {
+namespace {
+
+// A frame of one pixel. Depth that claims to be zstd is refused when it is decoded.
+CollectedFrame onePixel(uint64_t number, bool broken = false) {
+  LayerFormat layer{.color = {.size_px = {1, 1}, .wire_bytes = 4},
+                    .depth = {.kind = PlaneKind::kDepth,
+                              .encoding = PlaneEncoding::kDepthU16,
+                              .size_px = {1, 1},
+                              .wire_bytes = 2}};
+  if (broken) layer.depth.compression = PlaneCompression::kZstd;
+  CollectedFrame frame{.format = {.number = number, .sources = {{.layers = {layer}}}},
+                       .planes = {}};
+  frame.planes = {std::make_shared<const std::vector<uint8_t>>(4, uint8_t{1}),
+                  std::make_shared<const std::vector<uint8_t>>(2, uint8_t{1})};
+  return frame;
+}
+
+// Keeps what it is offered; can hold up whoever offers.
+class HeldSink : public FrameSink {
+ public:
+  void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override {
+    std::unique_lock lock(mutex_);
+    offered_[stream].push_back(frame->format.number);
+    times_ = frame->times;
+    ++offered_count_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !held_; });
+    lock.unlock();
+    report({.number = frame->format.number, .outcome = FrameOutcome::kTraced});
+  }
+  void forgetStream(const std::string&) override {}
+
+  void hold() {
+    std::lock_guard lock(mutex_);
+    held_ = true;
+  }
+  void letGo() {
+    std::lock_guard lock(mutex_);
+    held_ = false;
+    changed_.notify_all();
+  }
+  void waitForOffer() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return offered_count_ > 0; });
+  }
+  std::vector<uint64_t> offered(const std::string& stream) {
+    std::lock_guard lock(mutex_);
+    return offered_[stream];
+  }
+  FrameTimes times() {
+    std::lock_guard lock(mutex_);
+    return times_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, std::vector<uint64_t>> offered_;
+  FrameTimes times_;
+  int offered_count_ = 0;
+  bool held_ = false;
+};
+
+// All reports of a test, by stream.
+class Reports {
+ public:
+  ReportFrame into(const std::string& stream) {
+    return [this, stream](const FrameReport& report) {
+      std::lock_guard lock(mutex_);
+      reports_[stream].push_back(report);
+    };
+  }
+  // Number to outcome; a frame reported twice fails the test.
+  std::map<uint64_t, FrameOutcome> outcomes(const std::string& stream) {
+    std::lock_guard lock(mutex_);
+    std::map<uint64_t, FrameOutcome> outcomes;
+    for (const FrameReport& report : reports_[stream]) {
+      EXPECT_TRUE(outcomes.emplace(report.number, report.outcome).second) << report.number;
+    }
+    return outcomes;
+  }
+  std::string reason(const std::string& stream) {
+    std::lock_guard lock(mutex_);
+    return reports_[stream].front().reason;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::vector<FrameReport>> reports_;
+};
+
+class FrameIntakeTest : public testing::Test {
+ protected:
+  void offer(const std::string& stream, CollectedFrame frame, FrameTimes times = {}) {
+    intake_.offer(stream, std::move(frame), times, reports_.into(stream));
+  }
+
+  HeldSink sink_;
+  Reports reports_;
+  ManualClock clock_;
+  BytePool pool_{16};
+  FrameIntake intake_{sink_, clock_, pool_, {.thread_count = 3}};
+};
+
+TEST_F(FrameIntakeTest, deliversADecodedFrameWithItsTimes) {
+  clock_.advance(99);
+  offer("a", onePixel(1), {.first_chunk_ns = 10, .last_chunk_ns = 20});
+  intake_.close();
+  EXPECT_EQ(sink_.offered("a"), std::vector<uint64_t>{1});
+  EXPECT_EQ(sink_.times().first_chunk_ns, 10);
+  EXPECT_EQ(sink_.times().last_chunk_ns, 20);
+  EXPECT_EQ(sink_.times().decoded_ns, 100);
+  EXPECT_EQ(reports_.outcomes("a"), (std::map<uint64_t, FrameOutcome>{{1, FrameOutcome::kTraced}}));
+}
+
+TEST_F(FrameIntakeTest, replacesTheFrameThatStillWaits) {
+  sink_.hold();
+  offer("a", onePixel(1));
+  sink_.waitForOffer();
+  for (const uint64_t number : {2U, 3U, 4U}) offer("a", onePixel(number));
+  EXPECT_EQ(reports_.outcomes("a"),
+            (std::map<uint64_t, FrameOutcome>{{2, FrameOutcome::kReplaced},
+                                              {3, FrameOutcome::kReplaced}}));
+  sink_.letGo();
+  intake_.close();
+  EXPECT_EQ(sink_.offered("a"), (std::vector<uint64_t>{1, 4}));
+}
+
+TEST_F(FrameIntakeTest, letsOtherStreamsPassABusyOne) {
+  sink_.hold();
+  offer("a", onePixel(1));
+  sink_.waitForOffer();
+  offer("a", onePixel(2));
+  offer("b", onePixel(1));
+  while (sink_.offered("b").empty()) std::this_thread::yield();
+  EXPECT_EQ(sink_.offered("a"), std::vector<uint64_t>{1});
+  sink_.letGo();
+}
+
+TEST_F(FrameIntakeTest, refusesABrokenFrameAndGoesOn) {
+  offer("a", onePixel(1, true));
+  offer("b", onePixel(1));
+  intake_.close();
+  EXPECT_EQ(reports_.outcomes("a"),
+            (std::map<uint64_t, FrameOutcome>{{1, FrameOutcome::kRefused}}));
+  EXPECT_EQ(reports_.reason("a").rfind("header.sources[0].layers[0].planes[1]: ", 0), 0U);
+  EXPECT_EQ(sink_.offered("b"), std::vector<uint64_t>{1});
+}
+
+TEST_F(FrameIntakeTest, refusesFramesOnceClosed) {
+  intake_.close();
+  offer("a", onePixel(1));
+  EXPECT_EQ(reports_.outcomes("a"),
+            (std::map<uint64_t, FrameOutcome>{{1, FrameOutcome::kRefused}}));
+  EXPECT_TRUE(sink_.offered("a").empty());
+}
+
+TEST_F(FrameIntakeTest, reportsEveryFrameOnceAndKeepsTheOrderOfEachStream) {
+  constexpr uint64_t kFrames = 400;
+  const std::vector<std::string> streams{"a", "b", "c", "d", "e"};
+  std::vector<std::jthread> publishers;
+  for (const std::string& stream : streams) {
+    publishers.emplace_back([this, &stream] {
+      for (uint64_t number = 1; number <= kFrames; ++number) {
+        offer(stream, onePixel(number, number % 7 == 0));
+      }
+    });
+  }
+  publishers.clear();
+  intake_.close();
+  for (const std::string& stream : streams) {
+    EXPECT_EQ(reports_.outcomes(stream).size(), kFrames);
+    const std::vector<uint64_t> offered = sink_.offered(stream);
+    EXPECT_TRUE(std::is_sorted(offered.begin(), offered.end()));
+    const uint64_t newest = kFrames - (kFrames % 7 == 0);
+    EXPECT_EQ(reports_.outcomes(stream).at(newest), FrameOutcome::kTraced);
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
