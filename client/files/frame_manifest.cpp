@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/frame_manifest.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "files/file_bytes.h"
+#include "files/plane_file.h"
+
+namespace viewloom::files {
+namespace {
+
+constexpr uint64_t kManifestBytesMax = uint64_t{1} << 20;
+constexpr int kLayersMax = 4;
+constexpr int kSourcesMax = 8;
+
+template <typename Message>
+absl::StatusOr<Message> readJson(const std::filesystem::path& path) {
+  absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path, kManifestBytesMax);
+  if (!bytes.ok()) return bytes.status();
+  Message message;
+  const auto parsed = google::protobuf::util::JsonStringToMessage(
+      std::string(bytes->begin(), bytes->end()), &message);
+  if (!parsed.ok()) {
+    return refuseFile(path.string(), absl::StrCat("is no ", message.GetDescriptor()->name(),
+                                                  " in JSON: ", std::string(parsed.message())));
+  }
+  return message;
+}
+
+absl::Status checkCount(const std::string& field, int count, int max) {
+  if (count >= 1 && count <= max) return absl::OkStatus();
+  return invalidField(field, absl::StrCat("has ", count, "; accepted is 1..", max));
+}
+
+void addPlane(LoadedPlane loaded, v1::Layer& layer, WireFrame& frame) {
+  *layer.add_planes() = std::move(loaded.plane);
+  frame.planes.push_back(std::move(loaded.bytes));
+}
+
+absl::Status loadLayer(const v1::LayerFiles& files, const std::filesystem::path& folder,
+                       v1::Layer& layer, WireFrame& frame) {
+  absl::StatusOr<LoadedPlane> color = loadColorPlane(files.color(), folder);
+  if (!color.ok()) return withFieldPrefix(color.status(), "color");
+  absl::StatusOr<LoadedPlane> depth = loadDepthPlane(files.depth(), folder);
+  if (!depth.ok()) return withFieldPrefix(depth.status(), "depth");
+  if (files.depth().depth().meaning() == v1::DEPTH_MEANING_UNSPECIFIED) {
+    return invalidField("depth.depth.meaning",
+                        "is missing; accepted are DEPTH_MEANING_PLANAR, _RAY_DISTANCE, _WINDOW, "
+                        "_DISPARITY");
+  }
+  addPlane(*std::move(color), layer, frame);
+  addPlane(*std::move(depth), layer, frame);
+  return absl::OkStatus();
+}
+
+absl::Status checkDepthSizes(const v1::Source& source) {
+  const v1::SizePx& first = source.layers(0).planes(1).size();
+  for (int i = 1; i < source.layers_size(); ++i) {
+    const v1::SizePx& size = source.layers(i).planes(1).size();
+    if (size.width() == first.width() && size.height() == first.height()) continue;
+    return invalidField(
+        absl::StrCat("layers[", i, "].depth"),
+        absl::StrCat("is ", size.width(), "x", size.height(),
+                     " px; accepted is the size of layer 0, ", first.width(), "x", first.height()));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::path& folder,
+                        v1::Source& source, WireFrame& frame) {
+  VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
+  if (files.camera().projection_case() == v1::Camera::PROJECTION_NOT_SET) {
+    return invalidField("camera", "has no projection; accepted are fov and intrinsics");
+  }
+  *source.mutable_camera() = files.camera();
+  source.set_connection_tolerance(files.connection_tolerance());
+  for (int i = 0; i < files.layers_size(); ++i) {
+    const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);
+    if (!status.ok()) return withFieldPrefix(status, absl::StrCat("layers[", i, "]"));
+  }
+  return checkDepthSizes(source);
+}
+
+}  // namespace
+
+absl::StatusOr<v1::FrameManifest> readFrameManifest(const std::filesystem::path& path) {
+  return readJson<v1::FrameManifest>(path);
+}
+
+absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path& path) {
+  return readJson<v1::TruthManifest>(path);
+}
+
+absl::StatusOr<WireFrame> loadFrame(const v1::FrameManifest& manifest,
+                                    const std::filesystem::path& folder) {
+  VIEWLOOM_RETURN_IF_ERROR(checkCount("sources", manifest.sources_size(), kSourcesMax));
+  WireFrame frame;
+  frame.header.set_number(std::max<uint64_t>(manifest.number(), 1));
+  frame.header.set_capture_time_ns(manifest.capture_time_ns());
+  frame.header.set_exposure_ev(manifest.exposure_ev());
+  for (int i = 0; i < manifest.sources_size(); ++i) {
+    const absl::Status status =
+        loadSource(manifest.sources(i), folder, *frame.header.add_sources(), frame);
+    if (!status.ok()) return withFieldPrefix(status, absl::StrCat("sources[", i, "]"));
+  }
+  return frame;
+}
+
+}  // namespace viewloom::files

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plane as a manifest names it: read from its file and described for the wire.
+#pragma once
+
+#include <filesystem>
+
+#include "base/byte_pool.h"
+#include "base/status.h"
+#include "viewloom/v1/manifest.pb.h"
+
+namespace viewloom::files {
+
+struct LoadedPlane {
+  v1::Plane plane;  // complete but for compression
+  SharedBytes bytes;
+};
+
+// Relative file names are taken from `folder`. What the manifest leaves open comes from the file:
+// transfer LINEAR for EXR, PFM and 16-bit PNG, else SRGB; alpha PREMULTIPLIED for EXR with A,
+// STRAIGHT for PNG with alpha, else OPAQUE.
+absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
+                                           const std::filesystem::path& folder);
+// 8-bit PNG samples count 0..255, or, as WINDOW depth, 0..1.
+absl::StatusOr<LoadedPlane> loadDepthPlane(const v1::PlaneFile& file,
+                                           const std::filesystem::path& folder);
+
+}  // namespace viewloom::files
