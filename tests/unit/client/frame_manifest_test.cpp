@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/frame_manifest.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "files/png_writer.h"
+#include "unit/client/test_files.h"
+
+namespace viewloom::files {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A colour PNG and a depth PNG of 2x1 px, and a manifest around them.
+class FrameManifestTest : public ::testing::Test {
+ protected:
+  FrameManifestTest() {
+    writePicture("color.png", 2, 3);
+    writePicture("depth.png", 2, 1);
+    writePicture("wide.png", 3, 1);
+  }
+
+  void writePicture(const std::string& name, uint32_t width_px, uint32_t channels) const {
+    const std::vector<uint8_t> samples(size_t{width_px} * channels, 8);
+    folder_.write(name, *encodePng(samples, width_px, 1, channels));
+  }
+
+  absl::StatusOr<WireFrame> load(const std::string& json) const {
+    const auto manifest = readFrameManifest(folder_.write("frame.json", json));
+    if (!manifest.ok()) return manifest.status();
+    return loadFrame(*manifest, folder_.path());
+  }
+
+  std::string refusal(const std::string& json) const {
+    const auto frame = load(json);
+    return frame.ok() ? "OK" : std::string(frame.status().message());
+  }
+
+  TestFolder folder_;
+};
+
+std::string layer(const std::string& color, const std::string& depth) {
+  return R"({"color": {"file": ")" + color + R"("}, "depth": {"file": ")" + depth +
+         R"(", "depth": {"meaning": "DEPTH_MEANING_DISPARITY", "scale": 0.01}}})";
+}
+
+std::string source(const std::string& layers) {
+  return R"({"number": "7", "sources": [{"camera": {"intrinsics": {"focalXPx": 2, "focalYPx": 2,
+    "principalXPx": 1, "principalYPx": 0.5}}, "layers": [)" +
+         layers + "]}]}";
+}
+
+TEST_F(FrameManifestTest, makesAFrameWithEveryPlaneDescribed) {
+  const auto frame = load(source(layer("color.png", "depth.png")));
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_EQ(frame->header.number(), 7U);
+  ASSERT_EQ(frame->planes.size(), 2U);
+  const auto& planes = frame->header.sources(0).layers(0).planes();
+  EXPECT_EQ(planes[0].kind(), v1::PLANE_KIND_COLOR);
+  EXPECT_EQ(planes[0].encoding(), v1::PLANE_ENCODING_RGB8);
+  EXPECT_EQ(planes[0].transfer(), v1::COLOR_TRANSFER_SRGB);
+  EXPECT_EQ(planes[0].bytes_count(), 6U);
+  EXPECT_EQ(planes[1].kind(), v1::PLANE_KIND_DEPTH);
+  EXPECT_EQ(planes[1].encoding(), v1::PLANE_ENCODING_DEPTH_U16);
+  EXPECT_EQ(planes[1].depth().scale(), 0.01);
+  EXPECT_EQ(planes[1].bytes_count(), frame->planes[1]->size());
+}
+
+TEST_F(FrameManifestTest, numbersAFrameWithoutANumberOne) {
+  std::string json = source(layer("color.png", "depth.png"));
+  json.replace(json.find(R"("number": "7", )"), 15, "");
+  const auto frame = load(json);
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_EQ(frame->header.number(), 1U);
+}
+
+TEST_F(FrameManifestTest, refusesUnknownKeysAndBrokenJson) {
+  EXPECT_THAT(refusal(R"({"sorces": []})"), HasSubstr("is no FrameManifest in JSON"));
+  EXPECT_THAT(refusal("{"), HasSubstr("is no FrameManifest in JSON"));
+}
+
+TEST_F(FrameManifestTest, namesTheFieldAndTheFileAtFault) {
+  EXPECT_THAT(refusal("{}"), HasSubstr("sources: has 0; accepted is 1..8"));
+  EXPECT_THAT(refusal(source("")), HasSubstr("sources[0].layers: has 0; accepted is 1..4"));
+  EXPECT_THAT(refusal(source(layer("none.png", "depth.png"))),
+              HasSubstr("sources[0].layers[0].color: "));
+  EXPECT_THAT(refusal(source(layer("none.png", "depth.png"))), HasSubstr("none.png: no such file"));
+  EXPECT_THAT(refusal(source(layer("color.gif", "depth.png"))),
+              HasSubstr("sources[0].layers[0].color.file: is color.gif; accepted as colour are"));
+  EXPECT_THAT(refusal(source(layer("color.png", "depth.jpg"))),
+              HasSubstr("sources[0].layers[0].depth.file: is depth.jpg; accepted as depth are"));
+  EXPECT_THAT(refusal(R"({"sources": [{"layers": [)" + layer("color.png", "depth.png") + "]}]}"),
+              HasSubstr("sources[0].camera: has no projection"));
+}
+
+TEST_F(FrameManifestTest, refusesDepthPlanesOfDifferentSizes) {
+  const std::string layers = layer("color.png", "depth.png") + "," + layer("color.png", "wide.png");
+  EXPECT_THAT(refusal(source(layers)),
+              HasSubstr("sources[0].layers[1].depth: is 3x1 px; accepted is the size of layer 0"));
+}
+
+TEST_F(FrameManifestTest, refusesDepthWithoutAMeaning) {
+  const std::string json =
+      source(R"({"color": {"file": "color.png"}, "depth": {"file": "depth.png"}})");
+  EXPECT_THAT(refusal(json), HasSubstr("sources[0].layers[0].depth.depth.meaning: is missing"));
+}
+
+TEST_F(FrameManifestTest, refusesChannelsOfFilesThatHaveNoNamesForThem) {
+  std::string json = source(layer("color.png", "depth.png"));
+  json.replace(json.find(R"("color.png")"), 11, R"("color.png", "channels": ["R"])");
+  EXPECT_THAT(refusal(json), HasSubstr("color.channels: given for color.png"));
+}
+
+}  // namespace
+}  // namespace viewloom::files
