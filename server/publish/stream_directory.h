@@ -40,8 +40,8 @@ class StreamDirectory {
   // subscribers keep the resident structure.
   class Claim;
 
-  // ALREADY_EXISTS when another session holds the name, RESOURCE_EXHAUSTED over the limit. The same,
-  // non-empty session id takes the stream over: `on_takeover` of the old claim is called, once.
+  // ALREADY_EXISTS when another session holds the name, RESOURCE_EXHAUSTED over the limit. The
+  // same, non-empty session id takes the stream over: `on_takeover` of the old is called, once.
   absl::StatusOr<std::unique_ptr<Claim>> claim(const std::string& stream,
                                                const std::string& session_id,
                                                std::function<void()> on_takeover);
@@ -52,8 +52,8 @@ class StreamDirectory {
   // Called whenever a stream appears; for those who wait for it.
   void onAppear(std::function<void(const std::string& stream)> callback);
 
-  // Asked, when the directory is full, about streams without a publisher, the one longest without it
-  // first. Whoever answers true lets go of what it keeps for the stream; its entry goes.
+  // Asked, when the directory is full, about streams without a publisher, the one longest without
+  // it first. Whoever answers true lets go of what it keeps for the stream; its entry goes.
   void onRoomNeeded(std::function<bool(const std::string& stream)> may_forget);
 
   void countReceived(const std::string& stream);

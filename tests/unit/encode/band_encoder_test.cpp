@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bands joined are judged by libjpeg's and zstd's own whole-image calls.
+// Bands joined are judged by libjpeg's own call for the whole image.
 #include "encode/band_encoder.h"
 
 #include <algorithm>
@@ -8,59 +8,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <random>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <jpeglib.h>
-#include <zstd.h>
 
 #include "support/large_allocations.h"
+#include "unit/encode/picture.h"
 
-namespace viewloom {
+namespace viewloom::test {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
-
-// Smooth colour with noise and hard edges, so that blocks of every kind occur. RGBX, with a gap of
-// 12 bytes behind each row.
-struct Picture {
-  SizePx size_px;
-  size_t stride_bytes;
-  Bytes rgbx;
-
-  explicit Picture(SizePx size, uint32_t seed = 1)
-      : size_px(size), stride_bytes(size.width * 4 + 12), rgbx(stride_bytes * size.height, 0xEE) {
-    std::mt19937 random(seed);
-    std::uniform_int_distribution<int> noise(-6, 6);
-    for (uint32_t y = 0; y < size.height; ++y) {
-      for (uint32_t x = 0; x < size.width; ++x) {
-        const int edge = (x / 37 + y / 53) % 2 != 0 ? 60 : 0;
-        for (uint32_t c = 0; c < 3; ++c) {
-          const double wave = 90 + 40 * std::sin((x + 20.0 * c) / 31.0) + 40 * std::cos(y / 47.0);
-          const int value = static_cast<int>(wave) + edge + noise(random);
-          rgbx[y * stride_bytes + 4 * x + c] = static_cast<uint8_t>(std::clamp(value, 0, 255));
-        }
-      }
-    }
-  }
-
-  BandPixels band(uint32_t first_row, uint32_t row_count) const {
-    return {.plane = AtlasPlane::kColor,
-            .first_row = first_row,
-            .row_count = row_count,
-            .width_px = size_px.width,
-            .bytes = std::span(rgbx).subspan(first_row * stride_bytes, row_count * stride_bytes),
-            .stride_bytes = stride_bytes};
-  }
-};
-
-AtlasLayout layoutOf(SizePx size_px) {
-  AtlasLayout layout;
-  layout.size_px = size_px;
-  return layout;
-}
 
 std::vector<EncodedBand> encodeAll(BandEncoder& encoder, const Picture& picture,
                                    const EncodingSpec& encoding) {
@@ -222,66 +180,8 @@ TEST(BandEncoder, saysWhatABandIs) {
   EXPECT_EQ(band.encoding, BandEncoding::kJpeg);
 }
 
-Bytes unpacked(const EncodedBand& band) {
-  if (band.encoding == BandEncoding::kRaw) return *band.bytes;
-  const unsigned long long size = ZSTD_getFrameContentSize(band.bytes->data(), band.bytes->size());
-  EXPECT_LT(size, ZSTD_CONTENTSIZE_ERROR) << "the frame states its size";
-  Bytes content(size);
-  EXPECT_EQ(ZSTD_decompress(content.data(), size, band.bytes->data(), band.bytes->size()), size);
-  return content;
-}
-
-TEST(BandEncoder, packsColourWithoutLossAsRgb8) {
-  BytePool pool(4);
-  BandEncoder encoder(pool);
-  const Picture picture({123, 77});
-  Bytes expected;
-  for (uint32_t y = 0; y < 77; ++y) {
-    for (uint32_t x = 0; x < 123; ++x) {
-      const uint8_t* rgb = &picture.rgbx[y * picture.stride_bytes + 4 * x];
-      expected.insert(expected.end(), rgb, rgb + 3);
-    }
-  }
-  for (const BandEncoding color : {BandEncoding::kZstd, BandEncoding::kRaw}) {
-    const EncodedBand band =
-        encoder.encode(picture.band(0, 77), {.color = color}, layoutOf(picture.size_px));
-    EXPECT_EQ(band.encoding, color);
-    EXPECT_EQ(unpacked(band), expected);
-  }
-}
-
-TEST(BandEncoder, packsDepthAndMaskWithoutLossAndWithoutGaps) {
-  BytePool pool(4);
-  BandEncoder encoder(pool);
-  constexpr uint32_t kWidth = 50;
-  constexpr uint32_t kHeight = 40;
-  for (const AtlasPlane plane : {AtlasPlane::kDepth, AtlasPlane::kMask}) {
-    const size_t row_bytes = plane == AtlasPlane::kDepth ? kWidth * 4 : kWidth;
-    const size_t stride_bytes = row_bytes + 24;
-    std::mt19937 random(3);
-    Bytes padded(stride_bytes * kHeight);
-    for (uint8_t& byte : padded) byte = static_cast<uint8_t>(random() % 8);
-    Bytes expected;
-    for (uint32_t y = 0; y < kHeight; ++y) {
-      const uint8_t* row = &padded[y * stride_bytes];
-      expected.insert(expected.end(), row, row + row_bytes);
-    }
-    for (const BandEncoding planes : {BandEncoding::kZstd, BandEncoding::kRaw}) {
-      const EncodedBand band = encoder.encode({.plane = plane,
-                                               .row_count = kHeight,
-                                               .width_px = kWidth,
-                                               .bytes = padded,
-                                               .stride_bytes = stride_bytes},
-                                              {.planes = planes}, layoutOf({kWidth, kHeight}));
-      EXPECT_EQ(band.encoding, planes);
-      EXPECT_EQ(band.plane, plane);
-      EXPECT_EQ(unpacked(band), expected);
-    }
-  }
-}
-
 TEST(BandEncoder, makesNoLargeAllocationOnceWarm) {
-  if (!test::countsLargeAllocations()) GTEST_SKIP() << "the sanitizer's allocator is in use";
+  if (!countsLargeAllocations()) GTEST_SKIP() << "the sanitizer's allocator is in use";
   BytePool pool(16);
   BandEncoder encoder(pool);
   const Picture picture({4096, 256});
@@ -294,11 +194,11 @@ TEST(BandEncoder, makesNoLargeAllocationOnceWarm) {
     }
   };
   for (int i = 0; i < 3; ++i) encodeEveryWay();
-  const uint64_t before = test::largeAllocationCount();
+  const uint64_t before = largeAllocationCount();
   for (int i = 0; i < 5; ++i) encodeEveryWay();
-  EXPECT_EQ(test::largeAllocationCount() - before, 0u);
+  EXPECT_EQ(largeAllocationCount() - before, 0u);
   EXPECT_GT(before, 0u) << "the warm-up itself is seen by the counter";
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::test

@@ -1,80 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/broadcaster.h"
 
-#include <atomic>
-#include <future>
-#include <mutex>
-#include <thread>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+#include "unit/publish/watcher.h"
+
+namespace viewloom::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-DisplaySpec quiltOf(uint32_t columns) {
-  const auto spec = completeDisplaySpec(
-      {.kind = QuiltSpec{.columns = columns, .rows = 2, .size_px = {100, 100}}});
-  EXPECT_TRUE(spec.ok()) << spec.status();
-  return *spec;
-}
-
-AtlasPtr atlasOf(uint64_t display_id, uint64_t sequence) {
-  EncodedAtlas atlas;
-  atlas.display_id = display_id;
-  atlas.sequence = sequence;
-  return std::make_shared<EncodedAtlas>(atlas);
-}
-
-// Remembers what it was offered and how it ended; notes calls that overlap or come after the end.
-class Watcher : public Subscriber {
- public:
-  void offer(AtlasPtr atlas) override {
-    const bool overlaps = is_called_.exchange(true);
-    std::lock_guard lock(mutex_);
-    misused_ |= overlaps || !ends_.empty();
-    sequences_.push_back(atlas->sequence);
-    is_called_ = false;
-  }
-  void end(const absl::Status& status) override {
-    const bool overlaps = is_called_.exchange(true);
-    std::lock_guard lock(mutex_);
-    misused_ |= overlaps;
-    ends_.push_back(status);
-    is_called_ = false;
-  }
-  std::vector<uint64_t> sequences() const {
-    std::lock_guard lock(mutex_);
-    return sequences_;
-  }
-  std::vector<absl::Status> ends() const {
-    std::lock_guard lock(mutex_);
-    return ends_;
-  }
-  bool misused() const {
-    std::lock_guard lock(mutex_);
-    return misused_;
-  }
-
- private:
-  std::atomic<bool> is_called_ = false;
-  mutable std::mutex mutex_;
-  std::vector<uint64_t> sequences_;
-  std::vector<absl::Status> ends_;
-  bool misused_ = false;
-};
-
-using SubscriptionPtr = std::unique_ptr<Broadcaster::Subscription>;
-
-SubscriptionPtr join(Broadcaster& broadcaster, const std::string& stream, const DisplaySpec& spec,
-                     std::shared_ptr<Subscriber> subscriber, const EncodingSpec& encoding = {}) {
-  auto subscription = broadcaster.subscribe(stream, spec, encoding, std::move(subscriber));
-  EXPECT_TRUE(subscription.ok()) << subscription.status();
-  return *std::move(subscription);
-}
 
 TEST(Broadcaster, givesEqualDisplaysOneIdAndOnePictureToOtherEncodings) {
   Broadcaster broadcaster({});
@@ -223,93 +159,5 @@ TEST(Broadcaster, letsAWatcherLeaveFromWithinAnOffer) {
   EXPECT_THAT(broadcaster.displays("s"), IsEmpty());
 }
 
-// Stands in an offer until it is let go.
-class StuckWatcher final : public Subscriber {
- public:
-  void offer(AtlasPtr) override {
-    entered.set_value();
-    release.get_future().wait();
-  }
-  void end(const absl::Status&) override {}
-  std::promise<void> entered;
-  std::promise<void> release;
-};
-
-TEST(Broadcaster, keepsServingOthersWhileOneWatcherIsStuck) {
-  Broadcaster broadcaster({});
-  const auto stuck = std::make_shared<StuckWatcher>();
-  const auto well = std::make_shared<Watcher>();
-  const auto a = join(broadcaster, "s", quiltOf(2), stuck);
-  const auto b = join(broadcaster, "s", quiltOf(3), well);
-  std::jthread blocked([&] { broadcaster.publish(atlasOf(a->displayId(), 1)); });
-  stuck->entered.get_future().wait();
-  for (uint64_t sequence = 1; sequence <= 100; ++sequence) {
-    broadcaster.publish(atlasOf(b->displayId(), sequence));
-  }
-  auto joiner = join(broadcaster, "s", quiltOf(3), std::make_shared<Watcher>());
-  joiner.reset();
-  EXPECT_EQ(well->sequences().size(), 100u);
-  stuck->release.set_value();
-}
-
-TEST(Broadcaster, keepsOrderForEveryWatcherUnderThreads) {
-  constexpr uint64_t kAtlasCount = 2000;
-  constexpr int kJoinerThreads = 3;
-  Broadcaster broadcaster({});
-  std::atomic<int> demand_count = 0;
-  broadcaster.onDemandChange([&](const std::string&) { ++demand_count; });
-  const auto steady = std::make_shared<Watcher>();
-  const auto hold = join(broadcaster, "s", quiltOf(2), steady);
-  std::atomic<bool> published = false;
-  std::vector<std::shared_ptr<Watcher>> joined[kJoinerThreads];
-  {
-    std::vector<std::jthread> threads;
-    for (auto& watchers : joined) {
-      threads.emplace_back([&] {
-        while (!published) {
-          watchers.push_back(std::make_shared<Watcher>());
-          const auto brief = join(broadcaster, "s", quiltOf(2), watchers.back());
-          EXPECT_GE(broadcaster.displays("s").at(0)->subscriber_count, 2u);
-          std::this_thread::yield();
-        }
-      });
-    }
-    for (uint64_t sequence = 1; sequence <= kAtlasCount; ++sequence) {
-      broadcaster.publish(atlasOf(hold->displayId(), sequence));
-    }
-    published = true;
-  }
-  EXPECT_EQ(steady->sequences().size(), kAtlasCount);
-  EXPECT_FALSE(steady->misused());
-  for (const auto& watchers : joined) {
-    for (const auto& watcher : watchers) {
-      const std::vector<uint64_t> sequences = watcher->sequences();
-      EXPECT_TRUE(std::ranges::is_sorted(sequences, std::less_equal<>()));
-      EXPECT_FALSE(watcher->misused());
-    }
-  }
-  EXPECT_EQ(broadcaster.subscriberCount("s"), 1u);
-}
-
-TEST(Broadcaster, offersNothingAfterTheEndUnderThreads) {
-  for (int round = 0; round < 50; ++round) {
-    Broadcaster broadcaster({});
-    const auto watcher = std::make_shared<Watcher>();
-    const auto subscription = join(broadcaster, "s", quiltOf(2), watcher);
-    {
-      std::jthread publisher([&] {
-        for (uint64_t sequence = 1; sequence <= 50; ++sequence) {
-          broadcaster.publish(atlasOf(subscription->displayId(), sequence));
-        }
-      });
-      std::jthread drainer([&] { broadcaster.drain(); });
-      std::jthread refuser(
-          [&] { broadcaster.refuse(subscription->displayId(), absl::InternalError("refused")); });
-    }
-    EXPECT_EQ(watcher->ends().size(), 1u);
-    EXPECT_FALSE(watcher->misused());
-  }
-}
-
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::test

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bands packed without loss are judged by zstd's own decoder.
+#include <random>
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include "encode/band_encoder.h"
+#include "unit/encode/picture.h"
+
+namespace viewloom::test {
+namespace {
+
+Bytes unpacked(const EncodedBand& band) {
+  if (band.encoding == BandEncoding::kRaw) return *band.bytes;
+  const unsigned long long size = ZSTD_getFrameContentSize(band.bytes->data(), band.bytes->size());
+  EXPECT_LT(size, ZSTD_CONTENTSIZE_ERROR) << "the frame states its size";
+  Bytes content(size);
+  EXPECT_EQ(ZSTD_decompress(content.data(), size, band.bytes->data(), band.bytes->size()), size);
+  return content;
+}
+
+TEST(BandEncoder, packsColourWithoutLossAsRgb8) {
+  BytePool pool(4);
+  BandEncoder encoder(pool);
+  const Picture picture({123, 77});
+  Bytes expected;
+  for (uint32_t y = 0; y < 77; ++y) {
+    for (uint32_t x = 0; x < 123; ++x) {
+      const uint8_t* rgb = &picture.rgbx[y * picture.stride_bytes + 4 * x];
+      expected.insert(expected.end(), rgb, rgb + 3);
+    }
+  }
+  for (const BandEncoding color : {BandEncoding::kZstd, BandEncoding::kRaw}) {
+    const EncodedBand band =
+        encoder.encode(picture.band(0, 77), {.color = color}, layoutOf(picture.size_px));
+    EXPECT_EQ(band.encoding, color);
+    EXPECT_EQ(unpacked(band), expected);
+  }
+}
+
+TEST(BandEncoder, packsDepthAndMaskWithoutLossAndWithoutGaps) {
+  BytePool pool(4);
+  BandEncoder encoder(pool);
+  constexpr uint32_t kWidth = 50;
+  constexpr uint32_t kHeight = 40;
+  for (const AtlasPlane plane : {AtlasPlane::kDepth, AtlasPlane::kMask}) {
+    const size_t row_bytes = plane == AtlasPlane::kDepth ? kWidth * 4 : kWidth;
+    const size_t stride_bytes = row_bytes + 24;
+    std::mt19937 random(3);
+    Bytes padded(stride_bytes * kHeight);
+    for (uint8_t& byte : padded) byte = static_cast<uint8_t>(random() % 8);
+    Bytes expected;
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      const uint8_t* row = &padded[y * stride_bytes];
+      expected.insert(expected.end(), row, row + row_bytes);
+    }
+    for (const BandEncoding planes : {BandEncoding::kZstd, BandEncoding::kRaw}) {
+      const EncodedBand band = encoder.encode({.plane = plane,
+                                               .row_count = kHeight,
+                                               .width_px = kWidth,
+                                               .bytes = padded,
+                                               .stride_bytes = stride_bytes},
+                                              {.planes = planes}, layoutOf({kWidth, kHeight}));
+      EXPECT_EQ(band.encoding, planes);
+      EXPECT_EQ(band.plane, plane);
+      EXPECT_EQ(unpacked(band), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viewloom::test
