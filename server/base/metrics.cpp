@@ -107,6 +107,8 @@ Metrics::Metrics()
       sent_bytes(counters<Transport>(store_->registry, "viewloom_sent_bytes_total",
                                      "Bytes of atlases written to clients.", "transport",
                                      kTransports)),
+      atlases_presented(counter(store_->registry, "viewloom_atlases_presented_total",
+                                "Atlases that gRPC clients say they have shown.")),
       http_responses(counters<HttpAnswer>(store_->registry, "viewloom_http_responses_total",
                                           "HTTP responses, by kind of status.", "answer",
                                           kHttpAnswers)),

@@ -99,6 +99,7 @@ class Metrics {
   Labelled<HandOver, Counter> replaced;              // {hand_over}; drops, newest wins
   Labelled<Transport, Counter> atlases_sent;         // {transport}
   Labelled<Transport, Counter> sent_bytes;           // {transport}
+  Counter atlases_presented;                         // shown, as gRPC clients say
   Labelled<HttpAnswer, Counter> http_responses;      // {answer}
   Labelled<Transport, Gauge> subscribers;            // {transport}; now
   Gauge streams_live;                                // now

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/bidi_call.h"
+
+#include <utility>
+
+#include "rpc/status_to_grpc.h"
+
+namespace viewloom {
+
+void BidiCall::open() {
+  self_ = shared_from_this();
+  std::lock_guard lock(mutex_);
+  opened_ = true;
+  advance();
+}
+
+void BidiCall::end(const absl::Status& status) {
+  bool handling = false;
+  {
+    std::lock_guard lock(mutex_);
+    if (end_status_.has_value()) return;
+    end_status_ = statusToGrpc(status);
+    handling = handling_;
+  }
+  release();
+  if (!handling) dropReads();
+  std::lock_guard lock(mutex_);
+  advance();
+}
+
+void BidiCall::OnReadDone(bool ok) {
+  {
+    std::lock_guard lock(mutex_);
+    half_closed_ = !ok;
+    handling_ = !end_status_.has_value();
+  }
+  if (handling_) handle(ok);
+  incoming_.Clear();
+  std::lock_guard lock(mutex_);
+  reading_ = false;
+  advance();
+}
+
+void BidiCall::handle(bool ok) {
+  const absl::Status status = ok ? handleMessage(incoming_) : handleHalfClose();
+  if (!status.ok()) end(status);
+  bool ended = false;
+  {
+    std::lock_guard lock(mutex_);
+    handling_ = false;
+    ended = end_status_.has_value();
+  }
+  if (ended) dropReads();
+}
+
+void BidiCall::OnWriteDone(bool ok) {
+  if (ok) {
+    handleWritten();
+  } else {
+    OnCancel();
+  }
+  std::lock_guard lock(mutex_);
+  outgoing_.Clear();
+  writing_ = false;
+  advance();
+}
+
+void BidiCall::OnCancel() {
+  {
+    std::lock_guard lock(mutex_);
+    cancelled_ = true;
+  }
+  end(absl::CancelledError("the call was cancelled"));
+  std::lock_guard lock(mutex_);
+  advance();
+}
+
+void BidiCall::OnDone() {
+  // The last reaction: with its own reference the call may go, once nobody outside holds it.
+  const std::shared_ptr<BidiCall> self = std::move(self_);
+}
+
+void BidiCall::advance() {
+  if (finished_ || !opened_) return;
+  if (!writing_ && !cancelled_) {
+    if (std::optional<grpc::ByteBuffer> message = takeMessage()) {
+      outgoing_ = *std::move(message);
+      writing_ = true;
+      StartWrite(&outgoing_);
+    }
+  }
+  if (!end_status_.has_value()) {
+    if (reading_ || half_closed_ || !wantsToRead()) return;
+    reading_ = true;
+    StartRead(&incoming_);
+  } else if (!writing_ && (cancelled_ || mayFinish())) {
+    finished_ = true;
+    Finish(*end_status_);
+  }
+}
+
+}  // namespace viewloom

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mechanics of a bidirectional call on raw bytes: one read and one write at a time, one finish.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/server_callback.h>
+
+#include "base/status.h"
+
+namespace viewloom {
+
+// What calls that end with UNAVAILABLE say.
+inline constexpr const char* kDrainMessage = "the server drains; try again later or elsewhere";
+
+// Derived classes say what a message means and what is written next. The call keeps itself alive
+// from open() to OnDone; others hold it weakly and may lock it after its end, when nothing happens
+// any more. Thread-safety: public methods may be called from any thread. mutex_ guards everything
+// that is not said to belong to the reads, of which one runs at a time.
+class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
+                 public std::enable_shared_from_this<BidiCall> {
+ public:
+  // Starts to read; call once, on a call that a shared_ptr owns.
+  void open();
+  // Ends the call once takeMessage has nothing more to write; the first status wins.
+  void end(const absl::Status& status);
+
+  void OnReadDone(bool ok) final;
+  void OnWriteDone(bool ok) final;
+  void OnCancel() final;
+  void OnDone() final;
+
+ protected:
+  // A message came. An error ends the call with it. Without the lock, one at a time.
+  virtual absl::Status handleMessage(grpc::ByteBuffer& bytes) = 0;
+  // The client sends no more. As above.
+  virtual absl::Status handleHalfClose() = 0;
+  // A message was written. Without the lock, one at a time.
+  virtual void handleWritten() {}
+  // The call has begun to end: lets go of what others wait for. Without the lock, once.
+  virtual void release() = 0;
+  // No message is handled any more: lets go of what they left behind. Without the lock, once.
+  virtual void dropReads() {}
+  // The next message to write. With the lock.
+  virtual std::optional<grpc::ByteBuffer> takeMessage() = 0;
+  // False holds the next read back until a message is written. With the lock.
+  virtual bool wantsToRead() const { return true; }
+  // False holds the end back although there is nothing to write yet. With the lock.
+  virtual bool mayFinish() const { return true; }
+
+  // Writes, reads or finishes if there is reason to. With the lock.
+  void advance();
+  bool ending() const { return end_status_.has_value(); }
+  bool halfClosed() const { return half_closed_; }
+
+  std::mutex mutex_;
+
+ private:
+  void handle(bool ok);
+
+  std::shared_ptr<BidiCall> self_;
+  grpc::ByteBuffer incoming_;
+  grpc::ByteBuffer outgoing_;
+  bool opened_ = false;
+  bool reading_ = false;
+  bool handling_ = false;
+  bool half_closed_ = false;
+  bool writing_ = false;
+  bool cancelled_ = false;
+  bool finished_ = false;
+  std::optional<grpc::Status> end_status_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/catalog_service.h"
+
+#include <utility>
+
+#include "base/check.h"
+#include "display/presets.h"
+#include "rpc/geometry_to_proto.h"
+#include "rpc/layout_to_proto.h"
+#include "rpc/limits_to_proto.h"
+#include "rpc/report_to_proto.h"
+
+namespace viewloom {
+namespace {
+
+v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
+  v1::GetServerInfoResponse proto;
+  proto.set_version(description.version);
+  proto.set_device(description.device);
+  proto.set_driver(description.driver);
+  *proto.mutable_ingest_limits() = limitsToProto(description.frame_limits);
+  proto.set_atlas_side_px_max(description.atlas_limits.side_px_max);
+  proto.set_atlas_px_max(description.atlas_limits.area_px_max);
+  proto.set_view_count_max(description.atlas_limits.view_count_max);
+  proto.set_stream_count_max(description.stream_count_max);
+  proto.set_display_count_max(description.broadcaster_limits.display_count_max);
+  proto.set_subscriber_count_max(description.broadcaster_limits.subscriber_count_max);
+  proto.set_http_address(description.http_address);
+  return proto;
+}
+
+// The grid of a preset does not depend on what a stream would give: any source will do.
+AtlasLayout layoutOfPreset(const Preset& preset) {
+  QuiltSpec quilt;
+  quilt.preset = std::string(preset.name);
+  DisplaySpec spec;
+  spec.kind = quilt;
+  const absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(spec);
+  VIEWLOOM_CHECK(completed.ok());
+  constexpr SizePx kAnySize{.width = 1, .height = 1};
+  StreamDefaults any_source;
+  any_source.source_size_px = kAnySize;
+  any_source.source_camera.intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};
+  absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(*completed, any_source);
+  VIEWLOOM_CHECK(layout.ok());
+  layout->focal_distance_m = 0;  // from the stream
+  return *std::move(layout);
+}
+
+v1::ListPresetsResponse presetsToProto() {
+  v1::ListPresetsResponse proto;
+  for (const Preset& preset : allPresets()) {
+    v1::Preset& entry = *proto.add_presets();
+    entry.set_name(std::string(preset.name));
+    entry.set_device(std::string(preset.device));
+    *entry.mutable_layout() = gridToProto(layoutOfPreset(preset));
+    entry.set_note(std::string(preset.note));
+  }
+  return proto;
+}
+
+v1::StreamEntry entryToProto(const StreamEntry& entry, uint32_t subscriber_count) {
+  v1::StreamEntry proto;
+  proto.set_name(entry.name);
+  proto.set_live(entry.live);
+  proto.set_frame_number(entry.frame_number);
+  *proto.mutable_size() = sizeToProto(entry.size_px);
+  proto.set_layer_count(entry.layer_count);
+  proto.set_rate_hz(entry.rate_hz);
+  proto.set_received_count(entry.received_count);
+  proto.set_replaced_count(entry.replaced_count);
+  proto.set_refused_count(entry.refused_count);
+  proto.set_subscriber_count(subscriber_count);
+  *proto.mutable_stats() = statsToProto(entry.stats);
+  return proto;
+}
+
+grpc::ServerUnaryReactor* finish(grpc::CallbackServerContext* context, const grpc::Status& status) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(status);
+  return reactor;
+}
+
+}  // namespace
+
+CatalogService::CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
+                               ServerDescription description)
+    : directory_(directory),
+      broadcaster_(broadcaster),
+      info_(infoToProto(description)),
+      presets_(presetsToProto()) {}
+
+grpc::ServerUnaryReactor* CatalogService::ListStreams(grpc::CallbackServerContext* context,
+                                                      const v1::ListStreamsRequest*,
+                                                      v1::ListStreamsResponse* response) {
+  for (const StreamEntry& entry : directory_.list()) {
+    *response->add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
+  }
+  return finish(context, grpc::Status::OK);
+}
+
+grpc::ServerUnaryReactor* CatalogService::ListDisplays(grpc::CallbackServerContext* context,
+                                                       const v1::ListDisplaysRequest*,
+                                                       v1::ListDisplaysResponse* response) {
+  for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
+    v1::DisplayEntry& entry = *response->add_displays();
+    entry.set_id(display->id);
+    entry.set_stream(display->stream);
+    // Known once the display has met a frame of its stream.
+    if (const AtlasPtr atlas = broadcaster_.newest(display->id)) {
+      *entry.mutable_layout() = layoutToProto(*atlas->layout, atlas->encoding);
+    }
+    entry.set_subscriber_count(display->subscriber_count);
+    entry.set_atlas_count(broadcaster_.atlasCount(display->id));
+  }
+  return finish(context, grpc::Status::OK);
+}
+
+grpc::ServerUnaryReactor* CatalogService::ListPresets(grpc::CallbackServerContext* context,
+                                                      const v1::ListPresetsRequest*,
+                                                      v1::ListPresetsResponse* response) {
+  *response = presets_;
+  return finish(context, grpc::Status::OK);
+}
+
+grpc::ServerUnaryReactor* CatalogService::GetServerInfo(grpc::CallbackServerContext* context,
+                                                        const v1::GetServerInfoRequest*,
+                                                        v1::GetServerInfoResponse* response) {
+  *response = info_;
+  return finish(context, grpc::Status::OK);
+}
+
+grpc::ServerUnaryReactor* CatalogService::AdviseSource(grpc::CallbackServerContext* context,
+                                                       const v1::AdviseSourceRequest*,
+                                                       v1::AdviseSourceResponse*) {
+  return finish(context, {grpc::StatusCode::UNIMPLEMENTED, "AdviseSource: is not served yet"});
+}
+
+}  // namespace viewloom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// CatalogService: streams, displays, presets and what this server is.
+#pragma once
+
+#include <string>
+
+#include "display/atlas_layout.h"
+#include "frame/limits.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+#include "viewloom/v1/catalog_service.grpc.pb.h"
+
+namespace viewloom {
+
+// What GetServerInfo says; fixed while the server runs.
+struct ServerDescription {
+  std::string version;
+  std::string device;  // Vulkan device name
+  std::string driver;
+  FrameLimits frame_limits;
+  AtlasLimits atlas_limits;
+  uint32_t stream_count_max = 0;
+  BroadcasterLimits broadcaster_limits;
+  std::string http_address;  // of the viewer page; empty = none
+};
+
+// Thread-safety: all methods may be called from any thread.
+class CatalogService final : public v1::CatalogService::CallbackService {
+ public:
+  CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
+                 ServerDescription description);
+
+ private:
+  grpc::ServerUnaryReactor* ListStreams(grpc::CallbackServerContext* context,
+                                        const v1::ListStreamsRequest* request,
+                                        v1::ListStreamsResponse* response) override;
+  grpc::ServerUnaryReactor* ListDisplays(grpc::CallbackServerContext* context,
+                                         const v1::ListDisplaysRequest* request,
+                                         v1::ListDisplaysResponse* response) override;
+  grpc::ServerUnaryReactor* ListPresets(grpc::CallbackServerContext* context,
+                                        const v1::ListPresetsRequest* request,
+                                        v1::ListPresetsResponse* response) override;
+  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
+                                          const v1::GetServerInfoRequest* request,
+                                          v1::GetServerInfoResponse* response) override;
+  grpc::ServerUnaryReactor* AdviseSource(grpc::CallbackServerContext* context,
+                                         const v1::AdviseSourceRequest* request,
+                                         v1::AdviseSourceResponse* response) override;
+
+  const StreamDirectory& directory_;
+  const Broadcaster& broadcaster_;
+  const v1::GetServerInfoResponse info_;
+  const v1::ListPresetsResponse presets_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What watching a stream touches. All of it outlives the calls.
+#pragma once
+
+#include "base/metrics.h"
+#include "display/atlas_layout.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+struct DisplayParts {
+  StreamDirectory& directory;
+  Broadcaster& broadcaster;
+  const Metrics& metrics;
+  AtlasLimits limits;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/publish_call.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "rpc/frame_from_proto.h"
+#include "rpc/limits_to_proto.h"
+#include "rpc/report_to_proto.h"
+#include "rpc/stream_name.h"
+#include "rpc/wanted_to_proto.h"
+#include "rpc/wire_message.h"
+
+namespace viewloom {
+namespace {
+
+constexpr size_t kSessionBytesMax = 128;
+// Frames without a report plus reports not yet written. Over it the call reads no more, so that a
+// publisher that does not read its reports holds back nobody but itself.
+constexpr size_t kOpenReportsMax = 64;
+
+void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutcome outcome) {
+  if (outcome == FrameOutcome::kReplaced) parts.directory.countReplaced(stream);
+  if (outcome == FrameOutcome::kRefused) {
+    parts.directory.countRefused(stream);
+    parts.metrics.frames_refused.add();
+  }
+}
+
+}  // namespace
+
+absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
+  // Chunks are merged into the memory of the chunk before; anything else gets a message of its own.
+  v1::PublishFramesRequest other_request;
+  const bool is_chunk = firstFieldNumber(bytes) == v1::PublishFramesRequest::kChunkFieldNumber;
+  if (is_chunk) {
+    chunk_request_.mutable_chunk()->Clear();
+    chunk_request_.DiscardUnknownFields();
+  }
+  v1::PublishFramesRequest& request = is_chunk ? chunk_request_ : other_request;
+  VIEWLOOM_RETURN_IF_ERROR(mergeMessage(bytes, request));
+  switch (request.message_case()) {
+    case v1::PublishFramesRequest::kSettings:
+      return handleSettings(request.settings());
+    case v1::PublishFramesRequest::kHeader:
+      return handleHeader(request.header());
+    case v1::PublishFramesRequest::kChunk:
+      return handleChunk(request.chunk());
+    case v1::PublishFramesRequest::MESSAGE_NOT_SET:
+      break;
+  }
+  return invalidField("message", "got none; accepted: settings, header or chunk");
+}
+
+absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
+  if (!stream_.empty()) return invalidField("settings", "came again; accepted: once, first");
+  VIEWLOOM_RETURN_IF_ERROR(validateStreamName(settings.stream(), "settings.stream"));
+  if (settings.session_id().size() > kSessionBytesMax) {
+    return invalidField("settings.session_id",
+                        absl::StrCat("has ", settings.session_id().size(), " bytes; accepted: 0..",
+                                     kSessionBytesMax));
+  }
+  auto claim =
+      parts_.directory.claim(settings.stream(), settings.session_id(), [self = weak_from_this()] {
+        const auto call = self.lock();
+        if (call) call->end(absl::AbortedError("taken over by another call with the session id"));
+      });
+  if (!claim.ok()) {
+    const bool named = !fieldOf(claim.status()).empty();
+    return named ? claim.status() : withFieldPrefix(claim.status(), "settings.stream");
+  }
+  v1::PublishFramesResponse response;
+  *response.mutable_accepted() = limitsToProto(parts_.limits);
+  {
+    std::lock_guard lock(mutex_);
+    if (ending()) return absl::OkStatus();  // the claim goes with this scope
+    stream_ = settings.stream();
+    claim_ = *std::move(claim);
+    replies_.push_back(bytesFromMessage(response));
+    advance();
+  }
+  refreshWanted();
+  return absl::OkStatus();
+}
+
+absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
+  if (stream_.empty()) return invalidField("header", "came first; accepted: settings first");
+  if (assembly_.has_value()) VIEWLOOM_RETURN_IF_ERROR(assembly_->requireComplete());
+  auto format = frameFormatFromProto(header, parts_.limits);
+  if (!format.ok()) {
+    countOutcome(parts_, stream_, FrameOutcome::kRefused);
+    return format.status();
+  }
+  if (format->number <= last_number_) {
+    return fieldError(absl::StatusCode::kOutOfRange, "header.number",
+                      absl::StrCat("is ", format->number, ", must be above ", last_number_));
+  }
+  last_number_ = format->number;
+  times_ = {};
+  assembly_.emplace(*std::move(format), parts_.pool);
+  return absl::OkStatus();
+}
+
+absl::Status PublishCall::handleChunk(const v1::FrameChunk& chunk) {
+  if (!assembly_.has_value()) return invalidField("chunk", "came before a header");
+  const int64_t now_ns = parts_.clock.nowNs();
+  if (times_.first_chunk_ns == 0) times_.first_chunk_ns = now_ns;
+  times_.last_chunk_ns = now_ns;
+  VIEWLOOM_RETURN_IF_ERROR(
+      assembly_->addChunk(chunk.plane_index(), chunk.offset_bytes(), chunk.data()));
+  parts_.metrics.received_bytes.add(static_cast<double>(chunk.data().size()));
+  if (assembly_->complete()) offerFrame();
+  return absl::OkStatus();
+}
+
+void PublishCall::offerFrame() {
+  {
+    std::lock_guard lock(mutex_);
+    if (ending()) return;
+    ++unreported_count_;
+  }
+  parts_.directory.countReceived(stream_);
+  parts_.metrics.frames_received.add();
+  // A frame outlives its call; its outcome is counted all the same.
+  parts_.intake.offer(
+      stream_, assembly_->take(), times_,
+      [weak = weak_from_this(), parts = parts_, stream = stream_](const FrameReport& report) {
+        countOutcome(parts, stream, report.outcome);
+        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
+        if (call) call->onReport(report);
+      });
+}
+
+void PublishCall::onReport(const FrameReport& report) {
+  v1::PublishFramesResponse response;
+  *response.mutable_report() = reportToProto(report);
+  {
+    std::lock_guard lock(mutex_);
+    --unreported_count_;
+    replies_.push_back(bytesFromMessage(response));
+    advance();
+  }
+  if (report.outcome == FrameOutcome::kTraced) refreshWanted();
+}
+
+absl::Status PublishCall::handleHalfClose() {
+  if (stream_.empty()) return invalidField("settings", "never came; accepted: once, first");
+  if (assembly_.has_value() && !assembly_->complete()) {
+    return invalidField("chunk", absl::StrCat("is missing: the call was closed within frame ",
+                                              assembly_->frameNumber()));
+  }
+  end(absl::OkStatus());
+  return absl::OkStatus();
+}
+
+void PublishCall::dropReads() {
+  assembly_.reset();
+  chunk_request_.Clear();
+}
+
+void PublishCall::release() {
+  std::unique_ptr<StreamDirectory::Claim> claim;
+  std::lock_guard lock(mutex_);
+  claim = std::move(claim_);
+}
+
+std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
+  if (!replies_.empty()) {
+    grpc::ByteBuffer reply = std::move(replies_.front());
+    replies_.pop_front();
+    return reply;
+  }
+  return std::exchange(wanted_, std::nullopt);
+}
+
+bool PublishCall::wantsToRead() const {
+  return unreported_count_ + replies_.size() < kOpenReportsMax;
+}
+
+std::string PublishCall::stream() {
+  std::lock_guard lock(mutex_);
+  return stream_;
+}
+
+void PublishCall::refreshWanted() {
+  const std::string name = stream();
+  std::vector<AtlasPtr> atlases;
+  const std::vector<ActiveDisplayPtr> displays = parts_.broadcaster.displays(name);
+  for (const ActiveDisplayPtr& display : displays) {
+    if (AtlasPtr atlas = parts_.broadcaster.newest(display->id))
+      atlases.push_back(std::move(atlas));
+  }
+  v1::PublishFramesResponse response;
+  *response.mutable_wanted() = wantedToProto(atlases, static_cast<uint32_t>(displays.size()));
+  std::string serialised = response.SerializeAsString();
+  std::lock_guard lock(mutex_);
+  if (ending() || serialised == last_wanted_) return;
+  last_wanted_ = std::move(serialised);
+  wanted_ = bytesFromMessage(response);
+  advance();
+}
+
+}  // namespace viewloom

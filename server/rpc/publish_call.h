@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// One publisher's call: collects its frames, offers them, and tells what became of each.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rpc/bidi_call.h"
+#include "rpc/ingest_parts.h"
+#include "viewloom/v1/ingest_service.pb.h"
+
+namespace viewloom {
+
+// However it ends, the stream's name is free at once, and the reports of the frames taken before
+// that are still written. Thread-safety: as BidiCall.
+class PublishCall final : public BidiCall {
+ public:
+  explicit PublishCall(const IngestParts& parts) : parts_(parts) {}
+
+  // Tells the publisher what its displays want now, if that changed.
+  void refreshWanted();
+  // The stream it publishes; empty before its settings came.
+  std::string stream();
+
+ private:
+  absl::Status handleMessage(grpc::ByteBuffer& bytes) override;
+  absl::Status handleHalfClose() override;
+  void release() override;
+  void dropReads() override;
+  std::optional<grpc::ByteBuffer> takeMessage() override;
+  bool wantsToRead() const override;
+  bool mayFinish() const override { return unreported_count_ == 0; }
+
+  absl::Status handleChunk(const v1::FrameChunk& chunk);
+  absl::Status handleSettings(const v1::PublishSettings& settings);
+  absl::Status handleHeader(const v1::FrameHeader& header);
+  void offerFrame();
+  void onReport(const FrameReport& report);
+
+  const IngestParts parts_;
+
+  // Of the reads.
+  v1::PublishFramesRequest chunk_request_;  // keeps the memory of its data from chunk to chunk
+  std::optional<FrameAssembly> assembly_;
+  FrameTimes times_;
+  uint64_t last_number_ = 0;
+
+  // Under mutex_.
+  std::string stream_;
+  std::unique_ptr<StreamDirectory::Claim> claim_;
+  std::deque<grpc::ByteBuffer> replies_;    // accepted, then reports
+  size_t unreported_count_ = 0;             // frames taken whose report has not come
+  std::optional<grpc::ByteBuffer> wanted_;  // newest only
+  std::string last_wanted_;                 // serialised
+};
+
+}  // namespace viewloom

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/rpc_server.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
+#include <grpcpp/security/server_credentials.h>
+#include <grpcpp/server_builder.h>
+
+namespace viewloom {
+namespace {
+
+// A chunk of 1 MiB and what surrounds it; the largest display, of 1024 cameras, takes a tenth of
+// it.
+constexpr int kReceiveBytesMax = 2 << 20;
+// Calls at a time on one connection.
+constexpr int kConnectionCallsMax = 128;
+// A peer that vanished without a word is found out after both; it holds a stream's name until then.
+constexpr int kKeepaliveMs = 20000;
+constexpr int kKeepaliveTimeoutMs = 10000;
+// Clients may ping this often.
+constexpr int kClientPingMsMin = 10000;
+
+void addLibraryServices() {
+  // Both are settings of the process and take effect on servers built later.
+  static const bool once = [] {
+    grpc::EnableDefaultHealthCheckService(true);
+    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
+  grpc::ResourceQuota quota("viewloomd");
+  quota.Resize(options.memory_bytes_max);
+  builder.SetResourceQuota(quota);
+  builder.SetMaxReceiveMessageSize(kReceiveBytesMax);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kConnectionCallsMax);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                             kClientPingMsMin);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // Without it a second server would silently share the port and take half of the clients.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+}
+
+}  // namespace
+
+RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
+                     ServerDescription description)
+    : drain_time_(options.drain_time),
+      ingest_({.intake = parts.intake,
+               .pool = parts.pool,
+               .directory = parts.directory,
+               .broadcaster = parts.broadcaster,
+               .clock = parts.clock,
+               .metrics = parts.metrics,
+               .limits = description.frame_limits}),
+      display_({.directory = parts.directory,
+                .broadcaster = parts.broadcaster,
+                .metrics = parts.metrics,
+                .limits = description.atlas_limits}),
+      catalog_(parts.directory, parts.broadcaster, std::move(description)) {
+  addLibraryServices();
+  grpc::ServerBuilder builder;
+  setLimits(builder, options);
+  int port = 0;
+  builder.AddListeningPort(options.address, grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&ingest_);
+  builder.RegisterService(&display_);
+  builder.RegisterService(&catalog_);
+  server_ = builder.BuildAndStart();
+  if (server_ == nullptr || port == 0) {
+    throw std::runtime_error("cannot listen on " + options.address +
+                             ": is the port taken, the host this machine's?");
+  }
+  port_ = static_cast<uint16_t>(port);
+}
+
+RpcServer::~RpcServer() {
+  drain();
+  shutdown();
+}
+
+void RpcServer::drain() {
+  server_->GetHealthCheckService()->SetServingStatus(false);
+  ingest_.drain();
+  display_.drain();
+}
+
+void RpcServer::shutdown() {
+  server_->Shutdown(std::chrono::system_clock::now() + drain_time_);
+  server_->Wait();
+}
+
+}  // namespace viewloom

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gRPC server: the three services, health and reflection on one port.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include <grpcpp/server.h>
+
+#include "rpc/catalog_service.h"
+#include "rpc/display_service.h"
+#include "rpc/ingest_service.h"
+
+namespace viewloom {
+
+// Everything outlives the server, and every frame that came through it.
+struct RpcParts {
+  FrameIntake& intake;
+  BytePool& pool;
+  StreamDirectory& directory;
+  Broadcaster& broadcaster;
+  const Clock& clock;
+  const Metrics& metrics;
+};
+
+struct RpcServerOptions {
+  std::string address = "127.0.0.1:50551";          // host:port; port 0 = any free one
+  uint64_t memory_bytes_max = uint64_t{256} << 20;  // of messages inside the gRPC library
+  // How long a receiver may take to read what it was given before it is cancelled.
+  std::chrono::milliseconds drain_time{2000};
+};
+
+// Thread-safety: demandChanged may be called from any thread; the rest from one.
+class RpcServer {
+ public:
+  // Listens. Throws std::runtime_error when the address cannot be had.
+  RpcServer(const RpcServerOptions& options, const RpcParts& parts, ServerDescription description);
+  // Drains and shuts down.
+  ~RpcServer();
+
+  uint16_t port() const { return port_; }
+
+  // To be told by Broadcaster::onDemandChange.
+  void demandChanged(const std::string& stream) { ingest_.demandChanged(stream); }
+
+  // First half of the end: NOT_SERVING, no new calls, publishers end with UNAVAILABLE once their
+  // frames are reported. Receivers stay until Broadcaster::drain.
+  void drain();
+  // Second half: waits for the calls that are left, at most drain_time, then cancels them. None is
+  // left when it returns.
+  void shutdown();
+
+ private:
+  const std::chrono::milliseconds drain_time_;
+  IngestService ingest_;
+  DisplayService display_;
+  CatalogService catalog_;
+  std::unique_ptr<grpc::Server> server_;  // after the services it calls
+  uint16_t port_ = 0;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/stream_name.h"
+
+#include <algorithm>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+
+namespace viewloom {
+namespace {
+
+constexpr size_t kNameLengthMax = 64;
+
+bool isNameCharacter(char c) {
+  return absl::ascii_isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '-';
+}
+
+}  // namespace
+
+absl::Status validateStreamName(const std::string& name, std::string_view field) {
+  const bool fits = !name.empty() && name.size() <= kNameLengthMax;
+  if (fits && std::all_of(name.begin(), name.end(), isNameCharacter)) return absl::OkStatus();
+  return invalidField(field,
+                      absl::StrCat("got \"", absl::CEscape(name.substr(0, kNameLengthMax)),
+                                   "\"; accepted: 1..", kNameLengthMax, " of A-Z a-z 0-9 . _ -"));
+}
+
+}  // namespace viewloom

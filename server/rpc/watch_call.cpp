@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/watch_call.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "publish/subscriber.h"
+#include "rpc/display_from_proto.h"
+#include "rpc/encoding_from_proto.h"
+#include "rpc/stream_name.h"
+#include "rpc/wire_message.h"
+
+namespace viewloom {
+namespace {
+
+absl::Status noSuchStream(const std::string& stream, const StreamDirectory& directory) {
+  const std::vector<StreamEntry> entries = directory.list();
+  const auto append_name = [](std::string* out, const StreamEntry& entry) {
+    out->append(entry.name);
+  };
+  const std::string existing = entries.empty() ? "none" : absl::StrJoin(entries, ", ", append_name);
+  return fieldError(absl::StatusCode::kNotFound, "open.stream",
+                    absl::StrCat("there is no \"", stream, "\"; there are: ", existing));
+}
+
+}  // namespace
+
+class WatchCall::Seat final : public Subscriber {
+ public:
+  Seat(std::weak_ptr<WatchCall> call, uint64_t number, std::string field)
+      : call_(std::move(call)), number_(number), field_(std::move(field)) {}
+
+  void offer(AtlasPtr atlas) override {
+    if (const auto call = call_.lock()) call->offer(number_, std::move(atlas));
+  }
+
+  void end(const absl::Status& status) override {
+    const bool named = !fieldOf(status).empty();
+    if (const auto call = call_.lock()) {
+      call->endSeat(number_, named ? withFieldPrefix(status, field_) : status);
+    }
+  }
+
+ private:
+  const std::weak_ptr<WatchCall> call_;
+  const uint64_t number_;
+  const std::string field_;  // that asked for the display
+};
+
+absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
+  v1::StreamAtlasesRequest request;
+  VIEWLOOM_RETURN_IF_ERROR(mergeMessage(bytes, request));
+  const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
+  if (opens != stream_.empty()) {
+    return invalidField(opens ? "open" : "message", "is not open, first, and only first");
+  }
+  switch (request.message_case()) {
+    case v1::StreamAtlasesRequest::kOpen:
+      return handleOpen(request.open());
+    case v1::StreamAtlasesRequest::kChange:
+      return handleChange(request.change());
+    case v1::StreamAtlasesRequest::kEyePoses:
+      return fieldError(absl::StatusCode::kUnimplemented, "eye_poses", "is not served yet");
+    case v1::StreamAtlasesRequest::kPresented:
+      parts_.metrics.atlases_presented.add();
+      return absl::OkStatus();
+    case v1::StreamAtlasesRequest::MESSAGE_NOT_SET:
+      break;
+  }
+  return invalidField("message", "got none; accepted: change or presented");
+}
+
+absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
+  VIEWLOOM_RETURN_IF_ERROR(validateStreamName(request.stream(), "open.stream"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "open"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setEncoding(request.encoding()), "open"));
+  if (!request.wait_for_stream() && !parts_.directory.exists(request.stream())) {
+    return noSuchStream(request.stream(), parts_.directory);
+  }
+  stream_ = request.stream();
+  {
+    std::lock_guard lock(mutex_);
+    count_ = request.count();
+  }
+  // An unknown stream is waited for in the same seat: it is watched before it is there.
+  return takeSeat("open.display");
+}
+
+absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
+  if (request.has_display()) {
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "change"));
+  }
+  if (request.has_encoding()) {
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setEncoding(request.encoding()), "change"));
+  }
+  return takeSeat("change.display");
+}
+
+absl::Status WatchCall::setDisplay(const v1::Display& proto) {
+  absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
+  absl::Status status = spec.status();
+  if (status.ok()) status = validateAtlasLimits(*spec, parts_.limits);
+  if (status.ok()) spec_ = *std::move(spec);
+  return withFieldPrefix(status, "display");
+}
+
+absl::Status WatchCall::setEncoding(const v1::AtlasEncoding& proto) {
+  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(proto);
+  if (encoding.ok()) encoding_ = *encoding;
+  return withFieldPrefix(encoding.status(), "encoding");
+}
+
+absl::Status WatchCall::takeSeat(const std::string& field) {
+  std::unique_ptr<Broadcaster::Subscription> left;
+  uint64_t seat_number = 0;
+  {
+    std::lock_guard lock(mutex_);
+    seat_number = ++seat_number_;
+    left = std::move(subscription_);
+    pending_ = nullptr;
+    layout_message_.clear();
+  }
+  leave(std::move(left));  // before the new one, so that a change never needs a second place
+  const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
+  auto subscription = parts_.broadcaster.subscribe(
+      stream_, spec_, encoding_, std::make_shared<Seat>(self, seat_number, field));
+  if (!subscription.ok()) return subscription.status();
+  std::lock_guard lock(mutex_);
+  if (ending()) return absl::OkStatus();  // the subscription goes with this scope
+  subscription_ = *std::move(subscription);
+  parts_.metrics.subscribers[Transport::kGrpc].add(1);
+  return absl::OkStatus();
+}
+
+void WatchCall::leave(std::unique_ptr<Broadcaster::Subscription> subscription) {
+  if (subscription != nullptr) parts_.metrics.subscribers[Transport::kGrpc].add(-1);
+}
+
+absl::Status WatchCall::handleHalfClose() {
+  if (stream_.empty()) return invalidField("open", "never came; accepted: once, first");
+  return absl::OkStatus();
+}
+
+void WatchCall::handleWritten() {
+  bool counted_out = false;
+  {
+    std::lock_guard lock(mutex_);
+    counted_out = count_ != 0 && sent_count_ == count_;
+  }
+  if (counted_out) end(absl::OkStatus());
+}
+
+void WatchCall::release() {
+  std::unique_ptr<Broadcaster::Subscription> left;
+  AtlasPtr dropped;
+  {
+    std::lock_guard lock(mutex_);
+    left = std::move(subscription_);
+    if (!draining_) dropped = std::move(pending_);
+  }
+  leave(std::move(left));
+}
+
+void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
+  AtlasPtr replaced;
+  std::lock_guard lock(mutex_);
+  if (seat_number != seat_number_ || ending()) return;
+  replaced = std::exchange(pending_, std::move(atlas));
+  if (replaced != nullptr) {
+    ++skipped_count_;
+    parts_.metrics.replaced[HandOver::kGrpc].add();
+  }
+  advance();
+}
+
+void WatchCall::endSeat(uint64_t seat_number, const absl::Status& status) {
+  bool half_closed = false;
+  {
+    std::lock_guard lock(mutex_);
+    if (seat_number != seat_number_) return;
+    draining_ = status.ok();
+    half_closed = halfClosed();
+  }
+  const bool drained = status.ok() && !half_closed;
+  end(drained ? absl::UnavailableError(kDrainMessage) : status);
+}
+
+void WatchCall::endUnlessWatching() {
+  {
+    std::lock_guard lock(mutex_);
+    if (subscription_ != nullptr) return;
+  }
+  end(absl::UnavailableError(kDrainMessage));
+}
+
+bool WatchCall::mayStartAtlas() const {
+  if (pending_ == nullptr || (ending() && !draining_)) return false;
+  return count_ == 0 || sent_count_ < count_;
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
+  std::optional<grpc::ByteBuffer> message;
+  if (!sending_.has_value() && mayStartAtlas()) {
+    message = takeAnnouncement();
+    if (!message.has_value()) sending_.emplace(std::move(pending_));
+  }
+  if (sending_.has_value()) {
+    message = sending_->next();
+    if (sending_->done()) {
+      sending_.reset();
+      ++sent_count_;
+      parts_.metrics.atlases_sent[Transport::kGrpc].add();
+    }
+  }
+  if (message.has_value()) {
+    parts_.metrics.sent_bytes[Transport::kGrpc].add(static_cast<double>(message->Length()));
+  }
+  return message;
+}
+
+// What must be said before the pending atlas: a new layout, or atlases that were skipped.
+std::optional<grpc::ByteBuffer> WatchCall::takeAnnouncement() {
+  if (layout_message_.empty() || layout_ != pending_->layout) {
+    std::string message = layoutMessage(*pending_);
+    layout_ = pending_->layout;
+    if (message != layout_message_) {
+      layout_message_ = std::move(message);
+      const grpc::Slice slice(layout_message_);
+      return grpc::ByteBuffer(&slice, 1);
+    }
+  }
+  if (skipped_count_ > 0) return skippedMessage(std::exchange(skipped_count_, 0));
+  return std::nullopt;
+}
+
+}  // namespace viewloom

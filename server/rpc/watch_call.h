@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// One client's call: watches a display and writes the newest atlas whenever the last one is
+// through.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "display/display_spec.h"
+#include "rpc/atlas_messages.h"
+#include "rpc/bidi_call.h"
+#include "rpc/display_parts.h"
+#include "viewloom/v1/display_service.pb.h"
+
+namespace viewloom {
+
+// Holds two atlases at most: the one being written and the newest complete one after it.
+// Thread-safety: as BidiCall.
+class WatchCall final : public BidiCall {
+ public:
+  explicit WatchCall(const DisplayParts& parts) : parts_(parts) {}
+
+  // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
+  void endUnlessWatching();
+
+ private:
+  // A place in the broadcaster. What an earlier one still offers after a change is ignored.
+  class Seat;
+
+  absl::Status handleMessage(grpc::ByteBuffer& bytes) override;
+  absl::Status handleHalfClose() override;
+  void handleWritten() override;
+  void release() override;
+  std::optional<grpc::ByteBuffer> takeMessage() override;
+
+  absl::Status handleOpen(const v1::OpenDisplay& request);
+  absl::Status handleChange(const v1::ChangeDisplay& request);
+  absl::Status setDisplay(const v1::Display& proto);
+  absl::Status setEncoding(const v1::AtlasEncoding& proto);
+  absl::Status takeSeat(const std::string& field);
+
+  void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
+  void offer(uint64_t seat_number, AtlasPtr atlas);
+  void endSeat(uint64_t seat_number, const absl::Status& status);
+  bool mayStartAtlas() const;
+  std::optional<grpc::ByteBuffer> takeAnnouncement();
+
+  const DisplayParts parts_;
+
+  // Of the reads.
+  std::string stream_;  // empty before the call was opened
+  DisplaySpec spec_;
+  EncodingSpec encoding_;
+
+  // Under mutex_.
+  std::unique_ptr<Broadcaster::Subscription> subscription_;
+  uint64_t seat_number_ = 0;
+  bool draining_ = false;       // what is pending is still written
+  uint32_t count_ = 0;          // atlases asked for; 0 = no end
+  uint64_t sent_count_ = 0;     // atlases written, or being written, whole
+  AtlasPtr pending_;            // newest complete one
+  uint64_t skipped_count_ = 0;  // replaced in pending_ since the last Skipped message
+  std::optional<AtlasMessages> sending_;
+  std::shared_ptr<const AtlasLayout> layout_;  // the one announced last
+  std::string layout_message_;                 // and how; empty = to be announced anew
+};
+
+}  // namespace viewloom

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/wire_message.h"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/wire_format_lite.h>
+#include <grpcpp/support/proto_buffer_reader.h>
+
+#include "absl/strings/str_cat.h"
+#include "base/check.h"
+
+namespace viewloom {
+
+grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message) {
+  const size_t byte_count = message.ByteSizeLong();
+  grpc::Slice slice(byte_count);
+  VIEWLOOM_CHECK(
+      message.SerializeToArray(const_cast<uint8_t*>(slice.begin()), static_cast<int>(byte_count)));
+  return grpc::ByteBuffer(&slice, 1);
+}
+
+absl::Status mergeMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message) {
+  const size_t byte_count = bytes.Length();
+  grpc::ProtoBufferReader reader(&bytes);
+  if (reader.status().ok() &&
+      message.MergeFromBoundedZeroCopyStream(&reader, static_cast<int>(byte_count))) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("got ", byte_count, " bytes that are no ", message.GetTypeName()));
+}
+
+uint32_t firstFieldNumber(grpc::ByteBuffer& bytes) {
+  grpc::ProtoBufferReader reader(&bytes);
+  google::protobuf::io::CodedInputStream input(&reader);
+  return google::protobuf::internal::WireFormatLite::GetTagFieldNumber(input.ReadTag());
+}
+
+grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {
+  VIEWLOOM_CHECK(offset + count <= bytes->size());
+  const auto release = [](void* held) { delete static_cast<SharedBytes*>(held); };
+  // gRPC asks for a mutable pointer but only reads through it.
+  return grpc::Slice(const_cast<uint8_t*>(bytes->data() + offset), count, release,
+                     new SharedBytes(bytes));
+}
+
+}  // namespace viewloom
