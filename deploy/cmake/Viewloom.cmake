@@ -11,6 +11,9 @@ if(VIEWLOOM_SANITIZE)
   add_compile_options(-fsanitize=${VIEWLOOM_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VIEWLOOM_SANITIZE})
 endif()
+if(VIEWLOOM_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 # viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...]): static library viewloom_<folder>.
 # Includes are written from server/ (and from client/ below client).

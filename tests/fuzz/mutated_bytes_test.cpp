@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// A short, repeatable walk through what the fuzzers search at length: good bytes, spoilt a little.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "fuzz/fuzz_decode.h"
+#include "unit/decode/jpeg_samples.h"
+#include "unit/decode/zstd_samples.h"
+
+namespace viewloom {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+constexpr int kRounds = 4000;
+
+// Flips, replaces, removes or repeats a few bytes.
+Bytes mutated(Bytes bytes, std::mt19937& random) {
+  for (uint32_t edits = 1 + random() % 4; edits > 0 && !bytes.empty(); --edits) {
+    const auto at = bytes.begin() + static_cast<long>(random() % bytes.size());
+    switch (random() % 5) {
+      case 0:
+        *at = static_cast<uint8_t>(*at ^ 1U << random() % 8);
+        break;
+      case 1:
+        *at = static_cast<uint8_t>(random());
+        break;
+      case 2:
+        bytes.erase(at);
+        break;
+      case 3:
+        bytes.insert(at, *at);
+        break;
+      case 4:
+        if (random() % 8 == 0) bytes.erase(at, bytes.end());
+        break;
+    }
+  }
+  return bytes;
+}
+
+// Seeds are accepted as they are; spoilt they are accepted or refused. A broken promise aborts.
+void walk(bool (*fuzz)(std::span<const uint8_t>), const std::vector<Bytes>& seeds) {
+  for (const Bytes& seed : seeds) EXPECT_TRUE(fuzz(seed));
+  std::mt19937 random(7);
+  int accepted_count = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    accepted_count += fuzz(mutated(seeds[random() % seeds.size()], random));
+  }
+  EXPECT_GT(accepted_count, 0);
+  EXPECT_LT(accepted_count, kRounds);
+}
+
+Bytes joined(Bytes front, const Bytes& back) {
+  front.insert(front.end(), back.begin(), back.end());
+  return front;
+}
+
+TEST(MutatedBytes, keepTheJpegDecoderWithinItsPlane) {
+  std::vector<Bytes> seeds;
+  for (const JpegSort sort : {JpegSort::kBaseline, JpegSort::kGrey}) {
+    seeds.push_back(joined({40, 24}, sampleJpeg({40, 24}, sort)));
+  }
+  walk(fuzzJpeg, seeds);
+}
+
+TEST(MutatedBytes, keepTheInflaterWithinItsPlane) {
+  Bytes content(601);
+  for (size_t i = 0; i < content.size(); ++i) content[i] = static_cast<uint8_t>(i * i / 5);
+  walk(fuzzZstd, {joined({600 >> 8, 600 & 255}, zstdFrame(content, ZstdSize::kStated)),
+                  joined({600 >> 8, 600 & 255}, zstdFrame(content, ZstdSize::kOpen))});
+}
+
+TEST(MutatedBytes, leaveFramesWholeOrRefused) {
+  // Number, focal length, layers; depth first; RGB8 3x2, no option; U16 3x2; then 18 and 12 bytes.
+  const Bytes header{1, 9, 1, 1, 1, 3, 2, 0, 0, 1, 2, 6, 3, 2, 0, 0, 1, 2};
+  walk(fuzzFrame, {joined(joined(header, joined({12}, Bytes(12, 1))), joined({18}, Bytes(18, 2)))});
+}
+
+}  // namespace
+}  // namespace viewloom
