@@ -27,6 +27,7 @@ LAYERS = {
     "server/temporal": (["base", "frame", "display"], ["absl", "glm"]),
     "server/encode": (["base", "frame", "display"], ["absl", "jpeg", "png", "zstd"]),
     "server/publish": (["base", "frame", "display", BAND], ["absl"]),
+    "server/scoring": (["base", "frame"], ["absl"]),
     "server/pipeline": (["base", "frame", "config", "decode", "display", "gpu", "structure",
                          "trace", "temporal", "encode", "publish", SHADERS_SHARED],
                         ["absl", "vulkan", "glm"]),

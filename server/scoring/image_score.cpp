@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scoring/image_score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+constexpr int kWindowRadius_px = 5;
+constexpr double kWindowSigma_px = 1.5;
+constexpr double kStabiliserMean = 0.01 * 0.01;      // (K1 L)^2 with peak L = 1
+constexpr double kStabiliserContrast = 0.03 * 0.03;  // (K2 L)^2
+
+using Plane = std::vector<double>;  // [pixel]
+
+std::array<double, 2 * kWindowRadius_px + 1> windowWeights() {
+  std::array<double, 2 * kWindowRadius_px + 1> weights{};
+  for (int i = -kWindowRadius_px; i <= kWindowRadius_px; ++i) {
+    weights[size_t(i + kWindowRadius_px)] =
+        std::exp(-i * i / (2 * kWindowSigma_px * kWindowSigma_px));
+  }
+  return weights;
+}
+
+// The weighted mean of the samples `step` apart around each of `count` samples.
+void blurLine(const double* from, double* to, int count, size_t step) {
+  static const auto weights = windowWeights();
+  for (int i = 0; i < count; ++i) {
+    double sum = 0;
+    double weight_sum = 0;
+    const int last = std::min(i + kWindowRadius_px, count - 1);
+    for (int j = std::max(i - kWindowRadius_px, 0); j <= last; ++j) {
+      const double weight = weights[size_t(j - i + kWindowRadius_px)];
+      sum += weight * from[size_t(j) * step];
+      weight_sum += weight;
+    }
+    to[size_t(i) * step] = sum / weight_sum;
+  }
+}
+
+Plane blurred(const Plane& plane, SizePx size_px) {
+  Plane rows(plane.size());
+  for (size_t y = 0; y < size_px.height; ++y) {
+    const size_t begin = y * size_px.width;
+    blurLine(&plane[begin], &rows[begin], int(size_px.width), 1);
+  }
+  Plane both(plane.size());
+  for (size_t x = 0; x < size_px.width; ++x) {
+    blurLine(&rows[x], &both[x], int(size_px.height), size_px.width);
+  }
+  return both;
+}
+
+Plane lumaOf(const ScoredImage& image) {
+  Plane luma(image.size_px.area());
+  for (size_t i = 0; i < luma.size(); ++i) {
+    const float* rgb = &image.rgb[3 * i];
+    luma[i] = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  }
+  return luma;
+}
+
+Plane product(const Plane& a, const Plane& b) {
+  Plane products(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), products.begin(), std::multiplies<>());
+  return products;
+}
+
+Plane ssimMap(const Plane& a, const Plane& b, SizePx size_px) {
+  const Plane mean_a = blurred(a, size_px);
+  const Plane mean_b = blurred(b, size_px);
+  const Plane mean_aa = blurred(product(a, a), size_px);
+  const Plane mean_bb = blurred(product(b, b), size_px);
+  const Plane mean_ab = blurred(product(a, b), size_px);
+  Plane map(a.size());
+  for (size_t i = 0; i < map.size(); ++i) {
+    const double variance_a = mean_aa[i] - mean_a[i] * mean_a[i];
+    const double variance_b = mean_bb[i] - mean_b[i] * mean_b[i];
+    const double covariance = mean_ab[i] - mean_a[i] * mean_b[i];
+    map[i] = (2 * mean_a[i] * mean_b[i] + kStabiliserMean) *
+             (2 * covariance + kStabiliserContrast) /
+             ((mean_a[i] * mean_a[i] + mean_b[i] * mean_b[i] + kStabiliserMean) *
+              (variance_a + variance_b + kStabiliserContrast));
+  }
+  return map;
+}
+
+}  // namespace
+
+ImageComparison::ImageComparison(const ScoredImage& got, const ScoredImage& truth)
+    : size_px_(got.size_px), squared_error_(got.size_px.area()) {
+  VIEWLOOM_CHECK(got.size_px == truth.size_px && size_px_.area() > 0);
+  VIEWLOOM_CHECK(got.rgb.size() == 3 * size_px_.area() && truth.rgb.size() == got.rgb.size());
+  for (size_t i = 0; i < squared_error_.size(); ++i) {
+    for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      const double difference = double(got.rgb[c]) - double(truth.rgb[c]);
+      squared_error_[i] += difference * difference / 3;
+    }
+  }
+  ssim_ = ssimMap(lumaOf(got), lumaOf(truth), size_px_);
+}
+
+ImageScore ImageComparison::score(std::span<const uint8_t> selected,
+                                  uint64_t considered_count) const {
+  VIEWLOOM_CHECK(selected.size() == squared_error_.size());
+  ImageScore result;
+  double error_sum = 0;
+  double ssim_sum = 0;
+  for (size_t i = 0; i < selected.size(); ++i) {
+    if (selected[i] == 0) continue;
+    ++result.pixel_count;
+    error_sum += squared_error_[i];
+    ssim_sum += ssim_[i];
+  }
+  const auto count = static_cast<double>(result.pixel_count);
+  result.share = considered_count == 0 ? 0 : count / static_cast<double>(considered_count);
+  result.psnr_db = -10 * std::log10(error_sum / count);  // 0 / 0 is NaN: no pixel, no score
+  result.ssim = ssim_sum / count;
+  return result;
+}
+
+}  // namespace viewloom
