@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/validation_log.h"
 
+#include <cstdio>
 #include <utility>
-
-#include <spdlog/spdlog.h>
 
 namespace viewloom {
 namespace {
@@ -19,7 +18,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 }  // namespace
 
 void ValidationLog::add(std::string message) {
-  spdlog::warn("vulkan validation: {}", message);
+  std::fprintf(stderr, "vulkan validation: %s\n", message.c_str());
   std::lock_guard lock(mutex_);
   ++message_count_;
   if (kept_.size() < kKeptCount) kept_.push_back(std::move(message));
