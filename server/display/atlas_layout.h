@@ -47,6 +47,8 @@ struct StreamDefaults {
   Camera source_camera;
   SizePx source_size_px;
   double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, first frame
+
+  bool operator==(const StreamDefaults&) const = default;
 };
 
 // Largest atlas of this device and this server.

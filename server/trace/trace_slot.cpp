@@ -61,23 +61,23 @@ uint64_t TraceSlot::sizeBytes() const {
 }
 
 std::span<const uint32_t> TraceSlot::color() const {
-  return readAs<uint32_t>(color_, uint64_t{shape_.width_px} * row_count_);
+  return readAs<uint32_t>(color_, area_px_);
 }
 
 std::span<const float> TraceSlot::depth() const {
-  return readAs<float>(depth_, uint64_t{shape_.width_px} * row_count_);
+  return readAs<float>(depth_, area_px_);
 }
 
 std::span<const uint8_t> TraceSlot::mask() const {
-  return readAs<uint8_t>(mask_, uint64_t{shape_.width_px} * row_count_);
+  return readAs<uint8_t>(mask_, area_px_);
 }
 
 std::span<const float> TraceSlot::linear() const {
-  return readAs<float>(linear_, uint64_t{shape_.width_px} * row_count_ * 4);
+  return readAs<float>(linear_, area_px_ * 4);
 }
 
 std::span<const abi::RayRecord> TraceSlot::records() const {
-  return readAs<abi::RayRecord>(records_, uint64_t{shape_.width_px} * row_count_);
+  return readAs<abi::RayRecord>(records_, area_px_);
 }
 
 Coverage TraceSlot::coverage() const {

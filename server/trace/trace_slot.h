@@ -71,7 +71,7 @@ class TraceSlot {
   friend class ViewTracer;
 
   TraceSlotShape shape_;
-  uint32_t row_count_ = 0;  // of the band in it
+  uint64_t area_px_ = 0;  // of the band in it
   ReadablePlane color_;
   ReadablePlane depth_;
   ReadablePlane mask_;

@@ -66,10 +66,10 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
 void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& structure,
                             const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   const AtlasLayout& layout = *job.layout;
-  VIEWLOOM_CHECK(slot.shape_.width_px == layout.size_px.width &&
+  VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
                  slot.shape_.row_count_max >= rows.row_count &&
                  slot.shape_.tile_count_max >= job.tiles.size());
-  slot.row_count_ = rows.row_count;
+  slot.area_px_ = uint64_t{layout.size_px.width} * rows.row_count;
   const abi::TraceParams params{
       .structure = addressWords(structure.address()),
       .views = addressWords(slot.params_.address() + sizeof(abi::TraceParams)),
@@ -121,12 +121,11 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   if (timer) timer->recordEnd(commands);
 
   recordComputeToTransfer(commands);
-  const uint64_t area_px = uint64_t{layout.size_px.width} * rows.row_count;
-  slot.color_.recordReadback(commands, area_px * sizeof(uint32_t));
-  slot.depth_.recordReadback(commands, area_px * sizeof(float));
-  slot.mask_.recordReadback(commands, area_px);
-  slot.linear_.recordReadback(commands, area_px * 4 * sizeof(float));
-  slot.records_.recordReadback(commands, area_px * sizeof(abi::RayRecord));
+  slot.color_.recordReadback(commands, slot.area_px_ * sizeof(uint32_t));
+  slot.depth_.recordReadback(commands, slot.area_px_ * sizeof(float));
+  slot.mask_.recordReadback(commands, slot.area_px_);
+  slot.linear_.recordReadback(commands, slot.area_px_ * 4 * sizeof(float));
+  slot.records_.recordReadback(commands, slot.area_px_ * sizeof(abi::RayRecord));
   slot.counters_.recordReadback(commands, abi::kClassCount * sizeof(uint32_t));
   recordTransferToHost(commands);
   recordComputeToHost(commands);

@@ -25,8 +25,8 @@ class ViewTracer {
  public:
   explicit ViewTracer(const Device& device);
 
-  // Traces these rows of the job's atlas into the slot. The slot is `layout->size_px.width` wide and
-  // holds the rows and tiles; the structure is built, earlier in this submission or before. `timer` was
+  // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows
+  // and the tiles; the structure is built, earlier in this submission or before. `timer` was
   // reset in this recording; nullptr = untimed. The first band of a new combination of outputs and
   // color storage compiles its pipeline.
   void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,

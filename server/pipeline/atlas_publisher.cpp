@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/atlas_publisher.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
+  const ResidentStructure& structure = *run.job.structure;
+  const FrameTimes& frame = structure.times;
+  const int64_t traced_ns = run.tracedNs();
+  return {.receive_ns = frame.last_chunk_ns - frame.first_chunk_ns,
+          .decode_ns = frame.decoded_ns - frame.last_chunk_ns,
+          .upload_ns = structure.upload_ns,
+          .build_ns = structure.build_ns,
+          .wait_ns = run.begun_ns - structure.built_at_ns,
+          .trace_ns = traced_ns - run.begun_ns,
+          .encode_ns = encoded_ns - traced_ns,
+          .total_ns = encoded_ns - frame.first_chunk_ns};
+}
+
+void count(const Metrics& metrics, const StageTimes& times, const Coverage& coverage) {
+  metrics.observeStage(Stage::kWait, times.wait_ns);
+  metrics.observeStage(Stage::kTrace, times.trace_ns);
+  metrics.observeStage(Stage::kEncode, times.encode_ns);
+  metrics.observeStage(Stage::kTotal, times.total_ns);
+  metrics.atlases_traced.add();
+  metrics.rays[RayAnswer::kHit].add(static_cast<double>(coverage.hit));
+  metrics.rays[RayAnswer::kHitAssumed].add(static_cast<double>(coverage.hit_assumed));
+  metrics.rays[RayAnswer::kHidden].add(static_cast<double>(coverage.hidden));
+  metrics.rays[RayAnswer::kOutside].add(static_cast<double>(coverage.outside));
+  metrics.rays[RayAnswer::kEmpty].add(static_cast<double>(coverage.empty));
+}
+
+}  // namespace
+
+void AtlasPublisher::begin(AtlasRunPtr run) {
+  std::lock_guard lock(mutex_);
+  std::deque<Pending>& of_picture = pending_[run->job.picture_key];
+  of_picture.push_back({std::move(run)});
+}
+
+void AtlasPublisher::complete(const AtlasRun& run) {
+  // Published under the lock: two threads must not overtake each other.
+  std::lock_guard lock(mutex_);
+  const auto of_picture = pending_.find(run.job.picture_key);
+  VIEWLOOM_CHECK(of_picture != pending_.end());
+  std::deque<Pending>& runs = of_picture->second;
+  std::find_if(runs.begin(), runs.end(), [&](const Pending& pending) {
+    return pending.run.get() == &run;
+  })->is_complete = true;
+  while (!runs.empty() && runs.front().is_complete) {
+    publish(*runs.front().run);
+    runs.pop_front();
+  }
+  if (runs.empty()) pending_.erase(of_picture);
+}
+
+void AtlasPublisher::publish(AtlasRun& run) {
+  const StageTimes times = stageTimes(run, links_.clock.nowNs());
+  const Coverage coverage = run.coverage();
+  count(links_.metrics, times, coverage);
+  for (AtlasOutput& output : run.outputs) {
+    const uint64_t display_id = output.display->id;
+    auto atlas = std::make_shared<EncodedAtlas>();
+    atlas->display_id = display_id;
+    atlas->sequence = links_.broadcaster.atlasCount(display_id) + 1;
+    atlas->frame_number = run.job.structure->frame_number;
+    atlas->capture_time_ns = run.job.structure->capture_time_ns;
+    atlas->source_camera = run.job.structure->defaults.source_camera;
+    atlas->display_pose = displayPose(output.display->spec, atlas->source_camera);
+    atlas->layout = run.picture->layout;
+    atlas->encoding = output.display->encoding;
+    atlas->times = times;
+    atlas->coverage = coverage;
+    atlas->stats = run.job.structure->stats;
+    atlas->bands = std::move(output.bands);
+    links_.broadcaster.publish(std::move(atlas));
+    links_.metrics.atlases_encoded.add();
+    if (run.job.ticket) run.job.ticket->noteTraced({display_id, coverage, times});
+  }
+  run.job.ticket.reset();
+}
+
+}  // namespace viewloom

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes atlases of finished runs and gives them out, each picture's in the order in which they
+// began.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "pipeline/atlas_run.h"
+#include "pipeline/pipeline_links.h"
+
+namespace viewloom {
+
+// Strips of one picture's next atlas may be packed before the last of this one: order is kept here.
+// Thread-safety: all methods may be called from any thread.
+class AtlasPublisher {
+ public:
+  explicit AtlasPublisher(const PipelineLinks& links) : links_(links) {}
+
+  void begin(AtlasRunPtr run);
+  // Every strip of the run is packed.
+  void complete(const AtlasRun& run);
+
+ private:
+  struct Pending {
+    AtlasRunPtr run;
+    bool is_complete = false;
+  };
+
+  void publish(AtlasRun& run);
+
+  const PipelineLinks& links_;
+  std::mutex mutex_;
+  std::map<std::string, std::deque<Pending>> pending_;  // by picture, oldest first
+};
+
+}  // namespace viewloom

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/atlas_run.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewloom {
+namespace {
+
+uint32_t ceilDivide(uint32_t value, uint32_t by) {
+  return (value + by - 1) / by;
+}
+
+AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
+  AtlasOutput output;
+  output.band_row_count = bandRowCount(display->encoding);
+  output.bands_per_plane = ceilDivide(layout.size_px.height, output.band_row_count);
+  const uint32_t plane_count = 1u + display->encoding.with_depth + display->encoding.with_mask;
+  output.bands.resize(size_t{plane_count} * output.bands_per_plane);
+  output.display = std::move(display);
+  return output;
+}
+
+}  // namespace
+
+AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays)
+    : job(std::move(atlas_job)), picture(std::move(resolved)) {
+  for (ActiveDisplayPtr& display : displays) {
+    planes.depth |= display->encoding.with_depth;
+    planes.mask |= display->encoding.with_mask;
+    outputs.push_back(makeOutput(std::move(display), *picture->layout));
+    // 8 MCU rows are 64 or 128 px, so every output's bands tile a strip of the highest.
+    strip_row_count = std::max(strip_row_count, outputs.back().band_row_count);
+  }
+  strips_left_ = stripCount();
+}
+
+uint32_t AtlasRun::stripCount() const {
+  return ceilDivide(picture->layout->size_px.height, strip_row_count);
+}
+
+uint32_t AtlasRun::rowCount(uint32_t strip) const {
+  return std::min(strip_row_count, picture->layout->size_px.height - firstRow(strip));
+}
+
+TraceSlotShape AtlasRun::stripShape() const {
+  return {.width_px = picture->layout->size_px.width,
+          .row_count_max = strip_row_count,
+          .tile_count_max = static_cast<uint32_t>(picture->tiles.size()),
+          .outputs = planes};
+}
+
+void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  coverage_.hit += strip_coverage.hit;
+  coverage_.hit_assumed += strip_coverage.hit_assumed;
+  coverage_.hidden += strip_coverage.hidden;
+  coverage_.outside += strip_coverage.outside;
+  coverage_.empty += strip_coverage.empty;
+  traced_ns_ = std::max(traced_ns_, now_ns);
+}
+
+Coverage AtlasRun::coverage() const {
+  std::lock_guard lock(mutex_);
+  return coverage_;
+}
+
+int64_t AtlasRun::tracedNs() const {
+  std::lock_guard lock(mutex_);
+  return traced_ns_;
+}
+
+}  // namespace viewloom

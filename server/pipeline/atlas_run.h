@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// One atlas on its way: what is being traced, for whom, and the bands that are already packed.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "encode/encoded_band.h"
+#include "pipeline/job_queue.h"
+#include "pipeline/picture_cache.h"
+#include "pipeline/resident_structure.h"
+#include "publish/broadcaster.h"
+#include "trace/trace_slot.h"
+
+namespace viewloom {
+
+// A display of the picture, and the bands packed as it asked for.
+struct AtlasOutput {
+  ActiveDisplayPtr display;
+  std::vector<EncodedBand> bands;  // [plane][band], every one written once, by one thread
+  uint32_t band_row_count = 0;     // divides the run's
+  uint32_t bands_per_plane = 0;
+};
+
+// Traced in strips of band_row_count rows, all displays of the picture at once.
+// Thread-safety: next_strip is the trace loop's; strips are noted from any thread.
+class AtlasRun {
+ public:
+  // `displays` share the job's picture and want its atlas.
+  AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays);
+
+  uint32_t stripCount() const;
+  uint32_t firstRow(uint32_t strip) const { return strip * strip_row_count; }
+  uint32_t rowCount(uint32_t strip) const;
+  TraceSlotShape stripShape() const;
+
+  void noteTraced(const Coverage& strip_coverage, int64_t now_ns);
+  // True for the last strip of the atlas.
+  bool noteEncoded() { return --strips_left_ == 0; }
+
+  AtlasJob job;
+  const PicturePtr picture;
+  std::vector<AtlasOutput> outputs;
+  TraceOutputs planes;  // that some output wants
+  uint32_t strip_row_count = 0;
+  int64_t begun_ns = 0;
+  uint32_t next_strip = 0;
+
+  Coverage coverage() const;
+  int64_t tracedNs() const;
+
+ private:
+  std::atomic<uint32_t> strips_left_;
+  mutable std::mutex mutex_;
+  Coverage coverage_;
+  int64_t traced_ns_ = 0;  // when the last strip was seen done
+};
+
+using AtlasRunPtr = std::shared_ptr<AtlasRun>;
+
+}  // namespace viewloom

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/gpu_loop.h"
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace viewloom {
+
+GpuLoop::GpuLoop(const PipelineLinks& links, Timeline& timeline, TraceLoop& traces, WakeUp& wake_up)
+    : links_(links),
+      timeline_(timeline),
+      traces_(traces),
+      wake_up_(wake_up),
+      builder_(links.device),
+      thread_([this](const std::stop_token& stop) {
+        try {
+          run(stop);
+        } catch (const std::exception& error) {
+          links_.on_failure(error);
+        }
+        end();
+      }) {}
+
+void GpuLoop::stop() {
+  thread_.request_stop();
+  wake_up_.ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void GpuLoop::abandon() {
+  is_abandoned_ = true;
+  wake_up_.ring();
+}
+
+void GpuLoop::end() {
+  std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  builds_.clear();  // breaks their promises: who waits gets an exception
+}
+
+void GpuLoop::build(StructureBuild& build) {
+  std::future<uint64_t> timeline_value;
+  {
+    std::lock_guard lock(mutex_);
+    if (has_ended_) throw std::runtime_error("the GPU loop has ended");
+    builds_.push_back({&build, {}});
+    timeline_value = builds_.back().timeline_value.get_future();
+  }
+  wake_up_.ring();
+  timeline_.wait(timeline_value.get());
+}
+
+void GpuLoop::run(const std::stop_token& stop) {
+  while (!is_abandoned_) {
+    if (submitBuild()) continue;
+    const bool may_begin = !stop.stop_requested();
+    if (traces_.submitStrip(may_begin)) continue;
+    if (!may_begin && !traces_.hasBegun()) return;
+    wake_up_.wait();
+  }
+}
+
+bool GpuLoop::submitBuild() {
+  std::optional<BuildRequest> request;
+  {
+    std::lock_guard lock(mutex_);
+    if (builds_.empty()) return false;
+    request = std::move(builds_.front());
+    builds_.pop_front();
+  }
+  StructureBuild& build = *request->build;
+  builder_.record(build.recorder.begin(), build.slot, nullptr);
+  request->timeline_value.set_value(build.recorder.submit(timeline_));
+  return true;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/pipeline.h"
+
+#include <atomic>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "pipeline/encode_pool.h"
+#include "pipeline/gpu_loop.h"
+#include "pipeline/stream_table.h"
+#include "pipeline/structure_loop.h"
+#include "pipeline/trace_loop.h"
+
+namespace viewloom {
+namespace {
+
+// An atlas is due after the time that its rays should take, so that a small one overtakes a large
+// one.
+constexpr int64_t kDueNsPerRay = 10;
+
+int64_t rayCount(const QuiltSpec& quilt) {
+  return int64_t(quilt.size_px.area());
+}
+int64_t rayCount(const StereoSpec& stereo) {
+  return 2 * int64_t(stereo.eye_size_px.area());
+}
+int64_t rayCount(const CamerasSpec& cameras) {
+  return int64_t(cameras.cameras.size() * cameras.tile_size_px.area());
+}
+
+using OnFailure = std::function<void(const std::exception&)>;
+
+PipelineLinks withFailure(PipelineLinks links, OnFailure on_failure) {
+  links.on_failure = std::move(on_failure);
+  return links;
+}
+
+}  // namespace
+
+// Members in the order of data flow: each loop is destroyed before what it hands on to.
+struct Pipeline::Loops {
+  Loops(PipelineLinks given_links, const PipelineOptions& options)
+      : on_failure(std::move(given_links.on_failure)),
+        links(withFailure(std::move(given_links),
+                          [this](const std::exception& error) { fail(error); })),
+        timeline(links.device),
+        publisher(links),
+        encoders(links, timeline, publisher, options.encode_thread_count,
+                 kSlotRingCount * options.trace_slot_count),
+        pictures(options.atlas_limits),
+        traces(links, timeline, encoders, publisher, pictures, options.trace_slot_count,
+               [this] { gpu_wake_up.ring(); }),
+        streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
+        gpu(links, timeline, traces, gpu_wake_up),
+        structures(links, streams, gpu, structure_wake_up,
+                   [this](const PipelineStream& stream, FrameTicketPtr ticket) {
+                     serve(stream, std::move(ticket));
+                   }) {}
+
+  // A job for each picture of the stream. The ticket is of the resident structure's frame, if that
+  // has not been reported.
+  void serve(const PipelineStream& stream, FrameTicketPtr ticket);
+  void fail(const std::exception& error);
+
+  const OnFailure on_failure;
+  const PipelineLinks links;
+  WakeUp structure_wake_up;
+  WakeUp gpu_wake_up;
+  std::atomic<bool> is_draining = false;
+  Timeline timeline;
+  AtlasPublisher publisher;
+  EncodePool encoders;
+  PictureCache pictures;
+  TraceLoop traces;
+  StreamTable streams;
+  GpuLoop gpu;
+  StructureLoop structures;
+};
+
+void Pipeline::Loops::fail(const std::exception& error) {
+  gpu.abandon();
+  on_failure(error);
+}
+
+void Pipeline::Loops::serve(const PipelineStream& stream, FrameTicketPtr ticket) {
+  const ResidentPtr resident = stream.resident();
+  if (!resident) return;
+  const std::vector<ActiveDisplayPtr> displays = links.broadcaster.displays(stream.name);
+  if (ticket) ticket->noteBuilt(resident->stats, !displays.empty());
+  const int64_t now_ns = links.clock.nowNs();
+  std::set<std::string_view> offered;
+  for (const ActiveDisplayPtr& display : displays) {
+    if (!offered.insert(display->picture_key).second) continue;
+    const auto due_ns = [](const auto& kind) { return kDueNsPerRay * rayCount(kind); };
+    traces.offer({.picture_key = display->picture_key,
+                  .structure = resident,
+                  .deadline_ns = now_ns + std::visit(due_ns, display->spec.kind),
+                  .ticket = ticket});
+  }
+  gpu_wake_up.ring();
+}
+
+Pipeline::Pipeline(PipelineLinks links, const PipelineOptions& options)
+    : loops_(std::make_unique<Loops>(std::move(links), options)) {}
+
+Pipeline::~Pipeline() {
+  drain();
+}
+
+void Pipeline::offerFrame(const std::string& stream_name, FramePtr frame, ReportFrame report) {
+  const uint64_t number = frame->format.number;
+  auto ticket = std::make_shared<FrameTicket>(number, std::move(report));
+  if (loops_->is_draining) {
+    ticket->noteRefused("the server is shutting down");
+    return;
+  }
+  const auto replaced =
+      loops_->streams.open(stream_name)->inbox.push({std::move(frame), std::move(ticket)});
+  if (replaced) {
+    loops_->links.directory.countReplaced(stream_name);
+    loops_->links.metrics.replaced[HandOver::kStructure].add();
+  }
+  loops_->structure_wake_up.ring();
+}
+
+void Pipeline::forgetStream(const std::string& stream) {
+  loops_->streams.forget(stream);
+}
+
+void Pipeline::serveDisplays(const std::string& stream_name) {
+  if (const PipelineStreamPtr stream = loops_->streams.find(stream_name)) {
+    loops_->serve(*stream, nullptr);
+  }
+}
+
+void Pipeline::drain() {
+  if (loops_->is_draining.exchange(true)) return;
+  loops_->structures.stop();
+  loops_->gpu.stop();
+  loops_->encoders.stop();
+  loops_->traces.dropWaiting();
+  loops_->streams.clear();
+}
+
+}  // namespace viewloom

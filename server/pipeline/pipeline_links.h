@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the loops work with and do not own. All of it outlives the pipeline.
+#pragma once
+
+#include <exception>
+#include <functional>
+
+#include "base/clock.h"
+#include "base/metrics.h"
+#include "gpu/device.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+struct PipelineLinks {
+  const Device& device;
+  const Clock& clock;
+  const Metrics& metrics;
+  Broadcaster& broadcaster;
+  StreamDirectory& directory;
+  // A thread of the pipeline cannot go on (device lost, out of memory); called from that thread.
+  std::function<void(const std::exception& error)> on_failure;
+};
+
+}  // namespace viewloom

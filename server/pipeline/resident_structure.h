@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structure of one frame, ready to be traced, and what is known of that frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "display/atlas_layout.h"
+#include "frame/frame.h"
+#include "frame/stage_times.h"
+#include "pipeline/structure_build.h"
+
+namespace viewloom {
+
+// Immutable once built. Its slot goes back to the stream's pool with the last reader, so whoever
+// has submitted a trace of it holds it until the device is done.
+struct ResidentStructure {
+  std::string stream;
+  std::shared_ptr<StructureBuild> build;
+  uint64_t serial = 0;  // counts the structures of the server, from 1
+  uint64_t frame_number = 0;
+  int64_t capture_time_ns = 0;  // the publisher's clock
+  StreamDefaults defaults;
+  SourceStats stats;
+  FrameTimes times;
+  int64_t upload_ns = 0;  // duration
+  int64_t build_ns = 0;   // duration
+  int64_t built_at_ns = 0;
+};
+
+using ResidentPtr = std::shared_ptr<const ResidentStructure>;
+
+}  // namespace viewloom

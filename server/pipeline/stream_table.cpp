@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/stream_table.h"
+
+#include <utility>
+
+namespace viewloom {
+
+ResidentPtr PipelineStream::resident() const {
+  std::lock_guard lock(mutex_);
+  return resident_;
+}
+
+void PipelineStream::setResident(ResidentPtr structure) {
+  std::lock_guard lock(mutex_);
+  resident_.swap(structure);
+}
+
+StreamTable::StreamTable(uint32_t slots_per_stream, std::function<void()> on_slot_return)
+    : slots_per_stream_(slots_per_stream), on_slot_return_(std::move(on_slot_return)) {}
+
+PipelineStreamPtr StreamTable::open(const std::string& name) {
+  std::lock_guard lock(mutex_);
+  PipelineStreamPtr& stream = streams_[name];
+  if (!stream) stream = std::make_shared<PipelineStream>(name, slots_per_stream_, on_slot_return_);
+  return stream;
+}
+
+PipelineStreamPtr StreamTable::find(const std::string& name) const {
+  std::lock_guard lock(mutex_);
+  const auto found = streams_.find(name);
+  return found == streams_.end() ? nullptr : found->second;
+}
+
+void StreamTable::forget(const std::string& name) {
+  PipelineStreamPtr forgotten;  // freed after the lock
+  std::lock_guard lock(mutex_);
+  if (const auto found = streams_.find(name); found != streams_.end()) {
+    forgotten = std::move(found->second);
+    streams_.erase(found);
+  }
+}
+
+std::vector<PipelineStreamPtr> StreamTable::all() const {
+  std::lock_guard lock(mutex_);
+  std::vector<PipelineStreamPtr> streams;
+  for (const auto& [name, stream] : streams_) streams.push_back(stream);
+  return streams;
+}
+
+void StreamTable::clear() {
+  std::map<std::string, PipelineStreamPtr> forgotten;  // freed after the lock
+  std::lock_guard lock(mutex_);
+  forgotten.swap(streams_);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The streams that have frames: what waits of each, and its newest structure.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/latest_mailbox.h"
+#include "pipeline/frame_ticket.h"
+#include "pipeline/resident_structure.h"
+#include "pipeline/slot_pool.h"
+
+namespace viewloom {
+
+struct OfferedFrame {
+  FramePtr frame;
+  FrameTicketPtr ticket;
+};
+
+// Thread-safety: inbox, slots, resident() and setResident() from any thread; the other fields are
+// the structure loop's.
+class PipelineStream {
+ public:
+  PipelineStream(std::string stream_name, uint32_t slot_count, std::function<void()> on_slot_return)
+      : name(std::move(stream_name)), slots(slot_count, std::move(on_slot_return)) {}
+
+  ResidentPtr resident() const;
+  void setResident(ResidentPtr structure);
+
+  const std::string name;
+  LatestMailbox<OfferedFrame> inbox;
+  SlotPool<StructureBuild> slots;
+  std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
+  std::optional<double> focal_distance_m;  // from the first frame, then held
+
+ private:
+  mutable std::mutex mutex_;
+  ResidentPtr resident_;
+};
+
+using PipelineStreamPtr = std::shared_ptr<PipelineStream>;
+
+// Thread-safety: all methods may be called from any thread.
+class StreamTable {
+ public:
+  // Each stream may hold so many structures: one is traced while the next is uploaded and built.
+  StreamTable(uint32_t slots_per_stream, std::function<void()> on_slot_return);
+
+  PipelineStreamPtr open(const std::string& name);
+  // nullptr when no frame of it has come.
+  PipelineStreamPtr find(const std::string& name) const;
+  // Its memory goes with the last job that still reads it.
+  void forget(const std::string& name);
+  std::vector<PipelineStreamPtr> all() const;
+  void clear();
+
+ private:
+  const uint32_t slots_per_stream_;
+  const std::function<void()> on_slot_return_;
+  mutable std::mutex mutex_;
+  std::map<std::string, PipelineStreamPtr> streams_;
+};
+
+}  // namespace viewloom

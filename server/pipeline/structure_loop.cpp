@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/structure_loop.h"
+
+#include <utility>
+
+#include "base/log.h"
+
+namespace viewloom {
+namespace {
+
+// Harmonic mean of the 2nd and 98th depth percentile: the mean of their 1/Z. A stream of sky alone
+// has none; then what the defaults say.
+double focalDistanceOf(const SourceStats& stats) {
+  const double mean_inv_z = 0.5 * (stats.inv_z_near + stats.inv_z_far);
+  return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults().focal_distance_m;
+}
+
+}  // namespace
+
+StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams, GpuLoop& gpu,
+                             WakeUp& wake_up, OnResident on_resident)
+    : links_(links),
+      streams_(streams),
+      gpu_(gpu),
+      wake_up_(wake_up),
+      on_resident_(std::move(on_resident)),
+      thread_([this](const std::stop_token& stop) {
+        try {
+          run(stop);
+        } catch (const std::exception& error) {
+          links_.on_failure(error);
+        }
+      }) {}
+
+void StructureLoop::stop() {
+  thread_.request_stop();
+  wake_up_.ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void StructureLoop::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    bool is_idle = true;
+    for (const PipelineStreamPtr& stream : streams_.all()) {
+      if (!stop.stop_requested() && serve(*stream)) is_idle = false;
+    }
+    if (is_idle) wake_up_.wait();
+  }
+}
+
+// One frame of the stream; false when there is none or no slot for it.
+bool StructureLoop::serve(PipelineStream& stream) {
+  if (auto newest = stream.inbox.take()) {
+    if (stream.next) {
+      links_.directory.countReplaced(stream.name);
+      links_.metrics.replaced[HandOver::kStructure].add();
+    }
+    stream.next = std::move(newest);
+  }
+  if (!stream.next) return false;
+  try {
+    std::shared_ptr<StructureBuild> slot = takeSlot(stream, *stream.next);
+    if (!slot) return false;
+    build(stream, *std::exchange(stream.next, std::nullopt), std::move(slot));
+  } catch (const vk::OutOfDeviceMemoryError& error) {
+    log(LogLevel::kWarning, "stream ", stream.name, ": ", error.what());
+    links_.directory.countRefused(stream.name);
+    stream.next->ticket->noteRefused(strCat("the device has no room for it: ", error.what()));
+    stream.next.reset();
+  }
+  return true;
+}
+
+std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
+                                                        OfferedFrame& offered) const {
+  const FrameShape shape = shapeOf(*offered.frame);
+  return stream.slots.take([&](const StructureBuild& free) { return free.slot.shape() == shape; },
+                           [&] { return std::make_unique<StructureBuild>(links_.device, shape); });
+}
+
+void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
+                          std::shared_ptr<StructureBuild> slot) {
+  const Frame& frame = *offered.frame;
+  const SourceFormat& source = frame.format.sources.front();
+  auto structure = std::make_shared<ResidentStructure>();
+  structure->stream = stream.name;
+  structure->serial = ++last_serial_;
+  structure->frame_number = frame.format.number;
+  structure->capture_time_ns = frame.format.capture_time_ns;
+  structure->times = frame.times;
+
+  const int64_t started_ns = links_.clock.nowNs();
+  slot->slot.upload(frame);
+  const int64_t uploaded_ns = links_.clock.nowNs();
+  gpu_.build(*slot);
+  structure->built_at_ns = links_.clock.nowNs();
+  structure->upload_ns = uploaded_ns - started_ns;
+  structure->build_ns = structure->built_at_ns - uploaded_ns;
+
+  structure->stats = slot->slot.stats();
+  if (!stream.focal_distance_m) stream.focal_distance_m = focalDistanceOf(structure->stats);
+  structure->defaults = {.source_camera = source.camera,
+                         .source_size_px = source.layers.front().depth.size_px,
+                         .focal_distance_m = *stream.focal_distance_m};
+  structure->build = std::move(slot);
+
+  links_.metrics.structures_built.add();
+  links_.metrics.observeStage(Stage::kUpload, structure->upload_ns);
+  links_.metrics.observeStage(Stage::kBuild, structure->build_ns);
+  links_.directory.noteResident(stream.name, structure->frame_number,
+                                structure->defaults.source_size_px,
+                                static_cast<uint32_t>(source.layers.size()), structure->stats);
+  stream.setResident(std::move(structure));
+  on_resident_(stream, std::move(offered.ticket));
+}
+
+}  // namespace viewloom

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/trace_loop.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/log.h"
+
+namespace viewloom {
+
+TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline, EncodePool& encoders,
+                     AtlasPublisher& publisher, PictureCache& pictures, uint32_t slot_count,
+                     const std::function<void()>& on_slot_return)
+    : links_(links),
+      timeline_(timeline),
+      encoders_(encoders),
+      publisher_(publisher),
+      pictures_(pictures),
+      tracer_(links.device) {
+  for (const bool depth : {false, true}) {
+    for (const bool mask : {false, true}) {
+      rings_.push_back({{.outputs = {.depth = depth, .mask = mask}}, {slot_count, on_slot_return}});
+    }
+  }
+}
+
+void TraceLoop::offer(AtlasJob job) {
+  std::optional<AtlasJob> replaced;  // let go after the lock: its ticket may report
+  std::lock_guard lock(mutex_);
+  replaced = jobs_.push(std::move(job));
+  if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
+}
+
+void TraceLoop::dropWaiting() {
+  std::vector<AtlasJob> dropped;  // let go after the lock
+  std::lock_guard lock(mutex_);
+  dropped = jobs_.clear();
+}
+
+bool TraceLoop::submitStrip(bool may_begin) {
+  if (may_begin) beginDueJobs();
+  const AtlasRunPtr run = soonestRun();
+  if (!run) return false;
+  std::shared_ptr<StripTrace> trace = takeSlot(*run);
+  if (!trace) return false;
+  submit(run, std::move(trace));
+  return true;
+}
+
+std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
+  const TraceSlotShape shape = run.stripShape();
+  SlotRing& ring = *std::find_if(rings_.begin(), rings_.end(), [&](const SlotRing& candidate) {
+    return candidate.largest.outputs == shape.outputs;
+  });
+  ring.largest.width_px = std::max(ring.largest.width_px, shape.width_px);
+  ring.largest.row_count_max = std::max(ring.largest.row_count_max, shape.row_count_max);
+  ring.largest.tile_count_max = std::max(ring.largest.tile_count_max, shape.tile_count_max);
+  return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
+                         [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
+}
+
+// Begins jobs as long as one is due before everything that has begun.
+void TraceLoop::beginDueJobs() {
+  while (true) {
+    std::optional<AtlasJob> job;
+    {
+      std::lock_guard lock(mutex_);
+      const std::optional<int64_t> due_ns = jobs_.soonestDeadlineNs();
+      const AtlasRunPtr run = soonestRun();
+      if (!due_ns || (run && run->job.deadline_ns <= *due_ns)) return;
+      job = jobs_.begin();
+    }
+    if (!begin(*job)) {
+      std::lock_guard lock(mutex_);
+      jobs_.finish(job->picture_key);
+    }
+  }
+}
+
+// The displays of the picture that have not got this structure, or a newer one.
+std::vector<ActiveDisplayPtr> TraceLoop::takeUnserved(const AtlasJob& job) {
+  const uint64_t serial = job.structure->serial;
+  const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
+  std::erase_if(served_, [&](const auto& entry) {
+    return std::none_of(all.begin(), all.end(),
+                        [&](const auto& display) { return display->id == entry.first; });
+  });
+  pictures_.keepOnly(all);
+  std::vector<ActiveDisplayPtr> unserved;
+  for (const ActiveDisplayPtr& display : all) {
+    if (display->picture_key != job.picture_key || served_[display->id] >= serial) continue;
+    served_[display->id] = serial;
+    unserved.push_back(display);
+  }
+  return unserved;
+}
+
+bool TraceLoop::begin(AtlasJob& job) {
+  std::vector<ActiveDisplayPtr> displays = takeUnserved(job);
+  if (displays.empty()) return false;
+  const auto picture = pictures_.get(*displays.front(), job.structure->defaults);
+  if (!picture.ok()) {
+    for (const ActiveDisplayPtr& display : displays) {
+      links_.broadcaster.refuse(display->id, picture.status());
+    }
+    return false;
+  }
+  auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
+  run->begun_ns = links_.clock.nowNs();
+  publisher_.begin(run);
+  begun_.push_back(std::move(run));
+  return true;
+}
+
+AtlasRunPtr TraceLoop::soonestRun() const {
+  const auto soonest = std::min_element(begun_.begin(), begun_.end(),
+                                        [](const AtlasRunPtr& a, const AtlasRunPtr& b) {
+                                          return a->job.deadline_ns < b->job.deadline_ns;
+                                        });
+  return soonest == begun_.end() ? nullptr : *soonest;
+}
+
+void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
+  const uint32_t strip = run->next_strip++;
+  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->slot, *run->picture,
+                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
+  const uint64_t value = trace->recorder.submit(timeline_);
+  encoders_.push({run, strip, std::move(trace), value});
+  if (run->next_strip < run->stripCount()) return;
+  {
+    std::lock_guard lock(mutex_);
+    jobs_.finish(run->job.picture_key);
+  }
+  std::erase(begun_, run);
+}
+
+}  // namespace viewloom

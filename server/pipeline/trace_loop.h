@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is traced when: jobs by deadline, strip by strip, at most as far ahead as there are slots.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "pipeline/encode_pool.h"
+#include "pipeline/job_queue.h"
+#include "pipeline/picture_cache.h"
+#include "pipeline/slot_pool.h"
+#include "pipeline/strip_trace.h"
+#include "trace/view_tracer.h"
+
+namespace viewloom {
+
+// Slots are kept apart by the planes they trace: without and with depth, without and with mask.
+inline constexpr uint32_t kSlotRingCount = 4;
+
+// Thread-safety: offer() and dropWaiting() from any thread; the rest is the GPU loop's.
+class TraceLoop {
+ public:
+  TraceLoop(const PipelineLinks& links, Timeline& timeline, EncodePool& encoders,
+            AtlasPublisher& publisher, PictureCache& pictures, uint32_t slot_count,
+            const std::function<void()>& on_slot_return);
+
+  // Replaces a job of the same picture and an older structure that has not begun.
+  void offer(AtlasJob job);
+  // Forgets the jobs that have not begun.
+  void dropWaiting();
+
+  // Records and submits the strip that is due soonest. Between two strips an atlas with a sooner
+  // deadline may begin, if may_begin. False when there is nothing to do or no free slot.
+  bool submitStrip(bool may_begin);
+  bool hasBegun() const { return !begun_.empty(); }
+
+ private:
+  // The slots that trace the same planes. They grow to the largest strip that was asked for.
+  struct SlotRing {
+    TraceSlotShape largest;
+    SlotPool<StripTrace> slots;
+  };
+
+  std::shared_ptr<StripTrace> takeSlot(const AtlasRun& run);
+  void beginDueJobs();
+  bool begin(AtlasJob& job);
+  std::vector<ActiveDisplayPtr> takeUnserved(const AtlasJob& job);
+  AtlasRunPtr soonestRun() const;
+  void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
+
+  const PipelineLinks& links_;
+  Timeline& timeline_;
+  EncodePool& encoders_;
+  AtlasPublisher& publisher_;
+  PictureCache& pictures_;
+  ViewTracer tracer_;
+  std::vector<SlotRing> rings_;  // one for each set of planes, see ringOf
+  std::vector<AtlasRunPtr> begun_;
+  std::map<uint64_t, uint64_t> served_;  // display id -> serial of the last structure begun for it
+
+  std::mutex mutex_;
+  JobQueue jobs_;  // guarded by mutex_
+};
+
+}  // namespace viewloom

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a loop sleeps on: something changed, look at everything again.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+namespace viewloom {
+
+// One sleeper; a call while it is awake is remembered. Thread-safety: ring() from any thread.
+class WakeUp {
+ public:
+  void ring() {
+    std::lock_guard lock(mutex_);
+    rung_ = true;
+    rings_.notify_one();
+  }
+
+  void wait() {
+    std::unique_lock lock(mutex_);
+    rings_.wait(lock, [this] { return rung_; });
+    rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable rings_;
+  bool rung_ = false;
+};
+
+}  // namespace viewloom
