@@ -30,7 +30,7 @@ struct LimitsConfig {
 struct PipelineConfig {
   uint32_t decode_threads = 0;  // 0 = see threadCount
   uint32_t encode_threads = 0;
-  uint32_t structure_slots = 3;
+  uint32_t structure_slots = 2;  // of each stream
   uint32_t trace_slots = 3;
 };
 
