@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands for the loops where no device is needed: answers frames with atlases of known bytes.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "frame/frame_sink.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+// The byte at this place of every RAW colour band; depends on what must not be mixed up.
+uint8_t expectedByte(uint64_t frame_number, uint32_t first_row, size_t index);
+
+// Thread-safety: all methods may be called from any thread.
+class AnsweringSink final : public FrameSink {
+ public:
+  AnsweringSink(StreamDirectory& directory, Broadcaster& broadcaster);
+
+  void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override;
+  void forgetStream(const std::string& stream) override;
+
+  // Serves displays without an atlas from the resident frame.
+  void demandChanged(const std::string& stream);
+  // From now on frames of the stream wait unanswered, the newest replacing the older.
+  void hold(const std::string& stream);
+  // Answers the one that waits, and those to come.
+  void letGo(const std::string& stream);
+
+ private:
+  struct Offered {
+    FramePtr frame;
+    ReportFrame report;
+  };
+  struct Resident {
+    FramePtr frame;
+    bool held = false;
+    std::optional<Offered> waiting;
+  };
+
+  FrameReport answer(const std::string& stream, const FramePtr& frame);  // with the lock
+  DisplayReport publishAtlas(const ActiveDisplay& display, const Frame& frame);
+
+  StreamDirectory& directory_;
+  Broadcaster& broadcaster_;
+  std::mutex mutex_;
+  std::map<std::string, Resident> streams_;
+};
+
+}  // namespace viewloom

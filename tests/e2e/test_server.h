@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gRPC server as viewloomd wires it, with an AnsweringSink in place of the loops.
+#pragma once
+
+#include <memory>
+
+#include <grpcpp/channel.h>
+
+#include "e2e/answering_sink.h"
+#include "rpc/rpc_server.h"
+
+namespace viewloom {
+
+// Members in data-flow order; they go in the reverse of it.
+class TestServer {
+ public:
+  explicit TestServer(BroadcasterLimits limits = {}, uint32_t stream_count_max = 8);
+  ~TestServer();
+
+  // Every channel is a connection of its own.
+  std::shared_ptr<grpc::Channel> connect(int receive_window_bytes = 0) const;
+
+  StreamDirectory& directory() { return directory_; }
+  AnsweringSink& sink() { return sink_; }
+  Broadcaster& broadcaster() { return broadcaster_; }
+  RpcServer& rpc() { return *rpc_; }
+  const Metrics& metrics() const { return metrics_; }
+
+ private:
+  SteadyClock clock_;
+  Metrics metrics_;
+  BytePool pool_;
+  StreamDirectory directory_;
+  Broadcaster broadcaster_;
+  AnsweringSink sink_;
+  FrameIntake intake_;
+  std::unique_ptr<RpcServer> rpc_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "e2e/test_watcher.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace viewloom {
+namespace {
+
+constexpr std::chrono::seconds kPatience(60);
+
+}  // namespace
+
+v1::OpenDisplay smallQuilt(const std::string& stream) {
+  v1::OpenDisplay open;
+  open.set_stream(stream);
+  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
+  quilt.set_columns(2);
+  quilt.set_rows(1);
+  quilt.mutable_size()->set_width(16);
+  quilt.mutable_size()->set_height(8);
+  open.mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
+  return open;
+}
+
+TestWatcher::TestWatcher(const std::shared_ptr<grpc::Channel>& channel)
+    : stub_(v1::DisplayService::NewStub(channel)) {
+  context_.set_deadline(std::chrono::system_clock::now() + kPatience);
+  call_ = stub_->StreamAtlases(&context_);
+}
+
+TestWatcher::TestWatcher(const std::shared_ptr<grpc::Channel>& channel, const v1::OpenDisplay& open)
+    : TestWatcher(channel) {
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = open;
+  send(request);
+}
+
+TestWatcher::~TestWatcher() {
+  if (finished_) return;
+  cancel();
+  finish();
+}
+
+std::optional<ReceivedAtlas> TestWatcher::readAtlas() {
+  ReceivedAtlas atlas;
+  v1::StreamAtlasesResponse response;
+  while (call_->Read(&response)) {
+    const bool begun = atlas.header.sequence() != 0;
+    switch (response.message_case()) {
+      case v1::StreamAtlasesResponse::kLayout:
+        EXPECT_FALSE(begun) << "a layout within an atlas";
+        atlas.layout = response.layout();
+        break;
+      case v1::StreamAtlasesResponse::kSkipped:
+        EXPECT_FALSE(begun) << "a skip within an atlas";
+        atlas.skipped_count += response.skipped().count();
+        break;
+      case v1::StreamAtlasesResponse::kHeader:
+        EXPECT_FALSE(begun) << "a header within an atlas";
+        atlas.header = response.header();
+        break;
+      case v1::StreamAtlasesResponse::kBand:
+        checkBand(response.band(), atlas);
+        break;
+      case v1::StreamAtlasesResponse::kEnd:
+        EXPECT_EQ(response.end().sequence(), atlas.header.sequence());
+        EXPECT_EQ(atlas.color_bands.size(), atlas.header.band_count());
+        return atlas;
+      case v1::StreamAtlasesResponse::MESSAGE_NOT_SET:
+        ADD_FAILURE() << "an empty message";
+    }
+  }
+  return std::nullopt;
+}
+
+void TestWatcher::checkBand(const v1::Band& band, ReceivedAtlas& atlas) {
+  EXPECT_EQ(band.sequence(), atlas.header.sequence());
+  EXPECT_EQ(band.plane(), v1::ATLAS_PLANE_COLOR);
+  std::string& bytes = atlas.color_bands[band.first_row()];
+  EXPECT_EQ(band.offset_bytes(), bytes.size());
+  EXPECT_LE(band.data().size(), size_t{1} << 20);
+  bytes += band.data();
+  ++atlas.piece_count;
+}
+
+grpc::Status TestWatcher::finish() {
+  finished_ = true;
+  v1::StreamAtlasesResponse response;
+  while (call_->Read(&response)) {
+  }
+  return call_->Finish();
+}
+
+}  // namespace viewloom
