@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/atlas.h"
+
+#include <turbojpeg.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "absl/strings/str_cat.h"
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+std::string nameOf(v1::AtlasPlane plane) {
+  return v1::AtlasPlane_Name(plane);
+}
+
+absl::Status missing(v1::AtlasPlane plane) {
+  return absl::FailedPreconditionError(
+      absl::StrCat("the atlas has no whole ", nameOf(plane), "; it has to be asked for"));
+}
+
+std::vector<const AtlasBand*> bandsOf(const Atlas& atlas, v1::AtlasPlane plane) {
+  std::vector<const AtlasBand*> bands;
+  for (const AtlasBand& band : atlas.bands) {
+    if (band.plane == plane && band.image_index == 0) bands.push_back(&band);
+  }
+  return bands;
+}
+
+uint32_t channelsOf(v1::AtlasPlane plane) {
+  if (plane == v1::ATLAS_PLANE_COLOR) return 3;
+  return plane == v1::ATLAS_PLANE_DEPTH ? 4 : 1;
+}
+
+absl::Status decodeJpeg(const std::string& jpeg, AtlasPicture& picture) {
+  const std::unique_ptr<void, int (*)(void*)> handle(tjInitDecompress(), &tjDestroy);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
+  int width = 0, height = 0, subsampling = 0, color_space = 0;
+  if (tjDecompressHeader3(handle.get(), bytes, jpeg.size(), &width, &height, &subsampling,
+                          &color_space) != 0 ||
+      width != static_cast<int>(picture.width_px) ||
+      height != static_cast<int>(picture.height_px)) {
+    return absl::DataLossError(absl::StrCat("the JPEG is ", width, "x", height,
+                                            " px; the layout says ", picture.width_px, "x",
+                                            picture.height_px));
+  }
+  if (tjDecompress2(handle.get(), bytes, jpeg.size(), picture.samples.data(), width, 0, height,
+                    TJPF_RGB, TJFLAG_STOPONWARNING) != 0) {
+    return absl::DataLossError(tjGetErrorStr2(handle.get()));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status unpackBand(const AtlasBand& band, uint8_t* out, size_t size) {
+  if (band.encoding == v1::BAND_ENCODING_RAW) {
+    if (band.bytes.size() != size) {
+      return absl::DataLossError(absl::StrCat("band at row ", band.first_row, " has ",
+                                              band.bytes.size(), " bytes; expected ", size));
+    }
+    std::memcpy(out, band.bytes.data(), size);
+    return absl::OkStatus();
+  }
+  const size_t got = ZSTD_decompress(out, size, band.bytes.data(), band.bytes.size());
+  if (ZSTD_isError(got) != 0 || got != size) {
+    return absl::DataLossError(
+        absl::StrCat("band at row ", band.first_row, " does not inflate to ", size, " bytes"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+size_t Atlas::byteCount() const {
+  size_t count = 0;
+  for (const AtlasBand& band : bands) count += band.bytes.size();
+  return count;
+}
+
+bool hasWholePlane(const Atlas& atlas, v1::AtlasPlane plane) {
+  uint64_t next_row = 0;
+  for (const AtlasBand* band : bandsOf(atlas, plane)) {
+    if (band->first_row != next_row) return false;
+    next_row += band->row_count;
+  }
+  return next_row > 0 && next_row == atlas.layout->size().height();
+}
+
+absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas) {
+  if (!hasWholePlane(atlas, v1::ATLAS_PLANE_COLOR)) return missing(v1::ATLAS_PLANE_COLOR);
+  std::string jpeg;
+  for (const AtlasBand* band : bandsOf(atlas, v1::ATLAS_PLANE_COLOR)) {
+    if (band->encoding != v1::BAND_ENCODING_JPEG) {
+      return absl::FailedPreconditionError("the colour of the atlas did not come as JPEG");
+    }
+    jpeg += band->bytes;
+  }
+  return jpeg;
+}
+
+absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane) {
+  if (!hasWholePlane(atlas, plane)) return missing(plane);
+  AtlasPicture picture{.width_px = atlas.layout->size().width(),
+                       .height_px = atlas.layout->size().height(),
+                       .channels = channelsOf(plane),
+                       .samples = {}};
+  const size_t row_bytes = size_t{picture.width_px} * picture.channels;
+  picture.samples.resize(row_bytes * picture.height_px);
+  const std::vector<const AtlasBand*> bands = bandsOf(atlas, plane);
+  if (bands.front()->encoding == v1::BAND_ENCODING_JPEG) {
+    const absl::StatusOr<std::string> jpeg = joinJpegBands(atlas);
+    if (!jpeg.ok()) return jpeg.status();
+    VIEWLOOM_RETURN_IF_ERROR(decodeJpeg(*jpeg, picture));
+    return picture;
+  }
+  for (const AtlasBand* band : bands) {
+    VIEWLOOM_RETURN_IF_ERROR(unpackBand(*band, &picture.samples[row_bytes * band->first_row],
+                                        row_bytes * band->row_count));
+  }
+  return picture;
+}
+
+AtlasPicture cutView(const AtlasPicture& picture, const v1::AtlasLayout& layout, uint32_t view) {
+  VIEWLOOM_CHECK(view < layout.view_count());
+  const uint32_t column = view % layout.columns();
+  const uint32_t row_in_order = view / layout.columns();
+  const bool from_bottom = layout.order() == v1::TILE_ORDER_BOTTOM_LEFT;
+  const uint32_t row = from_bottom ? layout.rows() - 1 - row_in_order : row_in_order;
+  AtlasPicture cut{.width_px = layout.tile_size().width(),
+                   .height_px = layout.tile_size().height(),
+                   .channels = picture.channels,
+                   .samples = {}};
+  const size_t x = size_t{column} * cut.width_px;
+  const size_t y = layout.padding_top_px() + size_t{row} * cut.height_px;
+  VIEWLOOM_CHECK(x + cut.width_px <= picture.width_px && y + cut.height_px <= picture.height_px);
+  const size_t cut_row_bytes = size_t{cut.width_px} * cut.channels;
+  for (size_t i = 0; i < cut.height_px; ++i) {
+    const auto begin = picture.samples.begin() +
+                       static_cast<std::ptrdiff_t>(((y + i) * picture.width_px + x) * cut.channels);
+    cut.samples.insert(cut.samples.end(), begin,
+                       begin + static_cast<std::ptrdiff_t>(cut_row_bytes));
+  }
+  return cut;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole atlas as it came over the wire, and its pictures decoded on demand.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "viewloom/v1/display_service.pb.h"
+
+namespace viewloom {
+
+// A full-width strip, its pieces joined.
+struct AtlasBand {
+  uint32_t image_index = 0;
+  v1::AtlasPlane plane = v1::ATLAS_PLANE_COLOR;
+  uint32_t first_row = 0;
+  uint32_t row_count = 0;
+  v1::BandEncoding encoding = v1::BAND_ENCODING_JPEG;
+  std::string bytes;
+};
+
+struct Atlas {
+  std::shared_ptr<const v1::AtlasLayout> layout;
+  v1::AtlasHeader header;
+  std::vector<AtlasBand> bands;  // of each plane from the top; planes in any order
+
+  size_t byteCount() const;
+};
+
+// Samples of one plane: uint8_t[height_px][width_px][channels], packed, top row first. For depth
+// the channels are the four bytes of a binary32, little endian.
+struct AtlasPicture {
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  uint32_t channels = 0;
+  std::vector<uint8_t> samples;
+};
+
+// Whether the bands of the plane cover the atlas without gap or overlap.
+bool hasWholePlane(const Atlas& atlas, v1::AtlasPlane plane);
+
+// The colour plane as one JPEG file, byte for byte as the server encoded it. FAILED_PRECONDITION
+// when it was not sent as JPEG.
+absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas);
+
+// Decodes one plane: COLOR to RGB, MASK to one byte, DEPTH to four. FAILED_PRECONDITION when the
+// atlas does not have it, DATA_LOSS when its bytes do not decode to the size of the layout.
+absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
+
+// Cuts one view out of a decoded plane, by the order, columns and tile size of the layout.
+AtlasPicture cutView(const AtlasPicture& picture, const v1::AtlasLayout& layout, uint32_t view);
+
+}  // namespace viewloom

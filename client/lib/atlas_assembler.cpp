@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/atlas_assembler.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace viewloom {
+
+AtlasAssembler::AtlasAssembler(uint64_t bytes_max) : bytes_max_(bytes_max) {}
+
+void AtlasAssembler::restart() {
+  discard();
+  last_sequence_ = 0;
+}
+
+void AtlasAssembler::discard() {
+  counts_.discarded += open_.has_value();
+  open_.reset();
+  band_is_open_ = false;
+  bytes_ = 0;
+}
+
+absl::StatusOr<std::optional<Atlas>> AtlasAssembler::add(v1::StreamAtlasesResponse message) {
+  if (message.has_layout()) {
+    discard();
+    last_sequence_ = 0;
+    layout_ = std::make_shared<const v1::AtlasLayout>(std::move(*message.mutable_layout()));
+  } else if (message.has_header()) {
+    if (layout_ == nullptr) return absl::DataLossError("an atlas came before any layout");
+    begin(std::move(*message.mutable_header()));
+  } else if (message.has_band()) {
+    VIEWLOOM_RETURN_IF_ERROR(addBand(std::move(*message.mutable_band())));
+  } else if (message.has_end()) {
+    return end(message.end().sequence());
+  } else if (message.has_skipped()) {
+    counts_.skipped += message.skipped().count();
+  }
+  return std::optional<Atlas>();
+}
+
+void AtlasAssembler::begin(v1::AtlasHeader header) {
+  discard();
+  // The first atlas of a call or layout may have any number: others may have watched before.
+  if (last_sequence_ != 0 && header.sequence() > last_sequence_ + 1) {
+    counts_.gaps += header.sequence() - last_sequence_ - 1;
+  }
+  last_sequence_ = header.sequence();
+  open_ = Atlas{.layout = layout_, .header = std::move(header), .bands = {}};
+}
+
+absl::Status AtlasAssembler::addBand(v1::Band band) {
+  if (!open_ || band.sequence() != open_->header.sequence()) {
+    return absl::DataLossError(
+        absl::StrCat("a band of atlas ", band.sequence(), " came outside it"));
+  }
+  bytes_ += band.data().size();
+  if (bytes_ > bytes_max_) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("atlas ", band.sequence(), " has more than ", bytes_max_, " bytes"));
+  }
+  if (!band_is_open_) {
+    open_->bands.push_back({.image_index = band.image_index(),
+                            .plane = band.plane(),
+                            .first_row = band.first_row(),
+                            .row_count = band.row_count(),
+                            .encoding = band.encoding(),
+                            .bytes = {}});
+  }
+  AtlasBand& to = open_->bands.back();
+  if (band.offset_bytes() != to.bytes.size() || band.first_row() != to.first_row ||
+      band.plane() != to.plane || band.image_index() != to.image_index) {
+    return absl::DataLossError(absl::StrCat("a piece of atlas ", band.sequence(), ", row ",
+                                            band.first_row(), ", came out of order"));
+  }
+  if (to.bytes.empty()) {
+    to.bytes = std::move(*band.mutable_data());
+  } else {
+    to.bytes += band.data();
+  }
+  band_is_open_ = !band.last_piece();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::optional<Atlas>> AtlasAssembler::end(uint64_t sequence) {
+  if (!open_ || sequence != open_->header.sequence() || band_is_open_ ||
+      open_->bands.size() != open_->header.band_count()) {
+    return absl::DataLossError(absl::StrCat("atlas ", sequence, " ended before it was whole"));
+  }
+  std::optional<Atlas> whole = std::exchange(open_, std::nullopt);
+  bytes_ = 0;
+  ++counts_.whole;
+  return whole;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks a server what it has.
+#pragma once
+
+#include <grpcpp/channel.h>
+
+#include <memory>
+
+#include "base/status.h"
+#include "viewloom/v1/catalog_service.grpc.pb.h"
+
+namespace viewloom {
+
+// Each call ends within five seconds; UNAVAILABLE when nobody listens.
+// Thread-safety: all methods may be called from any thread.
+class Catalog {
+ public:
+  explicit Catalog(std::shared_ptr<grpc::Channel> channel);
+
+  absl::StatusOr<v1::ListStreamsResponse> listStreams() const;
+  absl::StatusOr<v1::ListDisplaysResponse> listDisplays() const;
+  absl::StatusOr<v1::ListPresetsResponse> listPresets() const;
+  absl::StatusOr<v1::GetServerInfoResponse> getServerInfo() const;
+
+ private:
+  std::unique_ptr<v1::CatalogService::Stub> stub_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Channels to a server, with every limit set, and gRPC statuses as ours.
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/support/status.h>
+
+#include <memory>
+#include <string>
+
+#include "base/status.h"
+
+namespace viewloom {
+
+// Where a server listens when nothing else is said.
+inline constexpr char kDefaultAddress[] = "127.0.0.1:50051";
+
+// Largest message either way: chunks and bands hold up to 1 MiB, and the layout of 2500 views with
+// their cameras takes less than 1 MiB.
+inline constexpr int kMessageBytesMax = 4 << 20;
+
+// address: "host:port" or "unix:path". Does not connect yet; plain text.
+std::shared_ptr<grpc::Channel> makeChannel(const std::string& address);
+
+absl::Status statusFromGrpc(const grpc::Status& status);
+
+}  // namespace viewloom

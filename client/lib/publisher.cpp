@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/publisher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "base/check.h"
+#include "lib/channel.h"
+#include "lib/compress_frame.h"
+
+namespace viewloom {
+namespace {
+
+constexpr size_t kChunkBytes = size_t{1} << 20;  // the largest the server takes
+
+PublisherOptions withSession(PublisherOptions options) {
+  if (!options.session_id.empty()) return options;
+  std::random_device random;  // 128 bits, not to be guessed
+  for (int i = 0; i < 4; ++i)
+    absl::StrAppend(&options.session_id, absl::Hex(random(), absl::kZeroPad8));
+  return options;
+}
+
+}  // namespace
+
+Publisher::Publisher(std::shared_ptr<grpc::Channel> channel, PublisherOptions options,
+                     PublisherCallbacks callbacks)
+    : options_(withSession(std::move(options))),
+      callbacks_(std::move(callbacks)),
+      stub_(v1::IngestService::NewStub(std::move(channel))) {
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    RetryLoop loop(options_.backoff, callbacks_.on_connection);
+    absl::Status status = loop.run(stop, [&] { return runCall(stop); });
+    std::lock_guard lock(mutex_);
+    ended_ = std::move(status);
+    changed_.notify_all();
+  });
+}
+
+Publisher::~Publisher() = default;
+
+void Publisher::offer(WireFrame frame) {
+  std::lock_guard lock(mutex_);
+  VIEWLOOM_CHECK(!finishing_);
+  frame.header.set_number(++last_number_);
+  ++counts_.offered;
+  counts_.replaced_here += waiting_.has_value();
+  waiting_ = std::move(frame);
+  changed_.notify_all();
+}
+
+bool Publisher::isWaiting() const {
+  std::lock_guard lock(mutex_);
+  return waiting_.has_value();
+}
+
+absl::Status Publisher::finish(int64_t timeout_ns) {
+  {
+    std::lock_guard lock(mutex_);
+    finishing_ = true;
+    changed_.notify_all();
+  }
+  const bool in_time = waitEnded(timeout_ns);
+  thread_.request_stop();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return ended_.has_value(); });
+  if (!in_time) return absl::DeadlineExceededError("the server did not report all frames in time");
+  return *ended_;
+}
+
+std::optional<absl::Status> Publisher::ended() const {
+  std::lock_guard lock(mutex_);
+  return ended_;
+}
+
+bool Publisher::waitEnded(int64_t timeout_ns) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
+                           [&] { return ended_.has_value(); });
+}
+
+PublisherCounts Publisher::counts() const {
+  std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+CallEnd Publisher::runCall(const std::stop_token& stop) {
+  {
+    std::lock_guard lock(mutex_);
+    in_flight_.clear();
+    answers_ended_ = false;
+    was_connected_ = false;
+    if (!waiting_) waiting_ = std::move(newest_sent_);
+    newest_sent_.reset();
+  }
+  grpc::ClientContext context;
+  const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
+  const std::unique_ptr<Call> call = stub_->PublishFrames(&context);
+  v1::PublishFramesRequest settings;
+  settings.mutable_settings()->set_stream(options_.stream);
+  settings.mutable_settings()->set_session_id(options_.session_id);
+  call->Write(settings);  // a failure shows in Finish
+  {
+    const std::jthread reader([&] { readAnswers(*call); });
+    sendFrames(*call, stop);
+    call->WritesDone();
+  }
+  CallEnd end{statusFromGrpc(call->Finish()), false};
+  std::lock_guard lock(mutex_);
+  end.was_connected = was_connected_;
+  counts_.reconnects += was_connected_ && isPassing(end.status);
+  return end;
+}
+
+void Publisher::readAnswers(Call& call) {
+  v1::PublishFramesResponse answer;
+  while (call.Read(&answer)) {
+    if (answer.has_accepted()) {
+      {
+        std::lock_guard lock(mutex_);
+        was_connected_ = true;
+      }
+      if (callbacks_.on_connection) callbacks_.on_connection({});
+      if (callbacks_.on_accepted) callbacks_.on_accepted(answer.accepted());
+    } else if (answer.has_report()) {
+      noteReport(answer.report());
+    } else if (answer.has_wanted() && callbacks_.on_wanted) {
+      callbacks_.on_wanted(answer.wanted());
+    }
+  }
+  std::lock_guard lock(mutex_);
+  answers_ended_ = true;
+  changed_.notify_all();
+}
+
+void Publisher::noteReport(const v1::FrameReport& report) {
+  {
+    std::lock_guard lock(mutex_);
+    in_flight_.erase(report.number());
+    ++counts_.reported;
+    counts_.replaced_there += report.outcome() == v1::FRAME_OUTCOME_REPLACED;
+    counts_.refused += report.outcome() == v1::FRAME_OUTCOME_REFUSED;
+    changed_.notify_all();
+  }
+  if (callbacks_.on_report) callbacks_.on_report(report);
+}
+
+std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, stop, [&] {
+    if (answers_ended_) return true;
+    if (waiting_) return in_flight_.size() < options_.in_flight_max;
+    return finishing_ && in_flight_.empty();
+  });
+  if (stop.stop_requested() || answers_ended_) return std::nullopt;
+  return std::exchange(waiting_, std::nullopt);
+}
+
+void Publisher::sendFrames(Call& call, const std::stop_token& stop) {
+  while (std::optional<WireFrame> frame = waitForFrame(stop)) {
+    const uint64_t number = frame->header.number();
+    {
+      std::lock_guard lock(mutex_);
+      in_flight_.insert(number);
+      newest_sent_ = *frame;
+    }
+    if (options_.zstd_level > 0) frame = compressFrame(*std::move(frame), options_.zstd_level);
+    if (!sendFrame(call, *frame, stop)) return;
+  }
+}
+
+bool Publisher::sendFrame(Call& call, const WireFrame& frame, const std::stop_token& stop) {
+  v1::PublishFramesRequest message;
+  *message.mutable_header() = frame.header;
+  if (!call.Write(message)) return false;
+  uint64_t sent_bytes = 0;
+  v1::FrameChunk& chunk = *message.mutable_chunk();
+  for (size_t plane = 0; plane < frame.planes.size(); ++plane) {
+    const std::vector<uint8_t>& bytes = *frame.planes[plane];
+    for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
+      const size_t size = std::min(kChunkBytes, bytes.size() - offset);
+      chunk.set_plane_index(static_cast<uint32_t>(plane));
+      chunk.set_offset_bytes(offset);
+      chunk.set_data(&bytes[offset], size);
+      if (stop.stop_requested() || !call.Write(message)) return false;
+    }
+    sent_bytes += bytes.size();
+  }
+  std::lock_guard lock(mutex_);
+  ++counts_.sent;
+  counts_.sent_bytes += sent_bytes;
+  return true;
+}
+
+}  // namespace viewloom

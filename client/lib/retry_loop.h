@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes a call again, after a while, for as long as its failure is one that passes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+
+#include "base/status.h"
+#include "lib/backoff.h"
+
+namespace viewloom {
+
+// What a client is doing, told to whoever listens.
+struct ConnectionEvent {
+  enum class Kind { kConnected, kRetrying };
+  Kind kind = Kind::kConnected;
+  absl::Status reason;   // kRetrying: how the last call ended
+  int64_t delay_ns = 0;  // kRetrying: until the next attempt
+};
+using OnConnection = std::function<void(const ConnectionEvent&)>;
+
+// How a call ended.
+struct CallEnd {
+  absl::Status status;
+  bool was_connected = false;  // the server had answered: the next failure is a new one
+};
+
+// Whether the same call may succeed later: the server is not there, drains, or the line broke.
+bool isPassing(const absl::Status& status);
+
+// Thread-safety: run() belongs to one thread.
+class RetryLoop {
+ public:
+  // Waits; returns early when stopped.
+  using Sleep = std::function<void(const std::stop_token&, int64_t delay_ns)>;
+
+  RetryLoop(const BackoffOptions& options, OnConnection on_connection,
+            Backoff::Random random = makeRandom(), Sleep sleep = &sleepUntilStopped);
+
+  // Calls until it ends OK, fails for good, or is stopped (CANCELLED). Returns the last status.
+  absl::Status run(const std::stop_token& stop, const std::function<CallEnd()>& call);
+
+  static void sleepUntilStopped(const std::stop_token& stop, int64_t delay_ns);
+
+ private:
+  Backoff backoff_;
+  OnConnection on_connection_;
+  Sleep sleep_;
+};
+
+}  // namespace viewloom
