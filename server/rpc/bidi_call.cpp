@@ -93,7 +93,7 @@ void BidiCall::advance() {
     if (reading_ || half_closed_ || !wantsToRead()) return;
     reading_ = true;
     StartRead(&incoming_);
-  } else if (!writing_ && (cancelled_ || mayFinish())) {
+  } else if (!writing_ && !handling_ && (cancelled_ || mayFinish())) {
     finished_ = true;
     Finish(*end_status_);
   }

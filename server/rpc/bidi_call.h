@@ -66,7 +66,7 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   grpc::ByteBuffer outgoing_;
   bool opened_ = false;
   bool reading_ = false;
-  bool handling_ = false;
+  bool handling_ = false;  // a message; the end waits for it
   bool half_closed_ = false;
   bool writing_ = false;
   bool cancelled_ = false;
