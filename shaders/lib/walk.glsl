@@ -158,17 +158,18 @@ Walk walkRay(StructureRef structure, Ray ray, WalkStart start, float inv_z_toler
     float front_to = 0.0;
     if (node.is_plane) {
       const vec2 center = vec2(origin) + 0.5 * float(node_size);
-      front_from = from.z - facetAt(node.inv_z, node.slope, from.xy - center);
-      front_to = to.z - facetAt(node.inv_z, node.slope, to.xy - center);
+      // Without the bound at the sky, so that the distance stays linear along the ray: above it both have
+      // the same sign, and whoever arrives at the sky arrives at the surface.
+      front_from = from.z - node.inv_z - dot(node.slope, from.xy - center);
+      front_to = to.z - node.inv_z - dot(node.slope, to.xy - center);
+      if (to.z <= 0.0) front_to = min(front_to, 0.0);
       const float nearness = 1.0 - from.z * eye_z;
       const bool accepted = node.error <= inv_z_tolerance * nearness * nearness;
       must_descend = !accepted && !(min(front_from, front_to) > node.error) &&
                      !(max(front_from, front_to) < -node.error);
       if (just_left) front_from = min(front_from, 0.0);
       passes_edge = in_front && !state_unknown && front_from <= 0.0;
-      const float link_reach =
-          node.error + connectionTolerance(kappa_abs, kappa_rel, from.z - front_from);
-      if (passes_edge && !must_descend && front_from >= -link_reach) {
+      if (passes_edge && !must_descend) {
         hit_inside = hitsEdge(structure, layer, at, direction, from);
       }
     } else {
@@ -177,8 +178,9 @@ Walk walkRay(StructureRef structure, Ray ray, WalkStart start, float inv_z_toler
       // Distances to the box stand in for those to a surface; only their signs are used.
       const bool is_front = farthest > node.box.y;
       const bool is_behind = nearest < node.box.x;
-      const bool can_link = in_front && !state_unknown &&
-                            node.box.x - connectionTolerance(kappa_abs, kappa_rel, node.box.x) <= from.z;
+      // How far apart linked facets are is bounded at the middle of their edge only: whoever comes in from
+      // the front must look at the links.
+      const bool can_link = in_front && !state_unknown;
       must_descend = !is_front && !(is_behind && !can_link);
       front_from = is_front ? 1.0 : -1.0;
       front_to = front_from;

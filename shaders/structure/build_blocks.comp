@@ -12,15 +12,19 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const int kBlockSize = 4;
 
-// Whether a link leads to a lower layer, and how far up the linked surface may stand at the edge.
-// A walk in this layer must look at such an edge: the surface goes on in front of it.
-bool leadsForward(uint links, uint layer) {
-  bool forward = false;
+// The nearest inv_z, on the edges of a facet, of the lower layers that it is linked to; kNoSurface without
+// such a link. A walk in this layer must look at such an edge: the surface goes on in front of it.
+float nearestForward(StructureRef structure, uint layer, ivec2 pixel) {
+  const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+  const uint links = loadLinks(structure, layer, pixel);
+  float nearest = kNoSurface;
   for (uint edge = 0u; edge < 4u; ++edge) {
     const uint link = linkOfEdge(links, edge);
-    forward = forward || (link > 0u && link - 1u < layer);
+    if (link == 0u || link - 1u >= layer) continue;
+    const uvec2 facet = loadFacet(structure, link - 1u, pixel + steps[edge]);
+    nearest = max(nearest, facetBox(uintBitsToFloat(facet.x), unpackSlopes(facet.y)).y);
   }
-  return forward;
+  return nearest;
 }
 
 void main() {
@@ -56,11 +60,9 @@ void main() {
       }
       const vec2 slope = unpackSlopes(facet.y);
       vec2 facet_box = facetBox(center, slope);
-      if (layer > 0u && leadsForward(loadLinks(structure, layer, pixel), layer)) {
-        has_forward_link = true;
-        // |a - b| <= max(kappa_abs, kappa_rel b) and b > a: b is at most this.
-        facet_box.y = max(facet_box.y + kappa_abs, facet_box.y / (1.0 - kappa_rel) * 1.000001);
-      }
+      const float forward = layer > 0u ? nearestForward(structure, layer, pixel) : kNoSurface;
+      has_forward_link = has_forward_link || forward >= 0.0;
+      facet_box.y = max(facet_box.y, forward);
       box = vec2(min(box.x, facet_box.x), max(box.y, facet_box.y));
       inv_z_min = min(inv_z_min, facet_box.x);
       addSample(fit, vec2(x, y) + 0.5 - 0.5 * float(kBlockSize), center, slope);

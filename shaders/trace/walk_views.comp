@@ -30,6 +30,9 @@ const float kTransmittanceMin = 1.0 / 255.0;
 // Cells of this level share a start bound; a region of more of them takes the bound of the whole source.
 const uint kStartLevel = 5u;
 const int kStartCellsMax = 16;
+// Rounding of 1/Z on the way to that bound, a share of where the ray comes from: 8 ulp. Whoever starts on
+// a surface would be behind it.
+const float kStartMargin = 8.0 / 8388608.0;
 
 struct Scene {
   StructureRef structure;
@@ -69,8 +72,9 @@ WalkStart startOf(Scene scene, Ray ray, float bound) {
   start.behind_count = kStateUnknown;
   start.place.t = 0.0;
   start.place.axis = kAxisNone;
-  if (ray.extent.z < 0.0 && ray.start.z > bound) {
-    start.place.t = min((bound - ray.start.z) / ray.extent.z, 1.0);
+  const float safe_bound = bound + kStartMargin * ray.start.z;
+  if (ray.extent.z < 0.0 && ray.start.z > safe_bound) {
+    start.place.t = min((safe_bound - ray.start.z) / ray.extent.z, 1.0);
   }
   const vec2 point = (ray.start + start.place.t * ray.extent).xy;
   start.place.cell = clamp(ivec2(floor(point)), ivec2(0), ivec2(scene.size_px) - 1);
