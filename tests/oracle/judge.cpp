@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include <glm/geometric.hpp>
+
 namespace viewloom::oracle {
 namespace {
 
@@ -132,7 +134,7 @@ void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::
     ++verdict_.excused;
     return;
   }
-  if (amongThem(answers, tested)) {
+  if (amongThem(answers, ray, tested)) {
     ++verdict_.within;
     return;
   }
@@ -190,8 +192,26 @@ bool Judge::agreeing(const std::vector<OracleAnswer>& answers) const {
   });
 }
 
+// How far a point of the source may be off in 1/Z along its own column until the picture moves by
+// the tolerance, 1/m. Seen from b, P / (1 + dw Z) stands beside P by |P x b| dw Z / |P - b|^2
+// radian; a px is |direction per px| / |direction| radian.
+double Judge::invZTolerance(const ViewRay& ray, const TestedAnswer& tested) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Pinhole& pinhole = source_.pinhole();
+  const glm::dvec3 point{(tested.x_px - pinhole.principal_px.x) / pinhole.focal_px.x,
+                         -(tested.y_px - pinhole.principal_px.y) / pinhole.focal_px.y, -1.0};
+  const glm::dvec3 from_eye = point - tested.inv_z * ray.ray.origin_m;  // times Z
+  const double turn = glm::length(glm::cross(point, ray.ray.origin_m)) /
+                      glm::dot(from_eye, from_eye);  // radian per 1/m
+  const double px =
+      std::max(glm::length(ray.direction_per_px_x), glm::length(ray.direction_per_px_y)) /
+      glm::length(ray.ray.direction);
+  return turn > 0 ? tolerance_.output_px * px / turn : infinity;
+}
+
 // Whether the tested answer lies among those of the moved rays, which agree with each other.
-bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const TestedAnswer& tested) const {
+bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
+                      const TestedAnswer& tested) const {
   if (tested.ray_class != answers.front().ray_class) return false;
   if (!isHit(tested.ray_class)) return true;
   Range x_px, y_px, inv_z;
@@ -205,7 +225,7 @@ bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const TestedAnsw
   }
   return layer_named && x_px.holds(tested.x_px, tolerance_.source_px) &&
          y_px.holds(tested.y_px, tolerance_.source_px) &&
-         inv_z.holds(tested.inv_z, tolerance_.inv_z);
+         inv_z.holds(tested.inv_z, tolerance_.inv_z + invZTolerance(ray, tested));
 }
 
 }  // namespace viewloom::oracle

@@ -58,7 +58,9 @@ class Judge {
   bool matches(const OracleAnswer& oracle, const TestedAnswer& tested) const;
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
-  bool amongThem(const std::vector<OracleAnswer>& answers, const TestedAnswer& tested) const;
+  double invZTolerance(const ViewRay& ray, const TestedAnswer& tested) const;
+  bool amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
+                 const TestedAnswer& tested) const;
 
   const OracleSource& source_;
   const JudgeTolerance tolerance_;

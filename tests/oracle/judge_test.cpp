@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "oracle/analytic_scenes.h"
 
 namespace viewloom::oracle {
@@ -26,9 +28,10 @@ OutputView besideView(const Scene& scene, double x_m) {
   return view;
 }
 
+using Distort = std::function<TestedAnswer(const OracleSource&, const ViewRay&)>;
+
 // Judges every pixel of a view; `distort` makes the tested answer from the oracle's.
-template <typename Distort>
-Verdict judgeView(const Scene& scene, const OutputView& view, Distort distort) {
+Verdict judgeView(const Scene& scene, const OutputView& view, const Distort& distort) {
   const OracleSource source(scene.planes, scene.pinhole, scene.kappa);
   Judge judge(source, toleranceOf(source, kTolerance_px));
   for (int row = 0; row < view.height; ++row) {
@@ -40,73 +43,71 @@ Verdict judgeView(const Scene& scene, const OutputView& view, Distort distort) {
   return judge.verdict();
 }
 
-TestedAnswer ofMovedRay(const OracleSource& source, const ViewRay& ray, double x_px) {
-  return testedFrom(traceOracle(source, ray.movedBy(x_px, 0)));
+Verdict judgeBesideView(const Distort& distort) {
+  const Scene scene = layeredScene();
+  return judgeView(scene, besideView(scene, -0.1), distort);
+}
+
+TestedAnswer unchanged(const OracleSource& source, const ViewRay& ray) {
+  return testedFrom(traceOracle(source, ray.ray));
+}
+
+Distort movedBy_px(double x_px) {
+  return [x_px](const OracleSource& source, const ViewRay& ray) {
+    return testedFrom(traceOracle(source, ray.movedBy(x_px, 0)));
+  };
 }
 
 TEST(Judge, acceptsTheOracleItself) {
-  const Scene scene = layeredScene();
-  const Verdict verdict =
-      judgeView(scene, besideView(scene, -0.1), [](const auto& source, const ViewRay& ray) {
-        return testedFrom(traceOracle(source, ray.ray));
-      });
+  const Verdict verdict = judgeBesideView(unchanged);
   EXPECT_EQ(verdict.exact, verdict.rays);
 }
 
 TEST(Judge, acceptsAPictureMovedWithinTheTolerance) {
-  const Scene scene = layeredScene();
-  const Verdict verdict = judgeView(
-      scene, besideView(scene, -0.1),
-      [](const auto& source, const ViewRay& ray) { return ofMovedRay(source, ray, 0.2); });
+  const Verdict verdict = judgeBesideView(movedBy_px(0.8 * kTolerance_px));
   EXPECT_EQ(verdict.differing, 0u) << verdict.summary();
   EXPECT_LT(verdict.excusedShare(), 0.05) << verdict.summary();
 }
 
 TEST(Judge, rejectsAPictureMovedByTwiceTheTolerance) {
-  const Scene scene = layeredScene();
-  const Verdict verdict = judgeView(
-      scene, besideView(scene, -0.1),
-      [](const auto& source, const ViewRay& ray) { return ofMovedRay(source, ray, 0.5); });
+  const Verdict verdict = judgeBesideView(movedBy_px(2 * kTolerance_px));
   EXPECT_GT(verdict.differing, verdict.rays / 2) << verdict.summary();
 }
 
 TEST(Judge, rejectsAForgottenLayer) {
-  const Scene scene = layeredScene();
-  Scene forgotten = scene;
-  forgotten.planes.inv_z.resize(forgotten.planes.inv_z.size() / 2);
-  forgotten.planes.layer_count = 1;
-  const OracleSource one_layer(forgotten.planes, scene.pinhole, scene.kappa);
-  const Verdict verdict = judgeView(
-      scene, besideView(scene, -0.1),
-      [&](const auto&, const ViewRay& ray) { return testedFrom(traceOracle(one_layer, ray.ray)); });
+  Scene scene = layeredScene();
+  scene.planes.inv_z.resize(scene.planes.inv_z.size() / 2);
+  scene.planes.layer_count = 1;
+  const OracleSource one_layer(scene.planes, scene.pinhole, scene.kappa);
+  const Verdict verdict = judgeBesideView(
+      [&](const OracleSource&, const ViewRay& ray) { return unchanged(one_layer, ray); });
   EXPECT_GT(verdict.differing, 0u) << verdict.summary();
 }
 
 TEST(Judge, rejectsAClassThatNoMovedRayHas) {
-  const Scene scene = layeredScene();
-  const Verdict verdict =
-      judgeView(scene, besideView(scene, -0.1), [](const auto& source, const ViewRay& ray) {
-        TestedAnswer tested = testedFrom(traceOracle(source, ray.ray));
-        if (tested.ray_class == RayClass::kHitAssumed) tested.ray_class = RayClass::kHit;
-        return tested;
-      });
+  const Verdict verdict = judgeBesideView([](const OracleSource& source, const ViewRay& ray) {
+    TestedAnswer tested = unchanged(source, ray);
+    if (tested.ray_class == RayClass::kHitAssumed) tested.ray_class = RayClass::kHit;
+    return tested;
+  });
   EXPECT_GT(verdict.differing, 0u) << verdict.summary();
 }
 
 TEST(Judge, toleratesRoundingOnEveryKindOfScene) {
   Random random(3);
+  const Distort rounded = [&](const OracleSource& source, const ViewRay& ray) {
+    const JudgeTolerance rounding = toleranceOf(source, 0);
+    const auto within = [&](double bound) { return random.uniform(-bound, bound); };
+    const ProjectedRay exact = projectRay(source.pinhole(), ray.ray);
+    const double x_px = within(rounding.source_px), y_px = within(rounding.source_px);
+    return testedFrom(traceOracle(source, movedBy(exact, x_px, y_px, within(rounding.inv_z))));
+  };
   Verdict sum;
   for (uint64_t seed = 0; seed < 28; ++seed) {
     Scene scene = randomScene(seed);
-    scene.planes = canonicalPlanes(scene.planes, 1e-5f);
+    scene.planes = canonicalPlanes(scene.planes);
     const OutputView view = randomView(random, int(seed) % kViewKindCount, 12, 12);
-    sum.add(judgeView(scene, view, [&](const auto& source, const ViewRay& ray) {
-      const JudgeTolerance rounding = toleranceOf(source, 0);
-      const auto within = [&](double bound) { return random.uniform(-bound, bound); };
-      return testedFrom(traceOracle(
-          source, movedBy(projectRay(source.pinhole(), ray.ray), within(rounding.source_px),
-                          within(rounding.source_px), within(rounding.inv_z))));
-    }));
+    sum.add(judgeView(scene, view, rounded));
   }
   EXPECT_EQ(sum.differing, 0u) << sum.summary();
 }

@@ -24,7 +24,7 @@ InvZPlanes makePlanes(int width, int height, int layer_count) {
   return {width, height, layer_count, std::vector<float>(count, kNoSurface)};
 }
 
-InvZPlanes canonicalPlanes(const InvZPlanes& planes, float depth_step) {
+InvZPlanes canonicalPlanes(const InvZPlanes& planes, float relative_step) {
   InvZPlanes result = makePlanes(planes.width, planes.height, planes.layer_count);
   std::vector<float> surfaces;
   for (int row = 0; row < planes.height; ++row) {
@@ -37,8 +37,9 @@ InvZPlanes canonicalPlanes(const InvZPlanes& planes, float depth_step) {
       std::sort(surfaces.begin(), surfaces.end(), std::greater<>());
       int kept_count = 0;
       for (const float inv_z : surfaces) {
-        if (kept_count > 0 && result.at(kept_count - 1, column, row) - inv_z <= depth_step)
-          continue;
+        const bool is_double = kept_count > 0 && result.at(kept_count - 1, column, row) - inv_z <=
+                                                     relative_step * inv_z;
+        if (is_double) continue;
         result.at(kept_count++, column, row) = inv_z;
       }
     }
@@ -140,7 +141,7 @@ FacetAt OracleSource::nearestUnlinked(const FacetAt& from, const FacetAt& toward
   float smallest = 0;
   for (int layer = 0; layer < layerCount(); ++layer) {
     const FacetAt candidate{layer, towards.column, towards.row};
-    if (!exists(candidate)) continue;
+    if (!exists(candidate) || !mayBeLinked(from, candidate)) continue;
     const FacetAt partner{layer, from.column, from.row};
     if (exists(partner) && mayBeLinked(partner, candidate)) continue;
     const float distance = std::abs(invZAtEdge(candidate, from) - invZAtEdge(from, candidate));

@@ -37,8 +37,11 @@ struct InvZPlanes {
 // Empty planes of this size.
 InvZPlanes makePlanes(int width, int height, int layer_count);
 
-// Sorts every column, drops surfaces within depth_step (1/m) of the last one kept, closes gaps.
-InvZPlanes canonicalPlanes(const InvZPlanes& planes, float depth_step);
+// The depth step of binary32 samples, a share of inv_z: an ulp, and one of a division.
+constexpr float kRelativeStepF32 = 0x1p-22f;
+
+// Sorts every column, drops surfaces within the depth step of the last one kept, closes gaps.
+InvZPlanes canonicalPlanes(const InvZPlanes& planes, float relative_step = kRelativeStepF32);
 
 // kappa(a, b) = max(absolute, relative * max(a, b)), 1/m.
 struct ConnectionTolerance {

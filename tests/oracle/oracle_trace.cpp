@@ -36,7 +36,13 @@ void addCrossings(double u_a, double z_a, double u_b, double z_b, int line_count
                   const SeenPart& seen, Crossing step, std::vector<Crossing>& crossings) {
   // x = u / z changes with the sign of u' z - u z' along the whole ray.
   const int direction = (u_b - u_a) * z_a - u_a * (z_b - z_a) > 0 ? 1 : -1;
-  for (int line = 1; line < line_count; ++line) {
+  const auto clampedAt = [&](double s) {
+    const double at = (u_a + s * (u_b - u_a)) / (z_a + s * (z_b - z_a));
+    return std::isnan(at) ? 0.0 : std::clamp(at, 0.0, double(line_count));
+  };
+  const auto [low, high] = std::minmax({clampedAt(seen.begin), clampedAt(seen.end)});
+  const int first = std::max(1, int(low)), last = std::min(line_count - 1, int(high) + 1);
+  for (int line = first; line <= last; ++line) {
     const double at_a = u_a - line * z_a;
     const double at_b = u_b - line * z_b;
     if (at_a == at_b) continue;  // never crosses, or runs along the line
@@ -105,6 +111,7 @@ class Travel {
   }
 
   void crossEdge(const Column& from, const Column& to, double s) {
+    bool passes_behind = false;  // from here on: not before what is hit at this very edge
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt next{layer, to.column, to.row};
       if (!source_.exists(next) || front(next, s) > 0) continue;
@@ -120,9 +127,10 @@ class Travel {
       if (connected_in_front) {
         record(hitAt(s, next, linked));
       } else if (!connected_behind) {
-        been_behind_ = true;
+        passes_behind = true;
       }
     }
+    been_behind_ = been_behind_ || passes_behind;
   }
 
   OracleHit hitAt(double s, const FacetAt& facet, const FacetAt& linked) const {

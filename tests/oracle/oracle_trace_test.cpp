@@ -15,10 +15,8 @@ namespace {
 // Double precision over at most a few hundred px and 1/m.
 constexpr double kPosition_px = 1e-7;
 
-constexpr float kDepthStep = 1e-5f;
-
 OracleSource sourceOf(const Scene& scene) {
-  return OracleSource(canonicalPlanes(scene.planes, kDepthStep), scene.pinhole, scene.kappa);
+  return OracleSource(canonicalPlanes(scene.planes), scene.pinhole, scene.kappa);
 }
 
 constexpr ImagePlane kSlanted{3.0 / 4096, -2.0 / 4096, 0.5};
