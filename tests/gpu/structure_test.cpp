@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structure on the device against the oracle and against its own lower levels.
+#include "gpu/structure_checks.h"
+#include "gpu/test_device.h"
+#include "gpu/walk_under_test.h"
+
+namespace viewloom {
+namespace {
+
+class StructureTest : public GpuTest {
+ protected:
+  StructureTest() : walk_(device()) {}
+
+  Complaints check(const oracle::Scene& scene) {
+    const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+    StructureImage image = walk_.readBack(*slot);
+    image.kappa_rel = scene.kappa.relative;
+    return checkStructure(image, sourceOf(scene, *slot));
+  }
+
+  WalkUnderTest walk_;
+};
+
+TEST_F(StructureTest, isTheOraclesOnEveryKindAndSizeOfScene) {
+  // All sizes of the generator with all layer counts, twice.
+  for (uint64_t seed = 0; seed < 112; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    const Complaints complaints = check(scene);
+    EXPECT_TRUE(complaints.empty()) << "seed " << seed << " " << scene.name << scene.planes.width
+                                    << "x" << scene.planes.height << "\n"
+                                    << complaints.text();
+  }
+}
+
+TEST_F(StructureTest, isTheOraclesOverSeveralRoots) {
+  for (uint64_t seed = 1000; seed < 1004; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed, 333, 201, 2);
+    const Complaints complaints = check(scene);
+    EXPECT_TRUE(complaints.empty()) << "seed " << seed << " " << scene.name << "\n"
+                                    << complaints.text();
+  }
+}
+
+TEST_F(StructureTest, aSmoothSceneTakesFewNodes) {
+  const oracle::Scene scene = oracle::smoothScene(640, 480, 1);
+  const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+  const double nodes_per_pixel = effectiveNodesPerPixel(walk_.readBack(*slot));
+  RecordProperty("nodes_per_pixel", std::to_string(nodes_per_pixel));
+  EXPECT_LE(nodes_per_pixel, 0.03);
+}
+
+}  // namespace
+}  // namespace viewloom

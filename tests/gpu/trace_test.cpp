@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walk on the device against the oracle.
+#include "gpu/judge_views.h"
+#include "gpu/test_device.h"
+
+namespace viewloom {
+namespace {
+
+// Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
+// scene.
+constexpr double kExcusedShareMax = 0.1;
+
+class TraceTest : public GpuTest {
+ protected:
+  TraceTest() : walk_(device()) {}
+
+  JudgedViews judge(const oracle::Scene& scene, const std::vector<oracle::OutputView>& views,
+                    double tolerance_px, const std::string& where, int stride = 1) {
+    const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+    return judgeViews(walk_, *slot, sourceOf(scene, *slot), views, tolerance_px, where, stride);
+  }
+
+  WalkUnderTest walk_;
+};
+
+TEST_F(TraceTest, agreesWithTheOracleFromAllSides) {
+  constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
+  oracle::Random random(11);
+  JudgedViews sum;
+  for (uint64_t seed = 0; seed < 112; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    std::vector<oracle::OutputView> views;
+    for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
+      views.push_back(oracle::randomView(random, kind, 13, 10));
+    }
+    sum.add(judge(scene, views, kTolerances_px[seed % 3],
+                  "seed " + std::to_string(seed) + " " + scene.name));
+  }
+  EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();
+  EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
+  std::cout << sum.summary() << "\n";
+}
+
+TEST_F(TraceTest, fromItsOwnPoseASourceSeesItself) {
+  for (uint64_t seed = 0; seed < 56; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+    const oracle::OracleSource source = sourceOf(scene, *slot);
+    const auto records = walk_.trace(*slot, {oracle::ownView(scene)}, 0.25);
+    for (int row = 0; row < source.height(); ++row) {
+      for (int column = 0; column < source.width(); ++column) {
+        const abi::RayRecord& record =
+            records[0][size_t(row) * size_t(source.width()) + size_t(column)];
+        if (!source.exists({0, column, row})) {
+          EXPECT_EQ(record.ray_class, abi::kClassEmpty);
+          continue;
+        }
+        ASSERT_EQ(record.ray_class, abi::kClassHit) << "seed " << seed << " " << scene.name;
+        EXPECT_EQ(record.layer, 0u);
+        // Rounding alone: a thousandth of a px.
+        EXPECT_NEAR(record.x_px, column + 0.5, 1e-3);
+        EXPECT_NEAR(record.y_px, row + 0.5, 1e-3);
+      }
+    }
+  }
+}
+
+TEST_F(TraceTest, aSmoothSceneTakesFewVisits) {
+  const oracle::Scene scene = oracle::smoothScene(640, 480, 1);
+  std::vector<oracle::OutputView> views;
+  for (int index = 0; index < 8; ++index) {
+    oracle::OutputView view = oracle::ownView(scene);
+    view.width = 160;
+    view.height = 120;
+    view.pinhole.focal_px *= 0.25;
+    view.pinhole.principal_px *= 0.25;
+    view.position_m.x = 0.04 * (index - 3.5);
+    views.push_back(view);
+  }
+  const JudgedViews judged = judge(scene, views, 0.25, scene.name, 5);
+  EXPECT_EQ(judged.verdict.differing, 0u) << judged.summary();
+  EXPECT_LE(double(judged.visits) / double(judged.verdict.rays), 4.0) << judged.summary();
+}
+
+}  // namespace
+}  // namespace viewloom
