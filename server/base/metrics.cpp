@@ -69,12 +69,24 @@ Labelled<Stage, Histogram> stageHistograms(prometheus::Registry& registry) {
 
 }  // namespace
 
-void Counter::add(double amount) const { counter_->Increment(amount); }
-double Counter::value() const { return counter_->Value(); }
-void Gauge::set(double value) const { gauge_->Set(value); }
-void Gauge::add(double amount) const { gauge_->Increment(amount); }
-double Gauge::value() const { return gauge_->Value(); }
-void Histogram::observe(double value) const { histogram_->Observe(value); }
+void Counter::add(double amount) const {
+  counter_->Increment(amount);
+}
+double Counter::value() const {
+  return counter_->Value();
+}
+void Gauge::set(double value) const {
+  gauge_->Set(value);
+}
+void Gauge::add(double amount) const {
+  gauge_->Increment(amount);
+}
+double Gauge::value() const {
+  return gauge_->Value();
+}
+void Histogram::observe(double value) const {
+  histogram_->Observe(value);
+}
 
 struct Metrics::Store {
   prometheus::Registry registry;
@@ -82,8 +94,8 @@ struct Metrics::Store {
 
 Metrics::Metrics()
     : store_(std::make_unique<Store>()),
-      frames_received(counter(store_->registry, "viewloom_frames_received_total",
-                              "Frames received whole.")),
+      frames_received(
+          counter(store_->registry, "viewloom_frames_received_total", "Frames received whole.")),
       frames_refused(counter(store_->registry, "viewloom_frames_refused_total",
                              "Frames refused by the checks of their header or bytes.")),
       received_bytes(counter(store_->registry, "viewloom_received_bytes_total",
@@ -95,8 +107,8 @@ Metrics::Metrics()
       atlases_encoded(counter(store_->registry, "viewloom_atlases_encoded_total",
                               "Atlases encoded, one per distinct picture and encoding.")),
       bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),
-      encoded_bytes(counter(store_->registry, "viewloom_encoded_bytes_total",
-                            "Bytes of all encoded bands.")),
+      encoded_bytes(
+          counter(store_->registry, "viewloom_encoded_bytes_total", "Bytes of all encoded bands.")),
       rays(counters<RayAnswer>(store_->registry, "viewloom_rays_total",
                                "Rays traced, by how they ended.", "answer", kRayAnswers)),
       replaced(counters<HandOver>(store_->registry, "viewloom_replaced_total",
@@ -113,10 +125,9 @@ Metrics::Metrics()
                                           "HTTP responses, by kind of status.", "answer",
                                           kHttpAnswers)),
       subscribers(gauges<Transport>(store_->registry, "viewloom_subscribers",
-                                    "Clients that watch a display now.", "transport",
-                                    kTransports)),
-      streams_live(gauge(store_->registry, "viewloom_streams_live",
-                         "Streams with a connected publisher.")),
+                                    "Clients that watch a display now.", "transport", kTransports)),
+      streams_live(
+          gauge(store_->registry, "viewloom_streams_live", "Streams with a connected publisher.")),
       displays(gauge(store_->registry, "viewloom_displays", "Displays watched now.")),
       http_connections(gauge(store_->registry, "viewloom_http_connections",
                              "HTTP and WebSocket connections open now.")),

@@ -30,6 +30,8 @@ using boost::asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
 // Awaits an operation and leaves its error in `error` instead of throwing.
-inline auto into(ErrorCode& error) { return net::redirect_error(net::use_awaitable, error); }
+inline auto into(ErrorCode& error) {
+  return net::redirect_error(net::use_awaitable, error);
+}
 
 }  // namespace viewloom

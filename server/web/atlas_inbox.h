@@ -22,7 +22,8 @@ class AtlasInbox final : public Subscriber {
     int64_t arrived_ns = 0;
   };
 
-  // `on_change` is called, without a lock held, whenever there is something new to take or to learn.
+  // `on_change` is called, without a lock held, whenever there is something new to take or to
+  // learn.
   AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change);
 
   void offer(AtlasPtr atlas) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One atlas as one binary WebSocket message: the length of a JSON header (4 bytes, little-endian), the
-// header, and the atlas as one baseline JPEG.
+// One atlas as one binary WebSocket message: the length of a JSON header (4 bytes, little-endian),
+// the header, and the atlas as one baseline JPEG.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Delivery {
   uint64_t delivery = 0;       // counts what this viewer is sent, from 1
   uint64_t dropped_count = 0;  // atlases of its display this viewer did not get, since it came
   int64_t mailbox_ns = 0;      // that this atlas waited for the viewer
-  int64_t shown_ns = 0;        // from writing an atlas to its acknowledgement; the newest known, 0 = none
+  int64_t shown_ns = 0;  // from writing an atlas to its acknowledgement; the newest known, 0 = none
 };
 
 // Holds the atlas, whose bytes it does not copy. parts() point into the message: it must not move.

@@ -11,7 +11,9 @@ using nlohmann::json;
 
 namespace {
 
-json sizeJson(SizePx size_px) { return {{"width", size_px.width}, {"height", size_px.height}}; }
+json sizeJson(SizePx size_px) {
+  return {{"width", size_px.width}, {"height", size_px.height}};
+}
 
 json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
   return {{"name", entry.name},

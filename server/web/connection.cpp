@@ -9,7 +9,9 @@ namespace {
 
 constexpr unsigned kHttpVersion11 = 11;
 
-std::string text(beast::string_view view) { return std::string(view.data(), view.size()); }
+std::string text(beast::string_view view) {
+  return std::string(view.data(), view.size());
+}
 
 HttpRequest requestOf(const http::request<http::empty_body>& request) {
   return {.method = text(request.method_string()),
@@ -56,16 +58,20 @@ Connection::Connection(WebContext& context, tcp::socket socket)
   context_.metrics.http_connections.add(1);
 }
 
-Connection::~Connection() { context_.metrics.http_connections.add(-1); }
+Connection::~Connection() {
+  context_.metrics.http_connections.add(-1);
+}
 
 void Connection::start() {
   const auto self = shared_from_this();
-  net::co_spawn(strand_, [self] { return self->serve(); }, net::detached);
+  net::co_spawn(
+      strand_, [self] { return self->serve(); }, net::detached);
 }
 
 void Connection::startRefused() {
   const auto self = shared_from_this();
-  net::co_spawn(strand_, [self] { return self->refuse(); }, net::detached);
+  net::co_spawn(
+      strand_, [self] { return self->refuse(); }, net::detached);
 }
 
 void Connection::leave() {

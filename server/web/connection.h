@@ -44,7 +44,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   beast::tcp_stream stream_;  // until upgraded
   beast::flat_buffer buffer_;
   std::shared_ptr<Viewer> viewer_;  // once upgraded
-  bool idle_ = false;  // waits for a request of which nothing has come
+  bool idle_ = false;               // waits for a request of which nothing has come
 };
 
 }  // namespace viewloom

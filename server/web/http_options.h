@@ -14,12 +14,12 @@ struct HttpOptions {
   uint16_t port = 0;                  // 0 = any free one
   uint32_t thread_count = 2;
   uint32_t connection_count_max = 1024;
-  // Names a request may call this server by, beside localhost and numeric loopback addresses. Checked
-  // on loopback only: it keeps web pages from reading streams by DNS rebinding.
+  // Names a request may call this server by, beside localhost and numeric loopback addresses.
+  // Checked on loopback only: it keeps web pages from reading streams by DNS rebinding.
   std::vector<std::string> allowed_hosts;
 
   uint32_t header_bytes_max = 8192;
-  uint32_t message_bytes_max = 4096;  // of a viewer's text message
+  uint32_t message_bytes_max = 4096;                   // of a viewer's text message
   std::chrono::milliseconds request_timeout{10'000};   // to send a request or to shake hands
   std::chrono::milliseconds idle_timeout{60'000};      // between requests, and of a silent viewer
   std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply

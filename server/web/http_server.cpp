@@ -44,12 +44,9 @@ struct HttpServer::State {
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
         endpoint(acceptor.local_endpoint()),
-        context{options,
-                HostPolicy(endpoint.address().is_loopback(), options.allowed_hosts),
-                streams,
-                broadcaster,
-                metrics,
-                clock} {}
+        context{options, HostPolicy(endpoint.address().is_loopback(), options.allowed_hosts),
+                streams, broadcaster,
+                metrics, clock} {}
 
   net::io_context io;
   tcp::acceptor acceptor;  // used by accept() alone
@@ -86,13 +83,13 @@ void HttpServer::State::take(tcp::socket socket) {
   std::unique_lock lock(mutex);
   const uint64_t id = ++connection_id;
   const bool full = connections.size() >= context.options.connection_count_max;
-  const std::shared_ptr<Connection> connection(
-      new Connection(context, std::move(socket)), [this, id](Connection* ended) {
-        delete ended;
-        std::lock_guard relock(mutex);
-        connections.erase(id);
-        fewer.notify_all();
-      });
+  const std::shared_ptr<Connection> connection(new Connection(context, std::move(socket)),
+                                               [this, id](Connection* ended) {
+                                                 delete ended;
+                                                 std::lock_guard relock(mutex);
+                                                 connections.erase(id);
+                                                 fewer.notify_all();
+                                               });
   connections.emplace(id, connection);
   lock.unlock();
   full ? connection->startRefused() : connection->start();
@@ -122,12 +119,14 @@ HttpServer::~HttpServer() {
   state_->threads.clear();
 }
 
-uint16_t HttpServer::port() const { return state_->endpoint.port(); }
+uint16_t HttpServer::port() const {
+  return state_->endpoint.port();
+}
 
 std::string HttpServer::url() const {
   const auto& address = state_->endpoint.address();
-  const std::string host = address.is_v6() ? absl::StrCat("[", address.to_string(), "]")
-                                           : address.to_string();
+  const std::string host =
+      address.is_v6() ? absl::StrCat("[", address.to_string(), "]") : address.to_string();
   return absl::StrCat("http://", host, ":", port(), "/");
 }
 

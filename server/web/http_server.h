@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer page, live atlases over WebSocket, stills, the catalogue as JSON and the metrics, over HTTP.
+// The viewer page, live atlases over WebSocket, stills, the catalogue as JSON and the metrics, over
+// HTTP.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,12 @@
 
 namespace viewloom {
 
-// Serves from its construction to its end, on a fixed number of threads however many viewers there are.
-// Thread-safety: all methods may be called from any thread.
+// Serves from its construction to its end, on a fixed number of threads however many viewers there
+// are. Thread-safety: all methods may be called from any thread.
 class HttpServer {
  public:
-  // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is handed
-  // in outlives the server.
+  // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is
+  // handed in outlives the server.
   HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
              const Metrics& metrics, const Clock& clock);
   // Drains first.
@@ -30,8 +31,8 @@ class HttpServer {
   std::string url() const;
   uint32_t connectionCount() const;
 
-  // Takes no more connections, lets requests under way be answered and viewers leave (close code 1001,
-  // going away), at most as long as options.drain_timeout; then ends what is left.
+  // Takes no more connections, lets requests under way be answered and viewers leave (close code
+  // 1001, going away), at most as long as options.drain_timeout; then ends what is left.
   void drain();
 
  private:

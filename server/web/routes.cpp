@@ -52,13 +52,13 @@ HttpReply healthReply(const WebContext& context) {
   return reply;
 }
 
-// A plain GET of the WebSocket's URL tells a browser, which does not let pages read why an upgrade was
-// refused, what is wrong with it.
+// A plain GET of the WebSocket's URL tells a browser, which does not let pages read why an upgrade
+// was refused, what is wrong with it.
 HttpReply webSocketReply(const WebContext& context, const Url& url) {
-  const absl::StatusOr<WatchRequest> request =
-      parseWatchRequest(url.parameters, context.streams);
+  const absl::StatusOr<WatchRequest> request = parseWatchRequest(url.parameters, context.streams);
   if (!request.ok()) return errorReply(request.status());
-  HttpReply reply = errorReply(426, absl::FailedPreconditionError("accepted is a WebSocket upgrade"));
+  HttpReply reply =
+      errorReply(426, absl::FailedPreconditionError("accepted is a WebSocket upgrade"));
   reply.headers.emplace_back("Upgrade", "websocket");
   return reply;
 }

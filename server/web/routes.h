@@ -15,7 +15,7 @@ namespace viewloom {
 struct HttpRequest {
   std::string method;
   std::string target;
-  std::string host;           // headers; empty when not given
+  std::string host;  // headers; empty when not given
   std::string origin;
   std::string if_none_match;
   bool upgrade = false;  // to a WebSocket

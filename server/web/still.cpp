@@ -67,11 +67,10 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
   const auto deadline =
       std::make_shared<net::steady_timer>(executor, context.options.still_timeout);
   const auto inbox = std::make_shared<AtlasInbox>(
-      context.clock, context.metrics.replaced[HandOver::kWeb], [executor, deadline] {
-        net::post(executor, [deadline] { deadline->cancel(); });
-      });
-  const auto subscription = context.broadcaster.subscribe(request.stream, request.display,
-                                                          request.encoding, inbox);
+      context.clock, context.metrics.replaced[HandOver::kWeb],
+      [executor, deadline] { net::post(executor, [deadline] { deadline->cancel(); }); });
+  const auto subscription =
+      context.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox);
   if (!subscription.ok()) co_return errorReply(subscription.status());
   for (;;) {
     if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas);
@@ -82,10 +81,10 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
     co_await deadline->async_wait(into(interrupted));
     if (!interrupted) break;
   }
-  co_return errorReply(fieldError(absl::StatusCode::kDeadlineExceeded, "stream",
-                                  absl::StrCat("\"", request.stream, "\" gave no atlas within ",
-                                               context.options.still_timeout.count(),
-                                               " ms; does its publisher send frames?")));
+  co_return errorReply(fieldError(
+      absl::StatusCode::kDeadlineExceeded, "stream",
+      absl::StrCat("\"", request.stream, "\" gave no atlas within ",
+                   context.options.still_timeout.count(), " ms; does its publisher send frames?")));
 }
 
 }  // namespace
@@ -93,8 +92,7 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
 net::awaitable<HttpReply> answerStill(WebContext& context, Url url) {
   const absl::StatusOr<StillName> name = parseStillName(url);
   if (!name.ok()) co_return errorReply(name.status());
-  const absl::StatusOr<WatchRequest> request =
-      parseWatchRequest(name->parameters, context.streams);
+  const absl::StatusOr<WatchRequest> request = parseWatchRequest(name->parameters, context.streams);
   if (!request.ok()) co_return errorReply(request.status());
   const absl::StatusOr<std::string> suffix = quiltSuffix(request->display);
   if (!suffix.ok()) co_return errorReply(suffix.status());

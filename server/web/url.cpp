@@ -46,9 +46,9 @@ absl::Status parseParameters(std::string_view query, QueryParameters& parameters
     const size_t equals = pair.find('=');
     const absl::StatusOr<std::string> key = decode(pair.substr(0, equals), Plus::kSpace);
     VIEWLOOM_RETURN_IF_ERROR(key.status());
-    const absl::StatusOr<std::string> value = decode(
-        equals == std::string_view::npos ? std::string_view() : pair.substr(equals + 1),
-        Plus::kSpace);
+    const absl::StatusOr<std::string> value =
+        decode(equals == std::string_view::npos ? std::string_view() : pair.substr(equals + 1),
+               Plus::kSpace);
     VIEWLOOM_RETURN_IF_ERROR(value.status());
     if (!parameters.emplace(*key, *value).second) return invalidField(*key, "given twice");
   }
@@ -59,8 +59,8 @@ std::string escape(std::string_view plain) {
   std::string escaped;
   for (const char character : plain) {
     const auto byte = static_cast<unsigned char>(character);
-    const bool unreserved = absl::ascii_isalnum(byte) || std::string_view("-._~").find(character) !=
-                                                             std::string_view::npos;
+    const bool unreserved = absl::ascii_isalnum(byte) ||
+                            std::string_view("-._~").find(character) != std::string_view::npos;
     if (unreserved) {
       escaped.push_back(character);
     } else {

@@ -29,15 +29,17 @@ Viewer::Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters pa
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
 
-Viewer::~Viewer() { context_.metrics.subscribers[Transport::kWeb].add(-1); }
+Viewer::~Viewer() {
+  context_.metrics.subscribers[Transport::kWeb].add(-1);
+}
 
 net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
   const auto self = shared_from_this();
   beast::get_lowest_layer(socket_).expires_never();
-  socket_.set_option(websocket::stream_base::timeout{.handshake_timeout =
-                                                         context_.options.request_timeout,
-                                                     .idle_timeout = context_.options.idle_timeout,
-                                                     .keep_alive_pings = true});
+  socket_.set_option(
+      websocket::stream_base::timeout{.handshake_timeout = context_.options.request_timeout,
+                                      .idle_timeout = context_.options.idle_timeout,
+                                      .keep_alive_pings = true});
   socket_.auto_fragment(false);
   socket_.read_message_max(context_.options.message_bytes_max);
   ErrorCode error;
@@ -48,7 +50,8 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
     co_await close(status);
     co_return;
   }
-  net::co_spawn(socket_.get_executor(), [self] { return self->writeMessages(); }, net::detached);
+  net::co_spawn(
+      socket_.get_executor(), [self] { return self->writeMessages(); }, net::detached);
   co_await readMessages();
   gone_ = true;
   subscription_.reset();
@@ -61,7 +64,9 @@ void Viewer::leave() {
   wake();
 }
 
-void Viewer::cut() { beast::get_lowest_layer(socket_).close(); }
+void Viewer::cut() {
+  beast::get_lowest_layer(socket_).close();
+}
 
 absl::Status Viewer::subscribe(const QueryParameters& parameters) {
   const absl::StatusOr<WatchRequest> request = parseWatchRequest(parameters, context_.streams);
@@ -74,8 +79,8 @@ absl::Status Viewer::subscribe(const QueryParameters& parameters) {
           if (const auto self = viewer.lock()) self->wake();
         });
       });
-  auto subscription = context_.broadcaster.subscribe(request->stream, request->display,
-                                                     request->encoding, inbox);
+  auto subscription =
+      context_.broadcaster.subscribe(request->stream, request->display, request->encoding, inbox);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
   if (inbox_) dropped_before_ += inbox_->replacedCount();
   inbox_ = std::move(inbox);
@@ -91,8 +96,7 @@ net::awaitable<void> Viewer::readMessages() {
     co_await socket_.async_read(buffer, into(error));
     if (error) co_return;
     const auto bytes = buffer.cdata();
-    const absl::Status status =
-        takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
+    const absl::Status status = takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
     buffer.consume(bytes.size());
     if (!status.ok()) pending_error_ = errorJson(status);
     wake();

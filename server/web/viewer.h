@@ -18,11 +18,14 @@
 
 namespace viewloom {
 
-// Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1) and
-// text messages {"error": ...}. Up come text messages:
-//   {"shown": 17}                      delivery 17 is on the screen, or was dropped: room for another
-//   {"change": {"focus_m": 0.8}}       parameters of the URL, as they shall be from now on; null = default
-// At most two atlases are under way to a client; of those that come meanwhile only the newest is kept.
+// Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1)
+// and text messages {"error": ...}. Up come text messages:
+//   {"shown": 17}                      delivery 17 is on the screen, or was dropped: room for
+//   another
+//   {"change": {"focus_m": 0.8}}       parameters of the URL, as they shall be from now on; null =
+//   default
+// At most two atlases are under way to a client; of those that come meanwhile only the newest is
+// kept.
 //
 // Thread-safety: run() once, leave() from the strand of the stream; everything happens on it.
 class Viewer : public std::enable_shared_from_this<Viewer> {

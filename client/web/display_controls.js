@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sliders that change the display while it is watched: focal distance and view cone.
+
+const kThrottle_ms = 120;
+const kDegPerRad = 180 / Math.PI;
+
+const byId = (id) => document.getElementById(id);
+
+export class DisplayControls {
+  #layout = null;
+  #neutral_m = 0;  // focal distance in the middle of the slider
+  #pending = null;
+  #timer = 0;
+
+  // onChange({focus_m, cone_deg}): parameters of /ws; null = the default
+  constructor(onChange) {
+    this.onChange = onChange;
+    byId('focus').addEventListener('input', ({target}) => {
+      const focus_m = this.#neutral_m * 2 ** target.valueAsNumber;
+      this.#write('focus', `${focus_m.toFixed(2)} m`);
+      this.#change({focus_m: focus_m.toPrecision(4)});
+    });
+    byId('cone').addEventListener('input', ({target}) => {
+      this.#write('cone', `${target.value}°`);
+      this.#change({cone_deg: target.value});
+    });
+    byId('reset').addEventListener('click', () => {
+      this.#neutral_m = 0;
+      this.#change({focus_m: null, cone_deg: null});
+    });
+  }
+
+  // What the newest atlas was made with.
+  show(layout) {
+    this.#layout = layout;
+    for (const id of ['focus', 'cone', 'reset']) byId(id).disabled = false;
+    if (this.#pending || byId('focus').matches(':active') || byId('cone').matches(':active')) return;
+    if (this.#neutral_m === 0) this.#neutral_m = layout.focal_distance_m;
+    byId('focus').valueAsNumber = Math.log2(layout.focal_distance_m / this.#neutral_m);
+    byId('cone').valueAsNumber = layout.view_cone_rad * kDegPerRad;
+    this.#write('focus', `${layout.focal_distance_m.toFixed(2)} m`);
+    this.#write('cone', `${(layout.view_cone_rad * kDegPerRad).toFixed(0)}°`);
+  }
+
+  #write(id, text) {
+    byId(`${id}-value`).textContent = text;
+  }
+
+  // The first change goes at once, further ones joined.
+  #change(parameters) {
+    this.#pending = {...this.#pending, ...parameters};
+    if (this.#timer) return;
+    this.#send();
+    this.#timer = setTimeout(() => {
+      this.#timer = 0;
+      this.#send();
+    }, kThrottle_ms);
+  }
+
+  #send() {
+    if (this.#pending) this.onChange(this.#pending);
+    this.#pending = null;
+  }
+}

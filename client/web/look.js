@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the viewer's eye stands, 0 = left, 1 = right: pointer, drag, keys, and a gentle sway until
+// somebody takes over.
+
+const kSwayPeriod_ms = 7000;
+const kSwayWidth = 0.42;        // of the cone, to either side of the middle
+const kFollow_ms = 70;          // time in which the eye comes 1/e closer to where it shall be
+const kSettled = 1e-4;          // of the cone; less than a view of the largest quilt
+const kKeyStep = 1 / 48;
+
+export class Look {
+  #target = 0.5;
+  #position = 0.5;
+  #last_ms = 0;
+  #running = false;
+  #drag = null;
+
+  // onLook(position)
+  constructor(canvas, slider, onLook) {
+    this.onLook = onLook;
+    this.slider = slider;
+    this.still = matchMedia('(prefers-reduced-motion: reduce)');
+    this.swaying = !this.still.matches;
+    canvas.addEventListener('pointerdown', (event) => this.#down(event));
+    canvas.addEventListener('pointermove', (event) => this.#move(event));
+    for (const end of ['pointerup', 'pointercancel']) {
+      canvas.addEventListener(end, () => { this.#drag = null; });
+    }
+    canvas.addEventListener('keydown', (event) => this.#key(event));
+    slider.addEventListener('input', () => this.#take(slider.valueAsNumber));
+    this.#run();
+  }
+
+  #down(event) {
+    if (event.pointerType === 'mouse') return;
+    event.target.setPointerCapture(event.pointerId);
+    this.#drag = {x: event.clientX, from: this.#target};
+  }
+
+  #move(event) {
+    const width = event.target.clientWidth;
+    if (event.pointerType === 'mouse') {
+      this.#take((event.clientX - event.target.getBoundingClientRect().left) / width);
+    } else if (this.#drag) {
+      this.#take(this.#drag.from - (event.clientX - this.#drag.x) / width);
+    }
+  }
+
+  #key(event) {
+    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -6, PageUp: 6}[event.key];
+    const ends = {Home: 0, End: 1}[event.key];
+    if (steps === undefined && ends === undefined) return;
+    event.preventDefault();
+    this.#take(ends ?? this.#target + steps * kKeyStep);
+  }
+
+  #take(target) {
+    this.swaying = false;
+    this.#target = Math.min(1, Math.max(0, target));
+    this.#run();
+  }
+
+  #run() {
+    if (this.#running) return;
+    this.#running = true;
+    this.#last_ms = performance.now();
+    requestAnimationFrame((now_ms) => this.#step(now_ms));
+  }
+
+  #step(now_ms) {
+    if (this.swaying) {
+      this.#target = 0.5 + kSwayWidth * Math.sin(2 * Math.PI * now_ms / kSwayPeriod_ms);
+    }
+    const elapsed_ms = Math.max(0, now_ms - this.#last_ms);
+    this.#last_ms = now_ms;
+    const follow = this.still.matches ? 1 : 1 - Math.exp(-elapsed_ms / kFollow_ms);
+    this.#position += (this.#target - this.#position) * follow;
+    const settled = !this.swaying && Math.abs(this.#target - this.#position) < kSettled;
+    if (settled) this.#position = this.#target;
+    if (!this.slider.matches(':active')) this.slider.valueAsNumber = this.#position;
+    this.onLook(this.#position);
+    this.#running = !settled;
+    if (this.#running) requestAnimationFrame((next_ms) => this.#step(next_ms));
+  }
+}

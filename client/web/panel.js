@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The live figures: rate, latency by stage, drops, how rays ended.
+
+const kRateWindow_ms = 3000;
+const kSmoothing = 0.25;  // weight of the newest atlas in a running mean
+const kHistoryCount = 120;
+const kRefresh_ms = 250;
+const kMsPerNs = 1e-6;
+
+// What each bar means, in the order in which an atlas meets them.
+const kStages = [
+  ['receive', 'first byte of the frame to its last'],
+  ['decode', 'planes unpacked'],
+  ['upload', 'frame to the device'],
+  ['build', 'structure built'],
+  ['wait', 'built, until traced'],
+  ['trace', 'rays'],
+  ['encode', 'JPEG'],
+  ['mailbox', 'until this viewer was ready for it'],
+  ['delivery', 'network, browser and the way back, of the last acknowledged atlas'],
+  ['browser', 'JPEG decoded; a part of delivery'],
+];
+const kAnswers = [
+  ['hit', 'hit'], ['hit_assumed', 'assumed'], ['hidden', 'hidden, filled'],
+  ['outside', 'outside'], ['empty', 'empty'],
+];
+
+const byId = (id) => document.getElementById(id);
+
+function element(tag, properties = {}, parent = null) {
+  const made = Object.assign(document.createElement(tag), properties);
+  parent?.append(made);
+  return made;
+}
+
+function milliseconds(value) {
+  return value >= 100 ? value.toFixed(0) : value.toFixed(1);
+}
+
+export class Panel {
+  #arrivals = [];  // {time_ms, bytes}
+  #means = {};     // ms
+  #history = [];   // end to end, ms
+  #newest = null;
+  #bars = {};
+  #shares = {};
+  #facts = {};
+  #drops = 0;
+
+  constructor() {
+    for (const [stage, title] of kStages) {
+      element('dt', {textContent: stage, title}, byId('stages'));
+      const meter = element('meter', {min: 0, max: 1, value: 0}, element('dd', {}, byId('stages')));
+      meter.setAttribute('aria-label', stage);
+      const value = element('dd', {className: 'value', textContent: '–'}, byId('stages'));
+      this.#bars[stage] = {meter, value};
+    }
+    for (const [answer, label] of kAnswers) {
+      const part = element('i', {}, byId('coverage-bar'));
+      const name = element('dt', {textContent: label}, byId('coverage'));
+      name.dataset.answer = part.dataset.answer = answer;
+      this.#shares[answer] = {part, value: element('dd', {textContent: '–'}, byId('coverage'))};
+    }
+    for (const fact of ['Sequence', 'Source frame', 'Views', 'Quilt', 'Tile', 'Size', 'Rate']) {
+      element('dt', {textContent: fact}, byId('facts'));
+      this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
+    }
+    setInterval(() => this.#refresh(), kRefresh_ms);
+  }
+
+  clear() {
+    this.#arrivals = [];
+    this.#means = {};
+    this.#history = [];
+    this.#drops = 0;
+  }
+
+  // The browser was too slow for an atlas it had received.
+  noteDropped() {
+    this.#drops++;
+  }
+
+  noteArrived(atlas) {
+    this.#arrivals.push({time_ms: performance.now(), bytes: atlas.bytes});
+  }
+
+  noteShown(atlas) {
+    const {times, mailbox_ns, shown_ns} = atlas.header;
+    const figures = {
+      mailbox: mailbox_ns * kMsPerNs, delivery: shown_ns * kMsPerNs, browser: atlas.decode_ms,
+      total: times.total_ns * kMsPerNs,
+    };
+    for (const [stage] of kStages) {
+      if (`${stage}_ns` in times) figures[stage] = times[`${stage}_ns`] * kMsPerNs;
+    }
+    figures.latency = figures.total + figures.mailbox + figures.delivery;
+    for (const [name, value] of Object.entries(figures)) {
+      const before = this.#means[name] ?? value;
+      this.#means[name] = before + (value - before) * kSmoothing;
+    }
+    this.#history.push(figures.latency);
+    if (this.#history.length > kHistoryCount) this.#history.shift();
+    this.#newest = atlas;
+  }
+
+  #refresh() {
+    if (!this.#newest) return;
+    const now_ms = performance.now();
+    this.#arrivals = this.#arrivals.filter(({time_ms}) => now_ms - time_ms < kRateWindow_ms);
+    const perSecond = 1000 / kRateWindow_ms;
+    const bytes = this.#arrivals.reduce((sum, arrival) => sum + arrival.bytes, 0);
+    byId('rate').textContent = (this.#arrivals.length * perSecond).toFixed(1);
+    byId('latency').textContent = 'latency' in this.#means ? this.#means.latency.toFixed(0) : '–';
+    byId('drops').textContent = this.#newest.header.dropped_count + this.#drops;
+    this.#refreshStages();
+    this.#refreshCoverage();
+    this.#refreshFacts(bytes * perSecond);
+    this.#drawHistory();
+  }
+
+  #refreshStages() {
+    const longest = Math.max(1, ...kStages.map(([stage]) => this.#means[stage] ?? 0));
+    for (const [stage] of kStages) {
+      const {meter, value} = this.#bars[stage];
+      const mean = this.#means[stage];
+      meter.value = (mean ?? 0) / longest;
+      value.textContent = mean === undefined ? '–' : milliseconds(mean);
+    }
+  }
+
+  #refreshCoverage() {
+    for (const [answer] of kAnswers) {
+      const share = this.#newest.header.coverage[answer];
+      this.#shares[answer].part.style.width = `${100 * share}%`;
+      this.#shares[answer].value.textContent = (100 * share).toFixed(share < 0.1 ? 2 : 1);
+    }
+  }
+
+  #refreshFacts(bytesPerSecond) {
+    const {header, bytes} = this.#newest;
+    const {layout} = header;
+    const facts = {
+      'Sequence': header.sequence,
+      'Source frame': header.frame_number,
+      'Views': `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
+      'Quilt': `${layout.size.width} × ${layout.size.height} px`,
+      'Tile': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
+      'Size': `${(bytes / 1e6).toFixed(2)} MB`,
+      'Rate': `${(bytesPerSecond * 8 / 1e6).toFixed(1)} Mbit/s`,
+    };
+    for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;
+  }
+
+  // Newest at the right, 0 ms at the bottom.
+  #drawHistory() {
+    const canvas = byId('history');
+    const scale = window.devicePixelRatio || 1;
+    const width = canvas.width = Math.round(canvas.clientWidth * scale);
+    const height = canvas.height = Math.round(canvas.clientHeight * scale);
+    const context = canvas.getContext('2d');
+    const highest = 1.15 * Math.max(...this.#history);
+    const line = new Path2D();
+    const xOf = (index) => width * (1 - (this.#history.length - 1 - index) / (kHistoryCount - 1));
+    this.#history.forEach((latency_ms, index) => {
+      line.lineTo(xOf(index), height * (1 - latency_ms / highest));
+    });
+    const area = new Path2D(line);
+    area.lineTo(width, height);
+    area.lineTo(xOf(0), height);
+    context.fillStyle = '#6ee7d21f';
+    context.fill(area);
+    context.lineWidth = 1.5 * scale;
+    context.strokeStyle = '#6ee7d2';
+    context.stroke(line);
+  }
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws one view of the newest atlas, two neighbouring ones mixed, or the whole of it.
+
+// Half a pixel inside a tile, smoothing does not reach into its neighbours.
+const kTileEdge_px = 0.5;
+
+// Top left corner of a view's tile in the atlas, px. What remains beside the tiles is padding at the
+// right and at the top.
+export function tileOrigin(layout, view) {
+  const row = Math.floor(view / layout.columns);
+  const rowFromTop = layout.order === 'BOTTOM_LEFT' ? layout.rows - 1 - row : row;
+  return {
+    x: (view % layout.columns) * layout.tile_size.width,
+    y: layout.padding_top_px + rowFromTop * layout.tile_size.height,
+  };
+}
+
+export class Stage {
+  #atlas = null;
+  #scheduled = false;
+
+  constructor(canvas, onDrawn) {
+    this.canvas = canvas;
+    this.onDrawn = onDrawn;
+    this.context = canvas.getContext('2d', {alpha: false});
+    this.position = 0.5;  // 0 = leftmost view, 1 = rightmost
+    this.whole = false;
+    this.blend = false;
+    new ResizeObserver(() => this.#resize()).observe(canvas);
+  }
+
+  get layout() { return this.#atlas?.header.layout ?? null; }
+
+  show(atlas) {
+    this.#atlas?.bitmap.close();
+    this.#atlas = atlas;
+    this.invalidate();
+  }
+
+  look(position) {
+    this.position = Math.min(1, Math.max(0, position));
+    this.invalidate();
+  }
+
+  invalidate() {
+    if (this.#scheduled) return;
+    this.#scheduled = true;
+    requestAnimationFrame(() => {
+      this.#scheduled = false;
+      this.#draw();
+    });
+  }
+
+  #resize() {
+    const scale = window.devicePixelRatio || 1;
+    this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * scale));
+    this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * scale));
+    this.#draw();
+  }
+
+  #draw() {
+    const {canvas, context} = this;
+    context.fillStyle = '#0a0c10';
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    if (!this.#atlas) return;
+    context.imageSmoothingQuality = 'high';
+    if (this.whole) this.#drawWhole();
+    else this.#drawView();
+    this.onDrawn(this.#atlas);
+  }
+
+  // The largest rectangle of an aspect that fits the canvas with a margin, in the middle.
+  #frame(aspect) {
+    const margin = Math.round(Math.min(this.canvas.width, this.canvas.height) * 0.025);
+    const width = this.canvas.width - 2 * margin;
+    const height = this.canvas.height - 2 * margin;
+    const w = Math.min(width, height * aspect);
+    const h = w / aspect;
+    return [(this.canvas.width - w) / 2, (this.canvas.height - h) / 2, w, h].map(Math.round);
+  }
+
+  #drawWhole() {
+    const {bitmap} = this.#atlas;
+    this.context.drawImage(bitmap, ...this.#frame(bitmap.width / bitmap.height));
+    delete this.canvas.dataset.view;
+  }
+
+  #drawView() {
+    const {layout} = this;
+    const exact = this.position * (layout.view_count - 1);
+    const nearest = Math.round(exact);
+    const lower = this.blend ? Math.floor(exact) : nearest;
+    const share = this.blend ? exact - lower : 0;
+    this.#drawTile(lower, 1);
+    if (share > 0) this.#drawTile(Math.min(lower + 1, layout.view_count - 1), share);
+    this.canvas.dataset.view = nearest;
+  }
+
+  #drawTile(view, opacity) {
+    const {layout, context} = this;
+    const {x, y} = tileOrigin(layout, view);
+    const {width, height} = layout.tile_size;
+    context.globalAlpha = opacity;
+    context.drawImage(
+        this.#atlas.bitmap, x + kTileEdge_px, y + kTileEdge_px, width - 2 * kTileEdge_px,
+        height - 2 * kTileEdge_px, ...this.#frame(layout.aspect));
+    context.globalAlpha = 1;
+  }
+}

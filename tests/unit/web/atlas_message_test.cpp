@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/atlas_message.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace viewloom {
+namespace {
+
+EncodedBand bandOf(AtlasPlane plane, std::vector<uint8_t> bytes) {
+  EncodedBand band;
+  band.plane = plane;
+  band.bytes = std::make_shared<std::vector<uint8_t>>(std::move(bytes));
+  return band;
+}
+
+std::vector<uint8_t> joined(const AtlasMessage& message) {
+  std::vector<uint8_t> bytes;
+  for (const auto& part : message.parts()) bytes.insert(bytes.end(), part.begin(), part.end());
+  return bytes;
+}
+
+std::shared_ptr<EncodedAtlas> someAtlas() {
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->sequence = 7;
+  atlas->frame_number = UINT64_MAX;
+  atlas->coverage = {.hit = 3, .hidden = 1};
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->views.resize(48);
+  layout->suffix = "_qs8x6a0.75";
+  atlas->layout = layout;
+  atlas->bands = {bandOf(AtlasPlane::kColor, {1, 2}), bandOf(AtlasPlane::kColor, {3}),
+                  bandOf(AtlasPlane::kDepth, {9, 9})};
+  return atlas;
+}
+
+TEST(AtlasMessage, isALengthAHeaderAndTheColourBandsJoined) {
+  const AtlasMessage message(someAtlas(), {.delivery = 5, .dropped_count = 2});
+  const std::vector<uint8_t> bytes = joined(message);
+  ASSERT_EQ(bytes.size(), message.sizeBytes());
+  const size_t length = bytes[0] | bytes[1] << 8 | bytes[2] << 16 | bytes[3] << 24;
+  ASSERT_LE(4 + length, bytes.size());
+  const auto begin = bytes.begin() + 4;
+  const auto end = begin + static_cast<ptrdiff_t>(length);
+  const auto header = nlohmann::json::parse(begin, end);
+  EXPECT_EQ(header.at("sequence"), 7);
+  EXPECT_EQ(header.at("delivery"), 5);
+  EXPECT_EQ(header.at("dropped_count"), 2);
+  EXPECT_EQ(header.at("frame_number"), "18446744073709551615");
+  EXPECT_EQ(header.at("layout").at("view_count"), 48);
+  EXPECT_EQ(header.at("coverage").at("hit"), 0.75);
+  EXPECT_EQ(std::vector<uint8_t>(end, bytes.end()), (std::vector<uint8_t>{1, 2, 3}));
+}
+
+TEST(AtlasMessage, doesNotCopyTheBands) {
+  const auto atlas = someAtlas();
+  const AtlasMessage message(atlas, {});
+  EXPECT_EQ(message.parts().at(2).data(), atlas->bands[0].bytes->data());
+  EXPECT_EQ(message.parts().at(3).data(), atlas->bands[1].bytes->data());
+}
+
+TEST(AtlasMessage, holdsSharesOfNoRaysAsZero) {
+  const auto atlas = someAtlas();
+  atlas->coverage = {};
+  const std::vector<uint8_t> bytes = joined(AtlasMessage(atlas, {}));
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find("null"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace viewloom

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The web server as a stranger sees it: pages, catalogue, stills, and requests nobody should send."""
+import io
+import json
+import socket
+import sys
+import unittest
+
+from PIL import Image
+
+from web_client import Server, Stream, decode_view, fetch, request_bytes
+
+PROGRAM = sys.argv.pop(1)
+SMALL = "columns=4&rows=2&width=320&height=160"
+
+
+class Answers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(PROGRAM, "--timeout-ms", 3000)
+        cls.port = cls.server.port
+
+    @classmethod
+    def tearDownClass(cls):
+        with cls.server:
+            assert cls.server.stop() == 0
+
+    def test_serves_every_file_the_page_names(self):
+        page = fetch(self.port, "/")
+        self.assertEqual(page.status, 200)
+        self.assertEqual(page.headers["content-type"], "text/html; charset=utf-8")
+        for path, kind in (("/style.css", "text/css"), ("/page.js", "text/javascript"),
+                           ("/icon.svg", "image/svg+xml")):
+            self.assertIn(path, page.body.decode())
+            reply = fetch(self.port, path)
+            self.assertEqual(reply.status, 200, path)
+            self.assertTrue(reply.headers["content-type"].startswith(kind), path)
+            self.assertEqual(reply.headers["x-content-type-options"], "nosniff")
+        for line in fetch(self.port, "/page.js").body.decode().splitlines():
+            if line.startswith("import"):
+                module = line.split("'./")[1].split("'")[0]
+                self.assertEqual(fetch(self.port, "/" + module).status, 200, module)
+
+    def test_names_nothing_outside_itself(self):
+        policy = fetch(self.port, "/").headers["content-security-policy"]
+        self.assertIn("default-src 'none'", policy)
+        for word in ("http", "unsafe", "*"):
+            self.assertNotIn(word, policy)
+
+    def test_answers_not_modified_to_who_has_the_file(self):
+        etag = fetch(self.port, "/style.css").headers["etag"]
+        reply = fetch(self.port, "/style.css", headers={"If-None-Match": etag})
+        self.assertEqual(reply.status, 304)
+        self.assertEqual(fetch(self.port, "/style.css",
+                               headers={"If-None-Match": '"other"'}).status, 200)
+
+    def test_sends_no_body_to_head(self):
+        stream = Stream(self.port)
+        stream.send(request_bytes(self.port, "/style.css", "HEAD") +
+                    request_bytes(self.port, "/healthz"))
+        self.assertGreater(int(stream.read_reply(has_body=False).headers["content-length"]), 0)
+        self.assertEqual(stream.read_reply().body, b"serving\n")
+        stream.close()
+
+    def test_lists_streams_displays_and_presets(self):
+        streams = {entry["name"]: entry for entry in fetch(self.port, "/api/streams").json()["streams"]}
+        self.assertEqual(sorted(streams), ["painted", "silent"])
+        self.assertTrue(streams["painted"]["live"])
+        self.assertEqual(streams["painted"]["size"], {"width": 1280, "height": 720})
+        presets = {entry["name"]: entry for entry in fetch(self.port, "/api/presets").json()["presets"]}
+        self.assertEqual(presets["portrait"]["columns"], 8)
+        self.assertEqual(presets["portrait"]["size"], {"width": 3360, "height": 3360})
+        self.assertEqual(fetch(self.port, "/api/displays").json(), {"displays": []})
+
+    def test_shows_prometheus_what_it_did(self):
+        fetch(self.port, "/nowhere")
+        reply = fetch(self.port, "/metrics")
+        self.assertTrue(reply.headers["content-type"].startswith("text/plain; version=0.0.4"))
+        samples = dict(line.rsplit(" ", 1) for line in reply.body.decode().splitlines()
+                       if not line.startswith("#"))
+        self.assertEqual(float(samples["viewloom_streams_live"]), 2)
+        self.assertGreaterEqual(
+            float(samples['viewloom_http_responses_total{answer="client_error"}']), 1)
+
+    def test_serves_a_still_whose_url_says_how_its_views_lie(self):
+        reply = fetch(self.port, f"/still/painted_qs4x2a1.jpg?{SMALL}")
+        if reply.status == 302:  # the suffix as the server writes it
+            reply = fetch(self.port, reply.headers["location"])
+        self.assertEqual(reply.status, 200, reply.body)
+        self.assertEqual(reply.headers["content-type"], "image/jpeg")
+        image = Image.open(io.BytesIO(reply.body))
+        self.assertEqual(image.size, (320, 160))
+        layout = {"columns": 4, "rows": 2, "padding_top_px": 0,
+                  "tile_size": {"width": 80, "height": 80}}
+        self.assertEqual([decode_view(image, layout, view) for view in range(8)], list(range(8)))
+
+    def test_redirects_a_short_still_to_the_one_with_the_suffix(self):
+        reply = fetch(self.port, "/still/painted/portrait")
+        self.assertEqual(reply.status, 302)
+        self.assertEqual(reply.headers["location"],
+                         "/still/painted_qs8x6a0.75.jpg?preset=portrait")
+        wrong = fetch(self.port, "/still/painted_qs5x9a1.6.jpg?preset=portrait")
+        self.assertEqual(wrong.headers["location"], reply.headers["location"])
+
+    def test_gives_up_on_a_still_that_does_not_come(self):
+        location = fetch(self.port, "/still/silent/portrait").headers["location"]
+        reply = fetch(self.port, location)
+        self.assertEqual(reply.status, 504)
+        self.assertIn("gave no atlas within 3000 ms", reply.json()["error"]["message"])
+
+    def test_closes_a_connection_that_says_nothing(self):
+        stream = Stream(self.port)
+        stream.send(b"GET / HT")
+        self.assertEqual(stream.file.read(), b"")
+        stream.close()
+
+
+class Refusals(unittest.TestCase):
+    """Each request that nobody should send, with the status and the field it is refused for."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(PROGRAM)
+        cls.port = cls.server.port
+
+    @classmethod
+    def tearDownClass(cls):
+        with cls.server:
+            assert cls.server.stop() == 0
+
+    TARGETS = (
+        ("/nowhere", 404, "url"),
+        ("/../etc/passwd", 404, "url"),
+        ("/%2e%2e/etc/passwd", 404, "url"),
+        ("/%", 400, "url"),
+        ("/%4", 400, "url"),
+        ("/%zz", 400, "url"),
+        ("/%00", 400, "url"),
+        ("/?a=%0d%0aSet-Cookie:b", 400, "url"),
+        ("http://127.0.0.1/", 400, "url"),
+        ("*", 400, "url"),
+        ("/ws", 400, "stream"),
+        ("/ws?stream=none", 404, "stream"),
+        ("/ws?stream=painted", 426, ""),
+        ("/ws?stream=painted&stream=painted", 400, "stream"),
+        ("/ws?stream=painted&colour=red", 400, "colour"),
+        ("/ws?stream=painted&preset=none", 404, "preset"),
+        ("/ws?stream=painted&columns=0&rows=2&width=9&height=9", 400, "columns"),
+        ("/ws?stream=painted&columns=51&rows=2&width=99&height=99", 400, "columns"),
+        ("/ws?stream=painted&columns=-1&rows=2", 400, "columns"),
+        ("/ws?stream=painted&columns=4294967297&rows=2", 400, "columns"),
+        ("/ws?stream=painted&columns=4x&rows=2", 400, "columns"),
+        ("/ws?stream=painted&columns=&rows=2", 400, "columns"),
+        ("/ws?stream=painted&width=99999999&height=1", 400, "width"),
+        ("/ws?stream=painted&width=3&height=3000", 400, "width"),
+        ("/ws?stream=painted&aspect=nan", 400, "aspect"),
+        ("/ws?stream=painted&aspect=1e9", 400, "aspect"),
+        ("/ws?stream=painted&cone_deg=-1", 400, "cone_deg"),
+        ("/ws?stream=painted&cone_deg=inf", 400, "cone_deg"),
+        ("/ws?stream=painted&cone_deg=360", 400, "cone_deg"),
+        ("/ws?stream=painted&focus_m=-1", 400, "focus_m"),
+        ("/ws?stream=painted&fov_deg=181", 400, "fov_deg"),
+        ("/ws?stream=painted&quality=101", 400, "quality"),
+        ("/ws?stream=painted&quality=0.5", 400, "quality"),
+        ("/ws?stream=painted&chroma=422", 400, "chroma"),
+        ("/still/", 404, "url"),
+        ("/still/painted", 404, "url"),
+        ("/still/painted.png", 404, "url"),
+        ("/still/painted/", 400, "columns"),
+        ("/still/painted/none", 404, "preset"),
+        ("/still/none/portrait", 404, "stream"),
+        ("/still/painted_qsax.jpg", 404, "url"),
+        ("/still/painted_qs0x0a0.jpg", 400, "columns"),
+        ("/still/painted_qs4x2a1.jpg", 400, "width"),
+        ("/still/" + "a/" * 2000, 404, "preset"),
+    )
+
+    def test_targets(self):
+        for target, status, field in self.TARGETS:
+            with self.subTest(target[:60]):
+                reply = fetch(self.port, target)
+                self.assertEqual(reply.status, status, reply.body)
+                self.assertEqual(reply.json()["error"]["field"], field)
+                self.assertTrue(reply.json()["error"]["message"])
+
+    def test_upgrades_are_refused_like_requests(self):
+        upgrade = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
+        for target, status in (("/ws?stream=none", 404), ("/ws?stream=painted&columns=x", 400),
+                               ("/other", 404)):
+            with self.subTest(target):
+                self.assertEqual(fetch(self.port, target, headers=upgrade).status, status)
+
+    def test_foreign_names_and_pages_are_refused(self):
+        upgrade = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
+        cases = (
+            ({"Host": "evil.example"}, 403, "host"),
+            ({"Host": f"evil.example:{self.port}"}, 403, "host"),
+            ({"Host": "127.0.0.1.evil.example"}, 403, "host"),
+            ({"Host": ""}, 403, "host"),
+            ({"Host": None}, 403, "host"),
+            ({"Host": "["}, 403, "host"),
+            ({**upgrade, "Origin": "http://evil.example"}, 403, "origin"),
+            ({**upgrade, "Origin": "null"}, 403, "origin"),
+            ({**upgrade, "Origin": f"http://localhost:{self.port}"}, 403, "origin"),
+        )
+        for headers, status, field in cases:
+            with self.subTest(headers):
+                reply = fetch(self.port, "/ws?stream=painted", headers=headers)
+                self.assertEqual(reply.status, status)
+                self.assertEqual(reply.json()["error"]["field"], field)
+        for host in (f"localhost:{self.port}", f"LOCALHOST:{self.port}", "127.0.0.9", "[::1]:80"):
+            with self.subTest(host):
+                self.assertEqual(fetch(self.port, "/healthz", headers={"Host": host}).status, 200)
+
+    def test_bytes_that_are_no_request(self):
+        host = f"Host: 127.0.0.1:{self.port}\r\n"
+        cases = (
+            ("POST", f"POST /ws HTTP/1.1\r\n{host}Content-Length: 0\r\n\r\n", 405),
+            ("a body", f"GET / HTTP/1.1\r\n{host}Content-Length: 5\r\n\r\nhello", 413),
+            ("a huge body", f"PUT / HTTP/1.1\r\n{host}Content-Length: 99999999999\r\n\r\n", 413),
+            ("a negative length", f"GET / HTTP/1.1\r\n{host}Content-Length: -1\r\n\r\n", 400),
+            ("two lengths",
+             f"GET / HTTP/1.1\r\n{host}Content-Length: 0\r\nContent-Length: 5\r\n\r\n", 400),
+            ("a long header", f"GET / HTTP/1.1\r\n{host}X: {'x' * 9000}\r\n\r\n", 431),
+            ("a long target", f"GET /{'x' * 9000} HTTP/1.1\r\n{host}\r\n", 431),
+            ("no HTTP", "\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", 400),
+            ("a strange version", f"GET / HTTP/7.5\r\n{host}\r\n", 400),
+        )
+        for name, text, status in cases:
+            with self.subTest(name):
+                stream = Stream(self.port)
+                stream.send(text.encode("latin-1"))
+                reply = stream.read_reply()
+                self.assertEqual(reply.status, status)
+                self.assertTrue(json.loads(reply.body)["error"]["message"])
+                stream.close()
+        self.assertEqual(fetch(self.port, "/healthz").status, 200)
+
+    def test_more_connections_than_allowed_are_told_so(self):
+        with Server(PROGRAM, "--connections", 3) as server:
+            held = [Stream(server.port) for _ in range(3)]
+            for stream in held:  # accepted, not only queued
+                stream.send(request_bytes(server.port, "/healthz"))
+                self.assertEqual(stream.read_reply().status, 200)
+            refused = Stream(server.port)
+            self.assertEqual(refused.read_reply().status, 503)
+            refused.close()
+            for stream in held:
+                stream.close()
+            self.assertEqual(server.stop(), 0)
+
+    def test_drains_with_idle_connections_open(self):
+        with Server(PROGRAM) as server:
+            idle = Stream(server.port)
+            idle.send(request_bytes(server.port, "/healthz"))
+            self.assertEqual(idle.read_reply().status, 200)
+            self.assertEqual(server.stop(), 0)
+            self.assertEqual(idle.file.read(), b"")
+            idle.close()
+            with self.assertRaises(ConnectionRefusedError):
+                socket.create_connection(("127.0.0.1", server.port))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The viewer page in a real browser: what it shows is compared with what was painted.
+Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
+import os
+import sys
+import unittest
+
+from browser import Browser
+from web_client import Server, decode_code
+
+PROGRAM = sys.argv.pop(1)
+SMALL = "?stream=painted&columns=8&rows=6&width=1680&height=1680&aspect=0.75"
+GROUND = (10, 12, 16)
+VIEW_COUNT = 48
+LIVE = "document.documentElement.dataset.state === 'live'"
+
+
+def keep(image, name):
+    if (folder := os.environ.get("VIEWLOOM_SCREENSHOTS")):
+        image.save(os.path.join(folder, name + ".png"))
+
+
+def picture_box(image):
+    """Where the canvas's picture stands: everything in it that is not the page's ground."""
+    points = [(x, y) for x in range(0, image.width, 2) for y in range(0, image.height, 2)
+              if max(abs(a - b) for a, b in zip(image.getpixel((x, y)), GROUND)) > 12]
+    xs, ys = zip(*points)
+    return min(xs), min(ys), max(xs) + 1, max(ys) + 1
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        self.server = Server(PROGRAM, "--rate-hz", 5)
+        self.addCleanup(lambda: self.server.__exit__())
+        self.browser = Browser()
+        self.addCleanup(self.browser.close)
+        self.browser.reduce_motion()  # no sway, and the eye goes where it is put at once
+
+    def open(self, query=SMALL):
+        self.browser.open(self.server.url + query)
+        self.browser.wait_for(LIVE)
+
+    def canvas(self):
+        left, top, width, height = self.browser.evaluate(
+            "(r => [r.x, r.y, r.width, r.height])"
+            "(document.getElementById('stage').getBoundingClientRect())")
+        return left, top, width, height
+
+    def shown_picture(self):
+        left, top, width, height = self.canvas()
+        edge = 4  # where the focus ring is
+        shot = self.browser.screenshot().crop(
+            (left + edge, top + edge, left + width - edge, top + height - edge))
+        return shot.crop(picture_box(shot))
+
+    def look(self, share):
+        left, top, width, height = self.canvas()
+        self.browser.mouse(left + share * width, top + height / 2)
+        view = round(share * (VIEW_COUNT - 1))
+        self.browser.wait_for(f"document.getElementById('stage').dataset.view === '{view}'")
+        return view
+
+    def test_shows_the_view_under_the_pointer(self):
+        self.open()
+        for share in (0.02, 0.3, 0.5, 0.77, 0.98):
+            view = self.look(share)
+            picture = self.shown_picture()
+            self.assertEqual(decode_code(picture), view)
+            self.assertAlmostEqual(picture.width / picture.height, 0.75, delta=0.01)
+        keep(self.browser.screenshot(), "painted")
+
+    def test_mixes_neighbouring_views_when_asked(self):
+        self.open()
+        self.browser.click("#blend")
+        left, top, width, height = self.canvas()
+        # Halfway between views 23 (010111) and 24 (011000): what differs is grey.
+        self.browser.mouse(left + width * 23.5 / (VIEW_COUNT - 1), top + height / 2)
+        self.browser.wait_for("document.getElementById('stage').dataset.view >= 23")
+        picture = self.shown_picture().convert("L")
+        levels = [picture.getpixel((int(picture.width * (0.1 + 0.8 * (bit + 0.5) / 8)),
+                                    picture.height // 2)) for bit in range(8)]
+        for bit, level in enumerate(levels):
+            expected = {0: 0, 1: 0, 2: 0, 3: 255}.get(bit, 127)
+            self.assertAlmostEqual(level, expected, delta=30, msg=f"bit {bit} of {levels}")
+
+    def test_arrow_keys_and_the_slider_look_around(self):
+        self.open()
+        self.look(0.5)
+        self.browser.evaluate("document.getElementById('stage').focus()")
+        self.browser.key("Home")
+        self.browser.wait_for("document.getElementById('stage').dataset.view === '0'")
+        self.browser.key("ArrowRight")
+        self.browser.wait_for("document.getElementById('stage').dataset.view === '1'")
+        self.assertEqual(decode_code(self.shown_picture()), 1)
+        self.browser.evaluate("(v => { v.value = 1; v.dispatchEvent(new Event('input')); })"
+                              "(document.getElementById('view'))")
+        self.browser.wait_for("document.getElementById('stage').dataset.view === '47'")
+
+    def test_a_finger_drags_the_scene(self):
+        self.browser.resize(390, 844, scale=2, mobile=True)
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        self.open()
+        left, top, width, height = self.canvas()
+        middle = (left + width / 2, top + height / 2)
+        self.browser.touch("touchStart", middle)
+        self.browser.touch("touchMove", (middle[0] - width / 4, middle[1]))
+        self.browser.touch("touchEnd")
+        self.browser.wait_for("document.getElementById('stage').dataset.view === '35'")
+        keep(self.browser.screenshot(), "phone")
+
+    def test_shows_the_whole_quilt_and_its_figures(self):
+        self.open()
+        self.browser.key("q")
+        self.browser.wait_for("!('view' in document.getElementById('stage').dataset)")
+        picture = self.shown_picture()
+        self.assertAlmostEqual(picture.width / picture.height, 1, delta=0.01)
+        tile_width, tile_height = picture.width / 8, picture.height / 6
+        for view in (0, 7, 40, 47):
+            left, top = view % 8 * tile_width, (5 - view // 8) * tile_height
+            tile = picture.crop((left, top, left + tile_width, top + tile_height))
+            self.assertEqual(decode_code(tile), view)
+        self.browser.wait_for("Number(document.getElementById('rate').textContent) > 0.5")
+        panel = self.browser.evaluate("document.getElementById('panel').innerText")
+        for words in ("70.0", "90.0", "8 × 6 = 48", "1680 × 1680 px"):
+            self.assertIn(words, panel)
+        keep(self.browser.screenshot(), "quilt")
+
+    def test_focus_goes_to_the_server_and_back(self):
+        self.open()
+        self.browser.wait_for("document.getElementById('focus-value').textContent === '2.00 m'")
+        self.browser.evaluate("(f => { f.value = 1; f.dispatchEvent(new Event('input')); })"
+                              "(document.getElementById('focus'))")
+        self.browser.wait_for("fetch('/api/displays').then(r => r.json()).then("
+                              "j => j.displays[0].layout?.focal_distance_m === 4)")
+
+    def test_comes_back_after_a_restart_of_the_server(self):
+        self.open()
+        self.look(0.25)
+        port = self.server.port
+        self.assertEqual(self.server.stop(), 0)
+        self.browser.wait_for("document.documentElement.dataset.state === 'reconnecting'")
+        self.browser.wait_for("document.getElementById('notice').textContent.includes('Trying again')")
+        keep(self.browser.screenshot(), "reconnecting")
+        self.server = Server(PROGRAM, "--rate-hz", 5, "--port", port)
+        self.browser.wait_for(LIVE)
+        self.assertEqual(decode_code(self.shown_picture()), self.look(0.25))
+
+    def test_says_how_to_start_a_stream_when_there_is_none(self):
+        self.browser.open(self.server.url + "icon.svg")  # the page's origin, before the page
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source=(
+            "const real = fetch; window.fetch = (url, ...more) => url === '/api/streams' ? "
+            "Promise.resolve(new Response('{\"streams\": []}')) : real(url, ...more);"))
+        self.browser.open(self.server.url)
+        self.browser.wait_for("document.documentElement.dataset.state === 'no-stream'")
+        self.assertIn("viewloom publish --synthetic",
+                      self.browser.evaluate("document.getElementById('welcome').innerText"))
+        keep(self.browser.screenshot(), "no-stream")
+
+    def test_runs_without_an_error_on_its_console(self):
+        self.open()
+        self.look(0.5)
+        self.browser.wait_for("Number(document.documentElement.dataset.sequence) > 3")
+        self.assertEqual(self.browser.messages, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

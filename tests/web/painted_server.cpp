@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The web server in front of two streams: "painted", and "silent" that never gives an atlas. Prints
+// its URL; obeys lines on standard input: "frame" publishes a frame, "refuse" ends all displays
+// with an error; their end drains and ends the server.
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "web/http_server.h"
+#include "web/painted_stream.h"
+
+namespace {
+
+// Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2.
+std::map<std::string, int> readOptions(int argc, char** argv) {
+  std::map<std::string, int> options = {{"--port", 0},
+                                        {"--rate-hz", 0},
+                                        {"--connections", 1024},
+                                        {"--timeout-ms", 10'000},
+                                        {"--thread-count", 2}};
+  for (int i = 1; i + 1 < argc; i += 2) options.at(argv[i]) = std::atoi(argv[i + 1]);
+  return options;
+}
+
+viewloom::HttpOptions httpOptions(const std::map<std::string, int>& options) {
+  viewloom::HttpOptions http;
+  http.port = static_cast<uint16_t>(options.at("--port"));
+  http.thread_count = static_cast<uint32_t>(options.at("--thread-count"));
+  http.connection_count_max = static_cast<uint32_t>(options.at("--connections"));
+  http.request_timeout = std::chrono::milliseconds(options.at("--timeout-ms"));
+  http.still_timeout = http.request_timeout;
+  return http;
+}
+
+void refuseAll(viewloom::Broadcaster& broadcaster) {
+  for (const auto& display : broadcaster.displays("")) {
+    broadcaster.refuse(display->id, viewloom::invalidField("quilt.size", "larger than the device"));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto options = readOptions(argc, argv);
+  const viewloom::SteadyClock clock;
+  viewloom::Metrics metrics;
+  viewloom::StreamDirectory streams(clock, 8);
+  viewloom::Broadcaster broadcaster({});
+  std::optional<viewloom::PaintedStream> painted;
+  broadcaster.onDemandChange([&](const std::string& stream) {
+    if (stream == "painted") painted->noteDemand();
+  });
+  painted.emplace("painted", streams, broadcaster);
+  const auto silent = streams.claim("silent", "", [] {});
+  viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock);
+  std::cout << server.url() << std::endl;
+
+  const int rate_hz = options.at("--rate-hz");
+  std::jthread ticker([&](const std::stop_token& stop) {
+    while (rate_hz > 0 && !stop.stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1000 / rate_hz));
+      painted->publishFrame();
+    }
+  });
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line == "frame") painted->publishFrame();
+    if (line == "refuse") refuseAll(broadcaster);
+  }
+  broadcaster.drain();
+  server.drain();
+  return 0;
+}

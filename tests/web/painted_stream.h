@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream without a device: atlases painted on the CPU, each view recognisable in the picture.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+// Paints every display of its stream that is watched: one atlas for a display that has none, as a
+// resident structure would give, and one for all of them with each frame. In the middle of view i
+// stand eight squares, white for the bits of i that are set, highest first; a bar at the top moves
+// with the frame number. Thread-safety: all methods may be called from any thread.
+class PaintedStream {
+ public:
+  PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster);
+  ~PaintedStream();
+
+  void publishFrame();
+  // The broadcaster's news; starts painting for joiners.
+  void noteDemand();
+
+ private:
+  void run(const std::stop_token& stop);
+  void paint(const ActiveDisplay& display);
+
+  const std::string name_;
+  StreamDirectory& streams_;
+  Broadcaster& broadcaster_;
+  std::unique_ptr<StreamDirectory::Claim> claim_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  uint64_t wanted_frame_ = 1;
+  bool demand_ = false;
+  uint64_t painted_frame_ = 0;              // the painter's own
+  std::map<uint64_t, uint64_t> sequences_;  // by display; the painter's own
+  std::jthread painter_;                    // last: stops before the rest goes
+};
+
+}  // namespace viewloom

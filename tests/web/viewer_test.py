@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Atlases over WebSocket, taken by a client that shares no code with the server."""
+import io
+import sys
+import unittest
+
+from PIL import Image
+
+from web_client import Server, WebSocket, decode_view, fetch
+
+PROGRAM = sys.argv.pop(1)
+SMALL = "/ws?stream=painted&columns=4&rows=2&width=320&height=160"
+THREAD_COUNT = 2  # of the web server
+
+
+class Viewers(unittest.TestCase):
+    def setUp(self):
+        self.server = Server(PROGRAM, "--thread-count", THREAD_COUNT)
+        self.addCleanup(self.server.__exit__)
+
+    def watch(self, target=SMALL, headers=None):
+        viewer = WebSocket(self.server.port, target, headers)
+        self.assertTrue(viewer.is_open, viewer.reply and viewer.reply.body)
+        self.addCleanup(viewer.close)
+        return viewer
+
+    def test_an_atlas_is_one_jpeg_and_its_whole_truth(self):
+        atlas = self.watch(SMALL + "&cone_deg=30&focus_m=1.5&quality=70").receive_atlas()
+        header = atlas.header
+        self.assertEqual((header["sequence"], header["delivery"], header["frame_number"]),
+                         (1, 1, "1"))
+        layout = header["layout"]
+        self.assertEqual((layout["columns"], layout["rows"], layout["view_count"]), (4, 2, 8))
+        self.assertEqual(layout["size"], {"width": 320, "height": 160})
+        self.assertEqual(layout["order"], "BOTTOM_LEFT")
+        self.assertAlmostEqual(layout["view_cone_rad"], 0.5235987755982988)
+        self.assertEqual(layout["focal_distance_m"], 1.5)
+        self.assertEqual(header["encoding"], {"jpeg_quality": 70, "chroma": "420"})
+        self.assertEqual(header["times"]["trace_ns"], 70_000_000)
+        self.assertAlmostEqual(sum(header["coverage"].values()), 1)
+        image = Image.open(io.BytesIO(atlas.jpeg))
+        self.assertEqual([decode_view(image, layout, view) for view in range(8)], list(range(8)))
+
+    def test_a_joiner_on_a_still_stream_gets_the_newest_atlas(self):
+        first = self.watch().receive_atlas()
+        second = self.watch().receive_atlas()
+        self.assertEqual(first.header["sequence"], second.header["sequence"])
+        self.assertEqual(first.jpeg, second.jpeg)
+
+    def test_who_shows_nothing_gets_two_and_then_only_the_newest(self):
+        slow, fast = self.watch(), self.watch()
+        slow_first = slow.receive_atlas()
+        fast.shown(fast.receive_atlas())
+        for expected in range(2, 12):
+            self.server.command("frame")
+            atlas = fast.receive_atlas()
+            self.assertEqual(atlas.header["sequence"], expected)
+            self.assertEqual(atlas.header["dropped_count"], 0)
+            fast.shown(atlas)
+        slow_second = slow.receive_atlas()
+        slow.shown(slow_first)
+        newest = slow.receive_atlas()
+        self.assertEqual(slow_second.header["sequence"], 2)
+        self.assertEqual(newest.header["sequence"], 11)
+        self.assertEqual(newest.header["dropped_count"], 8)
+        self.assertGreater(newest.header["shown_ns"], 0)
+
+    def test_two_hundred_viewers_cost_no_thread_and_a_deaf_one_costs_nobody(self):
+        deaf = self.watch("/ws?stream=painted")  # 3360 x 3360: more than a socket holds; never read
+        threads = self.server.status_field("Threads")
+        viewers = [self.watch() for _ in range(200)]
+        for viewer in viewers:
+            viewer.shown(viewer.receive_atlas())
+        self.assertEqual(self.server.status_field("Threads"), threads)
+        for expected in range(2, 6):
+            self.server.command("frame")
+            for viewer in viewers:
+                atlas = viewer.receive_atlas()
+                self.assertEqual(atlas.header["sequence"], expected)
+                viewer.shown(atlas)
+        self.assertEqual(self.server.status_field("Threads"), threads)
+        displays = fetch(self.server.port, "/api/displays").json()["displays"]
+        self.assertEqual(sorted(display["subscriber_count"] for display in displays), [1, 200])
+        self.assertIsNone(deaf.close_code)
+
+    def test_a_change_gives_another_display_and_a_bad_one_keeps_the_old(self):
+        viewer = self.watch()
+        viewer.shown(viewer.receive_atlas())
+        viewer.send_json({"change": {"focus_m": 0.5, "cone_deg": "20"}})
+        changed = viewer.receive_atlas()
+        viewer.shown(changed)
+        self.assertEqual(changed.header["layout"]["focal_distance_m"], 0.5)
+        self.assertEqual(changed.header["layout"]["columns"], 4)
+        self.assertEqual(changed.header["delivery"], 2)
+        viewer.send_json({"change": {"focus_m": -1}})
+        self.assertEqual(viewer.receive()["error"]["field"], "change.focus_m")
+        self.server.command("frame")
+        kept = viewer.receive_atlas()
+        viewer.shown(kept)
+        self.assertEqual(kept.header["layout"]["focal_distance_m"], 0.5)
+        viewer.send_json({"change": {"focus_m": None}})
+        self.assertEqual(viewer.receive_atlas().header["layout"]["focal_distance_m"], 2)
+        self.assertEqual(len(fetch(self.server.port, "/api/displays").json()["displays"]), 1)
+
+    def test_messages_that_mean_nothing_are_answered_with_what_is_accepted(self):
+        viewer = self.watch()
+        viewer.shown(viewer.receive_atlas())
+        for payload in (b"", b"{", b"[]", b"17", b'"shown"', b'{"shown": -1}', b'{"shown": 1e99}',
+                        b'{"shown": 1, "change": {}}', b'{"change": 5}', b'{"other": 1}',
+                        b"[" * 4000):
+            with self.subTest(payload[:30]):
+                viewer.send_frame(WebSocket.TEXT, payload)
+                self.assertEqual(viewer.receive()["error"]["field"], "message")
+        viewer.send_json({"shown": 2**63})
+        self.server.command("frame")
+        self.assertEqual(viewer.receive_atlas().header["sequence"], 2)
+
+    def test_a_message_over_the_limit_ends_the_connection(self):
+        viewer = self.watch()
+        viewer.shown(viewer.receive_atlas())
+        viewer.send_frame(WebSocket.TEXT, b" " * 5000)
+        self.assertIsNone(viewer.receive())
+        self.assertEqual(viewer.close_code, 1009)
+
+    def test_a_display_that_cannot_be_served_says_why(self):
+        viewer = self.watch()
+        viewer.shown(viewer.receive_atlas())
+        self.server.command("refuse")
+        self.assertEqual(viewer.receive()["error"]["field"], "quilt.size")
+        self.assertIsNone(viewer.receive())
+        self.assertEqual(viewer.close_code, 1008)
+
+    def test_a_draining_server_says_that_it_goes(self):
+        viewers = [self.watch() for _ in range(5)]
+        deaf = self.watch("/ws?stream=painted")
+        for viewer in viewers:
+            viewer.receive_atlas()
+        self.server.process.stdin.close()
+        for viewer in viewers:
+            self.assertIsNone(viewer.receive())
+            self.assertEqual(viewer.close_code, 1001)
+        self.assertEqual(self.server.process.wait(60), 0)
+        self.assertIsNone(deaf.close_code)
+
+    def test_a_page_of_the_server_itself_may_watch(self):
+        host = f"localhost:{self.server.port}"
+        viewer = self.watch(headers={"Host": host, "Origin": f"http://{host}"})
+        self.assertEqual(viewer.receive_atlas().header["sequence"], 1)
+
+    def test_memory_stays_while_viewers_come_and_go(self):
+        def come_and_go():
+            for _ in range(100):
+                viewer = self.watch()
+                viewer.receive_atlas()
+                viewer.close()
+        come_and_go()
+        before_kib = self.server.status_field("VmRSS")
+        come_and_go()
+        # 100 viewers that each left their 30 KiB atlas or their coroutines behind would show.
+        self.assertLess(self.server.status_field("VmRSS") - before_kib, 2000)
+
+
+if __name__ == "__main__":
+    unittest.main()
