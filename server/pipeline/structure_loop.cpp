@@ -58,22 +58,24 @@ bool StructureLoop::serve(PipelineStream& stream) {
     stream.next = std::move(newest);
   }
   if (!stream.next) return false;
+  std::shared_ptr<StructureBuild> slot;
   try {
-    std::shared_ptr<StructureBuild> slot = takeSlot(stream, *stream.next);
-    if (!slot) return false;
-    build(stream, *std::exchange(stream.next, std::nullopt), std::move(slot));
+    slot = takeSlot(stream, *stream.next->frame);
   } catch (const vk::OutOfDeviceMemoryError& error) {
     log(LogLevel::kWarning, "stream ", stream.name, ": ", error.what());
     links_.directory.countRefused(stream.name);
     stream.next->ticket->noteRefused(strCat("the device has no room for it: ", error.what()));
     stream.next.reset();
+    return true;
   }
+  if (!slot) return false;
+  build(stream, *std::exchange(stream.next, std::nullopt), std::move(slot));
   return true;
 }
 
 std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
-                                                        OfferedFrame& offered) const {
-  const FrameShape shape = shapeOf(*offered.frame);
+                                                        const Frame& frame) const {
+  const FrameShape shape = shapeOf(frame);
   return stream.slots.take([&](const StructureBuild& free) { return free.slot.shape() == shape; },
                            [&] { return std::make_unique<StructureBuild>(links_.device, shape); });
 }

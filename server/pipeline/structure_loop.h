@@ -31,7 +31,7 @@ class StructureLoop {
  private:
   void run(const std::stop_token& stop);
   bool serve(PipelineStream& stream);
-  std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, OfferedFrame& offered) const;
+  std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
 
   const PipelineLinks& links_;

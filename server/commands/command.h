@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a subcommand of viewloomd is to main.
+#pragma once
+
+#include <functional>
+
+#include "config/config.h"
+
+namespace CLI {
+class App;
+}
+
+namespace viewloom {
+
+// Does what the subcommand is for. Returns the exit code; throws std::exception, with the remedy,
+// when it cannot start (exit code 2).
+using Command = std::function<int(const Config& config)>;
+
+// Each adds its subcommand and options to `app`; `chosen` is set when the command line names it.
+void addServeCommand(CLI::App& app, Command& chosen);
+
+}  // namespace viewloom

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// viewloomd: reads the settings and runs a subcommand.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "base/log.h"
+#include "commands/command.h"
+#include "commands/serve.h"
+#include "config/read_config.h"
+#include "config/settings.h"
+
+namespace {
+
+constexpr int kExitUsage = 2;
+
+// Every setting as a flag: --grpc.address, --device, ...
+void addSettings(CLI::App& app, viewloom::ConfigSources& sources) {
+  app.add_option("--config", sources.file, "Settings as TOML; see deploy/viewloomd.example.toml");
+  viewloom::Config defaults;
+  for (const viewloom::Setting& setting : viewloom::settingsOf(defaults)) {
+    const std::string key(setting.key);
+    app.add_option_function<std::string>(
+           "--" + key, [&sources, key](const std::string& text) { sources.flags[key] = text; },
+           viewloom::acceptedText(setting))
+        ->group("Settings");
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("One colour+depth frame in, a woven field of views out.", "viewloomd");
+  app.set_version_flag("--version", VIEWLOOM_VERSION);
+  app.require_subcommand(0, 1);
+  viewloom::ConfigSources sources{.file = {}, .environment = viewloom::processEnvironment()};
+  addSettings(app, sources);
+  viewloom::Command command = viewloom::serve;
+  viewloom::addServeCommand(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitUsage;
+  }
+  const viewloom::Config config = viewloom::readConfig(sources);
+  viewloom::setLogLevel(viewloom::logLevelOf(config.log.level));
+  return command(config);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "viewloomd: %s\n", error.what());
+    return kExitUsage;
+  }
+}

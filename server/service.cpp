@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service.h"
+
+#include <atomic>
+#include <charconv>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "base/byte_pool.h"
+#include "base/log.h"
+#include "decode/frame_intake.h"
+#include "gpu/device.h"
+#include "pipeline/pipeline.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+#include "rpc/rpc_server.h"
+#include "web/http_server.h"
+
+namespace viewloom {
+namespace {
+
+// Buffers of planes that wait for reuse: a frame of four layers has eight, and a few are on their
+// way.
+constexpr size_t kKeptPlaneCount = 64;
+
+FrameLimits frameLimits(const LimitsConfig& limits) {
+  FrameLimits result;
+  result.plane_side_px_max = limits.plane_side_px_max;
+  result.frame_bytes_max = limits.frame_bytes_max;
+  return result;
+}
+
+AtlasLimits atlasLimits(const LimitsConfig& limits) {
+  return {.side_px_max = limits.atlas_side_px_max,
+          .area_px_max = uint64_t{limits.atlas_side_px_max} * limits.atlas_side_px_max,
+          .view_count_max = limits.views_max};
+}
+
+BroadcasterLimits broadcasterLimits(const LimitsConfig& limits) {
+  return {.display_count_max = limits.displays_max, .subscriber_count_max = limits.subscribers_max};
+}
+
+// "127.0.0.1:8080" or "[::1]:8080", which the settings have checked.
+HttpOptions httpOptions(const std::string& host_port) {
+  const size_t colon = host_port.rfind(':');
+  std::string host = host_port.substr(0, colon);
+  if (host.front() == '[') host = host.substr(1, host.size() - 2);
+  HttpOptions options;
+  options.address = host == "localhost" ? "127.0.0.1" : host;
+  std::from_chars(host_port.data() + colon + 1, host_port.data() + host_port.size(), options.port);
+  return options;
+}
+
+// The address as configured, with the port that was taken.
+std::string listeningAddress(const std::string& configured, uint16_t port) {
+  if (configured.starts_with("unix:")) return configured;
+  return strCat(configured.substr(0, configured.rfind(':') + 1), port);
+}
+
+}  // namespace
+
+// In the order of construction; each part uses those above it.
+struct Service::Parts {
+  Parts(const Config& config, const Clock& clock,
+        std::function<void(const std::exception& error)> on_failure);
+  ~Parts() { drain(); }
+
+  void connect();
+  void openHttp(const Config& config, const Clock& clock);
+  void openRpc(const Config& config, const Clock& clock);
+  void drain();
+
+  Metrics metrics;
+  Device device;
+  StreamDirectory directory;
+  Broadcaster broadcaster;
+  BytePool planes;
+  Pipeline pipeline;
+  FrameIntake intake;
+  std::optional<HttpServer> http;
+  std::optional<RpcServer> rpc;
+  std::atomic<RpcServer*> open_rpc = nullptr;  // displays may come by HTTP before it is there
+  std::string grpc_address;
+};
+
+Service::Parts::Parts(const Config& config, const Clock& clock,
+                      std::function<void(const std::exception& error)> on_failure)
+    : device({.select = config.device, .validation = config.validation}),
+      directory(clock, config.limits.streams_max),
+      broadcaster(broadcasterLimits(config.limits)),
+      planes(kKeptPlaneCount),
+      pipeline({.device = device,
+                .clock = clock,
+                .metrics = metrics,
+                .broadcaster = broadcaster,
+                .directory = directory,
+                .on_failure = std::move(on_failure)},
+               {.encode_thread_count = threadCount(config.pipeline.encode_threads),
+                .structure_slots_per_stream = config.pipeline.structure_slots,
+                .trace_slot_count = config.pipeline.trace_slots,
+                .atlas_limits = atlasLimits(config.limits)}),
+      intake(pipeline, clock, planes,
+             {.thread_count = threadCount(config.pipeline.decode_threads)}) {
+  log(LogLevel::kInfo, "device: ", device.info().name, " (", device.info().driver, ")");
+  connect();
+  if (config.http.enabled) openHttp(config, clock);
+  openRpc(config, clock);
+}
+
+// What travels against the data: demand, and room for new streams.
+void Service::Parts::connect() {
+  broadcaster.onDemandChange([this](const std::string& stream) {
+    pipeline.serveDisplays(stream);
+    if (RpcServer* const server = open_rpc) server->demandChanged(stream);
+  });
+  directory.onRoomNeeded([this](const std::string& stream) {
+    if (broadcaster.subscriberCount(stream) > 0) return false;
+    pipeline.forgetStream(stream);
+    return true;
+  });
+}
+
+void Service::Parts::openHttp(const Config& config, const Clock& clock) {
+  http.emplace(httpOptions(config.http.address), directory, broadcaster, metrics, clock);
+}
+
+void Service::Parts::openRpc(const Config& config, const Clock& clock) {
+  ServerDescription description{.version = VIEWLOOM_VERSION,
+                                .device = device.info().name,
+                                .driver = device.info().driver,
+                                .frame_limits = frameLimits(config.limits),
+                                .atlas_limits = atlasLimits(config.limits),
+                                .stream_count_max = config.limits.streams_max,
+                                .broadcaster_limits = broadcasterLimits(config.limits),
+                                .http_address = http ? http->url() : ""};
+  rpc.emplace(RpcServerOptions{.address = config.grpc.address},
+              RpcParts{.intake = intake,
+                       .pool = planes,
+                       .directory = directory,
+                       .broadcaster = broadcaster,
+                       .clock = clock,
+                       .metrics = metrics},
+              std::move(description));
+  grpc_address = listeningAddress(config.grpc.address, rpc->port());
+  open_rpc = &*rpc;
+}
+
+void Service::Parts::drain() {
+  if (rpc) rpc->drain();
+  intake.close();
+  pipeline.drain();
+  broadcaster.drain();
+  const std::jthread viewers_leave([this] {
+    if (http) http->drain();
+  });
+  if (rpc) rpc->shutdown();
+}
+
+Service::Service(const Config& config, const Clock& clock,
+                 std::function<void(const std::exception& error)> on_failure)
+    : parts_(std::make_unique<Parts>(config, clock, std::move(on_failure))) {}
+
+Service::~Service() = default;
+
+const std::string& Service::grpcAddress() const {
+  return parts_->grpc_address;
+}
+std::string Service::httpUrl() const {
+  return parts_->http ? parts_->http->url() : "";
+}
+const Metrics& Service::metrics() const {
+  return parts_->metrics;
+}
+const Device& Service::device() const {
+  return parts_->device;
+}
+void Service::drain() {
+  parts_->drain();
+}
+
+}  // namespace viewloom

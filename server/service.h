@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole server, composed: builds every part, joins outputs to inputs, drains in the order of
+// data flow.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/clock.h"
+#include "base/metrics.h"
+#include "config/config.h"
+
+namespace viewloom {
+
+class Device;
+
+// Serves from its construction on. Throws std::runtime_error, with the remedy, when it cannot
+// start. Thread-safety: none but that of const methods; failures are told from the thread that
+// fails.
+class Service {
+ public:
+  // `on_failure`: the server cannot go on (device lost, out of memory) and should be drained.
+  // `clock` outlives the service.
+  Service(const Config& config, const Clock& clock,
+          std::function<void(const std::exception& error)> on_failure);
+  // Drains.
+  ~Service();
+
+  // "127.0.0.1:50051", with the port in use.
+  const std::string& grpcAddress() const;
+  // "http://127.0.0.1:8080/"; empty = no web server.
+  std::string httpUrl() const;
+  const Metrics& metrics() const;
+  const Device& device() const;
+
+  // Takes no more frames, finishes the atlases that have begun, lets receivers take them for two
+  // seconds, ends. Whoever subscribes gets whole atlases or none.
+  void drain();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace viewloom
