@@ -26,6 +26,7 @@ class TestPublisher {
                 const std::string& session_id = "");
   ~TestPublisher();
 
+  bool send(const v1::PublishFramesRequest& request) { return call_->Write(request); }
   bool sendSettings(const std::string& stream, const std::string& session_id = "");
   bool sendHeader(const v1::FrameHeader& header);
   bool sendChunk(const v1::FrameChunk& chunk);
@@ -43,8 +44,6 @@ class TestPublisher {
   void cancel() { context_.TryCancel(); }
 
  private:
-  bool send(const v1::PublishFramesRequest& request) { return call_->Write(request); }
-
   std::unique_ptr<v1::IngestService::Stub> stub_;
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReaderWriter<v1::PublishFramesRequest, v1::PublishFramesResponse>>
