@@ -11,6 +11,7 @@ PICTURES = (".png", ".jpg", ".jpeg")
 GENERATED = re.compile(r"(\.pb\.(h|cc)|_pb2(_grpc)?\.py|\.spv|\.o|\.a|\.so|\.pyc|\.class|\.log)$"
                        r"|(^|/)(build|__pycache__|node_modules|CMakeFiles)/")
 SOURCES = (".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js", ".css", ".html")
+PAGE = (".html", ".css", ".js")
 MARKDOWN_LINK = re.compile(r"\]\(([^)\s]+)\)|<img[^>]*src=\"([^\"]+)\"")
 
 
@@ -45,17 +46,33 @@ def _words_of_lists(tree):
     words = {}
     for path in tree.text_files("CMakeLists.txt", ".cmake"):
         text = "\n".join(line.split("#")[0] for line in tree.lines(path))
-        words[os.path.dirname(path)] = set(re.findall(r"[\w./+-]+", text))
+        words[os.path.dirname(path)] = set(re.findall(r"[\w./+${}-]+", text))
     return words
 
 
+def _names(word, relative):
+    """Whether a word of a list is this path; ${variable} stands for part of a name."""
+    if "${" not in word:
+        return word == relative or word.endswith("/" + relative)
+    literals = re.split(r"\$\{\w+\}", os.path.basename(word))
+    pattern = r"\w+".join(re.escape(literal) for literal in literals)
+    has_stem = any(len(literal.split(".")[0]) > 0 for literal in literals)
+    return has_stem and re.fullmatch(pattern, relative) is not None
+
+
 def _is_listed(path, words_of_folder):
-    """Whether a list in the file's folder or above it names the file relative to itself."""
+    """Whether a list in the file's folder or above it names the file relative to itself.
+
+    The page is embedded by the server's list, which is not above it.
+    """
+    if path.endswith(PAGE):
+        return any(_names(word, os.path.basename(path))
+                   for words in words_of_folder.values() for word in words)
     folder = os.path.dirname(path)
     while True:
         words = words_of_folder.get(folder, ())
         relative = os.path.relpath(path, folder or ".")
-        if any(word == relative or word.endswith("/" + relative) for word in words):
+        if any(_names(word, relative) for word in words):
             return True
         if not folder:
             return False

@@ -41,7 +41,7 @@ LAYERS = {
     "client/lib": (["base"], ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/cli": (["base", "frame", "lib", "files", "synthetic"],
                    ["absl", "glm", "grpc", "protobuf", "cli11", "jpeg"]),
-    "shaders/shared": ([], []),
+    "shaders/shared": ([], ["glm"]),
     "shaders/lib": ([SHADERS_SHARED], []),
     "shaders/structure": (["shaders/lib", SHADERS_SHARED], []),
     "shaders/trace": (["shaders/lib", SHADERS_SHARED], []),

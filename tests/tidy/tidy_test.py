@@ -141,6 +141,18 @@ class Build(unittest.TestCase):
         files = {"server/base/CMakeLists.txt": "# a.cpp", "server/base/a.cpp": ""}
         self.assertEqual(rules_broken(build_rules.check, files), [("server/base/a.cpp", "dead")])
 
+    def test_a_list_may_name_a_file_by_a_variable_with_a_stem(self):
+        files = {"tests/fuzz/CMakeLists.txt": "add(${kind}_fuzzer ${kind}_fuzzer.cpp)",
+                 "tests/fuzz/jpeg_fuzzer.cpp": ""}
+        self.assertEqual(rules_broken(build_rules.check, files), [])
+        files = {"tests/fuzz/CMakeLists.txt": "add(${kind}.cpp)", "tests/fuzz/a.cpp": ""}
+        self.assertEqual(rules_broken(build_rules.check, files), [("tests/fuzz/a.cpp", "dead")])
+
+    def test_the_page_lives_through_the_list_that_embeds_it(self):
+        files = {"server/web/CMakeLists.txt": "set(page a.js)", "client/web/a.js": "",
+                 "client/web/b.js": ""}
+        self.assertEqual(rules_broken(build_rules.check, files), [("client/web/b.js", "dead")])
+
     def test_a_header_lives_through_an_include(self):
         files = {"tests/CMakeLists.txt": "add(unit/a_test.cpp)", "tests/support/scene.h": "",
                  "tests/unit/a_test.cpp": '#include "support/scene.h"\n'}
