@@ -49,21 +49,38 @@ vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, vec2 point) {
   return surfaceColorPerFacet(scene.structure, kColorFormat, layer, cell, point);
 }
 
-// Nothing along these rays is nearer than this, 1/m: the largest inv_z of the cells they can pass.
-// Only for rays that go away from the camera.
-float startBound(Scene scene, vec2 low_px, vec2 high_px) {
+// Cells that neighbouring rays pass, and the largest inv_z in them.
+struct StartRegion {
+  vec2 low_px;
+  vec2 high_px;
+  float bound;
+};
+
+StartRegion startRegion(Scene scene, vec2 low_px, vec2 high_px) {
   const ivec2 level_size = ivec2(scene.structure.value.level_width[kStartLevel - kLevelFirst],
                                  scene.structure.value.level_height[kStartLevel - kLevelFirst]);
   const ivec2 first = clamp(ivec2(floor(low_px)) >> int(kStartLevel), ivec2(0), level_size - 1);
   const ivec2 last = clamp(ivec2(floor(high_px)) >> int(kStartLevel), ivec2(0), level_size - 1);
   const ivec2 extent = last - first + 1;
-  if (extent.x * extent.y > kStartCellsMax) return scene.inv_z_near;
-  float bound = 0.0;
+  const float cell_px = float(1u << kStartLevel);
+  StartRegion region = StartRegion(vec2(first) * cell_px, vec2(last + 1) * cell_px, scene.inv_z_near);
+  if (extent.x * extent.y > kStartCellsMax) return region;
+  region.bound = 0.0;
   for (int i = 0; i < extent.x * extent.y; ++i) {
     const uvec2 cell = uvec2(first + ivec2(i % extent.x, i / extent.x));
-    bound = max(bound, nodeBox(unpackNode(loadNode(scene.structure, 0u, kStartLevel, cell))).y);
+    region.bound = max(region.bound, nodeBox(unpackNode(loadNode(scene.structure, 0u, kStartLevel, cell))).y);
   }
-  return bound;
+  region.bound *= 1.00001;
+  return region;
+}
+
+// Nothing along this ray is nearer, 1/m. A wide fan of rays clipped by the image may pass cells between
+// the first and the last ray that neither of the two passes.
+float startBound(Scene scene, StartRegion region, Ray ray) {
+  const vec2 end = (ray.start + ray.extent).xy;
+  const bool is_covered = all(greaterThanEqual(min(ray.start.xy, end), region.low_px)) &&
+                          all(lessThanEqual(max(ray.start.xy, end), region.high_px));
+  return is_covered ? region.bound : scene.inv_z_near;
 }
 
 // The start of a ray: as far along as nothing can be, then the column it is in.
@@ -201,13 +218,14 @@ void main() {
       low_px = min(low_px, min(ray.start.xy, (ray.start + ray.extent).xy));
       high_px = max(high_px, max(ray.start.xy, (ray.start + ray.extent).xy));
     }
-    const float bound = all_inside ? startBound(scene, low_px, high_px) * 1.00001 : scene.inv_z_near;
+    StartRegion region = startRegion(scene, low_px, high_px);
+    if (!all_inside) region.bound = scene.inv_z_near;
 
     for (uint i = 0u; i < count; ++i) {
       const vec3 direction = rayDirection(view, vec2(float(first_x + i) + 0.5, tile_y));
       const Ray ray = makeRay(view.eye, direction, scene.size_px, scene.inv_z_near);
       Walk walk = walkBeside(scene, direction);
-      if (ray.is_inside) walk = walkScene(scene, view, ray, startOf(scene, ray, bound));
+      if (ray.is_inside) walk = walkScene(scene, view, ray, startOf(scene, ray, startBound(scene, region, ray)));
       const vec3 light = lightAlong(scene, params, view, ray, walk);
       const vec3 point = ray.start + walk.t * ray.extent;
       const float view_inv_z = walk.is_hit ? viewInvZ(view.eye, direction, point) : 0.0;
