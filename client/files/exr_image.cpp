@@ -122,8 +122,8 @@ absl::StatusOr<std::vector<ExrChannel>> findAll(const std::string& path,
   for (const std::string& name : names) {
     std::optional<ExrChannel> channel = findExrChannel(file, name);
     if (!channel) {
-      return refuseFile(
-          path, absl::StrCat("has no channel ", name, "; it has ", listExrChannels(file)));
+      return refuseFile(path,
+                        absl::StrCat("has no channel ", name, "; it has ", listExrChannels(file)));
     }
     if (channel->subsampled) {
       return refuseFile(

@@ -74,10 +74,7 @@ absl::Status checkDepthSizes(const v1::Source& source) {
 absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::path& folder,
                         v1::Source& source, WireFrame& frame) {
   VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
-  if (files.camera().projection_case() == v1::Camera::PROJECTION_NOT_SET) {
-    return invalidField("camera", "has no projection; accepted are fov and intrinsics");
-  }
-  *source.mutable_camera() = files.camera();
+  if (files.has_camera()) *source.mutable_camera() = files.camera();
   source.set_connection_tolerance(files.connection_tolerance());
   for (int i = 0; i < files.layers_size(); ++i) {
     const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);

@@ -14,7 +14,8 @@ namespace viewloom::files {
 absl::StatusOr<v1::FrameManifest> readFrameManifest(const std::filesystem::path& path);
 absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path& path);
 
-// Reads every file of the manifest. Errors name the field of the manifest, and the file.
+// Reads every file of the manifest. Errors name the field of the manifest, and the file. What is no
+// matter of files, as the camera, is copied unseen: whoever takes the frame checks it.
 absl::StatusOr<WireFrame> loadFrame(const v1::FrameManifest& manifest,
                                     const std::filesystem::path& folder);
 

@@ -85,8 +85,8 @@ absl::StatusOr<PfmFile> readPfm(const std::filesystem::path& path, uint32_t chan
   const absl::StatusOr<PfmHeader> header = parseHeader(path.string(), *bytes);
   if (!header.ok()) return header.status();
   if (header->channels != channels) {
-    return refuseFile(
-        path.string(), absl::StrCat("has ", header->channels, " channels; accepted is ", accepted));
+    return refuseFile(path.string(),
+                      absl::StrCat("has ", header->channels, " channels; accepted is ", accepted));
   }
   return PfmFile{*header, *std::move(bytes)};
 }

@@ -35,7 +35,7 @@ LAYERS = {
                    ["absl", "grpc", "protobuf"]),
     "server/web": (["base", "frame", "display", "publish", BAND],
                    ["absl", "boost", "nlohmann"]),
-    "client/synthetic": (["base", "frame"], ["glm"]),
+    "client/synthetic": (["base", "frame", "lib/wire_frame.h"], ["glm", "protobuf"]),
     "client/files": (["base", "lib/wire_frame.h"],
                      ["absl", "openexr", "png", "jpeg", "protobuf"]),
     "client/lib": (["base"], ["absl", "grpc", "protobuf", "zstd", "jpeg"]),

@@ -92,8 +92,6 @@ TEST_F(FrameManifestTest, namesTheFieldAndTheFileAtFault) {
               HasSubstr("sources[0].layers[0].color.file: is color.gif; accepted as colour are"));
   EXPECT_THAT(refusal(source(layer("color.png", "depth.jpg"))),
               HasSubstr("sources[0].layers[0].depth.file: is depth.jpg; accepted as depth are"));
-  EXPECT_THAT(refusal(R"({"sources": [{"layers": [)" + layer("color.png", "depth.png") + "]}]}"),
-              HasSubstr("sources[0].camera: has no projection"));
 }
 
 TEST_F(FrameManifestTest, refusesDepthPlanesOfDifferentSizes) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the subcommands of `viewloom` have in common.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace viewloom::cli {
+
+enum ExitCode : int {
+  kExitDone = 0,
+  kExitFailed = 1,    // the server refused, a file could not be written
+  kExitUsage = 2,     // the command line or an input file is wrong
+  kExitNoServer = 3,  // nobody listens at the address
+};
+
+struct CommonOptions {
+  std::string server;  // "host:port" or "unix:path"
+};
+
+// A subcommand after its options are parsed; returns the exit code.
+using RunCommand = std::function<int(const CommonOptions&)>;
+
+}  // namespace viewloom::cli

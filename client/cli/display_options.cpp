@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/display_options.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <numbers>
+
+#include "base/str_cat.h"
+#include "cli/size_option.h"
+#include "files/file_bytes.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr uint64_t kDisplayBytesMax = uint64_t{4} << 20;  // 1024 cameras take less than 1 MiB
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
+  const absl::StatusOr<std::vector<uint8_t>> bytes = files::readFileBytes(file, kDisplayBytesMax);
+  if (!bytes.ok()) return bytes.status();
+  v1::Display display;
+  const auto parsed = google::protobuf::util::JsonStringToMessage(
+      std::string(bytes->begin(), bytes->end()), &display);
+  if (!parsed.ok()) {
+    return files::refuseFile(file, "is no Display in JSON: " + std::string(parsed.message()));
+  }
+  return display;
+}
+
+}  // namespace
+
+void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
+  auto* file = app.add_option("--display", options.file, "Display message as JSON: any kind");
+  app.add_option("--preset", options.preset,
+                 "A named device, see `viewloom list presets` [portrait]")
+      ->excludes(file);
+  app.add_option("--columns", options.columns, "Of the quilt")->excludes(file);
+  app.add_option("--rows", options.rows, "Of the quilt")->excludes(file);
+  addSizeOption(app, "--size", options.size_px, 16384, "Of the whole quilt")->excludes(file);
+  app.add_option("--cone", options.view_cone_deg, "Angle between the outermost views, degrees")
+      ->excludes(file);
+  app.add_option("--focal-distance", options.focal_distance_m,
+                 "Metres to the plane without parallax [by the content]")
+      ->excludes(file);
+  app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
+      ->excludes(file);
+  app.add_option("--quality", options.jpeg_quality, "JPEG quality")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str()
+      ->group("Encoding");
+  app.add_flag("--444", options.is_444, "JPEG colour at full resolution")->group("Encoding");
+  app.add_flag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
+      ->group("Encoding");
+  app.add_flag("--mask", options.has_mask,
+               "Also get the mask of ray classes: 1 hit .. 3 hidden, 4 outside, 5 empty")
+      ->group("Encoding");
+}
+
+absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
+  if (!options.file.empty()) return readDisplay(options.file);
+  v1::Display display;
+  v1::QuiltDisplay& quilt = *display.mutable_quilt();
+  const bool is_complete = options.columns > 0 && options.rows > 0 && options.size_px.width > 0;
+  quilt.set_preset(options.preset.empty() && !is_complete ? "portrait" : options.preset);
+  quilt.set_columns(options.columns);
+  quilt.set_rows(options.rows);
+  if (options.size_px.width > 0) {
+    quilt.mutable_size()->set_width(options.size_px.width);
+    quilt.mutable_size()->set_height(options.size_px.height);
+  }
+  quilt.set_view_cone_rad(options.view_cone_deg * kRadPerDeg);
+  quilt.set_focal_distance_m(options.focal_distance_m);
+  quilt.set_fov_y_rad(options.fov_y_deg * kRadPerDeg);
+  return display;
+}
+
+v1::AtlasEncoding makeEncoding(const DisplayOptions& options) {
+  v1::AtlasEncoding encoding;
+  encoding.set_color(options.is_lossless ? v1::BAND_ENCODING_ZSTD : v1::BAND_ENCODING_JPEG);
+  encoding.set_jpeg_quality(options.jpeg_quality);
+  encoding.set_chroma(options.is_444 ? v1::CHROMA_SUBSAMPLING_444 : v1::CHROMA_SUBSAMPLING_420);
+  encoding.set_with_mask(options.has_mask);
+  return encoding;
+}
+
+}  // namespace viewloom::cli

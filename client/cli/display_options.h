@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that say which display to watch, and how its atlases come.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+#include "base/status.h"
+#include "frame/size.h"
+#include "viewloom/v1/display.pb.h"
+
+namespace viewloom::cli {
+
+struct DisplayOptions {
+  std::string file;  // Display as JSON; or a quilt from what follows
+  std::string preset;
+  uint32_t columns = 0;
+  uint32_t rows = 0;
+  SizePx size_px;
+  double view_cone_deg = 0;
+  double focal_distance_m = 0;
+  double fov_y_deg = 0;
+  uint32_t jpeg_quality = 85;
+  bool is_444 = false;
+  bool is_lossless = false;
+  bool has_mask = false;
+};
+
+void addDisplayOptions(CLI::App& app, DisplayOptions& options);
+
+absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
+v1::AtlasEncoding makeEncoding(const DisplayOptions& options);
+
+}  // namespace viewloom::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where `viewloom publish` takes frames from.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/status.h"
+#include "lib/wire_frame.h"
+
+namespace viewloom::cli {
+
+// Thread-safety: none; one owner.
+class FrameFeed {
+ public:
+  virtual ~FrameFeed() = default;
+  // The frame that is due elapsed_s after the first; nothing when there is none left.
+  virtual absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) = 0;
+  // What is being published, for the status: "synthetic 960x540, 2 layers".
+  virtual std::string description() const = 0;
+  // A live feed goes on whether its frames are sent or not; others wait for each to be sent.
+  virtual bool isLive() const = 0;
+};
+
+// Nanoseconds since 1970: a time that watchers on the same machine can compare.
+int64_t captureTimeNs();
+
+}  // namespace viewloom::cli

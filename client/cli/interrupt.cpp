@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/interrupt.h"
+
+#include <csignal>
+
+namespace viewloom::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void onSignal(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void catchInterrupts() {
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+}
+
+bool isInterrupted() {
+  return interrupted != 0;
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM as a flag, so that calls end in order.
+#pragma once
+
+namespace viewloom::cli {
+
+// From now on the first signal raises the flag; the second ends the process at once.
+void catchInterrupts();
+bool isInterrupted();
+
+}  // namespace viewloom::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/list_command.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "base/str_cat.h"
+#include "cli/report_error.h"
+#include "lib/catalog.h"
+#include "lib/channel.h"
+
+namespace viewloom::cli {
+namespace {
+
+struct ListOptions {
+  std::string what = "all";
+  bool as_json = false;
+};
+
+std::string sizeText(const v1::SizePx& size) {
+  return strCat(size.width(), "x", size.height());
+}
+
+void print(const v1::ListStreamsResponse& response) {
+  std::printf(
+      "STREAM               STATE    FRAME      SIZE       LAYERS  RATE/S  REPLACED  REFUSED  "
+      "WATCHERS\n");
+  for (const v1::StreamEntry& stream : response.streams()) {
+    std::printf("%-20s %-8s %-10llu %-10s %-7u %-7.1f %-9llu %-8llu %u\n", stream.name().c_str(),
+                stream.live() ? "live" : "left",
+                static_cast<unsigned long long>(stream.frame_number()),
+                sizeText(stream.size()).c_str(), stream.layer_count(), stream.rate_hz(),
+                static_cast<unsigned long long>(stream.replaced_count()),
+                static_cast<unsigned long long>(stream.refused_count()), stream.subscriber_count());
+  }
+}
+
+void print(const v1::ListDisplaysResponse& response) {
+  std::printf("DISPLAY  STREAM               ATLAS        VIEWS  WATCHERS  ATLASES\n");
+  for (const v1::DisplayEntry& display : response.displays()) {
+    std::printf("%-8llu %-20s %-12s %-6u %-9u %llu\n",
+                static_cast<unsigned long long>(display.id()), display.stream().c_str(),
+                sizeText(display.layout().size()).c_str(), display.layout().view_count(),
+                display.subscriber_count(), static_cast<unsigned long long>(display.atlas_count()));
+  }
+}
+
+void print(const v1::ListPresetsResponse& response) {
+  std::printf("PRESET           ATLAS        GRID     ASPECT  DEVICE\n");
+  for (const v1::Preset& preset : response.presets()) {
+    const v1::AtlasLayout& layout = preset.layout();
+    std::printf("%-16s %-12s %-8s %-7.4g %s\n", preset.name().c_str(),
+                sizeText(layout.size()).c_str(),
+                strCat(layout.columns(), "x", layout.rows()).c_str(), layout.aspect(),
+                preset.device().c_str());
+  }
+}
+
+void print(const v1::GetServerInfoResponse& info) {
+  std::printf("viewloomd %s on %s (%s)\n", info.version().c_str(), info.device().c_str(),
+              info.driver().c_str());
+  std::printf("frames: up to %.0f MB, %u px a side, %u layers; atlases: up to %u px a side\n",
+              static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
+              info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),
+              info.atlas_side_px_max());
+  if (!info.http_address().empty()) std::printf("page: http://%s/\n", info.http_address().c_str());
+}
+
+template <typename Response>
+absl::Status show(const absl::StatusOr<Response>& response, bool as_json) {
+  if (!response.ok()) return response.status();
+  if (!as_json) {
+    print(*response);
+    return absl::OkStatus();
+  }
+  std::string json;
+  google::protobuf::util::JsonPrintOptions print_options;
+  print_options.add_whitespace = true;
+  print_options.always_print_primitive_fields = true;
+  const auto printed = google::protobuf::util::MessageToJsonString(*response, &json, print_options);
+  if (!printed.ok()) return absl::InternalError(std::string(printed.message()));
+  std::fputs(json.c_str(), stdout);
+  return absl::OkStatus();
+}
+
+absl::Status list(const ListOptions& options, const Catalog& catalog) {
+  const auto wants = [&](const char* what) {
+    return options.what == what || options.what == "all";
+  };
+  if (wants("server")) {
+    VIEWLOOM_RETURN_IF_ERROR(show(catalog.getServerInfo(), options.as_json));
+  }
+  if (wants("streams")) VIEWLOOM_RETURN_IF_ERROR(show(catalog.listStreams(), options.as_json));
+  if (wants("displays")) VIEWLOOM_RETURN_IF_ERROR(show(catalog.listDisplays(), options.as_json));
+  if (wants("presets")) VIEWLOOM_RETURN_IF_ERROR(show(catalog.listPresets(), options.as_json));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+RunCommand addListCommand(CLI::App& app) {
+  const auto options = std::make_shared<ListOptions>();
+  app.add_option("what", options->what, "streams, displays, presets, server or all")
+      ->check(CLI::IsMember({"streams", "displays", "presets", "server", "all"}))
+      ->capture_default_str();
+  app.add_flag("--json", options->as_json, "The server's answers as JSON");
+  return [options](const CommonOptions& common) -> int {
+    const absl::Status status = list(*options, Catalog(makeChannel(common.server)));
+    return status.ok() ? kExitDone : reportError(status, common);
+  };
+}
+
+}  // namespace viewloom::cli

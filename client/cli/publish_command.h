@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// `viewloom publish`: sends the synthetic scene, files or manifests as a stream.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.h"
+
+namespace viewloom::cli {
+
+RunCommand addPublishCommand(CLI::App& app);
+
+}  // namespace viewloom::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors as a person wants to read them: what happened, and what to do about it.
+#pragma once
+
+#include <string>
+
+#include "base/status.h"
+#include "cli/command.h"
+#include "cli/status_line.h"
+#include "lib/retry_loop.h"
+
+namespace viewloom::cli {
+
+// "cannot reach 127.0.0.1:50051: ...; start a server with `viewloomd serve`, ..."
+std::string explain(const absl::Status& status, const CommonOptions& common);
+
+// Says it on stderr; returns the exit code that belongs to it.
+int reportError(const absl::Status& status, const CommonOptions& common);
+
+// Says when the connection comes, goes and is tried again.
+OnConnection sayConnections(StatusLine& line, const CommonOptions& common);
+
+}  // namespace viewloom::cli

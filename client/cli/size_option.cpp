@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/size_option.h"
+
+#include <charconv>
+#include <optional>
+
+#include "base/str_cat.h"
+
+namespace viewloom::cli {
+namespace {
+
+std::optional<SizePx> parseSize(const std::string& text) {
+  SizePx size_px;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size_px.width);
+  if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
+  const auto height = std::from_chars(width.ptr + 1, end, size_px.height);
+  if (height.ec != std::errc() || height.ptr != end) return std::nullopt;
+  return size_px;
+}
+
+}  // namespace
+
+CLI::Option* addSizeOption(CLI::App& app, const std::string& name, SizePx& size_px,
+                           uint32_t side_max_px, const std::string& description) {
+  const auto take = [&size_px, name, side_max_px](const std::string& text) {
+    const std::optional<SizePx> parsed = parseSize(text);
+    const auto in_range = [&](uint32_t side) { return side >= 1 && side <= side_max_px; };
+    if (!parsed || !in_range(parsed->width) || !in_range(parsed->height)) {
+      throw CLI::ValidationError(
+          name, strCat("is ", text, "; accepted is WIDTHxHEIGHT, 1..", side_max_px, " px a side"));
+    }
+    size_px = *parsed;
+  };
+  return app.add_option_function<std::string>(name, take, description)->type_name("WxH");
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built-in scene as a feed.
+#pragma once
+
+#include "cli/frame_feed.h"
+#include "frame/size.h"
+
+namespace viewloom::cli {
+
+struct SyntheticFeedOptions {
+  SizePx size_px{960, 540};
+  uint32_t layer_count = 2;
+  double duration_s = 0;  // 0 = without end
+};
+
+class SyntheticFrames final : public FrameFeed {
+ public:
+  explicit SyntheticFrames(const SyntheticFeedOptions& options);
+  absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) override;
+  std::string description() const override;
+  bool isLive() const override { return true; }
+
+ private:
+  const SyntheticFeedOptions options_;
+};
+
+}  // namespace viewloom::cli

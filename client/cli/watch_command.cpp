@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/watch_command.h"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include "base/str_cat.h"
+#include "cli/atlas_files.h"
+#include "cli/display_options.h"
+#include "cli/frame_feed.h"
+#include "cli/interrupt.h"
+#include "cli/report_error.h"
+#include "cli/status_line.h"
+#include "lib/channel.h"
+#include "lib/watcher.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr int64_t kTick_ns = 50'000'000;
+// Beyond this the publisher's clock is not ours, and their difference is no latency.
+constexpr double kLatencyMax_s = 60;
+
+struct WatchOptions {
+  std::string stream = "demo";
+  DisplayOptions display;
+  std::string folder;
+  bool writes_views = false;
+  std::string format = "jpg";
+  uint32_t count = 0;
+  bool fails_without_stream = false;
+  bool has_no_retry = false;
+  bool is_quiet = false;
+};
+
+class WatchRun {
+ public:
+  WatchRun(const WatchOptions& options, const CommonOptions& common)
+      : options_(options), common_(common), line_(options.is_quiet) {}
+
+  int run() {
+    const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
+    if (!display.ok()) return usage(display.status());
+    if (absl::Status folder = makeFolder(); !folder.ok()) return usage(folder);
+    v1::OpenDisplay open;
+    open.set_stream(options_.stream);
+    *open.mutable_display() = *display;
+    *open.mutable_encoding() = makeEncoding(options_.display);
+    open.set_count(options_.count);
+    open.set_wait_for_stream(!options_.fails_without_stream);
+    watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok()) {
+      if (line_.isDue()) line_.show(status());
+    }
+    return end();
+  }
+
+ private:
+  int usage(const absl::Status& status) const {
+    reportError(status, common_);
+    return kExitUsage;
+  }
+
+  absl::Status makeFolder() const {
+    if (options_.folder.empty()) return absl::OkStatus();
+    std::error_code error;
+    std::filesystem::create_directories(options_.folder, error);
+    if (!error) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        strCat("--out ", options_.folder, ": cannot be made: ", error.message()));
+  }
+
+  WatcherCallbacks callbacks() {
+    const OnConnection say = sayConnections(line_, common_);
+    return {.on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
+            .on_atlas = [this](const Atlas& atlas) { take(atlas); },
+            .on_connection =
+                [this, say](const ConnectionEvent& event) {
+                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
+                  if (is_lost && options_.has_no_retry) {
+                    setFailure(event.reason);
+                  } else {
+                    say(event);
+                  }
+                }};
+  }
+
+  void sayLayout(const v1::AtlasLayout& layout) {
+    line_.say(strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
+                     layout.view_count(), " views of ", layout.tile_size().width(), "x",
+                     layout.tile_size().height(), ", focal plane at ",
+                     formatNumber(layout.focal_distance_m(), 2), " m"));
+  }
+
+  void take(const Atlas& atlas) {
+    if (!options_.folder.empty()) {
+      const absl::Status written = writeAtlas(atlas, {.folder = options_.folder,
+                                                      .stream = options_.stream,
+                                                      .writes_views = options_.writes_views,
+                                                      .writes_png = options_.format == "png"});
+      if (!written.ok()) setFailure(written);
+    }
+    std::lock_guard lock(mutex_);
+    newest_ = atlas.header;
+    latency_s_ = static_cast<double>(captureTimeNs() - newest_.capture_time_ns()) * 1e-9;
+  }
+
+  void setFailure(const absl::Status& status) {
+    std::lock_guard lock(mutex_);
+    failure_ = status;
+  }
+
+  absl::Status failure() const {
+    std::lock_guard lock(mutex_);
+    return failure_;
+  }
+
+  std::string status() {
+    const WatcherCounts counts = watcher_->counts();
+    if (counts.atlases.whole == 0) return strCat("waiting for stream ", options_.stream);
+    const double rate = atlas_rate_.perSecond(counts.atlases.whole);
+    const double bytes_rate = bytes_rate_.perSecond(counts.received_bytes);
+    std::lock_guard lock(mutex_);
+    const bool is_latency = latency_s_ >= 0 && latency_s_ < kLatencyMax_s;
+    const double server_ms = static_cast<double>(newest_.times().total_ns()) * 1e-6;
+    return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
+                  formatBytes(bytes_rate), "/s, latency ",
+                  is_latency ? formatNumber(1e3 * latency_s_, 0) + " ms" : "unknown", " (server ",
+                  formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
+                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off");
+  }
+
+  int end() {
+    watcher_->stop();
+    while (!watcher_->waitEnded(kTick_ns)) {
+    }
+    if (watcher_->counts().atlases.whole > 0) line_.show(status());
+    if (const absl::Status failed = failure(); !failed.ok()) return reportError(failed, common_);
+    const absl::Status ended = *watcher_->ended();
+    if (ended.ok()) return kExitDone;
+    // Ctrl-C is the usual end of watching without a count.
+    if (ended.code() == absl::StatusCode::kCancelled) {
+      return options_.count == 0 ? kExitDone : kExitFailed;
+    }
+    return reportError(ended, common_);
+  }
+
+  const WatchOptions& options_;
+  const CommonOptions& common_;
+  StatusLine line_;
+  RateMeter atlas_rate_;
+  RateMeter bytes_rate_;
+  mutable std::mutex mutex_;
+  v1::AtlasHeader newest_;
+  double latency_s_ = 0;
+  absl::Status failure_;
+  std::unique_ptr<Watcher> watcher_;  // last: its callbacks use the rest
+};
+
+}  // namespace
+
+RunCommand addWatchCommand(CLI::App& app) {
+  const auto options = std::make_shared<WatchOptions>();
+  app.footer(
+      "Examples:\n"
+      "  viewloom watch                                   look how fast the demo comes\n"
+      "  viewloom watch --count 1 --out .                 one quilt, as a file for the device\n"
+      "  viewloom watch --preset portrait --views --out v --count 1\n"
+      "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts");
+  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
+  app.add_option("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
+  auto* out = app.add_option("--out", options->folder, "Write every atlas into this folder");
+  app.add_flag("--views", options->writes_views, "Write single views instead of atlases")
+      ->needs(out);
+  app.add_option("--format", options->format, "Of the files: jpg or png")
+      ->check(CLI::IsMember({"jpg", "png"}))
+      ->capture_default_str();
+  app.add_flag("--no-wait", options->fails_without_stream, "End when there is no such stream");
+  app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
+  app.add_flag("-q,--quiet", options->is_quiet, "No status line");
+  addDisplayOptions(app, options->display);
+  return [options](const CommonOptions& common) -> int { return WatchRun(*options, common).run(); };
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The synthetic scene as a frame ready to be published.
+#pragma once
+
+#include "lib/wire_frame.h"
+#include "synthetic/synthetic_frame.h"
+
+namespace viewloom {
+
+// RGBA8 sRGB colour and binary32 planar depth in every layer. The number is left to the publisher.
+WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_time_ns);
+
+}  // namespace viewloom
