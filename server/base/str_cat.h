@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// absl::StrCat that also takes std::string_view: Debian's absl is built with a string_view of its own.
+// absl::StrCat that also takes std::string_view: Debian's absl is built with a string_view of its
+// own.
 #pragma once
 
 #include <string>

@@ -15,7 +15,15 @@
 namespace viewloom {
 
 enum class PlaneKind : uint8_t { kColor, kDepth };
-enum class PlaneEncoding : uint8_t { kRgba8, kRgb8, kRgba16f, kJpeg, kDepthF32, kDepthF16, kDepthU16 };
+enum class PlaneEncoding : uint8_t {
+  kRgba8,
+  kRgb8,
+  kRgba16f,
+  kJpeg,
+  kDepthF32,
+  kDepthF16,
+  kDepthU16
+};
 enum class PlaneCompression : uint8_t { kNone, kZstd };
 enum class ColorTransfer : uint8_t { kSrgb, kLinear };
 enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };

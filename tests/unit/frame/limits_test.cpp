@@ -95,7 +95,7 @@ TEST(ValidateFrame, namesTheFieldOfABadFrame) {
   });
 }
 
-TEST(ValidateFrame, namesTheFieldOfABadPlane) {
+TEST(ValidateFrame, namesTheFieldOfAnImpossibleSizeOrKind) {
   const uint32_t most = std::numeric_limits<uint32_t>::max();
   expectRefusals({
       {"no width",
@@ -132,6 +132,12 @@ TEST(ValidateFrame, namesTheFieldOfABadPlane) {
          color(f) = rawPlane(PlaneKind::kColor, PlaneEncoding::kRgba16f, {6, 4});
        },
        kInvalid, kColor + ".encoding"},
+  });
+}
+
+TEST(ValidateFrame, namesTheFieldOfBytesThatDoNotFit) {
+  const uint32_t most = std::numeric_limits<uint32_t>::max();
+  expectRefusals({
       {"stride below a row", [](auto& f) { color(f).stride_bytes = 23; }, kInvalid,
        kColor + ".stride_bytes"},
       {"huge stride", [=](auto& f) { color(f).stride_bytes = most; }, kInvalid,
