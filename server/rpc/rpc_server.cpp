@@ -80,6 +80,12 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                              ": is the port taken, the host this machine's?");
   }
   port_ = static_cast<uint16_t>(port);
+  // Beside the whole server, which the library knows by itself.
+  for (const char* service :
+       {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
+        v1::CatalogService::service_full_name()}) {
+    server_->GetHealthCheckService()->SetServingStatus(service, true);
+  }
 }
 
 RpcServer::~RpcServer() {

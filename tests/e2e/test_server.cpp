@@ -14,13 +14,14 @@ constexpr size_t kPooledBuffers = 16;
 
 }  // namespace
 
-TestServer::TestServer(BroadcasterLimits limits, uint32_t stream_count_max)
+TestServer::TestServer(BroadcasterLimits limits, uint32_t stream_count_max,
+                       const std::string& address)
     : pool_(kPooledBuffers),
       directory_(clock_, stream_count_max),
       broadcaster_(limits),
       sink_(directory_, broadcaster_),
       intake_(sink_, clock_, pool_, {}) {
-  rpc_ = std::make_unique<RpcServer>(RpcServerOptions{.address = "127.0.0.1:0"},
+  rpc_ = std::make_unique<RpcServer>(RpcServerOptions{.address = address},
                                      RpcParts{.intake = intake_,
                                               .pool = pool_,
                                               .directory = directory_,
@@ -44,15 +45,14 @@ TestServer::~TestServer() {
   rpc_->shutdown();
 }
 
-std::shared_ptr<grpc::Channel> TestServer::connect(int receive_window_bytes) const {
+std::shared_ptr<grpc::Channel> TestServer::connect() const {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  if (receive_window_bytes != 0) {
-    arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, receive_window_bytes);
-    arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  }
-  return grpc::CreateCustomChannel(absl::StrCat("127.0.0.1:", rpc_->port()),
-                                   grpc::InsecureChannelCredentials(), arguments);
+  return grpc::CreateCustomChannel(address(), grpc::InsecureChannelCredentials(), arguments);
+}
+
+std::string TestServer::address() const {
+  return absl::StrCat("127.0.0.1:", rpc_->port());
 }
 
 }  // namespace viewloom

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <grpcpp/channel.h>
 
@@ -14,16 +15,19 @@ namespace viewloom {
 // Members in data-flow order; they go in the reverse of it.
 class TestServer {
  public:
-  explicit TestServer(BroadcasterLimits limits = {}, uint32_t stream_count_max = 8);
+  // On any free port of the loopback, unless an address is given.
+  explicit TestServer(BroadcasterLimits limits = {}, uint32_t stream_count_max = 8,
+                      const std::string& address = "127.0.0.1:0");
   ~TestServer();
 
   // Every channel is a connection of its own.
-  std::shared_ptr<grpc::Channel> connect(int receive_window_bytes = 0) const;
+  std::shared_ptr<grpc::Channel> connect() const;
 
-  StreamDirectory& directory() { return directory_; }
+  const StreamDirectory& directory() const { return directory_; }
   AnsweringSink& sink() { return sink_; }
   Broadcaster& broadcaster() { return broadcaster_; }
   RpcServer& rpc() { return *rpc_; }
+  std::string address() const;
   const Metrics& metrics() const { return metrics_; }
 
  private:

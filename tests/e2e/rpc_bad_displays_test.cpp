@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+// Displays that cannot be served: each with the status and the field it is refused with.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "e2e/bystander.h"
+#include "e2e/refusal.h"
+
+namespace viewloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
+constexpr auto kLater = grpc::StatusCode::UNIMPLEMENTED;
+constexpr auto kMissing = grpc::StatusCode::NOT_FOUND;
+
+struct BadDisplay {
+  const char* name;
+  std::function<void(v1::OpenDisplay&)> spoil;
+  Refusal refusal;
+};
+
+v1::QuiltDisplay& quilt(v1::OpenDisplay& open) {
+  return *open.mutable_display()->mutable_quilt();
+}
+v1::AtlasEncoding& encoding(v1::OpenDisplay& open) {
+  return *open.mutable_encoding();
+}
+
+v1::StereoDisplay& stereo(v1::OpenDisplay& open) {
+  v1::StereoDisplay& display = *open.mutable_display()->mutable_stereo();
+  display.mutable_eye_size()->set_width(8);
+  display.mutable_eye_size()->set_height(8);
+  return display;
+}
+
+v1::CamerasDisplay& cameras(v1::OpenDisplay& open, int count) {
+  v1::CamerasDisplay& display = *open.mutable_display()->mutable_cameras();
+  display.mutable_tile_size()->set_width(8);
+  display.mutable_tile_size()->set_height(8);
+  for (int i = 0; i < count; ++i) {
+    v1::Intrinsics& intrinsics = *display.add_cameras()->mutable_intrinsics();
+    intrinsics.set_focal_x_px(8);
+    intrinsics.set_focal_y_px(8);
+  }
+  return display;
+}
+
+const std::string kQuilt = "open.display.quilt.";
+const std::string kStereo = "open.display.stereo.";
+const std::string kCameras = "open.display.cameras.";
+
+const std::vector<BadDisplay> kQuilts = {
+    {"no kind", [](auto& o) { o.clear_display(); }, {kInvalid, "open.display.kind"}},
+    {"0 columns", [](auto& o) { quilt(o).set_columns(0); }, {kInvalid, kQuilt + "columns"}},
+    {"51 columns", [](auto& o) { quilt(o).set_columns(51); }, {kInvalid, kQuilt + "columns"}},
+    {"0 rows", [](auto& o) { quilt(o).set_rows(0); }, {kInvalid, kQuilt + "rows"}},
+    {"4294967295 rows", [](auto& o) { quilt(o).set_rows(~0u); }, {kInvalid, kQuilt + "rows"}},
+    {"no size", [](auto& o) { quilt(o).clear_size(); }, {kInvalid, kQuilt + "size.width"}},
+    {"beyond 16384",
+     [](auto& o) { quilt(o).mutable_size()->set_height(16385); },
+     {kInvalid, kQuilt + "size.height"}},
+    {"tiles of no pixel",
+     [](auto& o) { quilt(o).mutable_size()->set_width(1); },
+     {kInvalid, kQuilt + "size.width"}},
+    {"aspect NaN", [](auto& o) { quilt(o).set_aspect(kNan); }, {kInvalid, kQuilt + "aspect"}},
+    {"aspect 21", [](auto& o) { quilt(o).set_aspect(21); }, {kInvalid, kQuilt + "aspect"}},
+    {"a cone of 3 rad",
+     [](auto& o) { quilt(o).set_view_cone_rad(3); },
+     {kInvalid, kQuilt + "view_cone_rad"}},
+    {"focus behind",
+     [](auto& o) { quilt(o).set_focal_distance_m(-1); },
+     {kInvalid, kQuilt + "focal_distance_m"}},
+    {"focus NaN",
+     [](auto& o) { quilt(o).set_focal_distance_m(kNan); },
+     {kInvalid, kQuilt + "focal_distance_m"}},
+    {"field of view 3",
+     [](auto& o) { quilt(o).set_fov_y_rad(3); },
+     {kInvalid, kQuilt + "fov_y_rad"}},
+    {"more views than tiles",
+     [](auto& o) { quilt(o).set_view_count(3); },
+     {kInvalid, kQuilt + "view_count"}},
+    {"order 99",
+     [](auto& o) { quilt(o).set_order(static_cast<v1::TileOrder>(99)); },
+     {kInvalid, kQuilt + "order"}},
+    {"no such preset",
+     [](auto& o) { quilt(o).set_preset("hologram"); },
+     {kMissing, kQuilt + "preset"}},
+};
+
+const std::vector<BadDisplay> kOtherKinds = {
+    {"no eye size",
+     [](auto& o) { stereo(o).clear_eye_size(); },
+     {kInvalid, kStereo + "eye_size.width"}},
+    {"eyes 11 m apart",
+     [](auto& o) { stereo(o).set_eye_distance_m(11); },
+     {kInvalid, kStereo + "eye_distance_m"}},
+    {"one eye",
+     [](auto& o) { stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1); },
+     {kInvalid, kStereo + "eyes[0].intrinsics.focal_y_px"}},
+    {"an eye without projection",
+     [](auto& o) { stereo(o).add_eyes(); },
+     {kInvalid, kStereo + "eyes[0].projection"}},
+    {"stereo layout 99",
+     [](auto& o) { stereo(o).set_layout(static_cast<v1::StereoLayout>(99)); },
+     {kInvalid, kStereo + "layout"}},
+    {"no camera", [](auto& o) { cameras(o, 0); }, {kInvalid, kCameras + "cameras"}},
+    {"1025 cameras", [](auto& o) { cameras(o, 1025); }, {kInvalid, kCameras + "cameras"}},
+    {"no tile size",
+     [](auto& o) { cameras(o, 1).clear_tile_size(); },
+     {kInvalid, kCameras + "tile_size.width"}},
+    {"4294967295 columns",
+     [](auto& o) { cameras(o, 1).set_columns(~0u); },
+     {kInvalid, kCameras + "columns"}},
+    {"an atlas beyond any JPEG",
+     [](auto& o) { cameras(o, 1024).mutable_tile_size()->set_width(8192); },
+     {grpc::StatusCode::RESOURCE_EXHAUSTED, kCameras + "tile_size"}},
+    {"a camera at NaN",
+     [](auto& o) {
+       v1::Camera& second = *cameras(o, 2).mutable_cameras(1);
+       second.mutable_pose()->mutable_position()->set_y(kNan);
+     },
+     {kInvalid, kCameras + "cameras[1].pose.position"}},
+};
+
+const std::vector<BadDisplay> kCommon = {
+    {"a long quaternion",
+     [](auto& o) { o.mutable_display()->mutable_world_pose()->mutable_orientation()->set_x(2); },
+     {kInvalid, "open.display.world_pose.orientation"}},
+    {"tolerance -1",
+     [](auto& o) { o.mutable_display()->set_tolerance_px(-1); },
+     {kInvalid, "open.display.tolerance_px"}},
+    {"tolerance NaN",
+     [](auto& o) { o.mutable_display()->set_tolerance_px(kNan); },
+     {kInvalid, "open.display.tolerance_px"}},
+    {"a 25 bit colour",
+     [](auto& o) { o.mutable_display()->set_background_rgb(1 << 24); },
+     {kInvalid, "open.display.background_rgb"}},
+    {"fill 99",
+     [](auto& o) { o.mutable_display()->set_outside_fill(static_cast<v1::OutsideFill>(99)); },
+     {kInvalid, "open.display.outside_fill"}},
+    {"encoding 99",
+     [](auto& o) { encoding(o).set_color(static_cast<v1::BandEncoding>(99)); },
+     {kInvalid, "open.encoding.color"}},
+    {"quality 101",
+     [](auto& o) { encoding(o).set_jpeg_quality(101); },
+     {kInvalid, "open.encoding.jpeg_quality"}},
+    {"chroma 99",
+     [](auto& o) { encoding(o).set_chroma(static_cast<v1::ChromaSubsampling>(99)); },
+     {kInvalid, "open.encoding.chroma"}},
+    {"depth as JPEG",
+     [](auto& o) { encoding(o).set_planes(v1::BAND_ENCODING_JPEG); },
+     {kInvalid, "open.encoding.planes"}},
+    {"a path", [](auto& o) { o.set_stream("../etc"); }, {kInvalid, "open.stream"}},
+    {"no such stream", [](auto& o) { o.set_stream("absent"); }, {kMissing, "open.stream"}},
+};
+
+const std::vector<BadDisplay> kServedLater = {
+    {"lenticular",
+     [](auto& o) { o.mutable_display()->mutable_lenticular(); },
+     {kLater, "open.display.lenticular"}},
+    {"integral",
+     [](auto& o) { o.mutable_display()->mutable_integral(); },
+     {kLater, "open.display.integral"}},
+    {"rgbd", [](auto& o) { o.mutable_display()->mutable_rgbd(); }, {kLater, "open.display.rgbd"}},
+    {"tracked eyes", [](auto& o) { stereo(o).set_tracked(true); }, {kLater, kStereo + "tracked"}},
+    {"lens",
+     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
+     {kLater, "open.display.effects.lens"}},
+    {"temporal",
+     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_temporal(); },
+     {kLater, "open.display.effects.temporal"}},
+    {"reflection",
+     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_reflection(); },
+     {kLater, "open.display.effects.reflection"}},
+};
+
+void expectRefused(const std::vector<BadDisplay>& cases) {
+  TestServer server;
+  Bystander bystander(server);
+  for (const BadDisplay& bad : cases) {
+    SCOPED_TRACE(bad.name);
+    v1::OpenDisplay open = smallQuilt("healthy");
+    bad.spoil(open);
+    TestWatcher watcher(server.connect(), open);
+    EXPECT_EQ(refusalOf(watcher.finish()), bad.refusal);
+    bystander.expectUndisturbed();
+  }
+}
+
+TEST(StreamAtlases, refusesQuiltsThatCannotBe) {
+  expectRefused(kQuilts);
+}
+TEST(StreamAtlases, refusesOtherDisplaysThatCannotBe) {
+  expectRefused(kOtherKinds);
+}
+TEST(StreamAtlases, refusesSettingsThatCannotBe) {
+  expectRefused(kCommon);
+}
+TEST(StreamAtlases, refusesByNameWhatItDoesNotServeYet) {
+  expectRefused(kServedLater);
+}
+
+TEST(StreamAtlases, saysWhichStreamsAndPresetsThereAre) {
+  TestServer server;
+  Bystander bystander(server);
+  TestWatcher lost(server.connect(), smallQuilt("absent"));
+  EXPECT_THAT(lost.finish().error_message(), HasSubstr("healthy"));
+  v1::OpenDisplay open = smallQuilt("healthy");
+  quilt(open).set_preset("hologram");
+  TestWatcher wishful(server.connect(), open);
+  EXPECT_THAT(wishful.finish().error_message(), HasSubstr("portrait"));
+}
+
+struct BadConversation {
+  const char* name;
+  std::function<void(TestWatcher&)> send;
+  Refusal refusal;
+};
+
+v1::StreamAtlasesRequest opening() {
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = smallQuilt("healthy");
+  return request;
+}
+
+TEST(StreamAtlases, refusesMessagesThatDoNotFollowOn) {
+  const std::vector<BadConversation> cases = {
+      {"nothing at all", [](auto& w) { w.halfClose(); }, {kInvalid, "open"}},
+      {"an empty message", [](auto& w) { w.send({}); }, {kInvalid, "message"}},
+      {"change first",
+       [](auto& w) {
+         v1::StreamAtlasesRequest request;
+         request.mutable_change();
+         w.send(request);
+       },
+       {kInvalid, "message"}},
+      {"open twice",
+       [](auto& w) {
+         w.send(opening());
+         w.send(opening());
+       },
+       {kInvalid, "open"}},
+      {"eye poses",
+       [](auto& w) {
+         w.send(opening());
+         v1::StreamAtlasesRequest request;
+         request.mutable_eye_poses();
+         w.send(request);
+       },
+       {kLater, "eye_poses"}},
+      {"a bad change",
+       [](auto& w) {
+         w.send(opening());
+         v1::StreamAtlasesRequest request;
+         request.mutable_change()->mutable_display()->mutable_quilt();
+         w.send(request);
+       },
+       {kInvalid, "change.display.quilt.columns"}},
+      {"a bad new encoding",
+       [](auto& w) {
+         w.send(opening());
+         v1::StreamAtlasesRequest request;
+         request.mutable_change()->mutable_encoding()->set_jpeg_quality(1000);
+         w.send(request);
+       },
+       {kInvalid, "change.encoding.jpeg_quality"}},
+  };
+  TestServer server;
+  Bystander bystander(server);
+  for (const BadConversation& bad : cases) {
+    SCOPED_TRACE(bad.name);
+    TestWatcher watcher(server.connect());
+    bad.send(watcher);
+    EXPECT_EQ(refusalOf(watcher.finish()), bad.refusal);
+    bystander.expectUndisturbed();
+  }
+}
+
+TEST(StreamAtlases, refusesMoreDisplaysAndSubscribersThanItTakes) {
+  TestServer server({.display_count_max = 1, .subscriber_count_max = 2});
+  Bystander bystander(server);
+  bystander.expectUndisturbed();
+  v1::OpenDisplay other = smallQuilt("healthy");
+  quilt(other).set_view_count(1);
+  TestWatcher second_display(server.connect(), other);
+  EXPECT_EQ(second_display.finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  TestWatcher second_subscriber(server.connect(), smallQuilt("healthy"));
+  ASSERT_TRUE(second_subscriber.readAtlas().has_value());
+  TestWatcher third_subscriber(server.connect(), smallQuilt("healthy"));
+  EXPECT_EQ(third_subscriber.finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  bystander.expectUndisturbed();
+}
+
+}  // namespace
+}  // namespace viewloom

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// The server around its services: catalogue, health, reflection, port.
+#include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "e2e/raw_call.h"
+#include "e2e/test_publisher.h"
+#include "e2e/test_server.h"
+#include "e2e/test_watcher.h"
+#include "grpc/health/v1/health.grpc.pb.h"
+
+namespace viewloom {
+namespace {
+
+namespace health = grpc::health::v1;
+
+TEST(CatalogService, listsStreamsAndDisplays) {
+  TestServer server;
+  TestPublisher publisher(server.connect(), "scene");
+  publisher.sendFrame(3);
+  TestWatcher watcher(server.connect(), smallQuilt("scene"));
+  ASSERT_TRUE(watcher.readAtlas().has_value());
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+
+  grpc::ClientContext streams_context;
+  v1::ListStreamsResponse streams;
+  ASSERT_TRUE(stub->ListStreams(&streams_context, {}, &streams).ok());
+  ASSERT_EQ(streams.streams_size(), 1);
+  EXPECT_EQ(streams.streams(0).name(), "scene");
+  EXPECT_TRUE(streams.streams(0).live());
+  EXPECT_EQ(streams.streams(0).frame_number(), 3u);
+  EXPECT_EQ(streams.streams(0).size().width(), 4u);
+  EXPECT_EQ(streams.streams(0).layer_count(), 1u);
+  EXPECT_EQ(streams.streams(0).received_count(), 1u);
+  EXPECT_EQ(streams.streams(0).subscriber_count(), 1u);
+  EXPECT_EQ(streams.streams(0).stats().depth_step(), 0.5);
+
+  grpc::ClientContext displays_context;
+  v1::ListDisplaysResponse displays;
+  ASSERT_TRUE(stub->ListDisplays(&displays_context, {}, &displays).ok());
+  ASSERT_EQ(displays.displays_size(), 1);
+  EXPECT_EQ(displays.displays(0).stream(), "scene");
+  EXPECT_EQ(displays.displays(0).layout().columns(), 2u);
+  EXPECT_EQ(displays.displays(0).layout().views_size(), 2);
+  EXPECT_EQ(displays.displays(0).subscriber_count(), 1u);
+  EXPECT_EQ(displays.displays(0).atlas_count(), 1u);
+}
+
+TEST(CatalogService, listsPresetsWithTheirLayouts) {
+  TestServer server;
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+  grpc::ClientContext context;
+  v1::ListPresetsResponse response;
+  ASSERT_TRUE(stub->ListPresets(&context, {}, &response).ok());
+  std::vector<std::string> names;
+  for (const v1::Preset& preset : response.presets()) {
+    names.push_back(preset.name());
+    EXPECT_EQ(preset.layout().views_size(), 0);
+    EXPECT_FALSE(preset.layout().has_encoding());
+    if (preset.name() != "portrait") continue;
+    EXPECT_THAT(preset.device(), ::testing::StartsWith("Looking Glass Portrait"));
+    EXPECT_EQ(preset.layout().columns(), 8u);
+    EXPECT_EQ(preset.layout().rows(), 6u);
+    EXPECT_EQ(preset.layout().size().width(), 3360u);
+    EXPECT_EQ(preset.layout().tile_size().height(), 560u);
+    EXPECT_EQ(preset.layout().view_count(), 48u);
+    EXPECT_EQ(preset.layout().suffix(), "_qs8x6a0.75");
+    EXPECT_EQ(preset.layout().focal_distance_m(), 0);
+  }
+  EXPECT_THAT(names, ::testing::Contains("portrait"));
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST(CatalogService, saysWhatTheServerIsAndAccepts) {
+  TestServer server({.display_count_max = 5, .subscriber_count_max = 6}, 7);
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+  grpc::ClientContext context;
+  v1::GetServerInfoResponse info;
+  ASSERT_TRUE(stub->GetServerInfo(&context, {}, &info).ok());
+  EXPECT_EQ(info.version(), "1.2.3");
+  EXPECT_EQ(info.ingest_limits().plane_side_px_max(), 8192u);
+  EXPECT_EQ(info.atlas_side_px_max(), 16384u);
+  EXPECT_EQ(info.stream_count_max(), 7u);
+  EXPECT_EQ(info.display_count_max(), 5u);
+  EXPECT_EQ(info.subscriber_count_max(), 6u);
+}
+
+TEST(CatalogService, doesNotAdviseYet) {
+  TestServer server;
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+  grpc::ClientContext context;
+  v1::AdviseSourceResponse response;
+  const grpc::Status status = stub->AdviseSource(&context, {}, &response);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
+  EXPECT_THAT(status.error_message(), ::testing::HasSubstr("AdviseSource"));
+}
+
+TEST(Health, knowsTheServerAndItsServices) {
+  TestServer server;
+  const auto stub = health::Health::NewStub(server.connect());
+  const auto check = [&stub](const std::string& service, health::HealthCheckResponse& response) {
+    grpc::ClientContext context;
+    health::HealthCheckRequest request;
+    request.set_service(service);
+    return stub->Check(&context, request, &response).error_code();
+  };
+  for (const char* service : {"", "viewloom.v1.IngestService", "viewloom.v1.DisplayService"}) {
+    health::HealthCheckResponse response;
+    EXPECT_EQ(check(service, response), grpc::StatusCode::OK) << service;
+    EXPECT_EQ(response.status(), health::HealthCheckResponse::SERVING) << service;
+  }
+  health::HealthCheckResponse response;
+  EXPECT_EQ(check("viewloom.v1.Nonsense", response), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST(Health, watchersHearThatTheServerDrains) {
+  TestServer server;
+  const auto stub = health::Health::NewStub(server.connect());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+  const auto watch = stub->Watch(&context, {});
+  health::HealthCheckResponse response;
+  ASSERT_TRUE(watch->Read(&response));
+  EXPECT_EQ(response.status(), health::HealthCheckResponse::SERVING);
+  server.rpc().drain();
+  ASSERT_TRUE(watch->Read(&response));
+  EXPECT_EQ(response.status(), health::HealthCheckResponse::NOT_SERVING);
+  context.TryCancel();
+  watch->Finish();
+}
+
+// The messages are those that the reflection library itself brings.
+std::unique_ptr<google::protobuf::Message> reflectionMessage(const std::string& name) {
+  const auto* type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(
+      "grpc.reflection.v1alpha." + name);
+  if (type == nullptr) return nullptr;
+  const auto* prototype = google::protobuf::MessageFactory::generated_factory()->GetPrototype(type);
+  return std::unique_ptr<google::protobuf::Message>(prototype->New());
+}
+
+TEST(Reflection, listsTheServices) {
+  TestServer server;
+  const auto request = reflectionMessage("ServerReflectionRequest");
+  const auto response = reflectionMessage("ServerReflectionResponse");
+  ASSERT_TRUE(request != nullptr && response != nullptr);
+  request->GetReflection()->SetString(
+      request.get(), request->GetDescriptor()->FindFieldByName("list_services"), "*");
+  const RawReply reply =
+      converse(server.connect(), "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
+               request->SerializeAsString());
+  ASSERT_TRUE(reply.status.ok()) << reply.status.error_message();
+  ASSERT_EQ(reply.messages.size(), 1u);
+  ASSERT_TRUE(response->ParseFromString(reply.messages[0]));
+  for (const char* service :
+       {"viewloom.v1.IngestService", "viewloom.v1.DisplayService", "viewloom.v1.CatalogService"}) {
+    EXPECT_THAT(response->DebugString(), ::testing::HasSubstr(service));
+  }
+}
+
+TEST(RpcServer, refusesAPortThatIsTaken) {
+  TestServer server;
+  EXPECT_THROW(TestServer({}, 8, server.address()), std::runtime_error);
+}
+
+TEST(RpcServer, cancelsAReceiverThatDoesNotReadWhenItGoes) {
+  std::optional<TestServer> server(std::in_place);
+  TestPublisher publisher(server->connect(), "scene");
+  v1::OpenDisplay open = smallQuilt("scene");
+  open.mutable_display()->mutable_quilt()->mutable_size()->set_width(8192);
+  open.mutable_display()->mutable_quilt()->mutable_size()->set_height(4096);
+  open.set_wait_for_stream(true);
+  TestWatcher never(server->connect(), open);
+  TestWatcher reads(server->connect(), open);
+  publisher.sendFrame(1);
+  ASSERT_TRUE(reads.readAtlas().has_value());
+  server.reset();  // returns although 96 MiB of an atlas wait to be read
+  EXPECT_FALSE(never.readAtlas().has_value()) << "an atlas cut short has no end";
+  EXPECT_FALSE(never.finish().ok());
+  EXPECT_EQ(reads.finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+}
+
+}  // namespace
+}  // namespace viewloom
