@@ -3,6 +3,7 @@
 set(VIEWLOOM_SHADERS
   structure/convert_color.comp
   structure/linearise_depth.comp
+  structure/sort_columns.comp
   structure/measure_depth.comp
   structure/settle_tolerance.comp
   structure/build_facets.comp

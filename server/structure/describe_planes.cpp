@@ -8,19 +8,6 @@
 namespace viewloom {
 namespace {
 
-// How far two surfaces may be apart in 1/Z and still be one sample's worth: a step of the stored number,
-// carried through inv_z = value or 1 / value. Terms of step(w) = x + y w + z w^2.
-abi::vec3 formatStep(PlaneEncoding encoding, const DepthCoefficients& coefficients) {
-  constexpr float kRelativeStepF16 = 0x1p-10F;
-  constexpr float kRelativeStepF32 = 0x1p-22F;  // an ulp, and one of the division
-  if (encoding == PlaneEncoding::kDepthU16) {
-    const float step = std::abs(coefficients.scale);
-    return coefficients.reciprocal ? abi::vec3(0, 0, step) : abi::vec3(step, 0, 0);
-  }
-  const float relative = encoding == PlaneEncoding::kDepthF16 ? kRelativeStepF16 : kRelativeStepF32;
-  return {0, relative, 0};
-}
-
 uint32_t sampleType(PlaneEncoding encoding) {
   switch (encoding) {
     case PlaneEncoding::kDepthF16:
@@ -34,9 +21,17 @@ uint32_t sampleType(PlaneEncoding encoding) {
 
 }  // namespace
 
-abi::DepthPlane describeDepth(const PlaneFormat& depth) {
+abi::LinearisePush describeDepth(const PlaneFormat& depth, const Intrinsics& intrinsics) {
   const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
   return {.samples = {},
+          .inv_z = {},
+          .measured = {},
+          .width_px = depth.size_px.width,
+          .height_px = depth.size_px.height,
+          .focal_x_px = float(intrinsics.focal_px.x),
+          .focal_y_px = float(intrinsics.focal_px.y),
+          .principal_x_px = float(intrinsics.principal_px.x),
+          .principal_y_px = float(intrinsics.principal_px.y),
           .sample_type = sampleType(depth.encoding),
           .origin = coefficients.origin,
           .scale = coefficients.scale,
@@ -46,8 +41,20 @@ abi::DepthPlane describeDepth(const PlaneFormat& depth) {
           .reciprocal = coefficients.reciprocal,
           .ray_distance = coefficients.ray_distance,
           .has_invalid = coefficients.has_invalid,
-          .invalid_is_far = coefficients.invalid_is_far,
-          .format_step = formatStep(depth.encoding, coefficients)};
+          .invalid_is_far = coefficients.invalid_is_far};
+}
+
+// A step of the stored number, carried through inv_z = value or inv_z = 1 / value.
+abi::vec3 formatStep(const PlaneFormat& depth) {
+  constexpr float kRelativeStepF16 = 0x1p-10F;
+  constexpr float kRelativeStepF32 = 0x1p-22F;  // an ulp, and one of the division
+  const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
+  if (depth.encoding == PlaneEncoding::kDepthU16) {
+    const float step = std::abs(coefficients.scale);
+    return coefficients.reciprocal ? abi::vec3(0, 0, step) : abi::vec3(step, 0, 0);
+  }
+  const bool is_half = depth.encoding == PlaneEncoding::kDepthF16;
+  return {0, is_half ? kRelativeStepF16 : kRelativeStepF32, 0};
 }
 
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,

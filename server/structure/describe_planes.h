@@ -7,8 +7,11 @@
 
 namespace viewloom {
 
-// All but the address of the samples.
-abi::DepthPlane describeDepth(const PlaneFormat& depth);
+// All but the addresses. `intrinsics` in px of the plane.
+abi::LinearisePush describeDepth(const PlaneFormat& depth, const Intrinsics& intrinsics);
+// How far two surfaces of a column may be apart in 1/Z and still be one sample's worth: terms of
+// step(w) = x + y w + z w^2, 1/m.
+abi::vec3 formatStep(const PlaneFormat& depth);
 // All but the addresses.
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
                                          double exposure_ev);

@@ -52,10 +52,11 @@ std::vector<StagedLayer> stagedLayers(const Frame& frame) {
 }
 
 uint64_t structureBytes(const FrameShape& shape) {
+  const StructureLayout layout = structureLayout(shape.depth_px);
   uint64_t total_bytes = shape.staged_bytes;
   for (const SizePx& color_px : shape.color_px) {
     total_bytes += colorBytes(shape.color_storage, color_px);
-    total_bytes += structureLayout(shape.depth_px).layerBytes();
+    total_bytes += layout.layerBytes() + layout.invZBytes();
   }
   return total_bytes;
 }

@@ -13,13 +13,26 @@
 #include "shaders/linearise_depth.h"
 #include "shaders/measure_depth.h"
 #include "shaders/settle_tolerance.h"
+#include "shaders/sort_columns.h"
 
 namespace viewloom {
 namespace {
 
 ComputePass makePass(const Device& device, std::span<const uint32_t> spirv, uint32_t push_bytes,
-                     const char* name) {
-  return ComputePass(device, {.spirv = spirv, .push_bytes = push_bytes, .debug_name = name});
+                     const char* name, std::span<const uint32_t> specialization = {}) {
+  return ComputePass(device, {.spirv = spirv,
+                              .push_bytes = push_bytes,
+                              .specialization = specialization,
+                              .debug_name = name});
+}
+
+std::vector<ComputePass> makeLinearise(const Device& device) {
+  std::vector<ComputePass> passes;
+  for (uint32_t type : {abi::kDepthSampleF32, abi::kDepthSampleF16, abi::kDepthSampleU16}) {
+    passes.push_back(makePass(device, linearise_depth_spirv, sizeof(abi::LinearisePush),
+                              "linearise depth", {&type, 1}));
+  }
+  return passes;
 }
 
 uint32_t groups(uint32_t count, uint32_t group_size) { return (count + group_size - 1) / group_size; }
@@ -52,16 +65,25 @@ void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
 
 }  // namespace
 
+StructureBuilder::PerLayerCount StructureBuilder::makePerLayerCount(
+    const Device& device, std::span<const uint32_t> spirv, const char* name) {
+  PerLayerCount passes;
+  for (uint32_t layer_count = 1; layer_count <= abi::kLayerCountMax; ++layer_count) {
+    passes.push_back(makePass(device, spirv, sizeof(abi::BuildPush), name, {&layer_count, 1}));
+  }
+  return passes;
+}
+
 StructureBuilder::StructureBuilder(const Device& device)
-    : convert_color_(makePass(device, convert_color_spirv, sizeof(abi::ConvertColorPush),
-                              "convert color")),
-      linearise_depth_(
-          makePass(device, linearise_depth_spirv, sizeof(abi::BuildPush), "linearise depth")),
+    : convert_color_(
+          makePass(device, convert_color_spirv, sizeof(abi::ConvertColorPush), "convert color")),
+      linearise_depth_(makeLinearise(device)),
+      sort_columns_(makePerLayerCount(device, sort_columns_spirv, "sort columns")),
       measure_depth_(makePass(device, measure_depth_spirv, sizeof(abi::BuildPush), "measure depth")),
       settle_tolerance_(
           makePass(device, settle_tolerance_spirv, sizeof(abi::BuildPush), "settle tolerance")),
-      build_facets_(makePass(device, build_facets_spirv, sizeof(abi::BuildPush), "build facets")),
-      build_links_(makePass(device, build_links_spirv, sizeof(abi::BuildPush), "build links")),
+      build_facets_(makePerLayerCount(device, build_facets_spirv, "build facets")),
+      build_links_(makePerLayerCount(device, build_links_spirv, "build links")),
       build_blocks_(makePass(device, build_blocks_spirv, sizeof(abi::BuildPush), "build blocks")),
       build_level_(makePass(device, build_level_spirv, sizeof(abi::BuildPush), "build level")),
       flatten_entries_(
@@ -71,20 +93,18 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
                               GpuTimer* timer) const {
   {
     const Timed timed(commands, timer, "color");
-    commands.copyBuffer(slot.structureUpload().handle(), slot.structure().handle(),
-                        vk::BufferCopy{.size = sizeof(abi::Structure)});
     recordClear(commands, slot.measured());
     recordColor(commands, slot);
     recordTransferToCompute(commands);
   }
-  const abi::BuildPush push{.structure = addressWords(slot.address()), .layer = 0, .level = 0};
+  const abi::BuildPush& push = slot.buildPush();
+  const size_t variant = slot.shape().layerCount() - 1;
   const SizePx size = slot.shape().depth_px;
   const uint32_t groups_x = groups(size.width, abi::kBuildGroupWidth);
   const uint32_t groups_y = groups(size.height, abi::kBuildGroupHeight);
   {
     const Timed timed(commands, timer, "linearise");
-    linearise_depth_.record(commands, push, groups_x, groups_y);
-    recordComputeBarrier(commands);
+    recordLinearise(commands, slot);
   }
   {
     const Timed timed(commands, timer, "measure");
@@ -95,12 +115,12 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
   }
   {
     const Timed timed(commands, timer, "facets");
-    build_facets_.record(commands, push, groups_x, groups_y, slot.shape().layerCount());
+    build_facets_[variant].record(commands, push, groups_x, groups_y);
     recordComputeBarrier(commands);
   }
   {
     const Timed timed(commands, timer, "links");
-    build_links_.record(commands, push, groups_x, groups_y);
+    build_links_[variant].record(commands, push, groups_x, groups_y);
     recordComputeBarrier(commands);
   }
   recordPyramid(commands, slot, timer);
@@ -108,6 +128,21 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
   commands.copyBuffer(slot.measured().handle(), slot.measuredReadback().handle(),
                       vk::BufferCopy{.size = slot.measuredReadback().sizeBytes()});
   recordTransferToHost(commands);
+}
+
+void StructureBuilder::recordLinearise(vk::CommandBuffer commands, const StructureSlot& slot) const {
+  const SizePx size = slot.shape().depth_px;
+  const uint32_t groups_x = groups(size.width, abi::kBuildGroupWidth);
+  const uint32_t groups_y = groups(size.height, abi::kBuildGroupHeight);
+  for (const abi::LinearisePush& push : slot.linearisePushes()) {
+    linearise_depth_[push.sample_type].record(commands, push, groups_x, groups_y);
+  }
+  recordComputeBarrier(commands);
+  // One layer is sorted as it is.
+  const uint32_t layer_count = slot.shape().layerCount();
+  if (layer_count == 1) return;
+  sort_columns_[layer_count - 1].record(commands, slot.buildPush(), groups_x, groups_y);
+  recordComputeBarrier(commands);
 }
 
 void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const {
@@ -127,23 +162,24 @@ void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSl
 
 void StructureBuilder::recordPyramid(vk::CommandBuffer commands, const StructureSlot& slot,
                                      GpuTimer* timer) const {
-  abi::BuildPush push{.structure = addressWords(slot.address()), .layer = 0, .level = 0};
-  const uint32_t layer_count = slot.shape().layerCount();
-  const auto record = [&](const ComputePass& pass, const LevelLayout& level) {
-    pass.record(commands, push, groups(level.size.width, abi::kNodeGroupSize), level.size.height,
-                layer_count);
+  abi::BuildPush push = slot.buildPush();
+  const SizePx size = slot.shape().depth_px;
+  const auto record = [&](const ComputePass& pass, uint32_t level) {
+    const uint32_t node_px = 1u << level;
+    push.level = level;
+    pass.record(commands, push, groups(groups(size.width, node_px), abi::kNodeGroupSize),
+                groups(size.height, node_px), push.layer_count);
     recordComputeBarrier(commands);
   };
   {
     const Timed timed(commands, timer, "blocks");
-    record(build_blocks_, slot.layout().levels[0]);
+    record(build_blocks_, abi::kLevelFirst);
   }
   const Timed timed(commands, timer, "levels");
-  for (uint32_t i = 1; i < abi::kLevelCount; ++i) {
-    push.level = abi::kLevelFirst + i;
-    record(build_level_, slot.layout().levels[i]);
+  for (uint32_t level = abi::kLevelFirst + 1; level <= abi::kLevelLast; ++level) {
+    record(build_level_, level);
   }
-  record(flatten_entries_, slot.layout().levels[0]);
+  record(flatten_entries_, abi::kLevelFirst);
 }
 
 }  // namespace viewloom

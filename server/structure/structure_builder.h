@@ -2,6 +2,9 @@
 // Records the build of a structure: linearise, measure, facets, links, pyramid.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "gpu/compute_pass.h"
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
@@ -23,14 +26,21 @@ class StructureBuilder {
 
  private:
   void recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const;
+  void recordLinearise(vk::CommandBuffer commands, const StructureSlot& slot) const;
   void recordPyramid(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
 
+  // Passes over whole columns unroll their loops: one pipeline per layer count.
+  using PerLayerCount = std::vector<ComputePass>;  // [layer count - 1]
+  static PerLayerCount makePerLayerCount(const Device& device, std::span<const uint32_t> spirv,
+                                         const char* name);
+
   ComputePass convert_color_;
-  ComputePass linearise_depth_;
+  std::vector<ComputePass> linearise_depth_;  // [abi::kDepthSample...]
+  PerLayerCount sort_columns_;
   ComputePass measure_depth_;
   ComputePass settle_tolerance_;
-  ComputePass build_facets_;
-  ComputePass build_links_;
+  PerLayerCount build_facets_;
+  PerLayerCount build_links_;
   ComputePass build_blocks_;
   ComputePass build_level_;
   ComputePass flatten_entries_;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large the arrays of one layer of a structure are, and where each level of the pyramid begins.
+// How large the arrays of one layer of a structure are (shaders/shared/structure_abi.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "frame/size.h"
@@ -11,27 +10,32 @@
 
 namespace viewloom {
 
-struct LevelLayout {
-  uint32_t offset = 0;  // nodes before this level
-  SizePx size;          // nodes
-};
-
 struct StructureLayout {
   SizePx size_px;
-  std::array<LevelLayout, abi::kLevelCount> levels;  // of level abi::kLevelFirst + index
+  SizePx padded_px;  // rounded up to whole nodes of the last level
 
-  uint64_t invZBytes() const { return size_px.area() * 4; }
-  uint64_t facetBytes() const { return size_px.area() * 8; }
-  uint64_t linkBytes() const { return size_px.area() * 2; }
-  uint64_t entryBytes() const { return levels[0].size.area() * 8; }
-  uint64_t nodeCount() const { return levels.back().offset + levels.back().size.area(); }
-  uint64_t nodeBytes() const { return nodeCount() * 8; }
-  uint64_t layerBytes() const {
-    return invZBytes() + facetBytes() + linkBytes() + entryBytes() + nodeBytes();
+  // Cells of a level: facets, entries, or nodes.
+  SizePx levelSize(uint32_t level) const {
+    const uint32_t shift = level == abi::kLevelEntries ? abi::kLevelFirst : level;
+    return {padded_px.width >> shift, padded_px.height >> shift};
   }
+  // Cells before a level.
+  uint64_t levelOffset(uint32_t level) const {
+    return abi::levelOffset(level, uint32_t(padded_px.area()));
+  }
+  uint64_t cellCount() const { return abi::cellCount(uint32_t(padded_px.area())); }
+  uint64_t invZBytes() const { return size_px.area() * 4; }
+  // Cells of 8 bytes, then links of 2.
+  uint64_t layerBytes() const { return cellCount() * 8 + padded_px.area() * 2; }
 };
 
-StructureLayout structureLayout(SizePx depth_px);
-uint64_t colorBytes(ColorStorage storage, SizePx color_px);
+inline StructureLayout structureLayout(SizePx depth_px) {
+  const uint32_t mask = (1u << abi::kLevelLast) - 1;
+  return {depth_px, {(depth_px.width + mask) & ~mask, (depth_px.height + mask) & ~mask}};
+}
+
+inline uint64_t colorBytes(ColorStorage storage, SizePx color_px) {
+  return color_px.area() * (storage == ColorStorage::kRgba8Srgb ? 4 : 8);
+}
 
 }  // namespace viewloom

@@ -2,27 +2,11 @@
 #include "structure/structure_slot.h"
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 
-#include "base/check.h"
 #include "structure/describe_planes.h"
 
 namespace viewloom {
-namespace {
-
-StructureSlot::LayerBuffers makeLayer(const Device& device, const StructureLayout& layout) {
-  const auto make = [&](uint64_t size_bytes, const char* name) {
-    return Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
-  };
-  return {.inv_z = make(layout.invZBytes(), "inv_z"),
-          .facets = make(layout.facetBytes(), "facets"),
-          .links = make(layout.linkBytes(), "links"),
-          .entries = make(layout.entryBytes(), "entries"),
-          .nodes = make(layout.nodeBytes(), "nodes")};
-}
-
-}  // namespace
 
 StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
     : shape_(shape),
@@ -30,10 +14,6 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
       staging_(device, {.size_bytes = shape.staged_bytes,
                         .intent = MemoryIntent::kUpload,
                         .debug_name = "staged planes"}),
-      structure_upload_(device, {.size_bytes = sizeof(abi::Structure),
-                                 .intent = MemoryIntent::kUpload,
-                                 .debug_name = "structure upload"}),
-      structure_(device, {.size_bytes = sizeof(abi::Structure), .debug_name = "structure"}),
       measured_(device, {.size_bytes = sizeof(abi::Measured), .debug_name = "measured"}),
       measured_readback_(device, {.size_bytes = offsetof(abi::Measured, depth_histogram),
                                   .intent = MemoryIntent::kReadback,
@@ -41,9 +21,13 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
   for (const SizePx& color_px : shape.color_px) {
     color_.emplace_back(device, BufferOptions{.size_bytes = colorBytes(shape.color_storage, color_px),
                                               .debug_name = "color"});
-    layers_.push_back(makeLayer(device, layout_));
+    inv_z_.emplace_back(
+        device, BufferOptions{.size_bytes = layout_.invZBytes(), .debug_name = "inv_z"});
+    layers_.emplace_back(
+        device, BufferOptions{.size_bytes = layout_.layerBytes(), .debug_name = "structure layer"});
   }
   staged_.reserve(shape.layerCount());
+  linearise_.reserve(shape.layerCount());
   conversions_.reserve(shape.layerCount());
 }
 
@@ -56,51 +40,34 @@ void StructureSlot::upload(const Frame& frame) {
     std::memcpy(to + staged_[i].depth.offset, planes.depth->data(), planes.depth->size());
     std::memcpy(to + staged_[i].color.offset, planes.color->data(), planes.color->size());
   }
-  conversions_.clear();
-  for (size_t i = 0; i < staged_.size(); ++i) {
-    abi::ConvertColorPush push =
-        describeConversion(frame.format.sources.front().layers[i].color,
-                           frame.sources.front()[i].color_encoding, frame.format.exposure_ev);
-    push.from = addressWords(staging_.address() + staged_[i].color.offset);
-    push.to = addressWords(color_[i].address());
-    conversions_.push_back(push);
-  }
-  const abi::Structure described = describe(frame);
-  std::memcpy(structure_upload_.mapped().data(), &described, sizeof described);
+  describe(frame);
 }
 
-abi::Structure StructureSlot::describe(const Frame& frame) const {
+void StructureSlot::describe(const Frame& frame) {
   const SourceFormat& source = frame.format.sources.front();
-  abi::Structure described{};
-  described.width_px = shape_.depth_px.width;
-  described.height_px = shape_.depth_px.height;
-  described.layer_count = shape_.layerCount();
-  described.color_format =
-      shape_.color_storage == ColorStorage::kRgba8Srgb ? abi::kColorRgba8 : abi::kColorRgba16f;
-  described.focal_x_px = float(source.camera.intrinsics.focal_px.x);
-  described.focal_y_px = float(source.camera.intrinsics.focal_px.y);
-  described.principal_x_px = float(source.camera.intrinsics.principal_px.x);
-  described.principal_y_px = float(source.camera.intrinsics.principal_px.y);
-  described.given_kappa = float(source.connection_tolerance);
-  described.measured = addressWords(measured_.address());
-  for (uint32_t i = 0; i < abi::kLevelCount; ++i) {
-    described.level_offset[i] = layout_.levels[i].offset;
-    described.level_width[i] = layout_.levels[i].size.width;
-    described.level_height[i] = layout_.levels[i].size.height;
+  linearise_.clear();
+  conversions_.clear();
+  for (size_t i = 0; i < staged_.size(); ++i) {
+    abi::LinearisePush depth = describeDepth(source.layers[i].depth, source.camera.intrinsics);
+    depth.samples = addressWords(staging_.address() + staged_[i].depth.offset);
+    depth.inv_z = addressWords(inv_z_[i].address());
+    depth.measured = addressWords(measured_.address());
+    linearise_.push_back(depth);
+    abi::ConvertColorPush color =
+        describeConversion(source.layers[i].color, frame.sources.front()[i].color_encoding,
+                           frame.format.exposure_ev);
+    color.from = addressWords(staging_.address() + staged_[i].color.offset);
+    color.to = addressWords(color_[i].address());
+    conversions_.push_back(color);
+    build_.inv_z[i] = addressWords(inv_z_[i].address());
+    build_.layers[i] = addressWords(layers_[i].address());
   }
-  for (uint32_t i = 0; i < shape_.layerCount(); ++i) {
-    described.inv_z[i] = addressWords(layers_[i].inv_z.address());
-    described.facets[i] = addressWords(layers_[i].facets.address());
-    described.links[i] = addressWords(layers_[i].links.address());
-    described.entries[i] = addressWords(layers_[i].entries.address());
-    described.nodes[i] = addressWords(layers_[i].nodes.address());
-    described.color[i] = {.texels = addressWords(color_[i].address()),
-                          .width_px = shape_.color_px[i].width,
-                          .height_px = shape_.color_px[i].height};
-    described.depth[i] = describeDepth(source.layers[i].depth);
-    described.depth[i].samples = addressWords(staging_.address() + staged_[i].depth.offset);
-  }
-  return described;
+  build_.measured = addressWords(measured_.address());
+  build_.width_px = shape_.depth_px.width;
+  build_.height_px = shape_.depth_px.height;
+  build_.layer_count = shape_.layerCount();
+  build_.given_kappa = float(source.connection_tolerance);
+  build_.format_step = formatStep(source.layers.front().depth);
 }
 
 SourceStats StructureSlot::stats() const {

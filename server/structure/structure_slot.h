@@ -27,47 +27,38 @@ class StructureSlot {
   const StructureLayout& layout() const { return layout_; }
   // Of the uploaded frame.
   const Camera& sourceCamera() const { return source_camera_; }
-  // abi::Structure, for shaders.
-  vk::DeviceAddress address() const { return structure_.address(); }
   // Once the build's submission is done.
   SourceStats stats() const;
 
-  // What the build's passes need beside abi::Structure.
   const Buffer& staging() const { return staging_; }
   const std::vector<StagedLayer>& staged() const { return staged_; }
-  const std::vector<Buffer>& color() const { return color_; }
-  const Buffer& structureUpload() const { return structure_upload_; }
-  const Buffer& structure() const { return structure_; }
   const Buffer& measured() const { return measured_; }
   const Buffer& measuredReadback() const { return measured_readback_; }
-  // One per layer: what a colour plane that must be converted is.
-  const std::vector<abi::ConvertColorPush>& conversions() const { return conversions_; }
+  const std::vector<Buffer>& color() const { return color_; }  // [layer] texels
+  const std::vector<Buffer>& invZ() const { return inv_z_; }    // [layer] float[height][width]
+  const std::vector<Buffer>& layers() const { return layers_; }  // [layer] cells, then links
 
-  // Arrays of one layer, for tests that read them back.
-  struct LayerBuffers {
-    Buffer inv_z;
-    Buffer facets;
-    Buffer links;
-    Buffer entries;
-    Buffer nodes;
-  };
-  const std::vector<LayerBuffers>& layers() const { return layers_; }
+  // What the build's passes are told of the uploaded frame.
+  const std::vector<abi::LinearisePush>& linearisePushes() const { return linearise_; }
+  const std::vector<abi::ConvertColorPush>& conversions() const { return conversions_; }
+  const abi::BuildPush& buildPush() const { return build_; }
 
  private:
-  abi::Structure describe(const Frame& frame) const;
+  void describe(const Frame& frame);
 
   FrameShape shape_;
   StructureLayout layout_;
   Camera source_camera_;
   Buffer staging_;
-  Buffer structure_upload_;
-  Buffer structure_;
   Buffer measured_;
   Buffer measured_readback_;
   std::vector<Buffer> color_;
-  std::vector<LayerBuffers> layers_;
+  std::vector<Buffer> inv_z_;
+  std::vector<Buffer> layers_;
   std::vector<StagedLayer> staged_;
+  std::vector<abi::LinearisePush> linearise_;
   std::vector<abi::ConvertColorPush> conversions_;
+  abi::BuildPush build_{};
 };
 
 // A device address as shaders take it.

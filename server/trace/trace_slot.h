@@ -78,8 +78,8 @@ class TraceSlot {
   ReadablePlane linear_;
   ReadablePlane records_;
   ReadablePlane counters_;
-  Buffer upload_;  // abi::TraceParams, then the tiles
-  Buffer params_;
+  Buffer upload_;  // abi::TraceExtras, then abi::ViewParams of every tile
+  Buffer params_;  // the same, on the device
 };
 
 }  // namespace viewloom

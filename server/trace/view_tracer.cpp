@@ -35,6 +35,9 @@ bool hasUnusedPixels(const TraceJob& job) {
          layout.views.size() < size_t{layout.columns} * layout.rows;
 }
 
+// Sides of up to 16384 px, and counts of tiles, in 16 bits each.
+uint32_t packSize(SizePx size) { return size.width | size.height << 16; }
+
 abi::Address addressOf(const ReadablePlane& plane) {
   return plane.isEmpty() ? abi::Address{0, 0} : addressWords(plane.target().address());
 }
@@ -63,6 +66,42 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
   return *made;
 }
 
+abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, const TraceSlot& slot) {
+  return {.depth = addressOf(slot.depth_),
+          .mask = addressOf(slot.mask_),
+          .linear = addressOf(slot.linear_),
+          .records = addressOf(slot.records_),
+          .counters = addressOf(slot.counters_),
+          .color_width_px = structure.shape().color_px.front().width,
+          .color_height_px = structure.shape().color_px.front().height};
+}
+
+abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const TraceJob& job,
+                                        BandRows rows, const TraceSlot& slot) {
+  const AtlasLayout& layout = *job.layout;
+  const uint32_t border = job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
+  abi::TracePush push{
+      .layers = {},
+      .color = {},
+      .measured = addressWords(structure.measured().address()),
+      .views = addressWords(slot.params_.address() + sizeof(abi::TraceExtras)),
+      .band = addressOf(slot.color_),
+      .extras = addressWords(slot.params_.address()),
+      .source_size_px = packSize(structure.shape().depth_px),
+      .layer_count = structure.shape().layerCount(),
+      .atlas_width_px = layout.size_px.width,
+      .first_row = rows.first_row,
+      .tile_size_px = packSize(layout.tile_size_px),
+      .tile_grid = packSize({layout.columns, layout.rows}),
+      .padding_top_px = layout.padding_top_px,
+      .fill = (job.background_rgb & 0xffffff) | border};
+  for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
+    push.layers[i] = addressWords(structure.layers()[i].address());
+    push.color[i] = addressWords(structure.color()[i].address());
+  }
+  return push;
+}
+
 void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& structure,
                             const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   const AtlasLayout& layout = *job.layout;
@@ -70,28 +109,10 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
                  slot.shape_.row_count_max >= rows.row_count &&
                  slot.shape_.tile_count_max >= job.tiles.size());
   slot.area_px_ = uint64_t{layout.size_px.width} * rows.row_count;
-  const abi::TraceParams params{
-      .structure = addressWords(structure.address()),
-      .views = addressWords(slot.params_.address() + sizeof(abi::TraceParams)),
-      .color = addressOf(slot.color_),
-      .depth = addressOf(slot.depth_),
-      .mask = addressOf(slot.mask_),
-      .linear = addressOf(slot.linear_),
-      .records = addressOf(slot.records_),
-      .counters = addressOf(slot.counters_),
-      .atlas_width_px = layout.size_px.width,
-      .first_row = rows.first_row,
-      .row_count = rows.row_count,
-      .tile_width_px = layout.tile_size_px.width,
-      .tile_height_px = layout.tile_size_px.height,
-      .tile_columns = layout.columns,
-      .tile_rows = layout.rows,
-      .padding_top_px = layout.padding_top_px,
-      .background_rgb = job.background_rgb,
-      .outside_is_border = job.outside_fill == OutsideFill::kBorder};
+  const abi::TraceExtras extras = describeExtras(structure, slot);
   const size_t tiles_bytes = job.tiles.size() * sizeof(abi::ViewParams);
-  std::memcpy(slot.upload_.mapped().data(), &params, sizeof params);
-  std::memcpy(slot.upload_.mapped().data() + sizeof params, job.tiles.data(), tiles_bytes);
+  std::memcpy(slot.upload_.mapped().data(), &extras, sizeof extras);
+  std::memcpy(slot.upload_.mapped().data() + sizeof extras, job.tiles.data(), tiles_bytes);
 
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = lanes_are_views ? kPixelsWithViewLanes : kPixelsWithPixelLanes;
@@ -106,7 +127,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
 
   if (timer) timer->recordBegin(commands, "trace");
   commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = sizeof params + tiles_bytes});
+                      vk::BufferCopy{.size = sizeof extras + tiles_bytes});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
     recordClear(commands, slot.color_, kOpaqueBlack);
@@ -116,7 +137,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   }
   recordTransferToCompute(commands);
   const uint32_t invocations = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
-  walk.record(commands, abi::TracePush{.params = addressWords(slot.params_.address())},
+  walk.record(commands, describeBand(structure, job, rows, slot),
               (invocations + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize, rows.row_count);
   if (timer) timer->recordEnd(commands);
 

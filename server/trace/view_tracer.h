@@ -44,6 +44,9 @@ class ViewTracer {
     auto operator<=>(const Variant&) const = default;
   };
 
+  static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceSlot& slot);
+  static abi::TracePush describeBand(const StructureSlot& structure, const TraceJob& job,
+                                     BandRows rows, const TraceSlot& slot);
   const ComputePass& pass(const Variant& variant);
 
   const Device* device_;

@@ -1,28 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads from a structure. Every buffer is reached by its address, so none is bound by the descriptor limit.
+// Cells and links of a layer of a structure.
 #ifndef VIEWLOOM_LIB_STRUCTURE_ACCESS_GLSL_
 #define VIEWLOOM_LIB_STRUCTURE_ACCESS_GLSL_
 
-#include "shared/structure_abi.h"
+#include "lib/facet.glsl"
+#include "lib/memory.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer StructureRef { Structure value; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MeasuredRef { Measured value; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FloatRef { float at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer UintRef { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Uvec2Ref { uvec2 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 2) buffer Uint16Ref { uint16_t at[]; };
+// Sides of the image, and of the arrays: rounded up to whole nodes of the last level.
+struct Extent {
+  ivec2 size_px;
+  uint padded_width;
+  uint padded_area;
+};
 
-uint pixelIndex(StructureRef structure, ivec2 pixel) {
-  return uint(pixel.y) * structure.value.width_px + uint(pixel.x);
+Extent makeExtent(ivec2 size_px) {
+  const uint mask = (1u << kLevelLast) - 1u;
+  const uvec2 padded = (uvec2(size_px) + mask) & ~mask;
+  return Extent(size_px, padded.x, padded.x * padded.y);
 }
 
-// kNoSurface where the column has no such layer.
-float loadInvZ(StructureRef structure, uint layer, ivec2 pixel) {
-  return FloatRef(structure.value.inv_z[layer]).at[pixelIndex(structure, pixel)];
+bool isInside(Extent extent, ivec2 pixel) {
+  return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, extent.size_px));
 }
 
-uvec2 loadFacet(StructureRef structure, uint layer, ivec2 pixel) {
-  return Uvec2Ref(structure.value.facets[layer]).at[pixelIndex(structure, pixel)];
+uint facetIndex(Extent extent, ivec2 pixel) {
+  return uint(pixel.y) * extent.padded_width + uint(pixel.x);
+}
+
+// `cell` in units of the level's own cells.
+uint cellIndex(Extent extent, uint level, uvec2 cell) {
+  const uint shift = level == kLevelEntries ? kLevelFirst : level;
+  return levelOffset(level, extent.padded_area) + cell.y * (extent.padded_width >> shift) + cell.x;
+}
+
+uvec2 loadFacet(Address layer, Extent extent, ivec2 pixel) {
+  return Uvec2Ref(layer).at[facetIndex(extent, pixel)];
+}
+
+uvec2 loadCell(Address layer, Extent extent, uint level, uvec2 cell) {
+  return Uvec2Ref(layer).at[cellIndex(extent, level, cell)];
+}
+
+// kNoSurface where there is none.
+float facetInvZ(uvec2 facet) {
+  return facet.x == kNoFacet ? kNoSurface : uintBitsToFloat(facet.x & ~kForwardLinkFlag);
+}
+
+// The facet's surface at an image point; kNoSurface where there is none.
+float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
+  const float inv_z = facetInvZ(facet);
+  return inv_z < 0.0 ? kNoSurface : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(pixel) - 0.5);
+}
+
+// uint16 index of a link word, from the start of the layer.
+uint linkIndex(Extent extent, ivec2 pixel) {
+  return cellCount(extent.padded_area) * 4u + facetIndex(extent, pixel);
+}
+
+uint loadLinks(Address layer, Extent extent, ivec2 pixel) {
+  return uint(Uint16Ref(layer).at[linkIndex(extent, pixel)]);
 }
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.
@@ -30,22 +66,20 @@ uint linkOfEdge(uint links, uint edge) {
   return (links >> (edge * kLinkBits)) & 7u;
 }
 
-uint loadLinks(StructureRef structure, uint layer, ivec2 pixel) {
-  return uint(Uint16Ref(structure.value.links[layer]).at[pixelIndex(structure, pixel)]);
+// The upper bits of a link word say how far a surface that is linked in a lower layer stands above the
+// facet's own box, in units of kappa: 2^(n - 8), rounded up; 0 = not at all, the last = any distance.
+const uint kReachShift = 12u;
+const uint kReachLast = 15u;
+
+uint packForwardReach(float reach, float kappa) {
+  const int exponent = int(floatBitsToUint(max(reach / kappa, 1e-6)) >> 23) - 127 + 1;
+  return reach <= 0.0 ? 0u : uint(clamp(exponent + 8, 1, int(kReachLast))) << kReachShift;
 }
 
-uint nodeIndex(StructureRef structure, uint level, uvec2 cell) {
-  const uint i = level - kLevelFirst;
-  return structure.value.level_offset[i] + cell.y * structure.value.level_width[i] + cell.x;
-}
-
-uvec2 loadNode(StructureRef structure, uint layer, uint level, uvec2 cell) {
-  return Uvec2Ref(structure.value.nodes[layer]).at[nodeIndex(structure, level, cell)];
-}
-
-uvec2 loadEntry(StructureRef structure, uint layer, uvec2 cell) {
-  const uint index = cell.y * structure.value.level_width[0] + cell.x;
-  return Uvec2Ref(structure.value.entries[layer]).at[index];
+float forwardReach(uint links, float kappa) {
+  const uint reach = links >> kReachShift;
+  const float distance = kappa * uintBitsToFloat((reach + 119u) << 23);
+  return reach == 0u ? 0.0 : reach == kReachLast ? 1e37 : distance;
 }
 
 // Largest step between two facets that are one surface, 1/m.

@@ -4,6 +4,10 @@
 // Opaque layers are walked one after the other. Layer l + 1 lies behind layer l, so it is entered only
 // where the ray first passed behind layer l, and followed only to the hit known so far. Cells are integers
 // and move only along the ray, so every walk ends; there is no limit of steps.
+//
+// Two loops: the inner one steps from cell to cell, one load a visit; what is rare (an edge that may be
+// linked, the end of a layer) stops it and is dealt with by the outer one. On devices that mask instead of
+// branching, rare code inside the inner loop would cost every visit.
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
@@ -11,9 +15,14 @@
 #include "lib/ray.glsl"
 #include "lib/structure_access.glsl"
 
-// Levels of a walk beside those of the pyramid: a facet, and the flattened entry of a 4x4 cell.
-const uint kAtFacet = 0u;
-const uint kAtEntry = 1u;
+// What is walked through.
+struct Scene {
+  Address layers[kLayerCountMax];
+  uint layer_count;
+  Extent extent;
+  float inv_z_near;  // nothing is nearer, 1/m
+  vec2 kappa;        // connection tolerance: absolute (1/m), relative
+};
 
 const uint kAxisNone = 0u;  // in the ray's first column
 const uint kAxisX = 1u;
@@ -26,22 +35,8 @@ struct Place {
   uint axis;
 };
 
-struct Walk {
-  bool is_hit;
-  bool is_assumed;    // was behind known surface before the hit
-  bool ends_behind;   // no hit, and behind known surface at the end
-  bool leaves;        // no hit, and the end is not at inv_z = 0
-  float t;            // of the hit; 1 without
-  ivec2 cell;         // of the hit; the last column without
-  uint layer;         // of the hit
-  bool has_far_side;  // passed behind a silhouette: `far` is the column in front of it
-  ivec2 far_cell;     // the surface there that the ray was in front of
-  uint far_layer;
-  uint visits;
-};
-
-// Starts behind the layers < behind_count at a place, in front of the others (a surface that was seen
-// through). behind_count = kStateUnknown: in the state of its first column.
+// A walk begins in the state of its first column (kStateUnknown), or behind the layers < behind_count and
+// in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
 struct WalkStart {
@@ -49,59 +44,66 @@ struct WalkStart {
   uint behind_count;
 };
 
-float facetAtPoint(StructureRef structure, uint layer, ivec2 cell, vec2 point) {
-  const uvec2 facet = loadFacet(structure, layer, cell);
-  const float inv_z = uintBitsToFloat(facet.x);
-  return inv_z < 0.0 ? kNoSurface : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(cell) - 0.5);
-}
+struct Walk {
+  bool is_hit;
+  bool is_assumed;    // was behind known surface before the hit
+  bool ends_behind;   // no hit, and behind known surface at the end
+  bool leaves;        // the ray's end is not at inv_z = 0
+  float t;            // of the hit; 1 without
+  ivec2 cell;         // of the hit; the last column without
+  uint layer;         // of the hit
+  bool has_far_side;  // passed behind a silhouette: the column in front of it, and the layer there
+  ivec2 far_cell;     // whose surface the ray was in front of
+  uint far_layer;
+  uint visits;
+};
+
+// Why the inner loop stops.
+const uint kStepOn = 0u;
+const uint kMeetsEdge = 1u;     // from in front to behind across an edge that may be linked
+const uint kComesForward = 2u;  // the last facet has a link to a lower layer; it may stand before the ray
+const uint kHits = 3u;          // inside a node
+const uint kEnds = 4u;          // the ray, or the stretch of it that is still of interest
 
 ivec2 stepOfAxis(uint axis, ivec2 direction) {
-  return axis == kAxisX ? ivec2(direction.x, 0) : ivec2(0, direction.y);
+  return axis == kAxisX ? ivec2(direction.x, 0) : axis == kAxisY ? ivec2(0, direction.y) : ivec2(0);
 }
 
-// The edge of a facet that a ray comes in through (or, `leaving`, goes out through).
+// The edge through which a ray leaves a facet across an axis, or comes in.
 uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   const int along = axis == kAxisX ? direction.x : direction.y;
   const uint first = axis == kAxisX ? kEdgeLeft : kEdgeTop;
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
-// The ray stands in front of layer `layer` before the edge and behind it after: is there a linked surface
-// across the edge that it was in front of? Then it hits the edge.
-bool hitsEdge(StructureRef structure, uint layer, Place place, ivec2 direction, vec3 point) {
-  if (place.axis == kAxisNone) return false;
-  const uint links = loadLinks(structure, layer, place.cell);
-  const uint link = linkOfEdge(links, edgeOfAxis(place.axis, direction, false));
-  if (link == 0u) return false;
-  if (link - 1u >= layer) return true;
-  const ivec2 before = place.cell - stepOfAxis(place.axis, direction);
-  return point.z > facetAtPoint(structure, link - 1u, before, point.xy);
+// 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
+// kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface it was
+// in front of is hit. kComesForward: in front of `layer` before; hit if behind what it is linked to.
+uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point) {
+  const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
+  const bool leaving = event == kComesForward;
+  const ivec2 linked_from = leaving ? before : at.cell;
+  const ivec2 linked_to = leaving ? at.cell : before;
+  const uint links = loadLinks(pickAddress(scene.layers, layer), scene.extent, linked_from);
+  const uint link = at.axis == kAxisNone ? 0u : linkOfEdge(links, edgeOfAxis(at.axis, direction, leaving));
+  const uint other = link > 0u ? link - 1u : 0u;
+  const uvec2 facet = loadFacet(pickAddress(scene.layers, other), scene.extent, linked_to);
+  const bool is_before = point.z > facetAtPoint(facet, linked_to, point.xy);
+  if (link == 0u) return 0u;
+  if (leaving) return other < layer && !is_before ? link : 0u;
+  return other >= layer || is_before ? layer + 1u : 0u;
 }
 
-// A surface behind which the ray walks may come forward at the next edge: link to a lower layer, whose
-// facet there the ray is then behind. Returns 1 + that layer, or 0.
-uint forwardEdgeHit(StructureRef structure, uint layer, ivec2 cell, uint axis, ivec2 direction, vec3 point) {
-  const uint links = loadLinks(structure, layer, cell);
-  const uint link = linkOfEdge(links, edgeOfAxis(axis, direction, true));
-  if (link == 0u || link - 1u >= layer) return 0u;
-  const ivec2 after = cell + stepOfAxis(axis, direction);
-  return point.z <= facetAtPoint(structure, link - 1u, after, point.xy) ? link : 0u;
-}
-
-Walk walkRay(StructureRef structure, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z,
-             float kappa_abs, float kappa_rel) {
-  const uint layer_count = structure.value.layer_count;
-  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
+Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
   const ivec2 direction = ivec2(ray.extent.x >= 0.0 ? 1 : -1, ray.extent.y >= 0.0 ? 1 : -1);
+  const ivec2 forward = max(direction, ivec2(0));
   // Along an axis that the ray does not move on, edges are out of reach.
-  const vec2 reach = max(abs(ray.extent.xy), vec2(1e-30));
-  const vec2 inverse_extent = vec2(direction) / reach;
+  const vec2 inverse_extent = vec2(direction) / max(abs(ray.extent.xy), vec2(1e-30));
+  const uint area = scene.extent.padded_area;
 
   Walk result;
   result.is_hit = false;
-  result.is_assumed = false;
   result.ends_behind = false;
-  result.leaves = false;
   result.t = 1.0;
   result.cell = start.place.cell;
   result.layer = 0u;
@@ -111,169 +113,156 @@ Walk walkRay(StructureRef structure, Ray ray, WalkStart start, float inv_z_toler
   result.visits = 0u;
 
   uint layer = 0u;
-  uint level = kAtEntry;
+  Address cells = scene.layers[0];
   Place at = start.place;
   bool state_unknown = start.behind_count == kStateUnknown;
-  bool in_front = !state_unknown && start.behind_count == 0u;
-  // The cell a walk restarts in: its own surfaces stay behind it.
+  bool in_front = start.behind_count == 0u;
+  // The cell a walk restarts in: the surfaces that it starts behind stay behind it.
   bool just_left = !state_unknown && start.behind_count > 0u;
-  if (just_left) level = kAtFacet;
+  uint level = just_left ? kLevelFacets : kLevelEntries;
+  bool from_forward_link = false;
   // Where the ray first passed behind this layer.
   bool has_passed = just_left;
-  Place passed = start.place;
   bool passed_at_start = true;
+  Place passed = start.place;
   float first_passed_t = just_left ? start.place.t : 2.0;
+  ivec2 hit_origin = ivec2(0);
+  int hit_size = 1;
+  float hit_t = 1.0;
 
   for (;;) {
-    ++result.visits;
-    uvec2 bits;
-    if (level == kAtFacet) bits = loadFacet(structure, layer, at.cell);
-    else if (level == kAtEntry) bits = loadEntry(structure, layer, uvec2(at.cell) >> kLevelFirst);
-    else bits = loadNode(structure, layer, level, uvec2(at.cell) >> level);
-    Node node = unpackNode(bits);
-    if (level == kAtFacet) {
-      const float inv_z = uintBitsToFloat(bits.x);
-      node.is_plane = inv_z >= 0.0;
-      node.level = 0u;
-      node.inv_z = inv_z;
-      node.error = 0.0;
-      node.box = vec2(0.0, kNoSurface);
-    }
+    uint event = from_forward_link ? kComesForward : kStepOn;
+    while (event == kStepOn) {
+      ++result.visits;
+      const uint shift = level == kLevelEntries ? kLevelFirst : level;
+      const uvec2 block = uvec2(at.cell) >> shift;
+      const uint index = levelOffset(level, area) + block.y * (scene.extent.padded_width >> shift) + block.x;
+      const uvec2 bits = Uvec2Ref(cells).at[index];
+      const bool is_facet = level == kLevelFacets;
+      const bool is_plane = is_facet ? bits.x != kNoFacet : isPlane(bits);
+      const uint own_level = is_facet ? 0u : bits.x & 7u;
 
-    // The stretch of the ray inside the node.
-    const int node_size = 1 << node.level;
-    const ivec2 origin = (at.cell >> int(node.level)) << int(node.level);
-    const vec2 exit_edge = vec2(origin) + vec2(direction.x > 0 ? node_size : 0, direction.y > 0 ? node_size : 0);
-    const vec2 exit_t = (exit_edge - ray.start.xy) * inverse_extent;
-    const float exit_at = max(min(exit_t.x, exit_t.y), at.t);
-    const bool is_last = exit_at >= result.t;
-    const float end_t = is_last ? result.t : exit_at;
-    const vec3 from = ray.start + at.t * ray.extent;
-    const vec3 to = ray.start + end_t * ray.extent;
+      // The stretch of the ray inside.
+      const int size_px = 1 << own_level;
+      const ivec2 origin = at.cell & ivec2(-size_px);
+      const vec2 exit_t = (vec2(origin + forward * size_px) - ray.start.xy) * inverse_extent;
+      const float exit_at = max(min(exit_t.x, exit_t.y), at.t);
+      const bool is_last = exit_at >= result.t;
+      const float end_t = min(exit_at, result.t);
+      const vec3 from = ray.start + at.t * ray.extent;
+      const vec3 to = ray.start + end_t * ray.extent;
 
-    bool must_descend = false;
-    bool hit_inside = false;
-    bool passes_edge = false;
-    float front_from = 0.0;
-    float front_to = 0.0;
-    if (node.is_plane) {
-      const vec2 center = vec2(origin) + 0.5 * float(node_size);
+      // How far in front of the plane, or of the box: only the signs count for a box.
+      const vec2 center = vec2(origin) + 0.5 * float(size_px);
+      const float inv_z = uintBitsToFloat(bits.x & (is_facet ? 0x7fffffffu : 0x7ffffe00u));
+      const vec2 slope = unpackSlopes(bits.y);
+      const float error = is_facet ? 0.0 : planeError(bits);
       // Without the bound at the sky, so that the distance stays linear along the ray: above it both have
       // the same sign, and whoever arrives at the sky arrives at the surface.
-      front_from = from.z - node.inv_z - dot(node.slope, from.xy - center);
-      front_to = to.z - node.inv_z - dot(node.slope, to.xy - center);
-      if (to.z <= 0.0) front_to = min(front_to, 0.0);
+      const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
+      const float above_to = to.z - inv_z - dot(slope, to.xy - center);
+      const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
       const float nearness = 1.0 - from.z * eye_z;
-      const bool accepted = node.error <= inv_z_tolerance * nearness * nearness;
-      must_descend = !accepted && !(min(front_from, front_to) > node.error) &&
-                     !(max(front_from, front_to) < -node.error);
-      if (just_left) front_from = min(front_from, 0.0);
-      passes_edge = in_front && !state_unknown && front_from <= 0.0;
-      if (passes_edge && !must_descend) {
-        hit_inside = hitsEdge(structure, layer, at, direction, from);
+      const bool is_exact = is_plane && error <= inv_z_tolerance * nearness * nearness;
+      const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
+      const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
+      const bool all_front = is_plane ? min(plane_from, plane_to) > error : min(from.z, to.z) > box_high;
+      const bool all_behind = is_plane ? max(plane_from, plane_to) < -error : max(from.z, to.z) < box_low;
+      if (!(is_exact || all_front || all_behind)) {
+        // A box was reached from its entry, the largest plane there is; a plane has planes below it.
+        level = own_level <= kLevelFirst ? kLevelFacets : is_plane ? own_level - 1u : kLevelEntries;
+        continue;
       }
-    } else {
-      const float nearest = max(from.z, to.z);
-      const float farthest = min(from.z, to.z);
-      // Distances to the box stand in for those to a surface; only their signs are used.
-      const bool is_front = farthest > node.box.y;
-      const bool is_behind = nearest < node.box.x;
-      // How far apart linked facets are is bounded at the middle of their edge only: whoever comes in from
-      // the front must look at the links.
-      const bool can_link = in_front && !state_unknown;
-      must_descend = !is_front && !(is_behind && !can_link);
-      front_from = is_front ? 1.0 : -1.0;
-      front_to = front_from;
-      passes_edge = in_front && !state_unknown && !is_front;
-    }
-    if (must_descend) {
-      // A box of 4x4 or larger was entered from its entry, which is the largest plane there is; a plane
-      // that is too coarse has planes below it.
-      level = node.level <= kLevelFirst ? kAtFacet : (node.is_plane ? node.level - 1u : kAtEntry);
-      continue;
-    }
+      float front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
+      const float front_to = is_exact ? plane_to : front_from;
+      front_from = just_left ? min(front_from, 0.0) : front_from;
 
-    float hit_t = at.t;
-    uint hit_layer = layer;
-    ivec2 hit_cell = at.cell;
-    if (!hit_inside) {
-      const bool starts_in_front = state_unknown ? front_from > 0.0 : (in_front || front_from > 0.0) && !passes_edge;
-      if (!has_passed && (passes_edge || (state_unknown && front_from <= 0.0))) {
+      // How far apart linked facets are is bounded at the middle of their edge only, so whoever passes to
+      // behind must look at the links.
+      if (in_front && front_from <= 0.0) {
+        event = kMeetsEdge;
+        continue;
+      }
+      if (state_unknown && front_from <= 0.0) {
         has_passed = true;
         passed = at;
-        passed_at_start = state_unknown;
-        if (layer == 0u) first_passed_t = at.t;
       }
-      in_front = starts_in_front;
+      in_front = front_from > 0.0;
       state_unknown = false;
       just_left = false;
       if (in_front && front_to <= 0.0) {
-        hit_inside = true;
+        event = kHits;
         hit_t = at.t + (end_t - at.t) * (front_from / (front_from - front_to));
-        const ivec2 cell = ivec2(floor((ray.start + hit_t * ray.extent).xy));
-        hit_cell = clamp(cell, origin, origin + node_size - 1);
-      } else {
-        in_front = front_to > 0.0;
-        if (in_front && layer > 0u && node.level == 0u && node.is_plane && !is_last) {
-          const uint axis = exit_t.x <= exit_t.y ? kAxisX : kAxisY;
-          const ivec2 after = at.cell + stepOfAxis(axis, direction);
-          if (all(greaterThanEqual(after, ivec2(0))) && all(lessThan(after, size))) {
-            const uint link = forwardEdgeHit(structure, layer, at.cell, axis, direction, to);
-            if (link > 0u) {
-              hit_inside = true;
-              hit_t = end_t;
-              hit_layer = link - 1u;
-              hit_cell = after;
-            }
-          }
-        }
+        hit_origin = origin;
+        hit_size = size_px;
+        continue;
       }
-    }
+      in_front = front_to > 0.0;
 
-    bool layer_done = hit_inside || is_last;
-    if (hit_inside) {
-      result.is_hit = true;
-      result.t = hit_t;
-      result.layer = hit_layer;
-      result.cell = clamp(hit_cell, ivec2(0), size - 1);
-    } else if (!is_last) {
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const bool cross_x = exit_t.x <= exit_t.y;
-      const ivec2 low = direction * at.cell;
-      ivec2 next = ivec2(floor(to.xy));
-      next = clamp(next, origin, origin + node_size - 1);
-      next = direction * max(direction * next, low);
-      if (cross_x) next.x = direction.x > 0 ? origin.x + node_size : origin.x - 1;
-      else next.y = direction.y > 0 ? origin.y + node_size : origin.y - 1;
-      const bool left_image = any(lessThan(next, ivec2(0))) || any(greaterThanEqual(next, size));
-      if (left_image) {
-        layer_done = true;
-      } else {
-        const bool same_block = all(equal(at.cell >> int(kLevelFirst), next >> int(kLevelFirst)));
-        level = node.level == 0u ? (same_block ? kAtFacet : kAtEntry)
-                                 : (node.is_plane ? kAtEntry : min(max(node.level, kLevelFirst) + 1u, kLevelLast));
-        at = Place(end_t, next, cross_x ? kAxisX : kAxisY);
+      ivec2 next = clamp(ivec2(floor(to.xy)), origin, origin + size_px - 1);
+      next = direction * max(direction * next, direction * at.cell);
+      const ivec2 beyond = origin + forward * (size_px + 1) - 1;
+      next = cross_x ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y);
+      if (is_last || !isInside(scene.extent, next)) {
+        event = kEnds;
+        continue;
       }
+      const bool same_block = all(equal(at.cell >> int(kLevelFirst), next >> int(kLevelFirst)));
+      level = is_facet ? (same_block ? kLevelFacets : kLevelEntries)
+                       : (is_plane ? kLevelEntries : min(own_level + 1u, kLevelLast));
+      from_forward_link = is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
+      event = from_forward_link ? kComesForward : kStepOn;
+      at = Place(end_t, next, cross_x ? kAxisX : kAxisY);
     }
-    if (!layer_done) continue;
 
-    if (!result.is_hit && layer == 0u) {
+    // An edge: hit, or passed, and on from the same cell.
+    from_forward_link = false;
+    if (event == kMeetsEdge || event == kComesForward) {
+      const vec3 point = ray.start + at.t * ray.extent;
+      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point);
+      if (edge_hit == 0u) {
+        if (event == kMeetsEdge) {
+          if (!has_passed) passed = at;
+          passed_at_start = has_passed && passed_at_start;
+          has_passed = true;
+          in_front = false;
+        }
+        continue;
+      }
+      result.is_hit = true;
+      result.t = at.t;
+      result.cell = at.cell;
+      result.layer = edge_hit - 1u;
+    } else if (event == kHits) {
+      result.is_hit = true;
+      result.t = hit_t;
+      const ivec2 cell = ivec2(floor((ray.start + hit_t * ray.extent).xy));
+      result.cell = min(clamp(cell, hit_origin, hit_origin + hit_size - 1), scene.extent.size_px - 1);
+      result.layer = layer;
+    } else if (layer == 0u) {
       result.ends_behind = !in_front;
       result.cell = at.cell;
     }
+
+    // This layer is done; the next begins where the ray passed behind it.
+    if (layer == 0u && has_passed) first_passed_t = passed.t;
     if (has_passed && !passed_at_start) {
       result.has_far_side = true;
       result.far_cell = passed.cell - stepOfAxis(passed.axis, direction);
       result.far_layer = layer;
     }
-    if (!has_passed || layer + 1u >= layer_count) break;
+    if (!has_passed || layer + 1u >= scene.layer_count) break;
     ++layer;
+    cells = pickAddress(scene.layers, layer);
     at = passed;
     state_unknown = passed_at_start && start.behind_count == kStateUnknown;
     just_left = passed_at_start && !state_unknown && layer < start.behind_count;
     in_front = !state_unknown && !just_left;
-    level = just_left ? kAtFacet : kAtEntry;
+    level = just_left ? kLevelFacets : kLevelEntries;
     has_passed = just_left;
+    passed_at_start = true;
   }
   result.is_assumed = result.is_hit && first_passed_t < result.t;
   result.leaves = !ray.is_endless;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structure of one frame as it lies in device memory.
+// The structure of one frame as it lies in device memory, and what its kernels are told.
+//
+// All that a kernel needs for every px comes by push constants: on software devices a uniform that must
+// be loaded through an address costs as much as the data itself.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 
@@ -9,19 +12,48 @@ VIEWLOOM_ABI_BEGIN
 
 VIEWLOOM_ABI_CONST uint kLayerCountMax = 4u;
 
-// Node levels: a node of level n covers 2^n x 2^n px. Level 0 are the facets; level 1 is not kept (a
-// walk that cannot use a 4x4 node goes straight to the facets).
+// A layer of a structure is one array of cells (uvec2), level after level, then the links:
+//   facets   level 0, one per px
+//   entries  one per 4x4 px: where a walk enters it
+//   nodes    levels 2..6: a node of level n covers 2^n x 2^n px. Level 1 is not kept: a walk that cannot
+//            use a 4x4 node goes straight to the facets.
+//   links    uint16 per px, in the order of the facets
+// Both sides of the image are rounded up to whole nodes of the last level, so every level is exactly a
+// quarter of the one below it and no table of offsets is needed. What lies outside the image is never
+// read.
+VIEWLOOM_ABI_CONST uint kLevelFacets = 0u;
+VIEWLOOM_ABI_CONST uint kLevelEntries = 1u;
 VIEWLOOM_ABI_CONST uint kLevelFirst = 2u;
 VIEWLOOM_ABI_CONST uint kLevelLast = 6u;
-VIEWLOOM_ABI_CONST uint kLevelCount = 5u;
 
-// No surface in a column of a layer; lies behind everything.
+// Where the cells of a level begin, for sides already rounded up; area = width * height.
+// Nodes of levels 3, 4, 5 come after 64, 16, 4 times the count of the last level: bytes of a constant.
+#ifdef __cplusplus
+inline constexpr
+#endif
+uint levelOffset(uint level, uint padded_area) {
+  if (level == kLevelFacets) return 0u;
+  if (level == kLevelEntries) return padded_area;
+  if (level == kLevelFirst) return padded_area + padded_area / 16u;
+  const uint before = (0x54504000u >> (8u * (level - 3u))) & 255u;
+  return padded_area + padded_area / 8u + before * (padded_area / 4096u);
+}
+
+// Cells of all levels of a layer: the links begin behind them.
+#ifdef __cplusplus
+inline constexpr
+#endif
+uint cellCount(uint padded_area) {
+  return levelOffset(kLevelLast, padded_area) + padded_area / 4096u;
+}
+
+// In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative), with
+// the sign set when one of its links leads to a lower layer.
+VIEWLOOM_ABI_CONST uint kNoFacet = 0xffffffffu;
+VIEWLOOM_ABI_CONST uint kForwardLinkFlag = 0x80000000u;
+
+// inv_z of a column without a surface in this layer; lies behind everything.
 VIEWLOOM_ABI_CONST float kNoSurface = -1.0f;
-
-// Group sizes of the build kernels: one invocation per px, and per node.
-VIEWLOOM_ABI_CONST uint kBuildGroupWidth = 32u;
-VIEWLOOM_ABI_CONST uint kBuildGroupHeight = 4u;
-VIEWLOOM_ABI_CONST uint kNodeGroupSize = 64u;
 
 // Edges of a facet, in the order of its link word (3 bits each: 0 = silhouette, 1 + k = linked to
 // layer k of the neighbouring column).
@@ -31,14 +63,28 @@ VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
 VIEWLOOM_ABI_CONST uint kEdgeBottom = 3u;
 VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
 
+// Group sizes of the build kernels: one invocation per px, and per node.
+VIEWLOOM_ABI_CONST uint kBuildGroupWidth = 32u;
+VIEWLOOM_ABI_CONST uint kBuildGroupHeight = 4u;
+VIEWLOOM_ABI_CONST uint kNodeGroupSize = 64u;
+
+// How a depth sample is stored.
 VIEWLOOM_ABI_CONST uint kDepthSampleF32 = 0u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF16 = 1u;
 VIEWLOOM_ABI_CONST uint kDepthSampleU16 = 2u;
 
-struct DepthPlane {
+// One depth plane to inv_z. The coefficients are those of frame/depth.h DepthCoefficients.
+struct LinearisePush {
   Address samples;   // packed, top row first
+  Address inv_z;     // float[height][width]
+  Address measured;  // Measured
+  uint width_px;
+  uint height_px;
+  float focal_x_px;
+  float focal_y_px;
+  float principal_x_px;
+  float principal_y_px;
   uint sample_type;  // kDepthSample...
-  // As frame/depth.h DepthCoefficients, field by field.
   float origin;
   float scale;
   float offset;
@@ -48,69 +94,45 @@ struct DepthPlane {
   uint ray_distance;
   uint has_invalid;
   uint invalid_is_far;
+};
+
+// Push constants of the other build kernels.
+struct BuildPush {
+  Address inv_z[kLayerCountMax];   // float[height][width]
+  Address layers[kLayerCountMax];  // cells and links, see above
+  Address measured;                // Measured
+  uint width_px;
+  uint height_px;
+  uint layer_count;
+  uint level;         // build_level.comp
+  float given_kappa;  // 1/m; 0 = measured
   // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m.
   vec3 format_step;
 };
 
-// What a colour plane holds on the device.
-VIEWLOOM_ABI_CONST uint kColorRgba8 = 0u;    // sRGB, opaque; one uint a px
-VIEWLOOM_ABI_CONST uint kColorRgba16f = 1u;  // linear BT.709, premultiplied; two uints a px
-
-struct ColorPlane {
-  Address texels;
-  uint width_px;
-  uint height_px;
-};
-
-// Measured by the build; host visible.
+// Measured by the build.
 VIEWLOOM_ABI_CONST uint kDepthHistogramBinCount = 2048u;  // 32 bins an octave, 2^-40 .. 2^24 1/m
 VIEWLOOM_ABI_CONST uint kNoiseHistogramBinCount = 1024u;  // 16 bins an octave
 
 struct Measured {
   uint bad_samples_count;
   uint unsorted_columns_count;
-  uint surface_count;      // of layer 0
-  uint inv_z_max_bits;     // float bits, over all layers
-  uint inv_z_min_bits;     // float bits, over surfaces of all layers
-  float depth_step;        // 1/m
-  float noise_sigma;       // 1/m
-  float kappa_abs;         // 1/m
+  uint surface_count;   // of layer 0, of the px that were looked at
+  uint inv_z_max_bits;  // float bits, over all layers
+  uint inv_z_min_bits;  // float bits, over surfaces of all layers
+  float depth_step;     // 1/m
+  float noise_sigma;    // 1/m
+  float kappa_abs;      // 1/m
   float kappa_rel;
-  float inv_z_far;         // 2nd percentile of layer 0, 1/m
-  float inv_z_near;        // 98th percentile of layer 0, 1/m
+  float inv_z_far;      // 2nd percentile of layer 0, 1/m
+  float inv_z_near;     // 98th percentile of layer 0, 1/m
   uint depth_histogram[kDepthHistogramBinCount];  // of inv_z, layer 0
   uint noise_histogram[kNoiseHistogramBinCount];  // of second differences of inv_z, layer 0
 };
 
-struct Structure {
-  uint width_px;
-  uint height_px;
-  uint layer_count;
-  uint color_format;            // kColor...
-  float focal_x_px;
-  float focal_y_px;
-  float principal_x_px;
-  float principal_y_px;
-  float given_kappa;            // 1/m; 0 = measured
-  Address measured;             // Measured
-  Address inv_z[kLayerCountMax];    // float[height][width]
-  Address facets[kLayerCountMax];   // uvec2[height][width]: inv_z bits, slopes (lib/facet.glsl)
-  Address links[kLayerCountMax];    // uint16[height][width]
-  Address entries[kLayerCountMax];  // uvec2 per level-2 cell: its largest planar ancestor, else itself
-  Address nodes[kLayerCountMax];    // uvec2, levels 2..6 one after the other (level_offset)
-  uint level_offset[kLevelCount];   // in nodes, of level kLevelFirst + i
-  uint level_width[kLevelCount];    // in nodes
-  uint level_height[kLevelCount];
-  ColorPlane color[kLayerCountMax];
-  DepthPlane depth[kLayerCountMax];
-};
-
-// Push constants of every build kernel.
-struct BuildPush {
-  Address structure;
-  uint layer;
-  uint level;
-};
+// What a colour plane holds on the device.
+VIEWLOOM_ABI_CONST uint kColorRgba8 = 0u;    // sRGB, opaque; one uint a px
+VIEWLOOM_ABI_CONST uint kColorRgba16f = 1u;  // linear BT.709, premultiplied; two uints a px
 
 // Source of convert_color.comp: an RGBA8 or RGBA16F plane of any transfer, primaries and alpha.
 VIEWLOOM_ABI_CONST uint kPrimariesBt709 = 0u;
@@ -126,19 +148,15 @@ struct ConvertColorPush {
   uint texel_count;
   uint from_format;  // kColor...
   uint is_linear;
-  uint primaries;    // kPrimaries...
-  uint alpha;        // kAlpha...
+  uint primaries;     // kPrimaries...
+  uint alpha;         // kAlpha...
   float light_scale;  // 2^exposure
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(DepthPlane) == 60);
-static_assert(sizeof(ColorPlane) == 16);
+static_assert(sizeof(LinearisePush) == 88);
+static_assert(sizeof(BuildPush) == 104);
 static_assert(offsetof(Measured, noise_histogram) == 44 + 4 * kDepthHistogramBinCount);
-static_assert(offsetof(Structure, inv_z) == 44);
-static_assert(offsetof(Structure, level_offset) == 44 + 5 * 32);
-static_assert(sizeof(Structure) == 44 + 5 * 32 + 3 * 20 + 4 * 16 + 4 * 60);
-static_assert(sizeof(BuildPush) == 16);
 static_assert(sizeof(ConvertColorPush) == 40);
 #endif
 

@@ -4,6 +4,7 @@
 #define VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 
 #include "shared/gpu_types.h"
+#include "shared/structure_abi.h"
 
 VIEWLOOM_ABI_BEGIN
 
@@ -16,7 +17,7 @@ struct ViewParams {
   vec3 direction_dx;
   vec3 direction_dy;
   // Largest error in inv_z that moves the picture by the display's tolerance, for an eye in the
-  // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/trace/view_params.h.
+  // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/trace/trace_job.h.
   float inv_z_tolerance;
   uint is_used;  // 0: no view stands here
 };
@@ -40,27 +41,37 @@ struct RayRecord {
   uint visits;     // nodes and facets looked at
 };
 
-// A band: full-width rows of the atlas, top row first. Addresses of planes that are not wanted are 0.
-struct TraceParams {
-  Address structure;   // Structure
-  Address views;       // ViewParams per tile, row-major from the top left
-  Address color;       // uint[rows][width]: sRGB, red in the low byte, alpha 255
-  Address depth;       // float[rows][width]: 1/Z of the view, 1/m
-  Address mask;        // uint8[rows][width]: kClass...
-  Address linear;      // vec4[rows][width]: colour before rounding, sRGB-encoded floats
-  Address records;     // RayRecord[rows][width]
-  Address counters;    // uint[kClassCount]: rays by class, added to
-  uint atlas_width_px;
-  uint first_row;      // of the band, in the atlas
-  uint row_count;
-  uint tile_width_px;
-  uint tile_height_px;
-  uint tile_columns;
-  uint tile_rows;
-  uint padding_top_px;
-  uint background_rgb;     // 0xRRGGBB
-  uint outside_is_border;  // 1: the border goes on; 0: background
+// Where a band goes beside its colour, and what few rays need. Addresses of planes that are not wanted
+// are 0.
+struct TraceExtras {
+  Address depth;     // float[rows][width]: 1/Z of the view, 1/m
+  Address mask;      // uint8[rows][width]: kClass...
+  Address linear;    // vec4[rows][width]: colour before rounding, sRGB-encoded floats
+  Address records;   // RayRecord[rows][width]
+  Address counters;  // uint[kClassCount]: rays by class, added to
+  uint color_width_px;   // of the colour planes, when that is not the depth's size
+  uint color_height_px;
 };
+
+// A band: full-width rows of the atlas, top row first.
+struct TracePush {
+  Address layers[kLayerCountMax];  // of the structure
+  Address color[kLayerCountMax];   // texels of the source
+  Address measured;                // Measured
+  Address views;                   // ViewParams per tile, row-major from the top left
+  Address band;                    // uint[rows][width]: sRGB, red in the low byte, alpha 255
+  Address extras;                  // TraceExtras
+  uint source_size_px;             // width | height << 16
+  uint layer_count;
+  uint atlas_width_px;
+  uint first_row;                  // of the band, in the atlas
+  uint tile_size_px;               // width | height << 16
+  uint tile_grid;                  // columns | rows << 16
+  uint padding_top_px;
+  uint fill;                       // background 0xRRGGBB, and kFillBorder
+};
+
+VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
 
 // Specialisation constants of walk_views.comp.
 VIEWLOOM_ABI_CONST uint kTraceGroupSize = 64u;
@@ -69,14 +80,10 @@ VIEWLOOM_ABI_CONST uint kWantMask = 2u;
 VIEWLOOM_ABI_CONST uint kWantLinear = 4u;
 VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 
-struct TracePush {
-  Address params;  // TraceParams
-};
-
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 56);
-static_assert(offsetof(TraceParams, atlas_width_px) == 64);
-static_assert(sizeof(TraceParams) == 104);
+static_assert(sizeof(TraceExtras) == 48);
+static_assert(sizeof(TracePush) == 128);
 static_assert(sizeof(RayRecord) == 24);
 #endif
 

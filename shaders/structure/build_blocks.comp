@@ -12,31 +12,14 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const int kBlockSize = 4;
 
-// The nearest inv_z, on the edges of a facet, of the lower layers that it is linked to; kNoSurface without
-// such a link. A walk in this layer must look at such an edge: the surface goes on in front of it.
-float nearestForward(StructureRef structure, uint layer, ivec2 pixel) {
-  const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
-  const uint links = loadLinks(structure, layer, pixel);
-  float nearest = kNoSurface;
-  for (uint edge = 0u; edge < 4u; ++edge) {
-    const uint link = linkOfEdge(links, edge);
-    if (link == 0u || link - 1u >= layer) continue;
-    const uvec2 facet = loadFacet(structure, link - 1u, pixel + steps[edge]);
-    nearest = max(nearest, facetBox(uintBitsToFloat(facet.x), unpackSlopes(facet.y)).y);
-  }
-  return nearest;
-}
-
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  MeasuredRef measured = MeasuredRef(structure.value.measured);
-  const uint layer = gl_WorkGroupID.z;
-  const uvec2 level_size = uvec2(structure.value.level_width[0], structure.value.level_height[0]);
+  MeasuredRef measured = MeasuredRef(push.measured);
+  const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
+  const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
-  if (cell.x >= level_size.x) return;
-  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
   const ivec2 origin = ivec2(cell) * kBlockSize;
-  const ivec2 extent = min(size - origin, ivec2(kBlockSize));
+  if (origin.x >= extent.size_px.x) return;
+  const ivec2 covered = min(extent.size_px - origin, ivec2(kBlockSize));
   const float kappa_abs = measured.value.kappa_abs;
   const float kappa_rel = measured.value.kappa_rel;
 
@@ -47,22 +30,25 @@ void main() {
   bool has_forward_link = false;
   float inv_z[kBlockSize * kBlockSize];
   uint slopes[kBlockSize * kBlockSize];
-  for (int y = 0; y < extent.y; ++y) {
-    for (int x = 0; x < extent.x; ++x) {
-      const ivec2 pixel = origin + ivec2(x, y);
-      const uvec2 facet = loadFacet(structure, layer, pixel);
-      inv_z[y * kBlockSize + x] = uintBitsToFloat(facet.x);
+  for (int y = 0; y < kBlockSize; ++y) {
+    for (int x = 0; x < kBlockSize; ++x) {
+      if (x >= covered.x || y >= covered.y) continue;
+      const uvec2 facet = loadFacet(cells, extent, origin + ivec2(x, y));
+      const float center = facetInvZ(facet);
+      inv_z[y * kBlockSize + x] = center;
       slopes[y * kBlockSize + x] = facet.y;
-      const float center = uintBitsToFloat(facet.x);
       if (center < 0.0) {
         has_hole = true;
         continue;
       }
       const vec2 slope = unpackSlopes(facet.y);
       vec2 facet_box = facetBox(center, slope);
-      const float forward = layer > 0u ? nearestForward(structure, layer, pixel) : kNoSurface;
-      has_forward_link = has_forward_link || forward >= 0.0;
-      facet_box.y = max(facet_box.y, forward);
+      if ((facet.x & kForwardLinkFlag) != 0u) {
+        // A walk of this layer must look at such an edge: the surface goes on in front of it.
+        has_forward_link = true;
+        const uint links = loadLinks(cells, extent, origin + ivec2(x, y));
+        facet_box.y += forwardReach(links, connectionTolerance(kappa_abs, kappa_rel, facet_box.y));
+      }
       box = vec2(min(box.x, facet_box.x), max(box.y, facet_box.y));
       inv_z_min = min(inv_z_min, facet_box.x);
       addSample(fit, vec2(x, y) + 0.5 - 0.5 * float(kBlockSize), center, slope);
@@ -78,8 +64,9 @@ void main() {
     const float center = planeCenter(packPlane(kLevelFirst, max(fitted_center, 0.0), fitted, 0u));
     const vec2 slope = unpackSlopes(packSlopes(fitted));
     float error = 0.0;
-    for (int y = 0; y < extent.y; ++y) {
-      for (int x = 0; x < extent.x; ++x) {
+    for (int y = 0; y < kBlockSize; ++y) {
+      for (int x = 0; x < kBlockSize; ++x) {
+        if (x >= covered.x || y >= covered.y) continue;
         const vec2 position = vec2(x, y) + 0.5 - 0.5 * float(kBlockSize);
         const vec2 lean = abs(unpackSlopes(slopes[y * kBlockSize + x]) - slope);
         const float apart = abs(inv_z[y * kBlockSize + x] - (center + dot(slope, position)));
@@ -94,5 +81,5 @@ void main() {
       node = packPlane(kLevelFirst, center, slope, exponent);
     }
   }
-  Uvec2Ref(structure.value.nodes[layer]).at[nodeIndex(structure, kLevelFirst, cell)] = node;
+  Uvec2Ref(cells).at[cellIndex(extent, kLevelFirst, cell)] = node;
 }

@@ -3,56 +3,73 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/facet.glsl"
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
+layout(constant_id = 0) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
+struct Column {
+  float inv_z[kLayerCountMax];
+};
+
+Column loadColumn(ivec2 pixel) {
+  const ivec2 size = ivec2(push.width_px, push.height_px);
+  Column column;
+  const bool exists = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
+  const ivec2 inside = clamp(pixel, ivec2(0), size - 1);
+  const uint index = uint(inside.y) * push.width_px + uint(inside.x);
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const float inv_z = FloatRef(push.inv_z[i]).at[index];
+    column.inv_z[i] = exists ? inv_z : kNoSurface;
+  }
+  return column;
+}
+
 // The surface of a column whose inv_z is nearest; kNoSurface where there is none.
-float nearestInColumn(StructureRef structure, ivec2 pixel, float inv_z) {
-  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) return kNoSurface;
-  float nearest = loadInvZ(structure, 0u, pixel);
-  for (uint layer = 1u; layer < structure.value.layer_count; ++layer) {
-    const float other = loadInvZ(structure, layer, pixel);
-    if (other >= 0.0 && abs(other - inv_z) < abs(nearest - inv_z)) nearest = other;
+float nearestIn(Column column, float inv_z) {
+  float nearest = column.inv_z[0];
+  for (uint i = 1u; i < kLayerCount; ++i) {
+    const float other = column.inv_z[i];
+    nearest = other >= 0.0 && abs(other - inv_z) < abs(nearest - inv_z) ? other : nearest;
   }
   return nearest;
 }
 
 float minmod(float a, float b) {
-  if (a * b <= 0.0) return 0.0;
-  return abs(a) <= abs(b) ? a : b;
+  return a * b <= 0.0 ? 0.0 : (abs(a) <= abs(b) ? a : b);
 }
 
-// Only one neighbour: its difference, checked against the one beyond it.
-float oneSidedSlope(StructureRef structure, ivec2 neighbor, ivec2 along, float inv_z, float neighbor_inv_z) {
-  const float beyond = nearestInColumn(structure, neighbor + along, neighbor_inv_z);
-  if (beyond < 0.0) return 0.0;
-  return minmod(neighbor_inv_z - inv_z, beyond - neighbor_inv_z);
-}
-
-float slopeAlong(StructureRef structure, ivec2 pixel, ivec2 axis, float inv_z) {
-  const float before = nearestInColumn(structure, pixel - axis, inv_z);
-  const float after = nearestInColumn(structure, pixel + axis, inv_z);
+// `beyond` lies on the side of the only neighbour, one column further on.
+float slopeAlong(float inv_z, Column before_column, Column after_column, Column beyond_column) {
+  const float before = nearestIn(before_column, inv_z);
+  const float after = nearestIn(after_column, inv_z);
   if (before >= 0.0 && after >= 0.0) return minmod(inv_z - before, after - inv_z);
-  if (after >= 0.0) return oneSidedSlope(structure, pixel + axis, axis, inv_z, after);
-  if (before >= 0.0) return -oneSidedSlope(structure, pixel - axis, -axis, inv_z, before);
-  return 0.0;
+  const bool has_after = after >= 0.0;
+  const float neighbor = has_after ? after : before;
+  if (neighbor < 0.0) return 0.0;
+  const float beyond = nearestIn(beyond_column, neighbor);
+  if (beyond < 0.0) return 0.0;
+  const float slope = minmod(neighbor - inv_z, beyond - neighbor);
+  return has_after ? slope : -slope;
 }
 
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  const uint layer = gl_WorkGroupID.z;
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= int(structure.value.width_px) || pixel.y >= int(structure.value.height_px)) return;
-  const float inv_z = loadInvZ(structure, layer, pixel);
-  vec2 slope = vec2(0.0);
-  if (inv_z >= 0.0) {
-    slope.x = slopeAlong(structure, pixel, ivec2(1, 0), inv_z);
-    slope.y = slopeAlong(structure, pixel, ivec2(0, 1), inv_z);
+  if (pixel.x >= int(push.width_px) || pixel.y >= int(push.height_px)) return;
+  const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
+  const Column here = loadColumn(pixel);
+  const Column left = loadColumn(pixel - ivec2(1, 0));
+  const Column right = loadColumn(pixel + ivec2(1, 0));
+  const Column above = loadColumn(pixel - ivec2(0, 1));
+  const Column below = loadColumn(pixel + ivec2(0, 1));
+  // Layer 0 exists wherever any layer does.
+  const Column beyond_x = loadColumn(pixel + ivec2(right.inv_z[0] >= 0.0 ? 2 : -2, 0));
+  const Column beyond_y = loadColumn(pixel + ivec2(0, below.inv_z[0] >= 0.0 ? 2 : -2));
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const float inv_z = here.inv_z[i];
+    const vec2 slope = vec2(slopeAlong(inv_z, left, right, beyond_x), slopeAlong(inv_z, above, below, beyond_y));
+    const uvec2 facet = inv_z < 0.0 ? uvec2(kNoFacet, 0u) : uvec2(floatBitsToUint(inv_z), packSlopes(slope));
+    Uvec2Ref(push.layers[i]).at[facetIndex(extent, pixel)] = facet;
   }
-  const uint index = pixelIndex(structure, pixel);
-  Uvec2Ref(structure.value.facets[layer]).at[index] = uvec2(floatBitsToUint(inv_z), packSlopes(slope));
 }

@@ -11,14 +11,13 @@ layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  MeasuredRef measured = MeasuredRef(structure.value.measured);
-  const uint layer = gl_WorkGroupID.z;
-  const uint below = push.level - kLevelFirst - 1u;
+  MeasuredRef measured = MeasuredRef(push.measured);
+  const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
+  const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
-  if (cell.x >= structure.value.level_width[below + 1u]) return;
-  const uvec2 below_size = uvec2(structure.value.level_width[below], structure.value.level_height[below]);
-  const float child_size = float(1u << (push.level - 1u));
+  const int child_size_px = 1 << (push.level - 1u);
+  const float child_size = float(child_size_px);
+  if (int(cell.x) * 2 * child_size_px >= extent.size_px.x) return;
 
   Node children[4];
   bool exists[4];
@@ -27,9 +26,9 @@ void main() {
   bool all_planes = true;
   for (uint i = 0u; i < 4u; ++i) {
     const uvec2 child_cell = 2u * cell + uvec2(i & 1u, i >> 1);
-    exists[i] = all(lessThan(child_cell, below_size));
+    exists[i] = all(lessThan(ivec2(child_cell) * child_size_px, extent.size_px));
     if (!exists[i]) continue;
-    children[i] = unpackNode(loadNode(structure, layer, push.level - 1u, child_cell));
+    children[i] = unpackNode(loadCell(cells, extent, push.level - 1u, child_cell));
     all_planes = all_planes && children[i].is_plane;
     const vec2 child_box = nodeBox(children[i]);
     box = vec2(min(box.x, child_box.x), max(box.y, child_box.y));
@@ -58,7 +57,7 @@ void main() {
       node = packPlane(push.level, center, slope, exponent);
     }
   }
-  Uvec2Ref(structure.value.nodes[layer]).at[nodeIndex(structure, push.level, cell)] = node;
+  Uvec2Ref(cells).at[cellIndex(extent, push.level, cell)] = node;
 
   if (push.level == kLevelLast && box.y >= 0.0) {
     atomicMax(measured.value.inv_z_max_bits, floatBitsToUint(box.y));

@@ -3,22 +3,41 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/facet.glsl"
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
+layout(constant_id = 0) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
-struct EdgeValues {
-  float at[kLayerCountMax];  // inv_z at the middle of an edge, kNoSurface where there is no surface
+const uint kNoLayer = kLayerCountMax;
+
+struct Column {
+  float inv_z[kLayerCountMax];
+  vec2 slope[kLayerCountMax];
 };
 
-EdgeValues edgeValues(StructureRef structure, ivec2 pixel, vec2 to_edge) {
+// inv_z at the middle of an edge; kNoSurface where there is no surface.
+struct EdgeValues {
+  float at[kLayerCountMax];
+};
+
+Column loadColumn(Extent extent, ivec2 pixel) {
+  const bool exists = isInside(extent, pixel);
+  const ivec2 inside = clamp(pixel, ivec2(0), extent.size_px - 1);
+  Column column;
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const uvec2 facet = loadFacet(push.layers[i], extent, inside);
+    column.inv_z[i] = exists ? facetInvZ(facet) : kNoSurface;
+    column.slope[i] = unpackSlopes(facet.y);
+  }
+  return column;
+}
+
+EdgeValues edgeValues(Column column, vec2 to_edge) {
   EdgeValues values;
-  for (uint layer = 0u; layer < structure.value.layer_count; ++layer) {
-    const uvec2 facet = loadFacet(structure, layer, pixel);
-    const float inv_z = uintBitsToFloat(facet.x);
-    values.at[layer] = inv_z < 0.0 ? kNoSurface : facetAt(inv_z, unpackSlopes(facet.y), to_edge);
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const float at_edge = facetAt(column.inv_z[i], column.slope[i], to_edge);
+    values.at[i] = column.inv_z[i] < 0.0 ? kNoSurface : at_edge;
   }
   return values;
 }
@@ -27,65 +46,79 @@ bool mayLink(float a, float b, float kappa_abs, float kappa_rel) {
   return a >= 0.0 && b >= 0.0 && abs(a - b) <= connectionTolerance(kappa_abs, kappa_rel, max(a, b));
 }
 
-// The layer of `there` that a value links to among those not taken by their own layer; kLayerCountMax =
-// none.
-uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, uint layer_count,
-                 float kappa_abs, float kappa_rel) {
-  uint nearest = kLayerCountMax;
+// The layer nearest to a value among those not taken by their own layer.
+uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, float kappa_abs, float kappa_rel) {
+  uint nearest = kNoLayer;
   float distance_min = 3.4e38;
-  for (uint layer = 0u; layer < layer_count; ++layer) {
-    if (layer == own_layer || ((taken >> layer) & 1u) != 0u) continue;
-    if (!mayLink(value, there.at[layer], kappa_abs, kappa_rel)) continue;
-    const float apart = abs(value - there.at[layer]);
-    if (apart < distance_min) {
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const bool is_free = i != own_layer && ((taken >> i) & 1u) == 0u;
+    const float apart = abs(value - there.at[i]);
+    if (is_free && apart < distance_min && mayLink(value, there.at[i], kappa_abs, kappa_rel)) {
       distance_min = apart;
-      nearest = layer;
+      nearest = i;
     }
   }
   return nearest;
 }
 
-// Link words of all layers across one edge: word[k] gets its 3 bits.
-void linkAcross(EdgeValues here, EdgeValues there, uint edge, uint layer_count, float kappa_abs,
-                float kappa_rel, inout uint words[kLayerCountMax]) {
+// Adds the links of all layers across one edge to the link words. `forward`: the nearest inv_z on the
+// edge of what a layer is linked to in a lower one; `there_lean`: how far a facet there rises from the
+// middle of the edge to its end.
+void linkAcross(EdgeValues here, EdgeValues there, EdgeValues there_lean, uint edge, float kappa_abs,
+                float kappa_rel, inout uint words[kLayerCountMax], inout float forward[kLayerCountMax]) {
   uint taken = 0u;  // layers linked to themselves
-  for (uint layer = 0u; layer < layer_count; ++layer) {
-    if (!mayLink(here.at[layer], there.at[layer], kappa_abs, kappa_rel)) continue;
-    taken |= 1u << layer;
-    words[layer] |= (layer + 1u) << (edge * kLinkBits);
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const bool linked = mayLink(here.at[i], there.at[i], kappa_abs, kappa_rel);
+    taken |= linked ? 1u << i : 0u;
+    words[i] |= linked ? (i + 1u) << (edge * kLinkBits) : 0u;
   }
-  for (uint layer = 0u; layer < layer_count; ++layer) {
-    if (here.at[layer] < 0.0 || ((taken >> layer) & 1u) != 0u) continue;
-    const uint other =
-        nearestFree(here.at[layer], there, taken, layer, layer_count, kappa_abs, kappa_rel);
-    if (other == kLayerCountMax) continue;
-    const uint back =
-        nearestFree(there.at[other], here, taken, other, layer_count, kappa_abs, kappa_rel);
-    if (back == layer) words[layer] |= (other + 1u) << (edge * kLinkBits);
+  if (kLayerCount == 1u) return;
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    if (here.at[i] < 0.0 || ((taken >> i) & 1u) != 0u) continue;
+    const uint other = nearestFree(here.at[i], there, taken, i, kappa_abs, kappa_rel);
+    for (uint j = 0u; j < kLayerCount; ++j) {
+      if (j != other || nearestFree(there.at[j], here, taken, j, kappa_abs, kappa_rel) != i) continue;
+      words[i] |= (j + 1u) << (edge * kLinkBits);
+      forward[i] = j < i ? max(forward[i], there.at[j] + there_lean.at[j]) : forward[i];
+    }
   }
 }
 
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  MeasuredRef measured = MeasuredRef(structure.value.measured);
-  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
+  const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, size))) return;
-  const uint layer_count = structure.value.layer_count;
+  if (!isInside(extent, pixel)) return;
+  MeasuredRef measured = MeasuredRef(push.measured);
   const float kappa_abs = measured.value.kappa_abs;
   const float kappa_rel = measured.value.kappa_rel;
 
-  uint words[kLayerCountMax] = uint[kLayerCountMax](0u, 0u, 0u, 0u);
+  uint words[kLayerCountMax];
+  float forward[kLayerCountMax];
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    words[i] = 0u;
+    forward[i] = kNoSurface;
+  }
+  const Column here = loadColumn(extent, pixel);
   const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
   for (uint edge = 0u; edge < 4u; ++edge) {
-    const ivec2 neighbor = pixel + steps[edge];
-    if (any(lessThan(neighbor, ivec2(0))) || any(greaterThanEqual(neighbor, size))) continue;
     const vec2 to_edge = 0.5 * vec2(steps[edge]);
-    linkAcross(edgeValues(structure, pixel, to_edge), edgeValues(structure, neighbor, -to_edge), edge,
-               layer_count, kappa_abs, kappa_rel, words);
+    const Column there = loadColumn(extent, pixel + steps[edge]);
+    EdgeValues lean;
+    for (uint i = 0u; i < kLayerCount; ++i) {
+      lean.at[i] = 0.5 * abs(steps[edge].x != 0 ? there.slope[i].y : there.slope[i].x);
+    }
+    linkAcross(edgeValues(here, to_edge), edgeValues(there, -to_edge), lean, edge, kappa_abs, kappa_rel, words,
+               forward);
   }
-  const uint index = pixelIndex(structure, pixel);
-  for (uint layer = 0u; layer < layer_count; ++layer) {
-    Uint16Ref(structure.value.links[layer]).at[index] = uint16_t(words[layer]);
+  for (uint i = 0u; i < kLayerCount; ++i) {
+    const float own_high = facetBox(here.inv_z[i], here.slope[i]).y;
+    const float kappa = connectionTolerance(kappa_abs, kappa_rel, own_high);
+    const bool is_forward = forward[i] >= 0.0;
+    const uint reach = is_forward ? packForwardReach(forward[i] * 1.000001 - own_high, kappa) : 0u;
+    Uint16Ref(push.layers[i]).at[linkIndex(extent, pixel)] = uint16_t(words[i] | reach);
+    if (is_forward) {
+      const uint flagged = floatBitsToUint(here.inv_z[i]) | kForwardLinkFlag;
+      UintRef(push.layers[i]).at[2u * facetIndex(extent, pixel)] = flagged;
+    }
   }
 }

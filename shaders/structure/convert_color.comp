@@ -4,7 +4,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/color.glsl"
+#include "lib/memory.glsl"
+#include "lib/srgb.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { ConvertColorPush push; };

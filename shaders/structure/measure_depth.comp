@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/histogram.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/memory.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
@@ -13,15 +13,18 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 // Differences of a few roundings are none: 8 ulp.
 const float kRoundingShare = 8.0 / 8388608.0;
 
+float loadInvZ(ivec2 pixel) {
+  return FloatRef(push.inv_z[0]).at[uint(pixel.y) * push.width_px + uint(pixel.x)];
+}
+
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  MeasuredRef measured = MeasuredRef(structure.value.measured);
-  const ivec2 size = ivec2(structure.value.width_px, structure.value.height_px);
+  MeasuredRef measured = MeasuredRef(push.measured);
+  const ivec2 size = ivec2(push.width_px, push.height_px);
   const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block * 4, size))) return;
   const ivec2 pixel = min(block * 4 + 2, size - 1);
 
-  const float inv_z = loadInvZ(structure, 0u, pixel);
+  const float inv_z = loadInvZ(pixel);
   if (inv_z < 0.0) return;
   atomicAdd(measured.value.surface_count, 1u);
   atomicAdd(measured.value.depth_histogram[depthBin(inv_z)], 1u);
@@ -30,8 +33,8 @@ void main() {
   const ivec2 before = pixel - along;
   const ivec2 after = pixel + along;
   if (any(lessThan(before, ivec2(0))) || any(greaterThanEqual(after, size))) return;
-  const float inv_z_before = loadInvZ(structure, 0u, before);
-  const float inv_z_after = loadInvZ(structure, 0u, after);
+  const float inv_z_before = loadInvZ(before);
+  const float inv_z_after = loadInvZ(after);
   if (inv_z_before < 0.0 || inv_z_after < 0.0) return;
   const float difference = abs((inv_z_after - inv_z) - (inv_z - inv_z_before));
   const float seen = difference <= inv_z * kRoundingShare ? 0.0 : difference;

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/histogram.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/memory.glsl"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
@@ -49,11 +49,10 @@ float noiseQuantile(MeasuredRef measured, uint first, float share) {
 }
 
 void main() {
-  StructureRef structure = StructureRef(push.structure);
-  MeasuredRef measured = MeasuredRef(structure.value.measured);
+  MeasuredRef measured = MeasuredRef(push.measured);
   const float depth_step = noiseQuantile(measured, 1u, kStepQuantile);
   const float noise_sigma = noiseQuantile(measured, 0u, 0.5) / kMedianPerSigma;
-  const float given = structure.value.given_kappa;
+  const float given = push.given_kappa;
   measured.value.depth_step = depth_step;
   measured.value.noise_sigma = noise_sigma;
   measured.value.kappa_abs =

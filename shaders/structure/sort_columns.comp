@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns in canonical form: nearest first, no duplicates, no gaps. Counts those that came unsorted.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "lib/memory.glsl"
+
+layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
+layout(constant_id = 0) const uint kLayerCount = 2u;
+layout(push_constant, scalar) uniform Push { BuildPush push; };
+
+void main() {
+  const uvec2 pixel = gl_GlobalInvocationID.xy;
+  bool is_unsorted = false;
+  if (pixel.x < push.width_px && pixel.y < push.height_px) {
+    const uint index = pixel.y * push.width_px + pixel.x;
+    float column[kLayerCountMax];
+    for (uint i = 0u; i < kLayerCount; ++i) column[i] = FloatRef(push.inv_z[i]).at[index];
+
+    // A surface behind a gap counts as in order; one in front of an earlier surface does not.
+    float farthest = 3.4e38;
+    for (uint i = 0u; i < kLayerCount; ++i) {
+      is_unsorted = is_unsorted || column[i] > farthest;
+      farthest = column[i] >= 0.0 ? column[i] : farthest;
+    }
+    // Exchange sort: no surface (-1) sinks to the end by itself.
+    for (uint i = 0u; i + 1u < kLayerCount; ++i) {
+      for (uint j = 0u; j + 1u + i < kLayerCount; ++j) {
+        const float near = max(column[j], column[j + 1u]);
+        const float far = min(column[j], column[j + 1u]);
+        column[j] = near;
+        column[j + 1u] = far;
+      }
+    }
+    float kept[kLayerCountMax];
+    for (uint i = 0u; i < kLayerCount; ++i) kept[i] = kNoSurface;
+    uint count = 0u;
+    float last = 3.4e38;
+    for (uint i = 0u; i < kLayerCount; ++i) {
+      const float inv_z = column[i];
+      const float format_step =
+          push.format_step.x + inv_z * (push.format_step.y + inv_z * push.format_step.z);
+      if (inv_z < 0.0 || last - inv_z <= format_step) continue;
+      for (uint j = 0u; j <= i; ++j) kept[j] = j == count ? inv_z : kept[j];
+      ++count;
+      last = inv_z;
+    }
+    for (uint i = 0u; i < kLayerCount; ++i) FloatRef(push.inv_z[i]).at[index] = kept[i];
+  }
+  const uint sum = subgroupAdd(is_unsorted ? 1u : 0u);
+  MeasuredRef measured = MeasuredRef(push.measured);
+  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.unsorted_columns_count, sum);
+}
