@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// The publisher against a server that takes, refuses, stalls and breaks off.
+#include "lib/publisher.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <future>
+#include <mutex>
+#include <numeric>
+#include <vector>
+
+#include "e2e/client/scripted_server.h"
+#include "lib/channel.h"
+
+namespace viewloom {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr int64_t kLong_ns = 60'000'000'000;  // only a failing test waits so long
+constexpr BackoffOptions kQuick{.first_ns = 1'000'000, .max_ns = 10'000'000, .factor = 2};
+
+// A frame of two planes; the first is longer than a chunk.
+WireFrame makeFrame(uint8_t seed) {
+  WireFrame frame;
+  v1::Layer& layer = *frame.header.add_sources()->add_layers();
+  for (const size_t size : {size_t{2'500'000}, size_t{10}}) {
+    std::vector<uint8_t> bytes(size);
+    std::iota(bytes.begin(), bytes.end(), seed);
+    layer.add_planes()->set_bytes_count(size);
+    frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(std::move(bytes)));
+  }
+  return frame;
+}
+
+struct ReceivedFrame {
+  v1::FrameHeader header;
+  std::vector<std::string> planes;
+};
+
+// Reads settings; false when the call is broken.
+bool accept(PublishStream& stream, v1::PublishSettings* settings = nullptr) {
+  v1::PublishFramesRequest request;
+  if (!stream.Read(&request) || !request.has_settings()) return false;
+  if (settings != nullptr) *settings = request.settings();
+  v1::PublishFramesResponse response;
+  response.mutable_accepted();
+  return stream.Write(response);
+}
+
+// Reads one whole frame and checks the order of its chunks.
+std::optional<ReceivedFrame> readFrame(PublishStream& stream) {
+  v1::PublishFramesRequest request;
+  if (!stream.Read(&request)) return std::nullopt;
+  EXPECT_TRUE(request.has_header());
+  ReceivedFrame frame{request.header(), {}};
+  for (const v1::Plane& plane : frame.header.sources(0).layers(0).planes()) {
+    std::string& bytes = frame.planes.emplace_back();
+    while (bytes.size() < plane.bytes_count()) {
+      if (!stream.Read(&request)) return std::nullopt;
+      EXPECT_EQ(request.chunk().plane_index(), frame.planes.size() - 1);
+      EXPECT_EQ(request.chunk().offset_bytes(), bytes.size());
+      EXPECT_LE(request.chunk().data().size(), size_t{1} << 20);
+      bytes += request.chunk().data();
+    }
+    EXPECT_EQ(bytes.size(), plane.bytes_count());
+  }
+  return frame;
+}
+
+bool report(PublishStream& stream, uint64_t number,
+            v1::FrameOutcome outcome = v1::FRAME_OUTCOME_TRACED) {
+  v1::PublishFramesResponse response;
+  response.mutable_report()->set_number(number);
+  response.mutable_report()->set_outcome(outcome);
+  return stream.Write(response);
+}
+
+grpc::Status takeAll(PublishStream& stream, std::vector<ReceivedFrame>& received) {
+  while (std::optional<ReceivedFrame> frame = readFrame(stream)) {
+    received.push_back(*frame);
+    report(stream, frame->header.number());
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status noWatching(WatchStream&, int) {
+  return {grpc::StatusCode::UNIMPLEMENTED, "not in this test"};
+}
+
+Publisher makePublisher(const ScriptedServer& server, PublisherOptions options = {},
+                        PublisherCallbacks callbacks = {}) {
+  options.stream = "s";
+  options.backoff = kQuick;
+  return Publisher(makeChannel(server.address()), options, std::move(callbacks));
+}
+
+std::string bytesOf(const SharedBytes& bytes) {
+  return {bytes->begin(), bytes->end()};
+}
+
+TEST(ClientPublisher, sendsWholeFramesInOrderAndGetsTheirReports) {
+  std::vector<ReceivedFrame> received;
+  ScriptedServer server(
+      [&](PublishStream& stream, int) {
+        return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
+      },
+      noWatching);
+  std::vector<uint64_t> reported;
+  Publisher publisher =
+      makePublisher(server, {},
+                    {.on_accepted = {},
+                     .on_report = [&](const v1::FrameReport& r) { reported.push_back(r.number()); },
+                     .on_wanted = {},
+                     .on_connection = {}});
+  const WireFrame frame = makeFrame(3);
+  publisher.offer(frame);
+  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received[0].header.number(), 1U);
+  EXPECT_EQ(received[0].planes[0], bytesOf(frame.planes[0]));
+  EXPECT_EQ(received[0].planes[1], bytesOf(frame.planes[1]));
+  EXPECT_THAT(reported, ElementsAre(1));
+  EXPECT_EQ(publisher.counts().sent_bytes, 2'500'010U);
+}
+
+TEST(ClientPublisher, compressesPlanesWhenAsked) {
+  std::vector<ReceivedFrame> received;
+  ScriptedServer server(
+      [&](PublishStream& stream, int) {
+        return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
+      },
+      noWatching);
+  Publisher publisher = makePublisher(server, {.stream = {}, .session_id = {}, .zstd_level = 1});
+  const WireFrame frame = makeFrame(3);
+  publisher.offer(frame);
+  ASSERT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received[0].header.sources(0).layers(0).planes(0).compression(),
+            v1::PLANE_COMPRESSION_ZSTD);
+  std::string plane(frame.planes[0]->size(), '\0');
+  EXPECT_EQ(ZSTD_decompress(plane.data(), plane.size(), received[0].planes[0].data(),
+                            received[0].planes[0].size()),
+            plane.size());
+  EXPECT_EQ(plane, bytesOf(frame.planes[0]));
+}
+
+TEST(ClientPublisher, sendsTheNewestFrameWhenTheServerIsSlow) {
+  std::promise<void> has_first, may_report;
+  std::vector<ReceivedFrame> received;
+  ScriptedServer server(
+      [&](PublishStream& stream, int) {
+        if (!accept(stream)) return grpc::Status::OK;
+        received.push_back(*readFrame(stream));
+        has_first.set_value();
+        may_report.get_future().wait();
+        report(stream, 1);
+        return takeAll(stream, received);
+      },
+      noWatching);
+  Publisher publisher =
+      makePublisher(server, {.stream = {}, .session_id = {}, .zstd_level = 0, .in_flight_max = 1});
+  publisher.offer(makeFrame(1));
+  has_first.get_future().wait();
+  for (uint8_t seed = 2; seed <= 5; ++seed) publisher.offer(makeFrame(seed));
+  may_report.set_value();
+  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(received.size(), 2U);
+  EXPECT_EQ(received[1].header.number(), 5U);
+  EXPECT_EQ(received[1].planes[0], bytesOf(makeFrame(5).planes[0]));
+  EXPECT_EQ(publisher.counts().replaced_here, 3U);
+}
+
+TEST(ClientPublisher, comesBackWithItsSessionAndShowsTheNewestFrameAgain) {
+  std::vector<v1::PublishSettings> settings(3);
+  std::vector<ReceivedFrame> received;
+  ScriptedServer server(
+      [&](PublishStream& stream, int call) {
+        if (!accept(stream, &settings[static_cast<size_t>(call)])) return grpc::Status::OK;
+        if (call == 2) return takeAll(stream, received);
+        readFrame(stream);
+        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "drains");
+      },
+      noWatching);
+  Publisher publisher = makePublisher(server);
+  publisher.offer(makeFrame(9));
+  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  EXPECT_EQ(settings[1].stream(), "s");
+  EXPECT_GE(settings[1].session_id().size(), 32U) << "not to be guessed";
+  EXPECT_EQ(settings[2].session_id(), settings[1].session_id());
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received[0].planes[0], bytesOf(makeFrame(9).planes[0]));
+  EXPECT_EQ(publisher.counts().reconnects, 1U);
+}
+
+TEST(ClientPublisher, survivesARestartOfTheServer) {
+  std::promise<void> has_first;
+  std::vector<ReceivedFrame> received;
+  ScriptedServer server(
+      [&](PublishStream& stream, int call) {
+        if (!accept(stream)) return grpc::Status::OK;
+        if (call > 1) return takeAll(stream, received);
+        const auto first = readFrame(stream);
+        report(stream, first->header.number());
+        has_first.set_value();
+        readFrame(stream);  // until the server goes down
+        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "down");
+      },
+      noWatching);
+  std::promise<void> came_back;
+  std::atomic<int> connections{0};
+  Publisher publisher = makePublisher(server, {},
+                                      {.on_accepted =
+                                           [&](const v1::PublishAccepted&) {
+                                             if (++connections == 2) came_back.set_value();
+                                           },
+                                       .on_report = {},
+                                       .on_wanted = {},
+                                       .on_connection = {}});
+  publisher.offer(makeFrame(1));
+  has_first.get_future().wait();
+  server.stop();
+  server.start();
+  came_back.get_future().wait();
+  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(received.size(), 1U) << "the still is shown again";
+  EXPECT_EQ(received[0].planes[0], bytesOf(makeFrame(1).planes[0]));
+}
+
+TEST(ClientPublisher, endsWhenTheServerRefusesIt) {
+  ScriptedServer server(
+      [](PublishStream&, int) {
+        return grpc::Status(grpc::StatusCode::ALREADY_EXISTS, "another publisher");
+      },
+      noWatching);
+  Publisher publisher = makePublisher(server);
+  ASSERT_TRUE(publisher.waitEnded(kLong_ns));
+  EXPECT_EQ(publisher.ended()->code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(publisher.ended()->message(), "another publisher");
+}
+
+TEST(ClientPublisher, canBeDestroyedWhileTheServerDoesNotRead) {
+  std::promise<void> is_stalling, client_is_gone;
+  ScriptedServer server(
+      [&](PublishStream& stream, int) {
+        accept(stream);
+        is_stalling.set_value();
+        client_is_gone.get_future().wait();
+        return grpc::Status::OK;
+      },
+      noWatching);
+  {
+    Publisher publisher = makePublisher(server);
+    publisher.offer(makeFrame(1));
+    is_stalling.get_future().wait();
+  }
+  client_is_gone.set_value();
+}
+
+}  // namespace
+}  // namespace viewloom
