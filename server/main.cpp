@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   addSettings(app, sources);
   viewloom::Command command = viewloom::serve;
   viewloom::addServeCommand(app, command);
+  viewloom::addRenderCommand(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -18,5 +18,7 @@ using Command = std::function<int(const Config& config)>;
 
 // Each adds its subcommand and options to `app`; `chosen` is set when the command line names it.
 void addServeCommand(CLI::App& app, Command& chosen);
+// Returns 1 when its input is refused.
+void addRenderCommand(CLI::App& app, Command& chosen);
 
 }  // namespace viewloom

@@ -112,6 +112,11 @@ uint32_t AtlasLayout::viewAt(uint32_t column, uint32_t row_from_top) const {
   return std::min(row * columns + column, none);
 }
 
+double contentFocalDistance(const SourceStats& stats) {
+  const double mean_inv_z = (stats.inv_z_near + stats.inv_z_far) / 2;
+  return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults{}.focal_distance_m;
+}
+
 absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
                                             const StreamDefaults& defaults) {
   const TileGrid grid = tileGridOf(spec);

@@ -6,17 +6,6 @@
 #include "base/log.h"
 
 namespace viewloom {
-namespace {
-
-// Harmonic mean of the 2nd and 98th depth percentile: the mean of their 1/Z. A stream of sky alone
-// has none; then what the defaults say.
-double focalDistanceOf(const SourceStats& stats) {
-  const double mean_inv_z = 0.5 * (stats.inv_z_near + stats.inv_z_far);
-  return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults().focal_distance_m;
-}
-
-}  // namespace
-
 StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams, GpuLoop& gpu,
                              WakeUp& wake_up, OnResident on_resident)
     : links_(links),
@@ -100,7 +89,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->build_ns = structure->built_at_ns - uploaded_ns;
 
   structure->stats = slot->slot.stats();
-  if (!stream.focal_distance_m) stream.focal_distance_m = focalDistanceOf(structure->stats);
+  if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
   structure->defaults = {.source_camera = source.camera,
                          .source_size_px = source.layers.front().depth.size_px,
                          .focal_distance_m = *stream.focal_distance_m};

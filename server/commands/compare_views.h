@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scores rendered views against true pictures, apart for what was seen and what had to be made up.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "base/status.h"
+#include "commands/offline_renderer.h"
+#include "commands/truth_image.h"
+
+namespace viewloom {
+
+struct CompareOptions {
+  std::filesystem::path truth;  // a TruthManifest
+  ScoreTransfer transfer = ScoreTransfer::kSrgb;
+  uint32_t border_px = 0;  // left out on every side of a view
+  // For the true views in their order; see loadCoveredMask. None = the renderer's classes alone.
+  std::vector<std::filesystem::path> covered_masks;
+};
+
+// [{"view", "by_renderer": {"covered", "hidden", "outside", "all"}, "by_mask": the same}], each
+// class with "pixels", "share", "psnr_db" (a number, "inf" for identical pictures, null without
+// pixels) and "ssim". The renderer's covered are its hits and what it knows to be empty. Needs
+// linear and mask.
+absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
+                                                    const CompareOptions& options);
+
+}  // namespace viewloom

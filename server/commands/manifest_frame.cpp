@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/manifest_frame.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "base/str_cat.h"
+#include "decode/frame_decoder.h"
+#include "files/file_bytes.h"
+#include "files/frame_manifest.h"
+#include "rpc/display_from_proto.h"
+#include "rpc/frame_from_proto.h"
+
+namespace viewloom {
+namespace {
+
+// A list of a thousand posed cameras is a tenth of this.
+constexpr uint64_t kDisplayFileBytesMax = uint64_t{1} << 20;
+
+}  // namespace
+
+absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path) {
+  absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
+  if (!manifest.ok()) return manifest.status();
+  absl::StatusOr<WireFrame> wire = files::loadFrame(*manifest, path.parent_path());
+  if (!wire.ok()) return wire.status();
+  absl::StatusOr<FrameFormat> format = frameFormatFromProto(wire->header, FrameLimits{});
+  if (!format.ok()) return format.status();
+  BytePool pool(0);  // one frame: nothing to keep
+  FrameDecoder decoder(pool);
+  absl::StatusOr<std::unique_ptr<Frame>> frame =
+      decoder.decode({.format = *std::move(format), .planes = std::move(wire->planes)});
+  if (!frame.ok()) return frame.status();
+  return FramePtr(*std::move(frame));
+}
+
+absl::StatusOr<DisplaySpec> readDisplayFile(const std::filesystem::path& path) {
+  const auto bytes = files::readFileBytes(path, kDisplayFileBytesMax);
+  if (!bytes.ok()) return bytes.status();
+  v1::Display display;
+  const auto parsed = google::protobuf::util::JsonStringToMessage(
+      std::string(bytes->begin(), bytes->end()), &display);
+  if (!parsed.ok()) {
+    return files::refuseFile(path.string(),
+                             strCat("is no Display in JSON: ", std::string(parsed.message())));
+  }
+  return displayFromProto(display);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/offline_renderer.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+
+namespace viewloom {
+namespace {
+
+// Rows traced at once: large enough to keep the device busy, small beside an atlas.
+constexpr uint32_t kBandRows = 128;
+
+// Adds the band's rows to the planes of the atlas that were asked for.
+void append(const TraceSlot& slot, const TraceOutputs& outputs, RenderedAtlas& atlas) {
+  const auto add = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(slot.color(), atlas.color);
+  if (outputs.linear) add(slot.linear(), atlas.linear);
+  if (outputs.mask) add(slot.mask(), atlas.mask);
+  if (outputs.records) {
+    for (const abi::RayRecord& record : slot.records()) atlas.visits.push_back(record.visits);
+  }
+  const Coverage band = slot.coverage();
+  atlas.coverage.hit += band.hit;
+  atlas.coverage.hit_assumed += band.hit_assumed;
+  atlas.coverage.hidden += band.hidden;
+  atlas.coverage.outside += band.outside;
+  atlas.coverage.empty += band.empty;
+}
+
+void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {
+  const uint64_t area_px = atlas.layout->size_px.area();
+  atlas.color.reserve(area_px);
+  if (outputs.linear) atlas.linear.reserve(4 * area_px);
+  if (outputs.mask) atlas.mask.reserve(area_px);
+  if (outputs.records) atlas.visits.reserve(area_px);
+}
+
+}  // namespace
+
+OfflineRenderer::OfflineRenderer(const Device& device)
+    : device_(device), timeline_(device), recorder_(device), builder_(device), tracer_(device) {}
+
+void OfflineRenderer::build(const Frame& frame) {
+  structure_.reset();
+  structure_.emplace(device_, shapeOf(frame));
+  structure_->upload(frame);
+  builder_.record(recorder_.begin(), *structure_, nullptr);
+  timeline_.wait(recorder_.submit(timeline_));
+}
+
+void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot) {
+  tracer_.recordBand(recorder_.begin(), *structure_, job, rows, slot, nullptr);
+  timeline_.wait(recorder_.submit(timeline_));
+}
+
+absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
+    const DisplaySpec& spec, const TraceOutputs& outputs,
+    const std::function<void(uint32_t done_rows, uint32_t row_count)>& on_progress) {
+  VIEWLOOM_CHECK(structure_.has_value());
+  VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, AtlasLimits{}));
+  const Camera& source_camera = structure_->sourceCamera();
+  const SizePx source_px = structure_->layout().size_px;
+  absl::StatusOr<AtlasLayout> layout =
+      makeAtlasLayout(spec, {.source_camera = source_camera,
+                             .source_size_px = source_px,
+                             .focal_distance_m = contentFocalDistance(structure_->stats())});
+  if (!layout.ok()) return layout.status();
+
+  RenderedAtlas atlas;
+  atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
+  reserve(outputs, atlas);
+  const TraceJob job =
+      makeTraceJob(atlas.layout, spec, displayPose(spec, source_camera), source_camera, source_px);
+  const SizePx size_px = atlas.layout->size_px;
+  TraceSlot slot(device_, {.width_px = size_px.width,
+                           .row_count_max = std::min(kBandRows, size_px.height),
+                           .tile_count_max = atlas.layout->columns * atlas.layout->rows,
+                           .outputs = outputs});
+  for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
+    const uint32_t row_count = std::min(kBandRows, size_px.height - row);
+    traceBand(job, {.first_row = row, .row_count = row_count}, slot);
+    append(slot, outputs, atlas);
+    on_progress(row + row_count, size_px.height);
+  }
+  return atlas;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds one frame and traces displays of it, one after the other, with the server's own engine.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "display/atlas_layout.h"
+#include "gpu/command_recorder.h"
+#include "gpu/gpu_timer.h"
+#include "gpu/timeline.h"
+#include "structure/structure_builder.h"
+#include "trace/view_tracer.h"
+
+namespace viewloom {
+
+// A whole atlas in host memory. Planes that were not asked for are empty. Top row first.
+struct RenderedAtlas {
+  std::shared_ptr<const AtlasLayout> layout;
+  std::vector<uint32_t> color;   // uint32_t[height][width]: R, G, B, 255 in memory order
+  std::vector<float> linear;     // float[height][width][4]: sRGB-encoded, before rounding to 8 bits
+  std::vector<uint8_t> mask;     // uint8_t[height][width], RayClass
+  std::vector<uint32_t> visits;  // uint32_t[height][width]: nodes and facets each ray looked at
+  Coverage coverage;
+};
+
+// The device must outlive it. Throws vk::SystemError when the device fails or has no room.
+// Thread-safety: none; one thread at a time.
+class OfflineRenderer {
+ public:
+  explicit OfflineRenderer(const Device& device);
+
+  // Makes this frame the one that is rendered from here on.
+  void build(const Frame& frame);
+  // Needs a frame. Refuses atlases beyond AtlasLimits. `on_progress` hears how many of the atlas's
+  // rows are done.
+  absl::StatusOr<RenderedAtlas> render(
+      const DisplaySpec& spec, const TraceOutputs& outputs,
+      const std::function<void(uint32_t done_rows, uint32_t row_count)>& on_progress);
+
+  SourceStats stats() const { return structure_->stats(); }
+
+ private:
+  void traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot);
+
+  const Device& device_;
+  Timeline timeline_;
+  CommandRecorder recorder_;
+  StructureBuilder builder_;
+  ViewTracer tracer_;
+  std::optional<StructureSlot> structure_;
+};
+
+}  // namespace viewloom

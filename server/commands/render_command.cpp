@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// viewloomd render: one frame from files, on one display, to picture files.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "commands/atlas_pictures.h"
+#include "commands/command.h"
+#include "commands/compare_views.h"
+#include "commands/manifest_frame.h"
+#include "commands/offline_renderer.h"
+#include "files/file_bytes.h"
+
+namespace viewloom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kExitRefused = 1;
+
+struct RenderArguments {
+  std::filesystem::path frame;
+  std::filesystem::path display;
+  std::filesystem::path out;
+  CompareOptions compare;
+};
+
+void showProgress(uint32_t done_rows, uint32_t row_count) {
+  std::cerr << "\rtraced " << done_rows << " of " << row_count << " rows"
+            << (done_rows == row_count ? "\n" : "") << std::flush;
+}
+
+Json coverageJson(const Coverage& coverage) {
+  const auto share = [&](uint64_t count) {
+    return static_cast<double>(count) / static_cast<double>(coverage.rayCount());
+  };
+  Json json;
+  json["hit"] = share(coverage.hit);
+  json["hit_assumed"] = share(coverage.hit_assumed);
+  json["hidden"] = share(coverage.hidden);
+  json["outside"] = share(coverage.outside);
+  json["empty"] = share(coverage.empty);
+  return json;
+}
+
+Json sourceJson(const SourceStats& stats) {
+  Json json;
+  json["depth_step"] = stats.depth_step;
+  json["noise_sigma"] = stats.noise_sigma;
+  json["connection_tolerance"] = stats.connection_tolerance;
+  json["bad_samples"] = stats.bad_samples_count;
+  json["unsorted_columns"] = stats.unsorted_columns_count;
+  return json;
+}
+
+// Messages about a file name it already; those about a field do not.
+absl::Status inFile(const absl::Status& status, const std::filesystem::path& path) {
+  return fieldOf(status).empty() ? status : withFieldPrefix(status, path.string());
+}
+
+absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::string& device_name) {
+  const auto frame = readManifestFrame(arguments.frame);
+  if (!frame.ok()) return inFile(frame.status(), arguments.frame);
+  const auto display = readDisplayFile(arguments.display);
+  if (!display.ok()) return inFile(display.status(), arguments.display);
+  std::error_code failed;
+  std::filesystem::create_directories(arguments.out, failed);
+  if (failed) return files::refuseFile(arguments.out.string(), failed.message());
+
+  const Device device({.select = device_name});
+  OfflineRenderer renderer(device);
+  renderer.build(**frame);
+  const TraceOutputs outputs = {
+      .mask = true, .linear = !arguments.compare.truth.empty(), .records = true};
+  const auto atlas = renderer.render(*display, outputs, showProgress);
+  if (!atlas.ok()) return inFile(atlas.status(), arguments.display);
+  const auto names = writeAtlasPictures(*atlas, arguments.out);
+  if (!names.ok()) return names.status();
+
+  const VisitStats visits = visitStats(*atlas);
+  Json json;
+  json["device"] = device.info().name;
+  json["files"] = *names;
+  json["coverage"] = coverageJson(atlas->coverage);
+  json["source"] = sourceJson(renderer.stats());
+  json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
+  if (!arguments.compare.truth.empty()) {
+    auto views = compareViews(*atlas, arguments.compare);
+    if (!views.ok()) return inFile(views.status(), arguments.compare.truth);
+    json["views"] = *std::move(views);
+  }
+  return json;
+}
+
+int render(const RenderArguments& arguments, const Config& config) {
+  const absl::StatusOr<Json> json = makeReport(arguments, config.device);
+  if (!json.ok()) {
+    std::cerr << "viewloomd render: " << std::string(json.status().message()) << "\n";
+    return kExitRefused;
+  }
+  std::cout << json->dump(2) << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CompareOptions& compare = arguments->compare;
+  CLI::App* const command = app.add_subcommand(
+      "render", "Renders a frame from files to picture files; prints a report as JSON");
+  command->fallthrough();
+  command->add_option("--frame", arguments->frame, "FrameManifest as JSON")->required();
+  command->add_option("--display", arguments->display, "Display as JSON")->required();
+  command->add_option("--out", arguments->out, "Folder for the pictures, made if need be")
+      ->required();
+  CLI::Option* const truth = command->add_option("--compare", compare.truth,
+                                                 "TruthManifest as JSON: scores views against it");
+  command
+      ->add_option("--transfer", compare.transfer,
+                   "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ScoreTransfer>{
+          {"srgb", ScoreTransfer::kSrgb}, {"gamma2.2", ScoreTransfer::kGamma22}}))
+      ->needs(truth);
+  command->add_option("--border", compare.border_px, "px left out on every side of a scored view")
+      ->needs(truth);
+  command
+      ->add_option("--covered-mask", compare.covered_masks,
+                   "8-bit grey PNG per true view: 255 covered, 0 hidden, between outside")
+      ->needs(truth);
+  command->callback([arguments, &chosen] {
+    chosen = [arguments](const Config& config) { return render(*arguments, config); };
+  });
+}
+
+}  // namespace viewloom

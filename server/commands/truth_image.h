@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// True pictures and covered masks from files, in the form they are scored in.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "base/status.h"
+#include "scoring/image_score.h"
+#include "viewloom/v1/manifest.pb.h"
+
+namespace viewloom {
+
+// How light becomes the numbers that are compared.
+enum class ScoreTransfer : uint8_t { kSrgb, kGamma22 };
+
+// An sRGB-encoded sample (0..1) in the transfer that is scored.
+float scoredSample(float srgb_encoded, ScoreTransfer transfer);
+
+// Colour with alpha is set on black.
+absl::StatusOr<ScoredImage> loadTruth(const v1::PlaneFile& file,
+                                      const std::filesystem::path& folder, ScoreTransfer transfer);
+
+enum class GivenClass : uint8_t { kHidden, kOutside, kCovered };
+
+// An 8-bit grey PNG: 255 = a source pixel covers this pixel, 0 = none does, anything between =
+// outside the source's image.
+absl::StatusOr<std::vector<GivenClass>> loadCoveredMask(const std::filesystem::path& path,
+                                                        SizePx size_px);
+
+}  // namespace viewloom
