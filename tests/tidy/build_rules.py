@@ -46,18 +46,22 @@ def _words_of_lists(tree):
     words = {}
     for path in tree.text_files("CMakeLists.txt", ".cmake"):
         text = "\n".join(line.split("#")[0] for line in tree.lines(path))
-        words[os.path.dirname(path)] = set(re.findall(r"[\w./+${}-]+", text))
+        words.setdefault(os.path.dirname(path), set()).update(re.findall(r"[\w./+${}-]+", text))
     return words
 
 
-def _names(word, relative):
-    """Whether a word of a list is this path; ${variable} stands for part of a name."""
+def _names(word, relative, words):
+    """Whether a word of a list is this path; ${variable} stands for part of a name.
+
+    Without anything but the variable, the name itself must be among the list's words.
+    """
     if "${" not in word:
         return word == relative or word.endswith("/" + relative)
     literals = re.split(r"\$\{\w+\}", os.path.basename(word))
-    pattern = r"\w+".join(re.escape(literal) for literal in literals)
-    has_stem = any(len(literal.split(".")[0]) > 0 for literal in literals)
-    return has_stem and re.fullmatch(pattern, relative) is not None
+    if not re.fullmatch(r"\w+".join(re.escape(literal) for literal in literals), relative):
+        return False
+    has_stem = any(literal.split(".")[0] for literal in literals)
+    return has_stem or os.path.splitext(relative)[0] in words
 
 
 def _is_listed(path, words_of_folder):
@@ -66,13 +70,13 @@ def _is_listed(path, words_of_folder):
     The page is embedded by the server's list, which is not above it.
     """
     if path.endswith(PAGE):
-        return any(_names(word, os.path.basename(path))
+        return any(_names(word, os.path.basename(path), words)
                    for words in words_of_folder.values() for word in words)
     folder = os.path.dirname(path)
     while True:
         words = words_of_folder.get(folder, ())
         relative = os.path.relpath(path, folder or ".")
-        if any(_names(word, relative) for word in words):
+        if any(_names(word, relative, words) for word in words):
             return True
         if not folder:
             return False

@@ -22,7 +22,7 @@ LONG_FILES = {}
 # Written in halves, so that this list does not find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|X" r"XX)\b")
 # Words that tell how the project was made instead of what it is.
-MAKING = re.compile(r"\b((?<!\.)proto" r"types?\b(?!\s*\.)|issue #?\d+|issue tra" r"cker"
+MAKING = re.compile(r"\b((the|an?|our|this|earlier)\s+proto" r"types?\b(?! of)|issue #?\d+|issue tra" r"cker"
                     r"|co-auth" r"ored-by)\b", re.IGNORECASE)
 MACHINE_PATH = re.compile(r"(?<![\w.:/-])/(work|home/\w+|Users|root)/")
 VAGUE = r"(Manager|Helper|Utils?|Utilities)"
@@ -32,6 +32,7 @@ VAGUE_FILE = re.compile(r"(^|[_-])(manager|helpers?|utils?|misc|common)([_.-]|$)
 
 CONTROL = re.compile(r"\s*(\}\s*)?(namespace|class|struct|enum|union|extern|if|else|for|while"
                      r"|switch|do|try|catch|return|message|service|layout|case|default)\b")
+LAMBDA = re.compile(r"\[[^\]]*\]\s*[({]")
 
 
 def is_source(path):
@@ -64,7 +65,8 @@ def check_lengths(tree):
 def _braced_functions(lines):
     """(line, length) of what opens with `) ... {` and closes at the same indentation."""
     for start, line in enumerate(lines):
-        if not line.rstrip().endswith("{") or ")" not in line or CONTROL.match(line):
+        if not line.rstrip().endswith("{") or ")" not in line or CONTROL.match(line) or \
+                LAMBDA.search(line):
             continue
         # A signature over several lines starts at the last line that is less indented.
         first = start
@@ -72,7 +74,7 @@ def _braced_functions(lines):
                 not lines[first - 1].rstrip().endswith((";", "{", "}")):
             first -= 1
         indent = len(lines[first]) - len(lines[first].lstrip())
-        if indent > 4 or CONTROL.match(lines[first]):
+        if indent > 2 or CONTROL.match(lines[first]):
             continue
         closing = re.compile(" " * indent + r"\}")
         for end in range(start + 1, len(lines)):

@@ -105,6 +105,12 @@ class Text(unittest.TestCase):
         text = f"{LICENCE}void run(int a,\n         int b,\n         int c) {{\n{body}}}\n"
         self.assertEqual(self.broken("a.cpp", text), ["function"])
 
+    def test_a_lambda_is_part_of_its_function(self):
+        body = "  call();\n" * 40
+        text = (f"{LICENCE}void a() {{\n  Server server(\n      [&](int b) {{\n        call();\n"
+                f"      }});\n{body}}}\nvoid b() {{\n{body}}}\n")
+        self.assertEqual(self.broken("a.cpp", text), [])
+
     def test_namespaces_and_classes_are_no_functions(self):
         body = "int a;\n" * 80
         self.assertEqual(self.broken("a.h", f"{LICENCE}namespace viewloom {{\n{body}}}\n"), [])
@@ -117,6 +123,7 @@ class Text(unittest.TestCase):
         for words in ("as issue " "12 asked", "the proto" "type did it", "Co-auth" "ored-by: me"):
             self.assertEqual(self.broken("README.md", words + "\n"), ["making"])
         self.assertEqual(self.broken("a.js", LICENCE + "Array.proto" "type.map\n"), [])
+        self.assertEqual(self.broken("a.cpp", LICENCE + "const auto* proto" "type = b;\n"), [])
 
     def test_machine_paths_are_found(self):
         self.assertEqual(self.broken("a.md", "see /wo" "rk/notes\n"), ["machine path"])
@@ -145,7 +152,11 @@ class Build(unittest.TestCase):
         files = {"tests/fuzz/CMakeLists.txt": "add(${kind}_fuzzer ${kind}_fuzzer.cpp)",
                  "tests/fuzz/jpeg_fuzzer.cpp": ""}
         self.assertEqual(rules_broken(build_rules.check, files), [])
-        files = {"tests/fuzz/CMakeLists.txt": "add(${kind}.cpp)", "tests/fuzz/a.cpp": ""}
+        files = {"tests/fuzz/CMakeLists.txt": "foreach(kind a b) add(${kind}.cpp)",
+                 "tests/fuzz/b.cpp": ""}
+        self.assertEqual(rules_broken(build_rules.check, files), [])
+        files = {"tests/fuzz/CMakeLists.txt": "foreach(kind b c) add(${kind}.cpp)",
+                 "tests/fuzz/a.cpp": ""}
         self.assertEqual(rules_broken(build_rules.check, files), [("tests/fuzz/a.cpp", "dead")])
 
     def test_the_page_lives_through_the_list_that_embeds_it(self):
