@@ -7,7 +7,6 @@ const kDegPerRad = 180 / Math.PI;
 const byId = (id) => document.getElementById(id);
 
 export class DisplayControls {
-  #layout = null;
   #neutral_m = 0;  // focal distance in the middle of the slider
   #pending = null;
   #timer = 0;
@@ -25,16 +24,21 @@ export class DisplayControls {
       this.#change({cone_deg: target.value});
     });
     byId('reset').addEventListener('click', () => {
-      this.#neutral_m = 0;
+      this.forget();
       this.#change({focus_m: null, cone_deg: null});
     });
   }
 
+  // Another stream or device: its focal distance becomes the middle of the slider.
+  forget() {
+    this.#neutral_m = 0;
+  }
+
   // What the newest atlas was made with.
   show(layout) {
-    this.#layout = layout;
     for (const id of ['focus', 'cone', 'reset']) byId(id).disabled = false;
-    if (this.#pending || byId('focus').matches(':active') || byId('cone').matches(':active')) return;
+    const sliding = document.querySelector('#focus:active, #cone:active');
+    if (this.#pending || sliding) return;
     if (this.#neutral_m === 0) this.#neutral_m = layout.focal_distance_m;
     byId('focus').valueAsNumber = Math.log2(layout.focal_distance_m / this.#neutral_m);
     byId('cone').valueAsNumber = layout.view_cone_rad * kDegPerRad;

@@ -18,6 +18,7 @@ const panel = new Panel();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
 let presets = [];
 let watching = null;  // name of the stream
+let publishing = true;  // whether the stream's publisher was there when last asked
 let noticeTimer = 0;
 let hiddenTimer = 0;
 
@@ -97,7 +98,9 @@ function watchParameters() {
 
 function watch(name) {
   watching = name;
+  publishing = true;
   panel.clear();
+  controls.forget();
   setState('connecting');
   stream.open(watchParameters());
 }
@@ -130,6 +133,12 @@ function showStreams(streams) {
   if (watching) select.value = watching;
 }
 
+function notePublisher(entry) {
+  if (!entry || entry.live === publishing) return;
+  publishing = entry.live;
+  notice(publishing ? '' : 'The publisher left. This is its last frame.', '', Infinity);
+}
+
 // Looks for streams; watches the one asked for, else the first that is live, else the first.
 async function poll() {
   try {
@@ -139,6 +148,7 @@ async function poll() {
         streams.find(({live}) => live) ?? streams[0];
     if (!watching && found) watch(found.name);
     showStreams(streams);
+    notePublisher(streams.find(({name}) => name === watching));
     if (!watching && !found) {
       setState('no-stream');
       notice('');
@@ -161,7 +171,8 @@ async function start() {
   const options = presets.map(({name, device}) => new Option(device, name));
   if (parameters.has('columns')) options.unshift(new Option('as in the address', ''));
   byId('preset').replaceChildren(...options);
-  byId('preset').value = parameters.get('preset') ?? (parameters.has('columns') ? '' : kDefaultPreset);
+  const standard = parameters.has('columns') ? '' : kDefaultPreset;
+  byId('preset').value = parameters.get('preset') ?? standard;
   byId('detail').value = parameters.get('detail') ?? '1';
   poll();
 }

@@ -4,8 +4,8 @@
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
 const kTileEdge_px = 0.5;
 
-// Top left corner of a view's tile in the atlas, px. What remains beside the tiles is padding at the
-// right and at the top.
+// Top left corner of a view's tile in the atlas, px. What remains beside the tiles is padding at
+// the right and at the top.
 export function tileOrigin(layout, view) {
   const row = Math.floor(view / layout.columns);
   const rowFromTop = layout.order === 'BOTTOM_LEFT' ? layout.rows - 1 - row : row;
@@ -39,7 +39,7 @@ export class Stage {
 
   look(position) {
     this.position = Math.min(1, Math.max(0, position));
-    this.invalidate();
+    if (!this.whole) this.invalidate();
   }
 
   invalidate() {

@@ -8,6 +8,7 @@ namespace viewloom {
 namespace {
 
 constexpr unsigned kHttpVersion11 = 11;
+constexpr unsigned kNotModified = 304;
 
 std::string text(beast::string_view view) {
   return std::string(view.data(), view.size());
@@ -167,13 +168,13 @@ net::awaitable<void> Connection::write(const HttpReply& reply, const Parser& par
   response.set("X-Content-Type-Options", "nosniff");
   if (!reply.type.empty()) response.set(http::field::content_type, reply.type);
   for (const auto& [name, value] : reply.headers) response.set(name, value);
-  response.content_length(net::buffer_size(body));
+  if (reply.status != kNotModified) response.content_length(net::buffer_size(body));
   response.keep_alive(keep);
   http::response_serializer<http::empty_body> serializer(response);
   stream_.expires_after(context_.options.transfer_timeout);
   co_await http::async_write_header(stream_, serializer, into(error));
   context_.metrics.http_responses[answerKind(reply.status)].add();
-  if (error || parser.get().method() == http::verb::head || reply.status == 304) co_return;
+  if (error || parser.get().method() == http::verb::head || reply.status == kNotModified) co_return;
   co_await net::async_write(stream_, body, into(error));
 }
 

@@ -38,7 +38,8 @@ class Browser:
         self.session = None
         self.messages = []  # what the page wrote on its console, and exceptions
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
+        self.session = attached["sessionId"]
         self.call("Page.enable")
         self.call("Runtime.enable")
         self.resize(width, height)

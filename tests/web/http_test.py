@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The web server as a stranger sees it: pages, catalogue, stills, and requests nobody should send."""
+"""The web server as a stranger sees it: pages, catalogue, stills, and what nobody should send."""
 import io
 import json
 import socket
@@ -24,6 +24,9 @@ class Answers(unittest.TestCase):
     def tearDownClass(cls):
         with cls.server:
             assert cls.server.stop() == 0
+
+    def by_name(self, what):
+        return {entry["name"]: entry for entry in fetch(self.port, f"/api/{what}").json()[what]}
 
     def test_serves_every_file_the_page_names(self):
         page = fetch(self.port, "/")
@@ -63,11 +66,11 @@ class Answers(unittest.TestCase):
         stream.close()
 
     def test_lists_streams_displays_and_presets(self):
-        streams = {entry["name"]: entry for entry in fetch(self.port, "/api/streams").json()["streams"]}
+        streams = self.by_name("streams")
         self.assertEqual(sorted(streams), ["painted", "silent"])
         self.assertTrue(streams["painted"]["live"])
         self.assertEqual(streams["painted"]["size"], {"width": 1280, "height": 720})
-        presets = {entry["name"]: entry for entry in fetch(self.port, "/api/presets").json()["presets"]}
+        presets = self.by_name("presets")
         self.assertEqual(presets["portrait"]["columns"], 8)
         self.assertEqual(presets["portrait"]["size"], {"width": 3360, "height": 3360})
         self.assertEqual(fetch(self.port, "/api/displays").json(), {"displays": []})

@@ -5,10 +5,9 @@ import os
 import sys
 import unittest
 
-from browser import Browser
+from browser import CHROMIUM, Browser
 from web_client import Server, decode_code
 
-PROGRAM = sys.argv.pop(1)
 SMALL = "?stream=painted&columns=8&rows=6&width=1680&height=1680&aspect=0.75"
 GROUND = (10, 12, 16)
 VIEW_COUNT = 48
@@ -28,10 +27,11 @@ def picture_box(image):
     return min(xs), min(ys), max(xs) + 1, max(ys) + 1
 
 
-class Page(unittest.TestCase):
-    def setUp(self):
-        self.server = Server(PROGRAM, "--rate-hz", 5)
-        self.addCleanup(lambda: self.server.__exit__())
+@unittest.skipUnless(os.path.exists(CHROMIUM), f"there is no {CHROMIUM}")
+class PageTest(unittest.TestCase):
+    """A browser in front of self.server."""
+
+    def start_browser(self):
         self.browser = Browser()
         self.addCleanup(self.browser.close)
         self.browser.reduce_motion()  # no sway, and the eye goes where it is put at once
@@ -59,6 +59,13 @@ class Page(unittest.TestCase):
         view = round(share * (VIEW_COUNT - 1))
         self.browser.wait_for(f"document.getElementById('stage').dataset.view === '{view}'")
         return view
+
+
+class Page(PageTest):
+    def setUp(self):
+        self.server = Server(PROGRAM, "--rate-hz", 5)
+        self.addCleanup(lambda: self.server.__exit__())
+        self.start_browser()
 
     def test_shows_the_view_under_the_pointer(self):
         self.open()
@@ -139,7 +146,8 @@ class Page(unittest.TestCase):
         port = self.server.port
         self.assertEqual(self.server.stop(), 0)
         self.browser.wait_for("document.documentElement.dataset.state === 'reconnecting'")
-        self.browser.wait_for("document.getElementById('notice').textContent.includes('Trying again')")
+        self.browser.wait_for(
+            "document.getElementById('notice').textContent.includes('Trying again')")
         keep(self.browser.screenshot(), "reconnecting")
         self.server = Server(PROGRAM, "--rate-hz", 5, "--port", port)
         self.browser.wait_for(LIVE)
@@ -164,4 +172,5 @@ class Page(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
     unittest.main()

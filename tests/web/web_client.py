@@ -12,7 +12,7 @@ TIMEOUT_S = 60  # of any single wait; a test that reaches it has failed
 
 
 class Server:
-    """painted_server, or whatever prints its URL as the first line and ends with its standard input."""
+    """A program that prints its URL as its first line and ends with its standard input."""
 
     def __init__(self, program, *options):
         self.process = subprocess.Popen([program, *map(str, options)], stdin=subprocess.PIPE,
@@ -187,7 +187,7 @@ def decode_view(image, layout, view):
 
 
 def decode_code(tile):
-    """The number that eight squares in the middle of a tile spell, white for 1, highest bit first."""
+    """The number that eight squares in the middle of a tile spell: white is 1, highest first."""
     number = 0
     for bit in range(8):
         x = tile.width * (0.1 + 0.8 * (bit + 0.5) / 8)
