@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "absl/strings/str_split.h"
 #include "base/byte_pool.h"
 #include "base/log.h"
 #include "decode/frame_intake.h"
@@ -41,14 +42,20 @@ BroadcasterLimits broadcasterLimits(const LimitsConfig& limits) {
   return {.display_count_max = limits.displays_max, .subscriber_count_max = limits.subscribers_max};
 }
 
-// "127.0.0.1:8080" or "[::1]:8080", which the settings have checked.
-HttpOptions httpOptions(const std::string& host_port) {
+// Connections of the page beside those that watch: files, stills, metrics.
+constexpr uint32_t kOtherHttpConnections = 256;
+
+// The address is "127.0.0.1:8080" or "[::1]:8080", as the settings have checked.
+HttpOptions httpOptions(const HttpConfig& config, uint32_t subscribers_max) {
+  const std::string& host_port = config.address;
   const size_t colon = host_port.rfind(':');
   std::string host = host_port.substr(0, colon);
   if (host.front() == '[') host = host.substr(1, host.size() - 2);
   HttpOptions options;
   options.address = host == "localhost" ? "127.0.0.1" : host;
   std::from_chars(host_port.data() + colon + 1, host_port.data() + host_port.size(), options.port);
+  options.allowed_hosts = absl::StrSplit(config.allowed_hosts, ',', absl::SkipEmpty());
+  options.connection_count_max = subscribers_max + kOtherHttpConnections;
   return options;
 }
 
@@ -122,7 +129,7 @@ void Service::Parts::connect() {
 }
 
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
-  http.emplace(httpOptions(config.http.address), directory, broadcaster, metrics, clock);
+  http.emplace(httpOptions(config.http, config.limits.subscribers_max), directory, broadcaster, metrics, clock);
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {

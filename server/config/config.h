@@ -15,6 +15,7 @@ struct GrpcConfig {
 struct HttpConfig {
   bool enabled = true;
   std::string address = "127.0.0.1:8080";
+  std::string allowed_hosts;  // names separated by commas
 };
 
 struct LimitsConfig {

@@ -106,6 +106,7 @@ std::vector<Setting> settingsOf(Config& config) {
       {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
       {"http.enabled", "", BoolSetting{&config.http.enabled}},
       {"http.address", "", TextSetting{&config.http.address, Form::kHostPort}},
+      {"http.allowed_hosts", "", TextSetting{&config.http.allowed_hosts}},
       {"limits.frame_bytes_max", "bytes", CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
       {"limits.plane_side_px_max", "px", CountSetting{&limits.plane_side_px_max, 1, 8192}},
       {"limits.streams_max", "", CountSetting{&limits.streams_max, 1, 1024}},

@@ -19,9 +19,10 @@ struct HttpOptions {
   std::vector<std::string> allowed_hosts;
 
   uint32_t header_bytes_max = 8192;
-  uint32_t message_bytes_max = 4096;                   // of a viewer's text message
-  std::chrono::milliseconds request_timeout{10'000};   // to send a request or to shake hands
-  std::chrono::milliseconds idle_timeout{60'000};      // between requests, and of a silent viewer
+  uint32_t message_bytes_max = 4096;  // of a viewer's text message
+  std::chrono::milliseconds request_timeout{
+      10'000};  // to send a request, from the one before; to shake hands
+  std::chrono::milliseconds idle_timeout{60'000};      // of a viewer that answers no ping
   std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply
   std::chrono::milliseconds still_timeout{10'000};     // until a still's atlas is there
   std::chrono::milliseconds drain_timeout{2'000};      // for viewers to take their leave
