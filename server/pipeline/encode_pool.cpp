@@ -99,8 +99,10 @@ void EncodePool::encodeOutput(const TracedStrip& strip, AtlasOutput& output, Ban
     for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
       const BandPixels band = rowsOf(pixels, row, output.band_row_count);
       const uint32_t index = band.first_row / output.band_row_count;
-      output.bands[plane_rank * output.bands_per_plane + index] =
-          encoder.encode(band, encoding, *strip.run->picture->layout);
+      EncodedBand packed = encoder.encode(band, encoding, *strip.run->picture->layout);
+      links_.metrics.bands_encoded.add();
+      links_.metrics.encoded_bytes.add(static_cast<double>(packed.bytes->size()));
+      output.bands[plane_rank * output.bands_per_plane + index] = std::move(packed);
     }
     ++plane_rank;
   }

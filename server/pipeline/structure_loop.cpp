@@ -95,7 +95,10 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
                          .focal_distance_m = *stream.focal_distance_m};
   structure->build = std::move(slot);
 
+  const FrameTimes& times = structure->times;
   links_.metrics.structures_built.add();
+  links_.metrics.observeStage(Stage::kReceive, times.last_chunk_ns - times.first_chunk_ns);
+  links_.metrics.observeStage(Stage::kDecode, times.decoded_ns - times.last_chunk_ns);
   links_.metrics.observeStage(Stage::kUpload, structure->upload_ns);
   links_.metrics.observeStage(Stage::kBuild, structure->build_ns);
   links_.directory.noteResident(stream.name, structure->frame_number,

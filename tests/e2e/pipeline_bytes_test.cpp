@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Same frame, same display: same bytes, whatever the order of threads and whoever else watches.
+#include <gmock/gmock.h>
+
+#include "e2e/pipeline_fixture.h"
+
+namespace viewloom::test {
+namespace {
+
+using testing::SizeIs;
+
+const EncodingSpec kAllPlanes{.with_depth = true, .with_mask = true};
+
+class PipelineBytesTest : public PipelineFixture {
+ protected:
+  static void expectSameBytes(const EncodedAtlas& a, const EncodedAtlas& b) {
+    ASSERT_EQ(a.bands.size(), b.bands.size());
+    for (size_t i = 0; i < a.bands.size(); ++i) {
+      EXPECT_EQ(a.bands[i].plane, b.bands[i].plane);
+      EXPECT_EQ(a.bands[i].first_row, b.bands[i].first_row);
+      EXPECT_EQ(*a.bands[i].bytes, *b.bands[i].bytes) << "band " << i;
+    }
+    EXPECT_EQ(a.coverage, b.coverage);
+  }
+};
+
+TEST_F(PipelineBytesTest, doNotDependOnWhoElseWatchesOrOnTheNumberOfThreads) {
+  const DisplaySpec quilt = smallQuilt({400, 300});
+  Server alone(device(), {.encode_thread_count = 1, .trace_slot_count = 2});
+  const Viewer single = watch(alone, quilt, kAllPlanes);
+  alone.offer(syntheticFrame(1));
+  ASSERT_THAT(single.subscriber->waitForAtlases(1), SizeIs(1));
+
+  Server crowded(device(), {.encode_thread_count = 4, .trace_slot_count = 5});
+  std::vector<Viewer> others;
+  others.push_back(watch(crowded, smallQuilt({600, 200})));
+  others.push_back(watch(crowded, quilt, {.chroma = Chroma::k444}));
+  const Viewer one_of_many = watch(crowded, quilt, kAllPlanes);
+  others.push_back(watch(crowded, smallQuilt({100, 70}), kAllPlanes));
+  crowded.offer(syntheticFrame(1));
+  ASSERT_THAT(one_of_many.subscriber->waitForAtlases(1), SizeIs(1));
+
+  expectSameBytes(*single.subscriber->waitForAtlases(1).front(),
+                  *one_of_many.subscriber->waitForAtlases(1).front());
+}
+
+TEST_F(PipelineBytesTest, comeInOrderOfSequenceAndFrame) {
+  constexpr uint64_t kFrameCount = 12;
+  Server server(device(), {.encode_thread_count = 4, .trace_slot_count = 4});
+  const Viewer viewer = watch(server, smallQuilt());
+  const FramePtr first = syntheticFrame(1);
+  for (uint64_t number = 1; number <= kFrameCount; ++number) {
+    auto frame = std::make_shared<Frame>(*first);
+    frame->format.number = number;
+    server.offer(frame);
+    if (number % 3 == 0) server.reports.waitForReports(number);
+  }
+  server.reports.waitForReports(kFrameCount);
+  server.pipeline.drain();
+  uint64_t frame_number = 0;
+  uint64_t sequence = 0;
+  for (const AtlasPtr& atlas : viewer.subscriber->waitForAtlases(4)) {
+    EXPECT_GT(atlas->frame_number, frame_number);
+    EXPECT_EQ(atlas->sequence, ++sequence);
+    frame_number = atlas->frame_number;
+  }
+  EXPECT_EQ(frame_number, kFrameCount);
+}
+
+}  // namespace
+}  // namespace viewloom::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pipeline with its neighbours, on a validated device and a clock that stands still.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "e2e/collecting_subscriber.h"
+#include "e2e/test_frames.h"
+#include "gpu/test_device.h"
+#include "pipeline/pipeline.h"
+
+namespace viewloom::test {
+
+// Reports as they come. Thread-safety: all methods may be called from any thread.
+class ReportLog {
+ public:
+  ReportFrame recorder() {
+    return [this](const FrameReport& report) {
+      std::lock_guard lock(mutex_);
+      reports_.push_back(report);
+      changed_.notify_all();
+    };
+  }
+
+  std::vector<FrameReport> waitForReports(size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::seconds(120), [&] { return reports_.size() >= count; });
+    return reports_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<FrameReport> reports_;
+};
+
+class PipelineFixture : public GpuTest {
+ protected:
+  struct Server {
+    explicit Server(const Device& device, PipelineOptions options = {})
+        : pipeline(
+              {.device = device,
+               .clock = clock,
+               .metrics = metrics,
+               .broadcaster = broadcaster,
+               .directory = directory,
+               .on_failure = [](const std::exception& error) { ADD_FAILURE() << error.what(); }},
+              options) {
+      broadcaster.onDemandChange(
+          [this](const std::string& stream) { pipeline.serveDisplays(stream); });
+    }
+
+    ManualClock clock;
+    Metrics metrics;
+    Broadcaster broadcaster{{}};
+    StreamDirectory directory{clock, 16};
+    ReportLog reports;
+    Pipeline pipeline;
+
+    void offer(FramePtr frame) {
+      pipeline.offerFrame("scene", std::move(frame), reports.recorder());
+    }
+  };
+
+  struct Viewer {
+    std::shared_ptr<CollectingSubscriber> subscriber = std::make_shared<CollectingSubscriber>();
+    std::unique_ptr<Broadcaster::Subscription> subscription;
+  };
+
+  static Viewer watch(Server& server, const DisplaySpec& spec, const EncodingSpec& encoding = {}) {
+    Viewer viewer;
+    auto subscription = server.broadcaster.subscribe("scene", spec, encoding, viewer.subscriber);
+    EXPECT_TRUE(subscription.ok()) << subscription.status();
+    if (subscription.ok()) viewer.subscription = *std::move(subscription);
+    return viewer;
+  }
+};
+
+}  // namespace viewloom::test

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stream that has sent one frame, and sends no more, still serves.
+#include <gmock/gmock.h>
+
+#include "e2e/pipeline_fixture.h"
+
+namespace viewloom::test {
+namespace {
+
+using testing::SizeIs;
+
+using PipelineResidentTest = PipelineFixture;
+
+DisplaySpec withFocus(DisplaySpec spec, double focal_distance_m) {
+  std::get<QuiltSpec>(spec.kind).focal_distance_m = focal_distance_m;
+  return spec;
+}
+
+TEST_F(PipelineResidentTest, servesAJoinerAStillAndAChangedFocusFromOneUploadAndOneBuild) {
+  Server server(device());
+  FramePtr frame = syntheticFrame(7);
+  const std::weak_ptr<const Frame> planes = frame;
+  server.offer(std::move(frame));
+  const std::vector<FrameReport> reports = server.reports.waitForReports(1);
+  ASSERT_THAT(reports, SizeIs(1));
+  EXPECT_EQ(reports[0].outcome, FrameOutcome::kBuiltWithoutDisplay);
+  ASSERT_TRUE(planes.expired()) << "the planes are gone, so nothing can upload them again";
+
+  const DisplaySpec quilt = smallQuilt();
+  const Viewer joiner = watch(server, quilt);
+  ASSERT_THAT(joiner.subscriber->waitForAtlases(1), SizeIs(1));
+
+  const Viewer still = watch(server, quilt, {.color = BandEncoding::kZstd, .with_mask = true});
+  ASSERT_THAT(still.subscriber->waitForAtlases(1), SizeIs(1));
+
+  const Viewer refocused = watch(server, withFocus(quilt, 3));
+  ASSERT_THAT(refocused.subscriber->waitForAtlases(1), SizeIs(1));
+
+  for (const Viewer* viewer : {&joiner, &still, &refocused}) {
+    const AtlasPtr atlas = viewer->subscriber->waitForAtlases(1).front();
+    EXPECT_EQ(atlas->frame_number, 7u);
+    EXPECT_EQ(atlas->sequence, 1u);
+    EXPECT_TRUE(isWhole(*atlas));
+    EXPECT_EQ(atlas->coverage.rayCount(), atlas->layout->size_px.area());
+  }
+  EXPECT_EQ(refocused.subscriber->waitForAtlases(1).front()->layout->focal_distance_m, 3);
+  EXPECT_EQ(server.metrics.structures_built.value(), 1);
+  EXPECT_EQ(server.metrics.atlases_traced.value(), 3);
+  EXPECT_THAT(joiner.subscriber->waitForAtlases(1), SizeIs(1)) << "others' wishes cost it nothing";
+}
+
+TEST_F(PipelineResidentTest, tracesOnceForAllWhoShareAPictureAndEncodesOnceForEachEncoding) {
+  Server server(device());
+  const DisplaySpec quilt = smallQuilt();
+  const Viewer first = watch(server, quilt);
+  const Viewer second = watch(server, quilt);
+  const Viewer fine = watch(server, quilt, {.jpeg_quality = 95, .chroma = Chroma::k444});
+  server.offer(syntheticFrame(1));
+  for (const Viewer* viewer : {&first, &second, &fine}) {
+    ASSERT_THAT(viewer->subscriber->waitForAtlases(1), SizeIs(1));
+  }
+  server.pipeline.drain();
+  EXPECT_EQ(server.metrics.atlases_traced.value(), 1);
+  EXPECT_EQ(server.metrics.atlases_encoded.value(), 2);
+  EXPECT_EQ(first.subscriber->waitForAtlases(1).front(),
+            second.subscriber->waitForAtlases(1).front())
+      << "the same bytes, shared";
+}
+
+TEST_F(PipelineResidentTest, holdsTheFocalDistanceOfTheFirstFrame) {
+  Server server(device());
+  const Viewer viewer = watch(server, smallQuilt());
+  server.offer(syntheticFrame(1, {160, 90}, 1, 0));
+  ASSERT_THAT(viewer.subscriber->waitForAtlases(1), SizeIs(1));
+  server.offer(syntheticFrame(2, {160, 90}, 1, 5));
+  const auto atlases = viewer.subscriber->waitForAtlases(2);
+  ASSERT_THAT(atlases, SizeIs(2));
+  const double first_m = atlases[0]->layout->focal_distance_m;
+  EXPECT_EQ(atlases[1]->layout->focal_distance_m, first_m);
+  // The harmonic mean of the 2nd and 98th depth percentile, as the frame's own stats have them.
+  const SourceStats& stats = atlases[0]->stats;
+  EXPECT_NEAR(first_m, 2 / (stats.inv_z_near + stats.inv_z_far), 1e-6 * first_m);
+}
+
+TEST_F(PipelineResidentTest, forgetsAStreamWithItsStructure) {
+  Server server(device());
+  server.offer(syntheticFrame(1));
+  ASSERT_THAT(server.reports.waitForReports(1), SizeIs(1));
+  server.pipeline.forgetStream("scene");
+  const Viewer viewer = watch(server, smallQuilt());
+  server.offer(syntheticFrame(2));
+  const auto atlases = viewer.subscriber->waitForAtlases(1);
+  ASSERT_THAT(atlases, SizeIs(1));
+  EXPECT_EQ(atlases[0]->frame_number, 2u);
+}
+
+}  // namespace
+}  // namespace viewloom::test

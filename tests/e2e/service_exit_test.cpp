@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// How viewloomd starts and ends as a process.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include "e2e/server_process.h"
+#include "e2e/wire_frames.h"
+#include "lib/atlas_assembler.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "viewloom/v1/display_service.grpc.pb.h"
+
+namespace viewloom::test {
+namespace {
+
+const std::vector<std::string> kAnyPorts{"--grpc.address", "127.0.0.1:0", "--http.address",
+                                         "127.0.0.1:0"};
+constexpr SizePx kFramePx{160, 90};
+
+// Offers frame after frame until it is told to stop.
+class EndlessPublisher {
+ public:
+  explicit EndlessPublisher(const std::string& address)
+      : publisher_(makeChannel(address), {.stream = "scene", .session_id = "", .backoff = {}},
+                   {.on_accepted = {},
+                    .on_report = [this](const v1::FrameReport&) { offer(); },
+                    .on_wanted = {},
+                    .on_connection = {}}) {
+    offer();
+    offer();
+  }
+
+ private:
+  void offer() { publisher_.offer(frame_); }
+
+  const WireFrame frame_ = syntheticWireFrame(kFramePx, 2, 0);
+  Publisher publisher_;
+};
+
+TEST(ViewloomdProcess, givesWholeAtlasesOnlyAndExitsWithZeroWhenTerminatedInMidStream) {
+  ServerProcess server(kAnyPorts);
+  ASSERT_FALSE(server.grpcAddress().empty());
+  EndlessPublisher publisher(server.grpcAddress());
+
+  const auto stub = v1::DisplayService::NewStub(makeChannel(server.grpcAddress()));
+  grpc::ClientContext context;
+  const auto call = stub->StreamAtlases(&context);
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = openQuilt("scene", {400, 300});
+  ASSERT_TRUE(call->Write(request));
+  call->WritesDone();
+
+  AtlasAssembler assembler;
+  uint64_t atlas_count = 0;
+  v1::StreamAtlasesResponse message;
+  while (call->Read(&message)) {
+    // In the middle of the third atlas: after its header, before its end.
+    if (atlas_count == 2 && message.has_header()) server.sendSignal(SIGTERM);
+    const auto atlas = assembler.add(std::move(message));
+    ASSERT_TRUE(atlas.ok()) << atlas.status();
+    if (atlas->has_value()) {
+      ++atlas_count;
+      EXPECT_TRUE(hasWholePlane(**atlas, v1::ATLAS_PLANE_COLOR));
+    }
+  }
+  const grpc::Status end = call->Finish();
+  EXPECT_TRUE(end.ok()) << end.error_code() << " " << end.error_message();
+  assembler.restart();
+  EXPECT_EQ(assembler.counts().discarded, 0u);
+  EXPECT_GE(atlas_count, 3u);
+  EXPECT_EQ(server.waitForExit(), 0);
+}
+
+TEST(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
+  ServerProcess server(kAnyPorts);
+  ASSERT_FALSE(server.grpcAddress().empty());
+  EndlessPublisher publisher(server.grpcAddress());
+
+  const auto stub = v1::DisplayService::NewStub(makeChannel(server.grpcAddress()));
+  grpc::ClientContext context;
+  const auto call = stub->StreamAtlases(&context);
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = openQuilt("scene", {800, 600});
+  // Raw bands, so that the first atlas alone overfills what gRPC buffers.
+  request.mutable_open()->mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
+  ASSERT_TRUE(call->Write(request));
+  v1::StreamAtlasesResponse layout;
+  ASSERT_TRUE(call->Read(&layout));
+
+  server.sendSignal(SIGTERM);
+  EXPECT_EQ(server.waitForExit(), 0);
+  context.TryCancel();
+  while (call->Read(&layout)) {
+  }
+  EXPECT_FALSE(call->Finish().ok());
+}
+
+TEST(ViewloomdProcess, exitsWithTwoOnASettingThatDoesNotExist) {
+  ServerProcess server({"--no.such.setting", "1"});
+  EXPECT_TRUE(server.grpcAddress().empty());
+  EXPECT_EQ(server.waitForExit(), 2);
+}
+
+TEST(ViewloomdProcess, exitsWithTwoWhenItsPortIsTaken) {
+  const ServerProcess first(kAnyPorts);
+  ASSERT_FALSE(first.grpcAddress().empty());
+  ServerProcess second({"--grpc.address", first.grpcAddress(), "--http.address", "127.0.0.1:0"});
+  EXPECT_TRUE(second.grpcAddress().empty());
+  EXPECT_EQ(second.waitForExit(), 2);
+}
+
+TEST(ViewloomdProcess, exitsWithTwoWhenTheDeviceDoesNotExist) {
+  ServerProcess server({"--device", "no such device"});
+  EXPECT_TRUE(server.grpcAddress().empty());
+  EXPECT_EQ(server.waitForExit(), 2);
+}
+
+}  // namespace
+}  // namespace viewloom::test

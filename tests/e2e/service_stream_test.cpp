@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Publishers and displays of a whole server, over gRPC, on a validated device.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "base/clock.h"
+#include "e2e/wire_frames.h"
+#include "gpu/device.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "lib/watcher.h"
+#include "service.h"
+
+namespace viewloom::test {
+namespace {
+
+constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
+
+Config anyPorts() {
+  Config config;
+  config.validation = true;
+  config.grpc.address = "127.0.0.1:0";
+  config.http.address = "127.0.0.1:0";
+  return config;
+}
+
+// The frames of which a display got an atlas. Thread-safety: all methods from any thread.
+class FrameLog {
+ public:
+  void add(uint64_t frame_number) {
+    std::lock_guard lock(mutex_);
+    numbers_.push_back(frame_number);
+    changed_.notify_all();
+  }
+
+  // Waits until that frame has come; false means that it gave up.
+  bool waitFor(uint64_t frame_number) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, kGiveUpAfter,
+                             [&] { return !numbers_.empty() && numbers_.back() >= frame_number; });
+  }
+
+  std::vector<uint64_t> numbers() {
+    std::lock_guard lock(mutex_);
+    return numbers_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<uint64_t> numbers_;
+};
+
+class ServiceStreamTest : public testing::Test {
+ protected:
+  std::unique_ptr<Watcher> watch(FrameLog& log, SizePx size_px) {
+    return std::make_unique<Watcher>(
+        makeChannel(service_.grpcAddress()), openQuilt("scene", size_px),
+        WatcherCallbacks{.on_layout = {},
+                         .on_atlas =
+                             [&log](const Atlas& atlas) {
+                               EXPECT_TRUE(hasWholePlane(atlas, v1::ATLAS_PLANE_COLOR));
+                               log.add(atlas.header.frame_number());
+                             },
+                         .on_connection = {}});
+  }
+
+  SteadyClock clock_;
+  Service service_{anyPorts(), clock_,
+                   [](const std::exception& error) { ADD_FAILURE() << error.what(); }};
+};
+
+TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
+  constexpr uint64_t kFrameCount = 12;
+  const auto stub = v1::DisplayService::NewStub(makeChannel(service_.grpcAddress()));
+  grpc::ClientContext never_reads;
+  const auto stuck = stub->StreamAtlases(&never_reads);
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = openQuilt("scene", {600, 400});
+  request.mutable_open()->mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
+  ASSERT_TRUE(stuck->Write(request));
+
+  FrameLog first_log;
+  FrameLog second_log;
+  const auto first = watch(first_log, {320, 200});
+  const auto second = watch(second_log, {200, 320});
+  FrameLog reported;
+  Publisher publisher(
+      makeChannel(service_.grpcAddress()), {.stream = "scene", .session_id = "", .backoff = {}},
+      {.on_accepted = {},
+       .on_report = [&](const v1::FrameReport& report) { reported.add(report.number()); },
+       .on_wanted = {},
+       .on_connection = {}});
+  const WireFrame frame = syntheticWireFrame({160, 90}, 2, 0);
+  publisher.offer(frame);
+  ASSERT_TRUE(first_log.waitFor(1));
+  ASSERT_TRUE(second_log.waitFor(1));
+  for (uint64_t number = 2; number <= kFrameCount; ++number) {
+    ASSERT_TRUE(reported.waitFor(number - 1));
+    publisher.offer(frame);
+    ASSERT_TRUE(first_log.waitFor(number));
+    ASSERT_TRUE(second_log.waitFor(number));
+  }
+  std::vector<uint64_t> every_frame(kFrameCount);
+  for (uint64_t i = 0; i < kFrameCount; ++i) every_frame[i] = i + 1;
+  for (const auto* watcher : {&first, &second}) {
+    EXPECT_EQ((*watcher)->counts().atlases.skipped, 0u);
+    EXPECT_EQ((*watcher)->counts().atlases.gaps, 0u);
+    EXPECT_EQ((*watcher)->counts().atlases.discarded, 0u);
+  }
+  EXPECT_EQ(first_log.numbers(), every_frame);
+  EXPECT_EQ(second_log.numbers(), every_frame);
+  never_reads.TryCancel();
+  EXPECT_EQ(service_.device().validationLog().messageCount(), 0u);
+}
+
+TEST_F(ServiceStreamTest, servesAJoinerFromTheLastFrameOfAPublisherThatHasLeft) {
+  {
+    Publisher publisher(makeChannel(service_.grpcAddress()),
+                        {.stream = "scene", .session_id = "", .backoff = {}}, {});
+    publisher.offer(syntheticWireFrame({160, 90}, 1, 0));
+    const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
+    ASSERT_TRUE(end.ok()) << end;
+  }
+  FrameLog log;
+  const auto joiner = watch(log, {320, 200});
+  EXPECT_TRUE(log.waitFor(1));
+  EXPECT_EQ(service_.metrics().structures_built.value(), 1);
+  EXPECT_EQ(service_.device().validationLog().messageCount(), 0u);
+}
+
+}  // namespace
+}  // namespace viewloom::test

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "e2e/test_frames.h"
+
+#include <cstring>
+#include <utility>
+
+#include "base/check.h"
+#include "synthetic/synthetic_frame.h"
+
+namespace viewloom::test {
+namespace {
+
+SharedBytes floatBytes(const std::vector<float>& samples) {
+  std::vector<uint8_t> bytes(samples.size() * sizeof(float));
+  std::memcpy(bytes.data(), samples.data(), bytes.size());
+  return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+LayerFormat layerFormat(SizePx size_px) {
+  LayerFormat layer;
+  layer.color.size_px = size_px;
+  layer.depth.kind = PlaneKind::kDepth;
+  layer.depth.encoding = PlaneEncoding::kDepthF32;
+  layer.depth.size_px = size_px;
+  return layer;
+}
+
+}  // namespace
+
+FramePtr syntheticFrame(uint64_t number, SizePx size_px, uint32_t layer_count, double time_s) {
+  auto frame = std::make_shared<Frame>();
+  frame->format.number = number;
+  frame->format.capture_time_ns = static_cast<int64_t>(1000 * number);
+  SourceFormat& source = frame->format.sources.emplace_back();
+  source.camera = syntheticCamera(size_px);
+  std::vector<LayerPlanes>& planes = frame->sources.emplace_back();
+  const SyntheticOptions options{.size_px = size_px,
+                                 .layer_count = layer_count,
+                                 .time_s = time_s,
+                                 .camera = {},
+                                 .thread_count = 1};
+  for (SyntheticLayer& layer : renderSyntheticFrame(options)) {
+    source.layers.push_back(layerFormat(size_px));
+    planes.push_back({.color = std::make_shared<const std::vector<uint8_t>>(std::move(layer.color)),
+                      .color_encoding = PlaneEncoding::kRgba8,
+                      .depth = floatBytes(layer.depth_m)});
+  }
+  return frame;
+}
+
+DisplaySpec smallQuilt(SizePx size_px) {
+  QuiltSpec quilt;
+  quilt.columns = 4;
+  quilt.rows = 2;
+  quilt.size_px = size_px;
+  DisplaySpec spec;
+  spec.kind = quilt;
+  absl::StatusOr<DisplaySpec> complete = completeDisplaySpec(spec);
+  VIEWLOOM_CHECK(complete.ok());
+  return *complete;
+}
+
+}  // namespace viewloom::test

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decoded frames of the synthetic scene, as the pipeline takes them.
+#pragma once
+
+#include "display/display_spec.h"
+#include "frame/frame.h"
+
+namespace viewloom::test {
+
+// Layers of the synthetic scene at time_s, numbered `number`.
+FramePtr syntheticFrame(uint64_t number, SizePx size_px = {160, 90}, uint32_t layer_count = 2,
+                        double time_s = 0);
+
+// A small quilt of 4x2 views, complete.
+DisplaySpec smallQuilt(SizePx size_px = {320, 200});
+
+}  // namespace viewloom::test
