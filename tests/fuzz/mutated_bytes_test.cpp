@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "fuzz/fuzz_decode.h"
-#include "unit/decode/jpeg_samples.h"
-#include "unit/decode/zstd_samples.h"
+#include "fuzz/seeds.h"
 
 namespace viewloom {
 namespace {
@@ -42,7 +41,7 @@ Bytes mutated(Bytes bytes, std::mt19937& random) {
 }
 
 // Seeds are accepted as they are; spoilt they are accepted or refused. A broken promise aborts.
-void walk(bool (*fuzz)(std::span<const uint8_t>), const std::vector<Bytes>& seeds) {
+void walk(bool (*fuzz)(std::span<const uint8_t>), const SeedBytes& seeds) {
   for (const Bytes& seed : seeds) EXPECT_TRUE(fuzz(seed));
   std::mt19937 random(7);
   int accepted_count = 0;
@@ -53,30 +52,14 @@ void walk(bool (*fuzz)(std::span<const uint8_t>), const std::vector<Bytes>& seed
   EXPECT_LT(accepted_count, kRounds);
 }
 
-Bytes joined(Bytes front, const Bytes& back) {
-  front.insert(front.end(), back.begin(), back.end());
-  return front;
-}
-
 TEST(MutatedBytes, keepTheJpegDecoderWithinItsPlane) {
-  std::vector<Bytes> seeds;
-  for (const JpegSort sort : {JpegSort::kBaseline, JpegSort::kGrey}) {
-    seeds.push_back(joined({40, 24}, sampleJpeg({40, 24}, sort)));
-  }
-  walk(fuzzJpeg, seeds);
+  walk(fuzzJpeg, jpegSeeds());
 }
-
 TEST(MutatedBytes, keepTheInflaterWithinItsPlane) {
-  Bytes content(601);
-  for (size_t i = 0; i < content.size(); ++i) content[i] = static_cast<uint8_t>(i * i / 5);
-  walk(fuzzZstd, {joined({600 >> 8, 600 & 255}, zstdFrame(content, ZstdSize::kStated)),
-                  joined({600 >> 8, 600 & 255}, zstdFrame(content, ZstdSize::kOpen))});
+  walk(fuzzZstd, zstdSeeds());
 }
-
 TEST(MutatedBytes, leaveFramesWholeOrRefused) {
-  // Number, focal length, layers; depth first; RGB8 3x2, no option; U16 3x2; then 18 and 12 bytes.
-  const Bytes header{1, 9, 1, 1, 1, 3, 2, 0, 0, 1, 2, 6, 3, 2, 0, 0, 1, 2};
-  walk(fuzzFrame, {joined(joined(header, joined({12}, Bytes(12, 1))), joined({18}, Bytes(18, 2)))});
+  walk(fuzzFrame, frameSeeds());
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/seeds.h"
+
+#include <cstddef>
+
+#include "unit/decode/jpeg_samples.h"
+#include "unit/decode/zstd_samples.h"
+
+namespace viewloom {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+Bytes joined(Bytes front, const Bytes& back) {
+  front.insert(front.end(), back.begin(), back.end());
+  return front;
+}
+
+}  // namespace
+
+SeedBytes jpegSeeds() {
+  SeedBytes seeds;
+  for (const JpegSort sort : {JpegSort::kBaseline, JpegSort::kGrey}) {
+    seeds.push_back(joined({40, 24}, sampleJpeg({40, 24}, sort)));
+  }
+  return seeds;
+}
+
+SeedBytes zstdSeeds() {
+  Bytes content(601);
+  for (size_t i = 0; i < content.size(); ++i) content[i] = static_cast<uint8_t>(i * i / 5);
+  const Bytes expected{600 >> 8, 600 & 255};  // one less than the content
+  return {joined(expected, zstdFrame(content, ZstdSize::kStated)),
+          joined(expected, zstdFrame(content, ZstdSize::kOpen))};
+}
+
+SeedBytes frameSeeds() {
+  // Number, focal length, layers; depth first; RGB8 3x2, no option; U16 3x2; then 12 and 18 bytes.
+  const Bytes header{1, 9, 1, 1, 1, 3, 2, 0, 0, 1, 2, 6, 3, 2, 0, 0, 1, 2};
+  const Bytes depth = joined({12}, Bytes(12, 1));
+  const Bytes color = joined({18}, Bytes(18, 2));
+  return {joined(header, joined(depth, color))};
+}
+
+}  // namespace viewloom
