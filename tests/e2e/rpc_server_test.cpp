@@ -143,8 +143,8 @@ std::unique_ptr<google::protobuf::Message> reflectionMessage(const std::string& 
   const auto* type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(
       "grpc.reflection.v1alpha." + name);
   if (type == nullptr) return nullptr;
-  const auto* prototype = google::protobuf::MessageFactory::generated_factory()->GetPrototype(type);
-  return std::unique_ptr<google::protobuf::Message>(prototype->New());
+  const auto* blank = google::protobuf::MessageFactory::generated_factory()->GetPrototype(type);
+  return std::unique_ptr<google::protobuf::Message>(blank->New());
 }
 
 TEST(Reflection, listsTheServices) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/status_to_grpc.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "base/status.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace viewloom {
+namespace {
+
+TEST(StatusToGrpc, keepsEveryCode) {
+  const std::pair<absl::StatusCode, grpc::StatusCode> codes[] = {
+      {absl::StatusCode::kCancelled, grpc::StatusCode::CANCELLED},
+      {absl::StatusCode::kInvalidArgument, grpc::StatusCode::INVALID_ARGUMENT},
+      {absl::StatusCode::kNotFound, grpc::StatusCode::NOT_FOUND},
+      {absl::StatusCode::kAlreadyExists, grpc::StatusCode::ALREADY_EXISTS},
+      {absl::StatusCode::kResourceExhausted, grpc::StatusCode::RESOURCE_EXHAUSTED},
+      {absl::StatusCode::kFailedPrecondition, grpc::StatusCode::FAILED_PRECONDITION},
+      {absl::StatusCode::kAborted, grpc::StatusCode::ABORTED},
+      {absl::StatusCode::kOutOfRange, grpc::StatusCode::OUT_OF_RANGE},
+      {absl::StatusCode::kUnimplemented, grpc::StatusCode::UNIMPLEMENTED},
+      {absl::StatusCode::kInternal, grpc::StatusCode::INTERNAL},
+      {absl::StatusCode::kUnavailable, grpc::StatusCode::UNAVAILABLE}};
+  for (const auto& [code, grpc_code] : codes) {
+    const grpc::Status status = statusToGrpc(absl::Status(code, "why"));
+    EXPECT_EQ(status.error_code(), grpc_code);
+    EXPECT_EQ(status.error_message(), "why");
+    EXPECT_TRUE(status.error_details().empty());
+  }
+  EXPECT_TRUE(statusToGrpc(absl::OkStatus()).ok());
+}
+
+TEST(StatusToGrpc, namesTheFieldInBadRequest) {
+  const grpc::Status status =
+      statusToGrpc(withFieldPrefix(invalidField("size", "is 0x4"), "header.planes[1]"));
+  EXPECT_EQ(status.error_message(), "header.planes[1].size: is 0x4");
+  google::rpc::Status details;
+  ASSERT_TRUE(details.ParseFromString(status.error_details()));
+  EXPECT_EQ(details.code(), grpc::StatusCode::INVALID_ARGUMENT);
+  google::rpc::BadRequest bad_request;
+  ASSERT_EQ(details.details_size(), 1);
+  EXPECT_EQ(details.details(0).type_url(), "type.googleapis.com/google.rpc.BadRequest");
+  ASSERT_TRUE(details.details(0).UnpackTo(&bad_request));
+  ASSERT_EQ(bad_request.field_violations_size(), 1);
+  EXPECT_EQ(bad_request.field_violations(0).field(), "header.planes[1].size");
+  EXPECT_EQ(bad_request.field_violations(0).description(), "header.planes[1].size: is 0x4");
+}
+
+// Message, details and the message in base64 within them travel as one block of HTTP/2 headers, of
+// which peers take 8 KiB by default.
+TEST(StatusToGrpc, fitsIntoTheHeadersOfAnyPeer) {
+  const grpc::Status status = statusToGrpc(invalidField("name", std::string(100000, 'x')));
+  EXPECT_LE(status.error_message().size() + status.error_details().size() * 4 / 3, 8192u);
+}
+
+}  // namespace
+}  // namespace viewloom

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "rpc/geometry_from_proto.h"
+#include "rpc/geometry_to_proto.h"
+#include "rpc/layout_to_proto.h"
+#include "rpc/report_to_proto.h"
+#include "rpc/stream_name.h"
+#include "rpc/wanted_to_proto.h"
+
+namespace viewloom {
+namespace {
+
+TEST(CameraToProto, comesBackAsItWas) {
+  const Camera camera{
+      .pose = {.position_m = {1, 2, 3}, .orientation = glm::dquat(0.5, -0.5, 0.5, 0.5)},
+      .intrinsics = {.focal_px = {4, 5}, .principal_px = {6, 7}}};
+  const v1::Camera proto = cameraToProto(camera);
+  EXPECT_EQ(*poseFromProto(proto.pose(), "pose"), camera.pose);
+  EXPECT_EQ(std::get<Intrinsics>(*projectionFromProto(proto)), camera.intrinsics);
+}
+
+TEST(CoverageToProto, isShares) {
+  const v1::Coverage proto =
+      coverageToProto({.hit = 5, .hit_assumed = 1, .hidden = 1, .outside = 2, .empty = 1});
+  EXPECT_EQ(proto.hit(), 0.5);
+  EXPECT_EQ(proto.hit_assumed(), 0.1);
+  EXPECT_EQ(proto.hidden(), 0.1);
+  EXPECT_EQ(proto.outside(), 0.2);
+  EXPECT_EQ(proto.empty(), 0.1);
+  EXPECT_EQ(coverageToProto({}).hit(), 0) << "no rays, no shares, no NaN";
+}
+
+TEST(ReportToProto, carriesStatsOnlyOfWhatWasBuilt) {
+  const FrameReport refused{.number = 1, .outcome = FrameOutcome::kRefused, .reason = "why"};
+  EXPECT_EQ(reportToProto(refused).outcome(), v1::FRAME_OUTCOME_REFUSED);
+  EXPECT_EQ(reportToProto(refused).reason(), "why");
+  EXPECT_FALSE(reportToProto(refused).has_stats());
+  const FrameReport traced{.number = 2,
+                           .outcome = FrameOutcome::kTraced,
+                           .displays = {{.display_id = 3, .times = {.trace_ns = 4}}},
+                           .stats = {.noise_sigma = 5, .inv_z_max = 6}};
+  const v1::FrameReport proto = reportToProto(traced);
+  EXPECT_EQ(proto.outcome(), v1::FRAME_OUTCOME_TRACED);
+  EXPECT_EQ(proto.displays(0).display_id(), 3u);
+  EXPECT_EQ(proto.displays(0).times().trace_ns(), 4);
+  EXPECT_EQ(proto.stats().noise_sigma(), 5);
+  EXPECT_EQ(proto.stats().inv_z_max(), 6);
+}
+
+TEST(LayoutToProto, namesEverything) {
+  const AtlasLayout layout{.size_px = {17, 9},
+                           .columns = 2,
+                           .rows = 1,
+                           .tile_size_px = {8, 9},
+                           .order = TileOrder::kBottomLeft,
+                           .aspect = 0.75,
+                           .padding_right_px = 1,
+                           .padding_top_px = 0,
+                           .view_cone_rad = 0.7,
+                           .focal_distance_m = 2,
+                           .suffix = "_qs2x1a0.75",
+                           .views = std::vector<View>(2)};
+  const v1::AtlasLayout proto = layoutToProto(layout, {.chroma = Chroma::k444});
+  EXPECT_EQ(proto.size().width(), 17u);
+  EXPECT_EQ(proto.columns(), 2u);
+  EXPECT_EQ(proto.rows(), 1u);
+  EXPECT_EQ(proto.tile_size().height(), 9u);
+  EXPECT_EQ(proto.order(), v1::TILE_ORDER_BOTTOM_LEFT);
+  EXPECT_EQ(proto.aspect(), 0.75);
+  EXPECT_EQ(proto.view_count(), 2u);
+  EXPECT_EQ(proto.padding_right_px(), 1u);
+  EXPECT_EQ(proto.view_cone_rad(), 0.7);
+  EXPECT_EQ(proto.focal_distance_m(), 2);
+  EXPECT_EQ(proto.suffix(), "_qs2x1a0.75");
+  EXPECT_EQ(proto.encoding().chroma(), v1::CHROMA_SUBSAMPLING_444);
+  EXPECT_EQ(proto.encoding().color(), v1::BAND_ENCODING_JPEG);
+  EXPECT_EQ(proto.encoding().planes(), v1::BAND_ENCODING_ZSTD);
+  EXPECT_EQ(proto.views_size(), 2);
+}
+
+// Two views of 90 degrees, 10 px wide, turned 20 degrees to the left and to the right.
+TEST(WantedToProto, isTheUnionOfWhatViewsSee) {
+  const double turn_rad = M_PI / 9;
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->tile_size_px = {10, 10};
+  for (const double side : {-1.0, 1.0}) {
+    View view;
+    view.camera.intrinsics = {.focal_px = {5, 5}, .principal_px = {5, 5}};
+    view.camera.pose.orientation = glm::angleAxis(side * turn_rad, glm::dvec3(0, 1, 0));
+    layout->views.push_back(view);
+  }
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->layout = layout;
+  const std::vector<AtlasPtr> atlases{atlas};
+  const v1::Wanted wanted = wantedToProto(atlases, 1);
+  EXPECT_NEAR(wanted.fov().angle_left_rad(), -(M_PI / 4 + turn_rad), 1e-12);
+  EXPECT_NEAR(wanted.fov().angle_right_rad(), M_PI / 4 + turn_rad, 1e-12);
+  EXPECT_EQ(wanted.layer_count(), 1u) << "no view leaves the source's place";
+  EXPECT_EQ(wanted.size().width(), std::ceil(5 * 2 * std::tan(M_PI / 4 + turn_rad)));
+}
+
+TEST(StreamName, isOfLettersDigitsAndThreeSigns) {
+  EXPECT_TRUE(validateStreamName("A-z_0.9", "stream").ok());
+  EXPECT_TRUE(validateStreamName(std::string(64, 'a'), "stream").ok());
+  for (const char* name : {"", "a b", "a/b", "\xc3\xa4", "a\n"}) {
+    EXPECT_EQ(fieldOf(validateStreamName(name, "stream")), "stream") << name;
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
