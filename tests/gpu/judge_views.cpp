@@ -34,15 +34,14 @@ JudgedViews judgeViews(WalkUnderTest& walk, const StructureSlot& slot,
                        const oracle::OracleSource& source,
                        const std::vector<oracle::OutputView>& views, double tolerance_px,
                        const std::string& where, int stride) {
-  const auto records = walk.trace(slot, views, tolerance_px);
+  const std::vector<TracedView> traced = walk.trace(slot, views, tolerance_px);
   oracle::Judge judge(source, oracle::toleranceOf(source, tolerance_px));
   JudgedViews judged;
   for (size_t index = 0; index < views.size(); ++index) {
     const oracle::OutputView& view = views[index];
     for (int row = 0; row < view.height; row += stride) {
       for (int column = 0; column < view.width; column += stride) {
-        const abi::RayRecord& record =
-            records[index][size_t(row) * size_t(view.width) + size_t(column)];
+        const abi::RayRecord& record = traced[index].records[traced[index].index(column, row)];
         std::ostringstream name;
         name << where << ", view " << view.name << " px (" << column << ", " << row << ")";
         judge.consider(oracle::rayOf(view, column + 0.5, row + 0.5), testedAnswer(record),

@@ -46,11 +46,10 @@ TEST_F(TraceTest, fromItsOwnPoseASourceSeesItself) {
     const oracle::Scene scene = oracle::randomScene(seed);
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
     const oracle::OracleSource source = sourceOf(scene, *slot);
-    const auto records = walk_.trace(*slot, {oracle::ownView(scene)}, 0.25);
+    const TracedView traced = walk_.trace(*slot, {oracle::ownView(scene)}, 0.25).front();
     for (int row = 0; row < source.height(); ++row) {
       for (int column = 0; column < source.width(); ++column) {
-        const abi::RayRecord& record =
-            records[0][size_t(row) * size_t(source.width()) + size_t(column)];
+        const abi::RayRecord& record = traced.records[traced.index(column, row)];
         if (!source.exists({0, column, row})) {
           EXPECT_EQ(record.ray_class, abi::kClassEmpty);
           continue;

@@ -4,6 +4,9 @@
 #include <cstring>
 #include <utility>
 
+#include <glm/gtc/packing.hpp>
+#include <glm/gtc/type_precision.hpp>
+
 #include "gpu/barrier.h"
 
 namespace viewloom {
@@ -14,14 +17,41 @@ SharedBytes bytesOf(const void* from, size_t size_bytes) {
   return std::make_shared<const std::vector<uint8_t>>(bytes, bytes + size_bytes);
 }
 
-LayerFormat layerFormat(SizePx size_px) {
-  LayerFormat layer;
-  layer.color = {.kind = PlaneKind::kColor, .encoding = PlaneEncoding::kRgba8, .size_px = size_px};
-  layer.depth = {
-      .kind = PlaneKind::kDepth, .encoding = PlaneEncoding::kDepthF32, .size_px = size_px};
-  layer.depth.depth = {.meaning = DepthMeaning::kDisparity,
-                       .invalid_value = double{oracle::kNoSurface}};
-  return layer;
+// `color` is repeated over the plane.
+template <typename Texel>
+SharedBytes filled(SizePx size_px, const Texel& color) {
+  const std::vector<Texel> texels(size_px.area(), color);
+  return bytesOf(texels.data(), texels.size() * sizeof(Texel));
+}
+
+PlaneFormat depthFormat(SizePx size_px) {
+  PlaneFormat depth;
+  depth.kind = PlaneKind::kDepth;
+  depth.encoding = PlaneEncoding::kDepthF32;
+  depth.size_px = size_px;
+  depth.depth.meaning = DepthMeaning::kDisparity;
+  depth.depth.invalid_value = double{oracle::kNoSurface};
+  return depth;
+}
+
+// A frame whose layers have depth, and colours still to be filled in.
+std::shared_ptr<Frame> uncolored(const oracle::Scene& scene) {
+  const oracle::InvZPlanes& planes = scene.planes;
+  const SizePx size_px{uint32_t(planes.width), uint32_t(planes.height)};
+  auto frame = std::make_shared<Frame>();
+  frame->format.number = 1;
+  SourceFormat& source = frame->format.sources.emplace_back();
+  source.camera.intrinsics = {scene.pinhole.focal_px, scene.pinhole.principal_px};
+  source.connection_tolerance = scene.kappa.relative > 0 ? 0 : double{scene.kappa.absolute};
+  std::vector<LayerPlanes>& layers = frame->sources.emplace_back();
+  for (int layer = 0; layer < planes.layer_count; ++layer) {
+    LayerFormat& format = source.layers.emplace_back();
+    format.depth = depthFormat(size_px);
+    format.color.size_px = size_px;
+    const float* inv_z = &planes.inv_z[planes.index(layer, 0, 0)];
+    layers.emplace_back().depth = bytesOf(inv_z, size_px.area() * sizeof(float));
+  }
+  return frame;
 }
 
 AtlasLayout rowOfViews(const std::vector<oracle::OutputView>& views) {
@@ -39,23 +69,27 @@ AtlasLayout rowOfViews(const std::vector<oracle::OutputView>& views) {
 }  // namespace
 
 FramePtr frameOf(const oracle::Scene& scene) {
-  const oracle::InvZPlanes& planes = scene.planes;
-  const SizePx size_px{uint32_t(planes.width), uint32_t(planes.height)};
-  auto frame = std::make_shared<Frame>();
-  SourceFormat source;
-  source.camera.intrinsics = {scene.pinhole.focal_px, scene.pinhole.principal_px};
-  source.connection_tolerance = scene.kappa.relative > 0 ? 0 : double{scene.kappa.absolute};
-  std::vector<LayerPlanes> layers;
-  const std::vector<uint8_t> color(size_px.area() * 4, 255);
-  for (int layer = 0; layer < planes.layer_count; ++layer) {
-    source.layers.push_back(layerFormat(size_px));
-    layers.push_back({.color = bytesOf(color.data(), color.size()),
-                      .depth = bytesOf(&planes.inv_z[planes.index(layer, 0, 0)],
-                                       size_px.area() * sizeof(float))});
+  const std::shared_ptr<Frame> frame = uncolored(scene);
+  const SizePx size_px = frame->format.sources[0].layers[0].color.size_px;
+  constexpr uint32_t kWhite = 0xffffffff;
+  for (LayerPlanes& planes : frame->sources[0]) planes.color = filled(size_px, kWhite);
+  return frame;
+}
+
+FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& layer_colors) {
+  const std::shared_ptr<Frame> frame = uncolored(scene);
+  for (size_t layer = 0; layer < layer_colors.size(); ++layer) {
+    PlaneFormat& format = frame->format.sources[0].layers[layer].color;
+    format.encoding = PlaneEncoding::kRgba16f;
+    format.transfer = ColorTransfer::kLinear;
+    format.alpha = AlphaMode::kPremultiplied;
+    const LinearColor& color = layer_colors[layer];
+    const glm::u16vec4 halves{glm::packHalf1x16(color[0]), glm::packHalf1x16(color[1]),
+                              glm::packHalf1x16(color[2]), glm::packHalf1x16(color[3])};
+    LayerPlanes& planes = frame->sources[0][layer];
+    planes.color = filled(format.size_px, halves);
+    planes.color_encoding = PlaneEncoding::kRgba16f;
   }
-  frame->format.number = 1;
-  frame->format.sources.push_back(std::move(source));
-  frame->sources.push_back(std::move(layers));
   return frame;
 }
 
@@ -114,8 +148,9 @@ StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   return image;
 }
 
-std::vector<std::vector<abi::RayRecord>> WalkUnderTest::trace(
-    const StructureSlot& slot, const std::vector<oracle::OutputView>& views, double tolerance_px) {
+std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot,
+                                             const std::vector<oracle::OutputView>& views,
+                                             double tolerance_px) {
   const auto layout = std::make_shared<const AtlasLayout>(rowOfViews(views));
   DisplaySpec spec;
   spec.tolerance_px = tolerance_px;
@@ -124,18 +159,20 @@ std::vector<std::vector<abi::RayRecord>> WalkUnderTest::trace(
   TraceSlot traced(device_, {.width_px = layout->size_px.width,
                              .row_count_max = layout->size_px.height,
                              .tile_count_max = uint32_t(job.tiles.size()),
-                             .outputs = {.records = true}});
+                             .outputs = {.linear = true, .records = true}});
   tracer_.recordBand(recorder_.begin(), slot, job, {0, layout->size_px.height}, traced, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
 
   const std::span<const abi::RayRecord> records = traced.records();
-  std::vector<std::vector<abi::RayRecord>> by_view(views.size());
+  const std::span<const float> linear = traced.linear();
+  std::vector<TracedView> by_view(views.size());
   const size_t width = layout->tile_size_px.width;
-  for (size_t row = 0; row < layout->size_px.height; ++row) {
-    for (size_t view = 0; view < views.size(); ++view) {
-      const auto first = records.begin() + ptrdiff_t(row * layout->size_px.width + view * width);
-      by_view[view].insert(by_view[view].end(), first, first + ptrdiff_t(width));
-    }
+  for (size_t index = 0; index < layout->size_px.area(); ++index) {
+    TracedView& view = by_view[index % layout->size_px.width / width];
+    view.width = int(width);
+    view.records.push_back(records[index]);
+    const float* const color = &linear[4 * index];
+    view.srgb.push_back({color[0], color[1], color[2], color[3]});
   }
   return by_view;
 }

@@ -3,6 +3,7 @@
 // if asked.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -16,11 +17,25 @@
 
 namespace viewloom {
 
-// The frame of a scene: inv_z as binary32 disparity, colour of the same size.
+// Linear light, premultiplied by alpha.
+using LinearColor = std::array<float, 4>;
+
+// The frame of a scene: inv_z as binary32 disparity, opaque white.
 FramePtr frameOf(const oracle::Scene& scene);
+// Each layer of one colour, which may be semitransparent.
+FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& layer_colors);
 
 // What the oracle sees of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);
+
+// One view as it was traced, [row][column].
+struct TracedView {
+  int width = 0;
+  std::vector<abi::RayRecord> records;
+  std::vector<LinearColor> srgb;  // sRGB-encoded, not rounded to 8 bits
+
+  size_t index(int column, int row) const { return size_t(row) * size_t(width) + size_t(column); }
+};
 
 // Thread-safety: none.
 class WalkUnderTest {
@@ -30,10 +45,9 @@ class WalkUnderTest {
   // Uploads and builds, and waits for it.
   std::unique_ptr<StructureSlot> build(const Frame& frame);
   StructureImage readBack(const StructureSlot& slot);
-  // Records of views of one size, [view][row][column].
-  std::vector<std::vector<abi::RayRecord>> trace(const StructureSlot& slot,
-                                                 const std::vector<oracle::OutputView>& views,
-                                                 double tolerance_px);
+  // Views of one size.
+  std::vector<TracedView> trace(const StructureSlot& slot,
+                                const std::vector<oracle::OutputView>& views, double tolerance_px);
 
  private:
   template <typename Element>
