@@ -108,8 +108,8 @@ bool isWholeAndConnected(const OracleSource& source, int layer, const Footprint&
   return connected;
 }
 
-// The nearest of the lower layers that a facet is linked to on any side, 0 without such a link: a
-// walk in this layer must look at such an edge.
+// The nearest of the lower layers that a facet is linked to, anywhere on its edges; 0 without such
+// a link. A walk in this layer must look at such an edge.
 double nearestForward(const StructureImage& structure, const OracleSource& source,
                       const FacetAt& at) {
   constexpr std::array<std::array<int, 2>, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
@@ -121,7 +121,11 @@ double nearestForward(const StructureImage& structure, const OracleSource& sourc
     if (link == 0 || link - 1 >= at.layer) continue;
     const auto& [step_x, step_y] = kSteps[size_t(edge)];
     const FacetAt linked{link - 1, at.column + step_x, at.row + step_y};
-    nearest = std::max(nearest, boundsOf(source.facet(linked)).high);
+    const double middle_x = at.column + 0.5 + 0.5 * step_x;
+    const double middle_y = at.row + 0.5 + 0.5 * step_y;
+    const oracle::Facet& facet = source.facet(linked);
+    const double lean = 0.5 * std::abs(double(step_x != 0 ? facet.slope_y : facet.slope_x));
+    nearest = std::max(nearest, source.planeInvZ(linked, middle_x, middle_y) + lean);
   }
   return nearest;
 }
@@ -174,11 +178,11 @@ void checkFirstLevel(const StructureImage& structure, const OracleSource& source
                if (!content.has_hole && double(node.low) < bounds.low - low_reach) {
                  complaints.add("a first-level box reaches too far down", place.name());
                }
-               const double top = std::max(bounds.high, content.raised);
-               if (double(node.high) < top) {
+               if (double(node.high) < content.raised) {
                  complaints.add("a first-level box hides what is linked in front", place.name());
                }
-               if (double(node.high) > top + ulpsOf(top, kBoxUlps)) {
+               const double high_reach = ulpsOf(bounds.high, kBoxUlps);
+               if (content.raised == 0 && double(node.high) > bounds.high + high_reach) {
                  complaints.add("a first-level box reaches too far up", place.name());
                }
              });

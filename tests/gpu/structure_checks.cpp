@@ -32,11 +32,12 @@ void checkFacet(const LayerImage& image, const OracleSource& source, const Facet
                 Complaints& complaints) {
   const size_t index = size_t(at.row) * size_t(source.width()) + size_t(at.column);
   const oracle::Facet& expected = source.facet(at);
-  const PlainFacet facet = readFacet(image.facets[index]);
+  const PlainFacet facet = readFacet(image.facets.at(at.column, at.row));
   std::ostringstream place;
   place << placeOf(at.layer, 0, at.column, at.row) << ": ";
-  if (image.inv_z[index] != expected.inv_z || facet.inv_z != expected.inv_z) {
-    place << facet.inv_z << " instead of " << expected.inv_z;
+  const float facet_inv_z = facet.exists ? facet.inv_z : oracle::kNoSurface;
+  if (image.inv_z[index] != expected.inv_z || facet_inv_z != expected.inv_z) {
+    place << facet_inv_z << " instead of " << expected.inv_z;
     complaints.add("inv_z is not the oracle's", place.str());
   }
   if (expected.inv_z < 0) return;
@@ -45,12 +46,17 @@ void checkFacet(const LayerImage& image, const OracleSource& source, const Facet
           << ", " << expected.slope_y << ")";
     complaints.add("slopes are not the oracle's", place.str());
   }
+  bool leads_forward = false;
   for (int edge = 0; edge < 4; ++edge) {
     const int link = expectedLink(source, at, edge);
+    leads_forward = leads_forward || (link > 0 && link - 1 < at.layer);
     if (readLink(image.links[index], edge) == link) continue;
     place << "edge " << edge << " has " << readLink(image.links[index], edge) << " instead of "
           << link;
     complaints.add("links are not the oracle's", place.str());
+  }
+  if (facet.leads_forward != leads_forward) {
+    complaints.add("a facet does not tell of its links to the front", place.str());
   }
 }
 

@@ -23,8 +23,12 @@ float readSlope(uint32_t half) {
 }  // namespace
 
 PlainFacet readFacet(const PackedPair& bits) {
-  return {std::bit_cast<float>(bits.x), readSlope(bitsOf(bits.y, 0, 15)),
-          readSlope(bitsOf(bits.y, 16, 31))};
+  if (bits.x == 0xffffffffu) return {};
+  return {.exists = true,
+          .leads_forward = bitsOf(bits.x, 31, 31) != 0,
+          .inv_z = std::bit_cast<float>(bitsOf(bits.x, 0, 30)),
+          .slope_x = readSlope(bitsOf(bits.y, 0, 15)),
+          .slope_y = readSlope(bitsOf(bits.y, 16, 31))};
 }
 
 PlainNode readNode(const PackedPair& bits) {

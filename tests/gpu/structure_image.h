@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A structure as read back from the device, and its packed words read by their documented format
-// alone (shaders/lib/node.glsl, shaders/lib/facet.glsl): nothing here is shared with the shaders.
+// alone (shaders/shared/structure_abi.h, shaders/lib/node.glsl, shaders/lib/facet.glsl): no code is
+// shared.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +30,9 @@ struct NodeGrid {
 };
 
 struct LayerImage {
-  std::vector<float> inv_z;        // [height][width]
-  std::vector<PackedPair> facets;  // [height][width]
-  std::vector<uint16_t> links;     // [height][width]
+  std::vector<float> inv_z;  // [height][width]
+  NodeGrid facets;
+  std::vector<uint16_t> links;  // [height][width]
   NodeGrid entries;
   std::vector<NodeGrid> levels;  // [level - kFirstNodeLevel]
 };
@@ -45,6 +46,8 @@ struct StructureImage {
 };
 
 struct PlainFacet {
+  bool exists = false;
+  bool leads_forward = false;  // one of its links leads to a lower layer
   float inv_z = 0;
   float slope_x = 0;
   float slope_y = 0;

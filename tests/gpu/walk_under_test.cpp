@@ -54,6 +54,22 @@ std::shared_ptr<Frame> uncolored(const oracle::Scene& scene) {
   return frame;
 }
 
+// The cells of a level that cover the image; the array goes on to whole nodes of the last level.
+NodeGrid gridOf(const StructureLayout& layout, const std::vector<PackedPair>& cells,
+                uint32_t level) {
+  const uint32_t shift = level == abi::kLevelEntries ? abi::kLevelFirst : level;
+  const auto covering = [&](uint32_t size_px) {
+    return int((size_px + (1u << shift) - 1) >> shift);
+  };
+  NodeGrid grid{covering(layout.size_px.width), covering(layout.size_px.height), {}};
+  for (int row = 0; row < grid.height; ++row) {
+    const auto first = cells.begin() + ptrdiff_t(layout.levelOffset(level)) +
+                       ptrdiff_t(row) * layout.levelSize(level).width;
+    grid.nodes.insert(grid.nodes.end(), first, first + grid.width);
+  }
+  return grid;
+}
+
 AtlasLayout rowOfViews(const std::vector<oracle::OutputView>& views) {
   AtlasLayout layout;
   layout.columns = uint32_t(views.size());
@@ -127,23 +143,24 @@ std::vector<Element> WalkUnderTest::read(const Buffer& buffer) {
 
 StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   const StructureLayout& layout = slot.layout();
-  const auto grid = [](const std::vector<PackedPair>& all, const LevelLayout& level) {
-    const auto first = all.begin() + level.offset;
-    return NodeGrid{int(level.size.width),
-                    int(level.size.height),
-                    {first, first + ptrdiff_t(level.size.area())}};
-  };
   StructureImage image{.width = int(layout.size_px.width),
                        .height = int(layout.size_px.height),
                        .kappa_abs = float(slot.stats().connection_tolerance)};
-  for (const StructureSlot::LayerBuffers& buffers : slot.layers()) {
-    LayerImage layer{.inv_z = read<float>(buffers.inv_z),
-                     .facets = read<PackedPair>(buffers.facets),
-                     .links = read<uint16_t>(buffers.links),
-                     .entries = grid(read<PackedPair>(buffers.entries), layout.levels[0])};
-    const std::vector<PackedPair> nodes = read<PackedPair>(buffers.nodes);
-    for (const LevelLayout& level : layout.levels) layer.levels.push_back(grid(nodes, level));
-    image.layers.push_back(std::move(layer));
+  for (size_t index = 0; index < slot.layers().size(); ++index) {
+    const std::vector<PackedPair> cells = read<PackedPair>(slot.layers()[index]);
+    LayerImage& layer = image.layers.emplace_back();
+    layer.inv_z = read<float>(slot.invZ()[index]);
+    layer.facets = gridOf(layout, cells, abi::kLevelFacets);
+    layer.entries = gridOf(layout, cells, abi::kLevelEntries);
+    for (uint32_t level = abi::kLevelFirst; level <= abi::kLevelLast; ++level) {
+      layer.levels.push_back(gridOf(layout, cells, level));
+    }
+    const std::vector<uint16_t> halves = read<uint16_t>(slot.layers()[index]);
+    for (uint32_t row = 0; row < layout.size_px.height; ++row) {
+      const auto first = halves.begin() + ptrdiff_t(layout.cellCount() * 4) +
+                         ptrdiff_t{row} * layout.padded_px.width;
+      layer.links.insert(layer.links.end(), first, first + layout.size_px.width);
+    }
   }
   return image;
 }
