@@ -66,22 +66,6 @@ uint linkOfEdge(uint links, uint edge) {
   return (links >> (edge * kLinkBits)) & 7u;
 }
 
-// The upper bits of a link word say how far a surface that is linked in a lower layer stands above the
-// facet's own box, in units of kappa: 2^(n - 8), rounded up; 0 = not at all, the last = any distance.
-const uint kReachShift = 12u;
-const uint kReachLast = 15u;
-
-uint packForwardReach(float reach, float kappa) {
-  const int exponent = int(floatBitsToUint(max(reach / kappa, 1e-6)) >> 23) - 127 + 1;
-  return reach <= 0.0 ? 0u : uint(clamp(exponent + 8, 1, int(kReachLast))) << kReachShift;
-}
-
-float forwardReach(uint links, float kappa) {
-  const uint reach = links >> kReachShift;
-  const float distance = kappa * uintBitsToFloat((reach + 119u) << 23);
-  return reach == 0u ? 0.0 : reach == kReachLast ? 1e37 : distance;
-}
-
 // Largest step between two facets that are one surface, 1/m.
 float connectionTolerance(float kappa_abs, float kappa_rel, float nearer_inv_z) {
   return max(kappa_abs, kappa_rel * nearer_inv_z);

@@ -76,22 +76,35 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
+// How far the ray stands in front of a facet at a point of the facet's edge.
+float inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point) {
+  const uvec2 facet = loadFacet(pickAddress(scene.layers, layer), scene.extent, cell);
+  return point.z - facetAtPoint(facet, cell, point.xy);
+}
+
 // 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface it was
-// in front of is hit. kComesForward: in front of `layer` before; hit if behind what it is linked to.
-uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point) {
+// in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind what one of
+// them is linked to. `tolerance`, 1/m: the walk of the other layer may have taken a plane for its facet, so
+// whoever is undecided hits.
+uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point, float tolerance) {
+  if (at.axis == kAxisNone) return 0u;
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
   const bool leaving = event == kComesForward;
-  const ivec2 linked_from = leaving ? before : at.cell;
-  const ivec2 linked_to = leaving ? at.cell : before;
-  const uint links = loadLinks(pickAddress(scene.layers, layer), scene.extent, linked_from);
-  const uint link = at.axis == kAxisNone ? 0u : linkOfEdge(links, edgeOfAxis(at.axis, direction, leaving));
-  const uint other = link > 0u ? link - 1u : 0u;
-  const uvec2 facet = loadFacet(pickAddress(scene.layers, other), scene.extent, linked_to);
-  const bool is_before = point.z > facetAtPoint(facet, linked_to, point.xy);
-  if (link == 0u) return 0u;
-  if (leaving) return other < layer && !is_before ? link : 0u;
-  return other >= layer || is_before ? layer + 1u : 0u;
+  const uint edge = edgeOfAxis(at.axis, direction, leaving);
+  if (!leaving) {
+    const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, layer), scene.extent, at.cell), edge);
+    if (link == 0u) return 0u;
+    const bool was_in_front =
+        link - 1u >= layer || inFrontOfFacet(scene, link - 1u, before, point) > -tolerance;
+    return was_in_front ? layer + 1u : 0u;
+  }
+  for (uint from = layer; from < scene.layer_count; ++from) {
+    const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, from), scene.extent, before), edge);
+    if (link == 0u || link - 1u >= layer) continue;
+    if (inFrontOfFacet(scene, link - 1u, at.cell, point) <= tolerance) return link;
+  }
+  return 0u;
 }
 
 Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
@@ -197,7 +210,9 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         hit_size = size_px;
         continue;
       }
-      in_front = front_to > 0.0;
+      // Who comes out from behind is in front only where the plane's error leaves no doubt: the next plane
+      // may say otherwise, and that is no hit.
+      in_front = front_to > (front_from > 0.0 ? 0.0 : error);
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const bool cross_x = exit_t.x <= exit_t.y;
@@ -221,7 +236,9 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     from_forward_link = false;
     if (event == kMeetsEdge || event == kComesForward) {
       const vec3 point = ray.start + at.t * ray.extent;
-      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point);
+      const float nearness = 1.0 - point.z * eye_z;
+      const float tolerance = inv_z_tolerance * nearness * nearness;
+      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point, tolerance);
       if (edge_hit == 0u) {
         if (event == kMeetsEdge) {
           if (!has_passed) passed = at;

@@ -48,7 +48,8 @@ uint cellCount(uint padded_area) {
 }
 
 // In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative), with
-// the sign set when one of its links leads to a lower layer.
+// the sign set when a link of its column leads from this layer or a deeper one to one before this layer:
+// a walk of this layer must look at such an edge.
 VIEWLOOM_ABI_CONST uint kNoFacet = 0xffffffffu;
 VIEWLOOM_ABI_CONST uint kForwardLinkFlag = 0x80000000u;
 

@@ -12,6 +12,22 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const int kBlockSize = 4;
 
+// The nearest inv_z of what the column's links lead to before this layer, from this layer or a deeper one.
+float nearestForward(Extent extent, uint layer, ivec2 pixel) {
+  const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+  float nearest = kNoSurface;
+  for (uint from = layer; from < push.layer_count; ++from) {
+    const uint links = loadLinks(pickAddress(push.layers, from), extent, pixel);
+    for (uint edge = 0u; edge < 4u; ++edge) {
+      const uint link = linkOfEdge(links, edge);
+      if (link == 0u || link - 1u >= layer) continue;
+      const uvec2 facet = loadFacet(pickAddress(push.layers, link - 1u), extent, pixel + steps[edge]);
+      nearest = max(nearest, facetBox(facetInvZ(facet), unpackSlopes(facet.y)).y);
+    }
+  }
+  return nearest;
+}
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
@@ -46,8 +62,7 @@ void main() {
       if ((facet.x & kForwardLinkFlag) != 0u) {
         // A walk of this layer must look at such an edge: the surface goes on in front of it.
         has_forward_link = true;
-        const uint links = loadLinks(cells, extent, origin + ivec2(x, y));
-        facet_box.y += forwardReach(links, connectionTolerance(kappa_abs, kappa_rel, facet_box.y));
+        facet_box.y = max(facet_box.y, nearestForward(extent, gl_WorkGroupID.z, origin + ivec2(x, y)));
       }
       box = vec2(min(box.x, facet_box.x), max(box.y, facet_box.y));
       inv_z_min = min(inv_z_min, facet_box.x);

@@ -61,11 +61,10 @@ uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, floa
   return nearest;
 }
 
-// Adds the links of all layers across one edge to the link words. `forward`: the nearest inv_z on the
-// edge of what a layer is linked to in a lower one; `there_lean`: how far a facet there rises from the
-// middle of the edge to its end.
-void linkAcross(EdgeValues here, EdgeValues there, EdgeValues there_lean, uint edge, float kappa_abs,
-                float kappa_rel, inout uint words[kLayerCountMax], inout float forward[kLayerCountMax]) {
+// Adds the links of all layers across one edge to the link words. Bit k of `forward`: a link leads from
+// layer k or a deeper one to one before layer k.
+void linkAcross(EdgeValues here, EdgeValues there, uint edge, float kappa_abs, float kappa_rel,
+                inout uint words[kLayerCountMax], inout uint forward) {
   uint taken = 0u;  // layers linked to themselves
   for (uint i = 0u; i < kLayerCount; ++i) {
     const bool linked = mayLink(here.at[i], there.at[i], kappa_abs, kappa_rel);
@@ -79,7 +78,8 @@ void linkAcross(EdgeValues here, EdgeValues there, EdgeValues there_lean, uint e
     for (uint j = 0u; j < kLayerCount; ++j) {
       if (j != other || nearestFree(there.at[j], here, taken, j, kappa_abs, kappa_rel) != i) continue;
       words[i] |= (j + 1u) << (edge * kLinkBits);
-      forward[i] = j < i ? max(forward[i], there.at[j] + there_lean.at[j]) : forward[i];
+      // Layers j + 1 .. i.
+      forward |= j < i ? (2u << i) - (2u << j) : 0u;
     }
   }
 }
@@ -93,30 +93,19 @@ void main() {
   const float kappa_rel = measured.value.kappa_rel;
 
   uint words[kLayerCountMax];
-  float forward[kLayerCountMax];
-  for (uint i = 0u; i < kLayerCount; ++i) {
-    words[i] = 0u;
-    forward[i] = kNoSurface;
-  }
+  for (uint i = 0u; i < kLayerCount; ++i) words[i] = 0u;
+  uint forward = 0u;
   const Column here = loadColumn(extent, pixel);
   const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
   for (uint edge = 0u; edge < 4u; ++edge) {
     const vec2 to_edge = 0.5 * vec2(steps[edge]);
     const Column there = loadColumn(extent, pixel + steps[edge]);
-    EdgeValues lean;
-    for (uint i = 0u; i < kLayerCount; ++i) {
-      lean.at[i] = 0.5 * abs(steps[edge].x != 0 ? there.slope[i].y : there.slope[i].x);
-    }
-    linkAcross(edgeValues(here, to_edge), edgeValues(there, -to_edge), lean, edge, kappa_abs, kappa_rel, words,
+    linkAcross(edgeValues(here, to_edge), edgeValues(there, -to_edge), edge, kappa_abs, kappa_rel, words,
                forward);
   }
   for (uint i = 0u; i < kLayerCount; ++i) {
-    const float own_high = facetBox(here.inv_z[i], here.slope[i]).y;
-    const float kappa = connectionTolerance(kappa_abs, kappa_rel, own_high);
-    const bool is_forward = forward[i] >= 0.0;
-    const uint reach = is_forward ? packForwardReach(forward[i] * 1.000001 - own_high, kappa) : 0u;
-    Uint16Ref(push.layers[i]).at[linkIndex(extent, pixel)] = uint16_t(words[i] | reach);
-    if (is_forward) {
+    Uint16Ref(push.layers[i]).at[linkIndex(extent, pixel)] = uint16_t(words[i]);
+    if (((forward >> i) & 1u) != 0u) {
       const uint flagged = floatBitsToUint(here.inv_z[i]) | kForwardLinkFlag;
       UintRef(push.layers[i]).at[2u * facetIndex(extent, pixel)] = flagged;
     }

@@ -108,16 +108,17 @@ bool isWholeAndConnected(const OracleSource& source, int layer, const Footprint&
   return connected;
 }
 
-// The nearest of the lower layers that a facet is linked to, anywhere on its edges; 0 without such
-// a link. A walk in this layer must look at such an edge.
+// The nearest of the lower layers that a facet or one behind it is linked to, anywhere on its
+// edges; 0 without such a link. A walk in this layer must look at such an edge.
 double nearestForward(const StructureImage& structure, const OracleSource& source,
                       const FacetAt& at) {
   constexpr std::array<std::array<int, 2>, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const size_t index = size_t(at.row) * size_t(structure.width) + size_t(at.column);
-  const uint16_t links = structure.layers[size_t(at.layer)].links[index];
   double nearest = 0;
-  for (int edge = 0; edge < 4; ++edge) {
-    const int link = readLink(links, edge);
+  const int edge_count = 4 * (source.layerCount() - at.layer);
+  for (int count = 0; count < edge_count; ++count) {
+    const int edge = count % 4;
+    const int link = readLink(structure.layers[size_t(at.layer + count / 4)].links[index], edge);
     if (link == 0 || link - 1 >= at.layer) continue;
     const auto& [step_x, step_y] = kSteps[size_t(edge)];
     const FacetAt linked{link - 1, at.column + step_x, at.row + step_y};

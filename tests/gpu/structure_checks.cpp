@@ -28,6 +28,18 @@ int expectedLink(const OracleSource& source, const FacetAt& at, int edge) {
   return 0;
 }
 
+// Whether a link of the column leads from this layer or a deeper one to one before this layer.
+bool leadsForward(const OracleSource& source, const FacetAt& at) {
+  for (int layer = at.layer; layer < source.layerCount(); ++layer) {
+    for (int edge = 0; edge < 4; ++edge) {
+      const FacetAt from{layer, at.column, at.row};
+      const int link = source.exists(from) ? expectedLink(source, from, edge) : 0;
+      if (link > 0 && link - 1 < at.layer) return true;
+    }
+  }
+  return false;
+}
+
 void checkFacet(const LayerImage& image, const OracleSource& source, const FacetAt& at,
                 Complaints& complaints) {
   const size_t index = size_t(at.row) * size_t(source.width()) + size_t(at.column);
@@ -46,16 +58,14 @@ void checkFacet(const LayerImage& image, const OracleSource& source, const Facet
           << ", " << expected.slope_y << ")";
     complaints.add("slopes are not the oracle's", place.str());
   }
-  bool leads_forward = false;
   for (int edge = 0; edge < 4; ++edge) {
     const int link = expectedLink(source, at, edge);
-    leads_forward = leads_forward || (link > 0 && link - 1 < at.layer);
     if (readLink(image.links[index], edge) == link) continue;
     place << "edge " << edge << " has " << readLink(image.links[index], edge) << " instead of "
           << link;
     complaints.add("links are not the oracle's", place.str());
   }
-  if (facet.leads_forward != leads_forward) {
+  if (facet.leads_forward != leadsForward(source, at)) {
     complaints.add("a facet does not tell of its links to the front", place.str());
   }
 }

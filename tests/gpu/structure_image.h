@@ -47,7 +47,7 @@ struct StructureImage {
 
 struct PlainFacet {
   bool exists = false;
-  bool leads_forward = false;  // one of its links leads to a lower layer
+  bool leads_forward = false;  // a link of it or of one behind it does, to one before it
   float inv_z = 0;
   float slope_x = 0;
   float slope_y = 0;
