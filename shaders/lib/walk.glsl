@@ -76,18 +76,20 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
-// How far the ray stands in front of a facet at a point of the facet's edge.
-float inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point) {
+// How far the ray stands in front of a facet at a point of the facet's edge (x), and how that changes along
+// the ray (y).
+vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent) {
   const uvec2 facet = loadFacet(pickAddress(scene.layers, layer), scene.extent, cell);
-  return point.z - facetAtPoint(facet, cell, point.xy);
+  return vec2(point.z - facetAtPoint(facet, cell, point.xy), extent.z - dot(unpackSlopes(facet.y), extent.xy));
 }
 
 // 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface it was
 // in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind what one of
 // them is linked to. `tolerance`, 1/m: the walk of the other layer may have taken a plane for its facet, so
-// whoever is undecided hits.
-uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point, float tolerance) {
+// whoever is undecided and comes closer hits.
+uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point, vec3 extent,
+             float tolerance) {
   if (at.axis == kAxisNone) return 0u;
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
   const bool leaving = event == kComesForward;
@@ -95,14 +97,15 @@ uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec
   if (!leaving) {
     const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, layer), scene.extent, at.cell), edge);
     if (link == 0u) return 0u;
-    const bool was_in_front =
-        link - 1u >= layer || inFrontOfFacet(scene, link - 1u, before, point) > -tolerance;
-    return was_in_front ? layer + 1u : 0u;
+    if (link - 1u >= layer) return layer + 1u;
+    const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent);
+    return front.x > (front.y < 0.0 ? -tolerance : 0.0) ? layer + 1u : 0u;
   }
   for (uint from = layer; from < scene.layer_count; ++from) {
     const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, from), scene.extent, before), edge);
     if (link == 0u || link - 1u >= layer) continue;
-    if (inFrontOfFacet(scene, link - 1u, at.cell, point) <= tolerance) return link;
+    const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent);
+    if (front.x <= (front.y < 0.0 ? tolerance : 0.0)) return link;
   }
   return 0u;
 }
@@ -238,7 +241,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const vec3 point = ray.start + at.t * ray.extent;
       const float nearness = 1.0 - point.z * eye_z;
       const float tolerance = inv_z_tolerance * nearness * nearness;
-      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point, tolerance);
+      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point, ray.extent, tolerance);
       if (edge_hit == 0u) {
         if (event == kMeetsEdge) {
           if (!has_passed) passed = at;
