@@ -23,7 +23,9 @@ constexpr size_t kWasteFactorMax = 4;
 
 struct BytePool::Shelf {
   size_t kept_count;
+  size_t kept_bytes_max;
   std::mutex mutex;
+  size_t waiting_bytes = 0;
   std::vector<std::unique_ptr<std::vector<uint8_t>>> waiting;  // longest waiting first
 
   std::unique_ptr<std::vector<uint8_t>> takeFitting(size_t capacity_bytes) {
@@ -35,23 +37,33 @@ struct BytePool::Shelf {
       if (best == waiting.end() || got < (*best)->capacity()) best = it;
     }
     if (best == waiting.end()) return nullptr;
-    auto taken = std::move(*best);
-    waiting.erase(best);
-    return taken;
+    return remove(best);
   }
 
   void putBack(std::unique_ptr<std::vector<uint8_t>> buffer) {
+    if (buffer->capacity() > kept_bytes_max) return;
     buffer->clear();
-    if (kept_count == 0) return;
     std::lock_guard lock(mutex);
-    if (waiting.size() == kept_count) waiting.erase(waiting.begin());
+    waiting_bytes += buffer->capacity();
     waiting.push_back(std::move(buffer));
+    while (waiting.size() > kept_count || waiting_bytes > kept_bytes_max) remove(waiting.begin());
+  }
+
+ private:
+  using Waiting = std::vector<std::unique_ptr<std::vector<uint8_t>>>;
+
+  std::unique_ptr<std::vector<uint8_t>> remove(Waiting::iterator at) {
+    auto removed = std::move(*at);
+    waiting.erase(at);
+    waiting_bytes -= removed->capacity();
+    return removed;
   }
 };
 
-BytePool::BytePool(size_t kept_count) : shelf_(std::make_shared<Shelf>()) {
+BytePool::BytePool(size_t kept_count, size_t kept_bytes_max) : shelf_(std::make_shared<Shelf>()) {
   shelf_->kept_count = kept_count;
-  shelf_->waiting.reserve(kept_count);
+  shelf_->kept_bytes_max = kept_bytes_max;
+  shelf_->waiting.reserve(kept_count + 1);
 }
 
 BytePool::Buffer BytePool::take(size_t capacity_bytes) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -20,9 +21,9 @@ class BytePool {
  public:
   using Buffer = std::shared_ptr<std::vector<uint8_t>>;
 
-  // At most kept_count buffers wait in the pool; when one more returns, the one that has waited
-  // longest is freed.
-  explicit BytePool(size_t kept_count);
+  // At most kept_count buffers wait in the pool, with kept_bytes_max of memory together; what is
+  // more is freed, beginning with the buffer that has waited longest.
+  explicit BytePool(size_t kept_count, size_t kept_bytes_max = std::numeric_limits<size_t>::max());
   // An empty buffer with room for capacity_bytes: the smallest of those waiting, unless even that
   // is several times too large; else a new one.
   Buffer take(size_t capacity_bytes);

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/large_allocations.h"
+
 namespace viewloom {
 namespace {
 
@@ -54,6 +56,26 @@ TEST(BytePool, forgetsTheBufferThatWaitedLongest) {
   first.reset();
   second.reset();
   EXPECT_EQ(pool.take(100000)->data(), memory);
+}
+
+TEST(BytePool, keepsNoMoreMemoryThanItMay) {
+  if (!test::countsLargeAllocations()) GTEST_SKIP() << "a sanitizer owns the heap";
+  BytePool pool(8, 1 << 20);
+  const auto allocates = [&pool](size_t capacity_bytes) {
+    const uint64_t before = test::largeAllocationCount();
+    pool.take(capacity_bytes);
+    return test::largeAllocationCount() > before;
+  };
+  {
+    const BytePool::Buffer first = pool.take(1 << 19);
+    const BytePool::Buffer second = pool.take(1 << 19);
+  }
+  EXPECT_FALSE(allocates(1 << 19));
+  EXPECT_TRUE(allocates(1 << 20));  // its return frees the two
+  EXPECT_FALSE(allocates(1 << 20));
+  EXPECT_TRUE(allocates(1 << 21));  // is not kept itself
+  EXPECT_FALSE(allocates(1 << 20));
+  EXPECT_TRUE(allocates(1 << 17));
 }
 
 TEST(BytePool, mayDieBeforeItsBuffers) {
