@@ -3,32 +3,33 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "base/byte_pool.h"
 #include "base/status.h"
 #include "decode/frame_assembly.h"
-#include "decode/jpeg_plane.h"
-#include "decode/zstd_plane.h"
+#include "decode/plane_decoder.h"
 #include "frame/frame.h"
 
 namespace viewloom {
 
-// Planes come from the pool and return to it with the frame. Thread-safety: none; one per thread.
+// What became of each plane, in the order of the wire.
+using DecodedPlanes = std::vector<absl::StatusOr<SharedBytes>>;
+
+// The frame of these planes, or the first error among them, which then names the plane
+// ("header.sources[0].layers[1].planes[0]").
+absl::StatusOr<std::unique_ptr<Frame>> joinPlanes(FrameFormat format, DecodedPlanes planes);
+
+// Decodes one plane after the other. Thread-safety: none; one per thread.
 class FrameDecoder {
  public:
-  explicit FrameDecoder(BytePool& pool) : pool_(pool) {}
+  explicit FrameDecoder(BytePool& pool) : planes_(pool) {}
 
-  // Expects a format that validateFrame accepts. Errors are INVALID_ARGUMENT and name the plane
-  // ("header.sources[0].layers[1].planes[0]").
+  // Expects a format that validateFrame accepts. Errors as joinPlanes.
   absl::StatusOr<std::unique_ptr<Frame>> decode(CollectedFrame collected);
 
  private:
-  absl::StatusOr<SharedBytes> decodePlane(const PlaneFormat& plane, SharedBytes wire);
-  absl::StatusOr<SharedBytes> inflatePlane(const PlaneFormat& plane, const SharedBytes& wire);
-
-  BytePool& pool_;
-  ZstdInflater zstd_;
-  JpegDecoder jpeg_;
+  PlaneDecoder planes_;
 };
 
 }  // namespace viewloom

@@ -18,9 +18,10 @@ struct FrameIntakeOptions {
   uint32_t thread_count = 2;
 };
 
-// Decodes on threads of its own. Of each stream one frame waits at most: a newer one replaces it,
-// and it is reported kReplaced. Frames of one stream are decoded one after the other and reach the
-// sink in the order in which they were offered; one that does not decode is reported kRefused.
+// Decodes on threads of its own, the planes of a frame side by side. Of each stream one frame waits
+// at most: a newer one replaces it, and it is reported kReplaced. Frames of one stream are decoded
+// one after the other and reach the sink in the order in which they were offered; one that does not
+// decode is reported kRefused.
 // Thread-safety: all methods may be called from any thread. offer never blocks.
 class FrameIntake {
  public:

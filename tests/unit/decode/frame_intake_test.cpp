@@ -35,7 +35,7 @@ class HeldSink : public FrameSink {
   void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override {
     std::unique_lock lock(mutex_);
     offered_[stream].push_back(frame->format.number);
-    times_ = frame->times;
+    newest_ = frame;
     ++offered_count_;
     changed_.notify_all();
     changed_.wait(lock, [this] { return !held_; });
@@ -61,16 +61,16 @@ class HeldSink : public FrameSink {
     std::lock_guard lock(mutex_);
     return offered_[stream];
   }
-  FrameTimes times() {
+  FramePtr newest() {
     std::lock_guard lock(mutex_);
-    return times_;
+    return newest_;
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, std::vector<uint64_t>> offered_;
-  FrameTimes times_;
+  FramePtr newest_;
   int offered_count_ = 0;
   bool held_ = false;
 };
@@ -121,9 +121,9 @@ TEST_F(FrameIntakeTest, deliversADecodedFrameWithItsTimes) {
   offer("a", onePixel(1), {.first_chunk_ns = 10, .last_chunk_ns = 20});
   intake_.close();
   EXPECT_EQ(sink_.offered("a"), std::vector<uint64_t>{1});
-  EXPECT_EQ(sink_.times().first_chunk_ns, 10);
-  EXPECT_EQ(sink_.times().last_chunk_ns, 20);
-  EXPECT_EQ(sink_.times().decoded_ns, 100);
+  EXPECT_EQ(sink_.newest()->times.first_chunk_ns, 10);
+  EXPECT_EQ(sink_.newest()->times.last_chunk_ns, 20);
+  EXPECT_EQ(sink_.newest()->times.decoded_ns, 100);
   EXPECT_EQ(reports_.outcomes("a"), (std::map<uint64_t, FrameOutcome>{{1, FrameOutcome::kTraced}}));
 }
 
@@ -149,6 +149,28 @@ TEST_F(FrameIntakeTest, letsOtherStreamsPassABusyOne) {
   while (sink_.offered("b").empty()) std::this_thread::yield();
   EXPECT_EQ(sink_.offered("a"), std::vector<uint64_t>{1});
   sink_.letGo();
+}
+
+TEST_F(FrameIntakeTest, putsEveryPlaneInItsPlaceWhoeverDecodesIt) {
+  constexpr uint8_t kLayers = 4;
+  constexpr uint64_t kFrames = 200;
+  CollectedFrame frame = onePixel(1);
+  frame.format.sources[0].layers.resize(kLayers, frame.format.sources[0].layers[0]);
+  frame.planes.clear();
+  for (uint8_t plane = 0; plane < kLayers; ++plane) {
+    frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(4, plane));
+    frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(2, uint8_t(plane + 100)));
+  }
+  for (frame.format.number = 1; frame.format.number <= kFrames; ++frame.format.number) {
+    offer("a", frame);
+  }
+  intake_.close();
+  const FramePtr newest = sink_.newest();
+  EXPECT_EQ(newest->format.number, kFrames);
+  for (uint8_t layer = 0; layer < kLayers; ++layer) {
+    EXPECT_EQ(*newest->sources[0][layer].color, std::vector<uint8_t>(4, layer));
+    EXPECT_EQ(*newest->sources[0][layer].depth, std::vector<uint8_t>(2, uint8_t(layer + 100)));
+  }
 }
 
 TEST_F(FrameIntakeTest, refusesABrokenFrameAndGoesOn) {
