@@ -41,6 +41,11 @@ bool isHostPort(std::string_view text) {
   return port && *port <= 65535;
 }
 
+bool isOfHostNames(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+         c == '-' || c == ',';
+}
+
 bool fits(TextSetting::Form form, std::string_view text) {
   switch (form) {
     case TextSetting::Form::kAny:
@@ -49,6 +54,8 @@ bool fits(TextSetting::Form form, std::string_view text) {
       return isHostPort(text);
     case TextSetting::Form::kGrpcAddress:
       return isHostPort(text) || (text.starts_with("unix:") && text.size() > 5);
+    case TextSetting::Form::kHostNames:
+      return std::all_of(text.begin(), text.end(), isOfHostNames);
     case TextSetting::Form::kLogLevel:
       return std::find(kLogLevels.begin(), kLogLevels.end(), text) != kLogLevels.end();
   }
@@ -106,7 +113,7 @@ std::vector<Setting> settingsOf(Config& config) {
       {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
       {"http.enabled", "", BoolSetting{&config.http.enabled}},
       {"http.address", "", TextSetting{&config.http.address, Form::kHostPort}},
-      {"http.allowed_hosts", "", TextSetting{&config.http.allowed_hosts}},
+      {"http.allowed_hosts", "", TextSetting{&config.http.allowed_hosts, Form::kHostNames}},
       {"limits.frame_bytes_max", "bytes", CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
       {"limits.plane_side_px_max", "px", CountSetting{&limits.plane_side_px_max, 1, 8192}},
       {"limits.streams_max", "", CountSetting{&limits.streams_max, 1, 1024}},
@@ -134,6 +141,8 @@ std::string acceptedText(const Setting& setting) {
       return "HOST:PORT";
     case TextSetting::Form::kGrpcAddress:
       return "HOST:PORT or unix:PATH";
+    case TextSetting::Form::kHostNames:
+      return "host names, separated by commas";
     case TextSetting::Form::kLogLevel:
       return "trace, debug, info, warn, error or off";
   }

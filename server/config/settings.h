@@ -24,7 +24,7 @@ struct CountSetting {
 };
 
 struct TextSetting {
-  enum class Form : uint8_t { kAny, kHostPort, kGrpcAddress, kLogLevel };
+  enum class Form : uint8_t { kAny, kHostPort, kGrpcAddress, kHostNames, kLogLevel };
   std::string* value;
   Form form = Form::kAny;
 };

@@ -106,6 +106,12 @@ TEST_F(ReadConfig, refusesAddressesThatAreNone) {
   EXPECT_NE(errorOf({.flags = {{"http.address", "unix:/run/viewloom.sock"}}}), "no error");
 }
 
+TEST_F(ReadConfig, takesHostNamesWithoutSpaces) {
+  EXPECT_EQ(errorOf({.flags = {{"http.allowed_hosts", "a.example,b-2.example"}}}), "no error");
+  EXPECT_THAT(errorOf({.flags = {{"http.allowed_hosts", "a, b"}}}),
+              HasSubstr("must be host names, separated by commas"));
+}
+
 TEST_F(ReadConfig, saysWhereAFileIsNoToml) {
   EXPECT_THAT(errorOf(file("device = \"a\"\n[grpc\n")), HasSubstr(path_ + ":2: "));
   EXPECT_THAT(errorOf({.file = "/nonexistent/viewloomd.toml"}),
