@@ -10,7 +10,6 @@ from web_client import Server, decode_code
 
 SMALL = "?stream=painted&columns=8&rows=6&width=1680&height=1680&aspect=0.75"
 GROUND = (10, 12, 16)
-VIEW_COUNT = 48
 LIVE = "document.documentElement.dataset.state === 'live'"
 
 
@@ -30,6 +29,7 @@ def picture_box(image):
 @unittest.skipUnless(os.path.exists(CHROMIUM), f"there is no {CHROMIUM}")
 class PageTest(unittest.TestCase):
     """A browser in front of self.server."""
+    view_count = 48
 
     def start_browser(self):
         self.browser = Browser()
@@ -56,7 +56,7 @@ class PageTest(unittest.TestCase):
     def look(self, share):
         left, top, width, height = self.canvas()
         self.browser.mouse(left + share * width, top + height / 2)
-        view = round(share * (VIEW_COUNT - 1))
+        view = round(share * (self.view_count - 1))
         self.browser.wait_for(f"document.getElementById('stage').dataset.view === '{view}'")
         return view
 
@@ -81,7 +81,7 @@ class Page(PageTest):
         self.browser.click("#blend")
         left, top, width, height = self.canvas()
         # Halfway between views 23 (010111) and 24 (011000): what differs is grey.
-        self.browser.mouse(left + width * 23.5 / (VIEW_COUNT - 1), top + height / 2)
+        self.browser.mouse(left + width * 23.5 / (self.view_count - 1), top + height / 2)
         self.browser.wait_for("document.getElementById('stage').dataset.view >= 23")
         picture = self.shown_picture().convert("L")
         levels = [picture.getpixel((int(picture.width * (0.1 + 0.8 * (bit + 0.5) / 8)),
