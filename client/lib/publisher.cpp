@@ -111,7 +111,7 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
   CallEnd end{statusFromGrpc(call->Finish()), false};
   std::lock_guard lock(mutex_);
   end.was_connected = was_connected_;
-  counts_.reconnects += was_connected_ && isPassing(end.status);
+  counts_.reconnects += was_connected_ && isPassing(end.status) && !stop.stop_requested();
   return end;
 }
 

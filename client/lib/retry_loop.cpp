@@ -9,9 +9,11 @@
 namespace viewloom {
 
 bool isPassing(const absl::Status& status) {
-  // UNKNOWN is what gRPC reports when the connection broke in the middle of a call.
+  // UNKNOWN is what gRPC reports when the connection broke in the middle of a call; CANCELLED is
+  // what a draining server ends its last calls with.
   return status.code() == absl::StatusCode::kUnavailable ||
-         status.code() == absl::StatusCode::kUnknown;
+         status.code() == absl::StatusCode::kUnknown ||
+         status.code() == absl::StatusCode::kCancelled;
 }
 
 RetryLoop::RetryLoop(const BackoffOptions& options, OnConnection on_connection,

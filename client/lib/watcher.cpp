@@ -93,7 +93,7 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
   std::lock_guard lock(mutex_);
   counts_.atlases = assembler_.counts();
   if (is_complete_) return {absl::OkStatus(), was_connected_};
-  counts_.reconnects += was_connected_ && isPassing(status);
+  counts_.reconnects += was_connected_ && isPassing(status) && !stop.stop_requested();
   return {broken.ok() ? status : broken, was_connected_};
 }
 

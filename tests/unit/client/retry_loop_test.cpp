@@ -84,6 +84,19 @@ TEST(RetryLoop, startsAnewAfterACallThatWasConnected) {
   EXPECT_THAT(loop.delays_ns, ElementsAre(100, 200, 400, 100, 200));
 }
 
+TEST(RetryLoop, callsAgainWhateverWayAServerWent) {
+  for (const absl::Status& status :
+       {absl::UnavailableError("x"), absl::UnknownError("x"), absl::CancelledError("x")}) {
+    RecordedLoop loop;
+    int calls = 0;
+    const absl::Status end = loop.run([&] {
+      return ++calls < 2 ? CallEnd{status, true} : CallEnd{absl::OkStatus(), true};
+    });
+    EXPECT_TRUE(end.ok()) << status;
+    EXPECT_EQ(calls, 2) << status;
+  }
+}
+
 TEST(RetryLoop, givesUpOnWhatWillNotPass) {
   for (const absl::Status& status :
        {absl::InvalidArgumentError("x"), absl::NotFoundError("x"), absl::AlreadyExistsError("x"),
