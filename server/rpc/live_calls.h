@@ -12,21 +12,19 @@
 
 namespace viewloom {
 
+// Open calls of one kind, whether or not they have said what they want: what they cost before that
+// is bounded by it.
+inline constexpr size_t kOpenCallsMax = 4096;
+
 // Thread-safety: all methods may be called from any thread. Calls are used without the lock.
 template <typename Call>
 class LiveCalls {
  public:
-  // Opens the call; while draining it ends at once, UNAVAILABLE.
+  // Opens the call; it ends at once while draining, UNAVAILABLE, or over the limit.
   void open(const std::shared_ptr<Call>& call) {
-    bool draining = false;
-    {
-      std::lock_guard lock(mutex_);
-      draining = draining_;
-      std::erase_if(calls_, [](const std::weak_ptr<Call>& gone) { return gone.expired(); });
-      calls_.push_back(call);
-    }
+    const absl::Status status = add(call);
+    if (!status.ok()) call->end(status);
     call->open();
-    if (draining) call->end(absl::UnavailableError(kDrainMessage));
   }
 
   template <typename Visit>
@@ -43,6 +41,15 @@ class LiveCalls {
   }
 
  private:
+  absl::Status add(const std::shared_ptr<Call>& call) {
+    std::lock_guard lock(mutex_);
+    if (draining_) return absl::UnavailableError(kDrainMessage);
+    std::erase_if(calls_, [](const std::weak_ptr<Call>& gone) { return gone.expired(); });
+    if (calls_.size() >= kOpenCallsMax) return absl::ResourceExhaustedError("too many open calls");
+    calls_.push_back(call);
+    return absl::OkStatus();
+  }
+
   std::vector<std::weak_ptr<Call>> snapshot() {
     std::lock_guard lock(mutex_);
     return calls_;

@@ -16,8 +16,8 @@ namespace {
 // A chunk of 1 MiB and what surrounds it; the largest display, of 1024 cameras, takes a tenth of
 // it.
 constexpr int kReceiveBytesMax = 2 << 20;
-// Calls at a time on one connection.
-constexpr int kConnectionCallsMax = 128;
+// Calls at a time on one connection; a proxy may carry all subscribers of a server over one.
+constexpr int kConnectionCallsMax = 1024;
 // A peer that vanished without a word is found out after both; it holds a stream's name until then.
 constexpr int kKeepaliveMs = 20000;
 constexpr int kKeepaliveTimeoutMs = 10000;
