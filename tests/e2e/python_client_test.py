@@ -36,8 +36,7 @@ WIDTH_PX, HEIGHT_PX = 160, 120
 HALF_WIDTH_TAN, HALF_HEIGHT_TAN = 0.8, 0.6
 DEPTH_M = 2.0
 RED, BLUE = (220, 40, 30), (30, 60, 210)
-# The seam runs between two columns of pixels; JPEG blurs it over a block of 8, and where the edge of
-# the picture comes into view its border goes on.
+# The seam runs between two columns of pixels; JPEG blurs it over a block of 8.
 SEAM_TOLERANCE_PX = 2.0
 # Baseline JPEG at quality 95 of flat colour.
 COLOR_TOLERANCE = 8
@@ -50,8 +49,9 @@ def header():
     depth = frame.Plane(kind=frame.PLANE_KIND_DEPTH, encoding=frame.PLANE_ENCODING_DEPTH_F32,
                         size=plane_size, bytes_count=WIDTH_PX * HEIGHT_PX * 4,
                         depth={"meaning": frame.DEPTH_MEANING_PLANAR})
-    fov = {"angle_left_rad": -math.atan(HALF_WIDTH_TAN), "angle_right_rad": math.atan(HALF_WIDTH_TAN),
-           "angle_up_rad": math.atan(HALF_HEIGHT_TAN), "angle_down_rad": -math.atan(HALF_HEIGHT_TAN)}
+    half_width_rad, half_height_rad = math.atan(HALF_WIDTH_TAN), math.atan(HALF_HEIGHT_TAN)
+    fov = {"angle_left_rad": -half_width_rad, "angle_right_rad": half_width_rad,
+           "angle_up_rad": half_height_rad, "angle_down_rad": -half_height_rad}
     source = frame.Source(camera={"fov": fov}, layers=[frame.Layer(planes=[color, depth])])
     return frame.FrameHeader(number=1, capture_time_ns=77, sources=[source])
 
@@ -177,8 +177,8 @@ class PythonClient(unittest.TestCase):
         layout, _, picture = receive_still(self.channel, "wall", quilt(4, 2, focal_m))
         for view in range(8):
             eye_m = layout.views[view].pose.position.x
-            # The wall's middle, x = 0 at 2 m, against the middle of the focal plane as this eye sees
-            # them: tangents -eye / depth and -eye / focal distance.
+            # The wall's middle, x = 0 at 2 m, against the middle of the focal plane as this eye
+            # sees them: tangents -eye / depth and -eye / focal distance.
             shift_tan = eye_m / focal_m - eye_m / DEPTH_M
             expected_px = WIDTH_PX / 2 * (1 + shift_tan / HALF_WIDTH_TAN)
             self.assertAlmostEqual(seam_px(tile(picture, layout, view)), expected_px,
