@@ -13,7 +13,8 @@ struct Scope {
 };
 
 const Scope kComputeWrites{Stage::eComputeShader, Access::eShaderWrite};
-const Scope kComputeUses{Stage::eComputeShader, Access::eShaderRead | Access::eShaderWrite};
+const Scope kComputeUses{Stage::eComputeShader, Access::eShaderRead | Access::eUniformRead |
+                                                    Access::eShaderWrite};
 const Scope kTransferWrites{Stage::eAllTransfer, Access::eTransferWrite};
 const Scope kTransferUses{Stage::eAllTransfer, Access::eTransferRead | Access::eTransferWrite};
 const Scope kHostReads{Stage::eHost, Access::eHostRead};

@@ -54,7 +54,8 @@ vk::raii::Buffer makeBuffer(const Device& device, const BufferOptions& options) 
   return {device.handle(),
           {.size = options.size_bytes,
            .usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst |
-                    Usage::eIndirectBuffer | Usage::eShaderDeviceAddress}};
+                    Usage::eUniformBuffer |
+                    Usage::eUniformTexelBuffer | Usage::eShaderDeviceAddress}};
 }
 
 vk::raii::DeviceMemory makeMemory(const Device& device, const vk::raii::Buffer& buffer,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/compute_pass.h"
 
+#include <array>
 #include <vector>
 
 #include "base/check.h"
@@ -8,12 +9,41 @@
 namespace viewloom {
 namespace {
 
-vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes) {
+vk::DescriptorType typeOf(DescriptorKind kind) {
+  switch (kind) {
+    case DescriptorKind::kTexels:
+      return vk::DescriptorType::eUniformTexelBuffer;
+    case DescriptorKind::kUniform:
+      return vk::DescriptorType::eUniformBuffer;
+    case DescriptorKind::kStorage:
+      break;
+  }
+  return vk::DescriptorType::eStorageBuffer;
+}
+
+vk::raii::DescriptorSetLayout makeSlots(const Device& device,
+                                        std::span<const DescriptorSlot> descriptors) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (const DescriptorSlot& slot : descriptors) {
+    bindings.push_back({.binding = slot.binding,
+                        .descriptorType = typeOf(slot.kind),
+                        .descriptorCount = 1,
+                        .stageFlags = vk::ShaderStageFlagBits::eCompute});
+  }
+  return {device.handle(), {.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
+                            .bindingCount = static_cast<uint32_t>(bindings.size()),
+                            .pBindings = bindings.data()}};
+}
+
+vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes,
+                                    vk::DescriptorSetLayout slots) {
   VIEWLOOM_CHECK(push_bytes <= device.info().limits.push_bytes_max);
   const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute,
                                     .size = push_bytes};
   return {device.handle(),
-          {.pushConstantRangeCount = push_bytes > 0 ? 1u : 0u, .pPushConstantRanges = &range}};
+          {.setLayoutCount = 1,
+           .pSetLayouts = &slots,
+           .pushConstantRangeCount = push_bytes > 0 ? 1u : 0u, .pPushConstantRanges = &range}};
 }
 
 vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& options,
@@ -42,11 +72,36 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
 }  // namespace
 
 ComputePass::ComputePass(const Device& device, const ComputePassOptions& options)
-    : push_bytes_(options.push_bytes),
-      layout_(makeLayout(device, options.push_bytes)),
+    : device_(&device),
+      push_bytes_(options.push_bytes),
+      slots_(makeSlots(device, options.descriptors)),
+      layout_(makeLayout(device, options.push_bytes, *slots_)),
       pipeline_(makePipeline(device, options, *layout_)) {
   const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkPipeline>(*pipeline_));
   device.setName(vk::ObjectType::ePipeline, raw_handle, options.debug_name);
+}
+
+void ComputePass::recordDescriptors(vk::CommandBuffer commands,
+                                    std::span<const Descriptor> descriptors) const {
+  constexpr size_t kCountMax = 16;
+  VIEWLOOM_CHECK(descriptors.size() <= kCountMax);
+  std::array<vk::DescriptorBufferInfo, kCountMax> buffers;
+  std::array<vk::WriteDescriptorSet, kCountMax> writes;
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    const Descriptor& descriptor = descriptors[i];
+    buffers[i] = vk::DescriptorBufferInfo{.buffer = descriptor.buffer,
+                  .offset = descriptor.offset_bytes,
+                  .range = descriptor.size_bytes};
+    const bool is_texels = descriptor.kind == DescriptorKind::kTexels;
+    writes[i] = vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
+                 .descriptorCount = 1,
+                 .descriptorType = typeOf(descriptor.kind),
+                 .pBufferInfo = is_texels ? nullptr : &buffers[i],
+                 .pTexelBufferView = is_texels ? &descriptor.texels : nullptr};
+  }
+  commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, *layout_, 0,
+                                static_cast<uint32_t>(descriptors.size()), writes.data(),
+                                *device_->handle().getDispatcher());
 }
 
 void ComputePass::record(vk::CommandBuffer commands, std::span<const std::byte> push,

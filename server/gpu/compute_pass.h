@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compute shader, ready to be dispatched: everything it needs comes by push constants.
+// One compute shader, ready to be dispatched: what it needs comes by push constants and descriptors.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <span>
 #include <type_traits>
 
-#include "gpu/device.h"
+#include "gpu/descriptor.h"
 
 namespace viewloom {
 
@@ -15,6 +15,7 @@ struct ComputePassOptions {
   std::span<const uint32_t> spirv;
   uint32_t push_bytes = 0;  // at most DeviceLimits::push_bytes_max, a multiple of 4
   std::span<const uint32_t> specialization = {};  // values of constant_id 0, 1, ...
+  std::span<const DescriptorSlot> descriptors = {};
   const char* debug_name = "";
 };
 
@@ -27,6 +28,9 @@ class ComputePass {
   void record(vk::CommandBuffer commands, std::span<const std::byte> push, uint32_t groups_x,
               uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
+  // The descriptors of the next dispatch; slots that the shader does not use may be left out.
+  void recordDescriptors(vk::CommandBuffer commands, std::span<const Descriptor> descriptors) const;
+
   template <typename Push>
   requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
       (!std::is_convertible_v<Push, std::span<const std::byte>>)void record(
@@ -36,7 +40,9 @@ class ComputePass {
   }
 
  private:
+  const Device* device_;
   uint32_t push_bytes_;
+  vk::raii::DescriptorSetLayout slots_;
   vk::raii::PipelineLayout layout_;
   vk::raii::Pipeline pipeline_;
 };

@@ -56,6 +56,8 @@ DeviceLimits limitsOf(const vk::raii::PhysicalDevice& device) {
   DeviceLimits result{.allocation_bytes_max = std::min(
                           chain.get<vk::PhysicalDeviceVulkan11Properties>().maxMemoryAllocationSize,
                           chain.get<vk::PhysicalDeviceVulkan13Properties>().maxBufferSize),
+                      .storage_bytes_max = limits.maxStorageBufferRange,
+                      .texel_count_max = limits.maxTexelBufferElements,
                       .push_bytes_max = limits.maxPushConstantsSize,
                       .group_size_max = limits.maxComputeWorkGroupInvocations};
   std::copy_n(limits.maxComputeWorkGroupCount.begin(), 3, result.groups_max);
@@ -148,7 +150,9 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical_device,
   return {physical_device,
           {.pNext = &features.get<vk::PhysicalDeviceFeatures2>(),
            .queueCreateInfoCount = 1,
-           .pQueueCreateInfos = &queue}};
+           .pQueueCreateInfos = &queue,
+           .enabledExtensionCount = 1,
+           .ppEnabledExtensionNames = &kRequiredExtension}};
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ struct DeviceOptions {
 struct DeviceLimits {
   uint64_t allocation_bytes_max = 0;  // of one buffer
   uint64_t memory_bytes = 0;          // device-local heaps together
+  uint64_t storage_bytes_max = 0;     // of one storage descriptor
+  uint64_t texel_count_max = 0;       // of one TexelView
   uint32_t push_bytes_max = 0;
   uint32_t groups_max[3] = {};  // of one dispatch, per axis
   uint32_t group_size_max = 0;  // invocations

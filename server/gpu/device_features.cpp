@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/device_features.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace viewloom {
 namespace {
 
@@ -18,12 +21,17 @@ vk::Bool32& shaderInt64(FeatureChain& chain) {
   return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64;
 }
 
+vk::Bool32& int16(FeatureChain& chain) {
+  return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt16;
+}
+
 using Features11 = vk::PhysicalDeviceVulkan11Features;
 using Features12 = vk::PhysicalDeviceVulkan12Features;
 using Features13 = vk::PhysicalDeviceVulkan13Features;
 
 constexpr RequiredFeature kRequired[] = {
     {"shaderInt64", shaderInt64},
+    {"shaderInt16", int16},
     {"storageBuffer16BitAccess", field<&Features11::storageBuffer16BitAccess, Features11>},
     {"storageBuffer8BitAccess", field<&Features12::storageBuffer8BitAccess, Features12>},
     {"shaderInt8", field<&Features12::shaderInt8, Features12>},
@@ -47,6 +55,13 @@ std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& device)
   auto offered =
       device.getFeatures2<vk::PhysicalDeviceFeatures2, Features11, Features12, Features13>();
   std::vector<std::string> missing;
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  const auto is_required = [](const vk::ExtensionProperties& extension) {
+    return std::string_view(extension.extensionName) == kRequiredExtension;
+  };
+  if (std::none_of(extensions.begin(), extensions.end(), is_required)) {
+    missing.emplace_back(kRequiredExtension);
+  }
   for (const RequiredFeature& feature : kRequired) {
     if (feature.in(offered) != VK_TRUE) missing.emplace_back(feature.name);
   }

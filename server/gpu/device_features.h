@@ -13,6 +13,9 @@ using FeatureChain =
     vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
                        vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>;
 
+// Descriptors are pushed with each dispatch.
+inline constexpr const char* kRequiredExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+
 // Exactly the required features switched on, ready for vkCreateDevice.
 FeatureChain requiredFeatures();
 // What the device lacks, by the names of the Vulkan specification; empty = it will do.

@@ -26,6 +26,7 @@ abi::LinearisePush describeDepth(const PlaneFormat& depth, const Intrinsics& int
   return {.samples = {},
           .inv_z = {},
           .measured = {},
+          .layer = 0,
           .width_px = depth.size_px.width,
           .height_px = depth.size_px.height,
           .focal_x_px = float(intrinsics.focal_px.x),

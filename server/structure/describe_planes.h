@@ -7,7 +7,7 @@
 
 namespace viewloom {
 
-// All but the addresses. `intrinsics` in px of the plane.
+// All but the addresses and the layer. `intrinsics` in px of the plane.
 abi::LinearisePush describeDepth(const PlaneFormat& depth, const Intrinsics& intrinsics);
 // How far two surfaces of a column may be apart in 1/Z and still be one sample's worth: terms of
 // step(w) = x + y w + z w^2, 1/m.

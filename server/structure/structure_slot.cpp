@@ -7,28 +7,74 @@
 #include "structure/describe_planes.h"
 
 namespace viewloom {
+namespace {
+
+LayeredBufferOptions colorOptions(const FrameShape& shape) {
+  const bool is_plain = shape.color_storage == ColorStorage::kRgba8Srgb;
+  return {.layer_bytes = colorBytes(shape.color_storage, shape.color_px.front()),
+          .layer_count = shape.layerCount(),
+          .texel_format = is_plain ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
+          .texel_bytes = is_plain ? 4u : 8u,
+          .debug_name = "color"};
+}
+
+LayeredBufferOptions invZOptions(const FrameShape& shape) {
+  return {.layer_bytes = structureLayout(shape.depth_px).invZBytes(),
+          .layer_count = shape.layerCount(),
+          .texel_format = vk::Format::eR32Sfloat,
+          .texel_bytes = 4,
+          .debug_name = "inv_z"};
+}
+
+LayeredBufferOptions structureOptions(const FrameShape& shape) {
+  return {.layer_bytes = structureLayout(shape.depth_px).layerBytes(),
+          .layer_count = shape.layerCount(),
+          .texel_format = vk::Format::eR32G32Uint,
+          .texel_bytes = 8,
+          .debug_name = "structure"};
+}
+
+bool mustDivide(const Device& device, const FrameShape& shape) {
+  return LayeredBuffer::mustDivide(device, colorOptions(shape)) ||
+         LayeredBuffer::mustDivide(device, invZOptions(shape)) ||
+         LayeredBuffer::mustDivide(device, structureOptions(shape)) ||
+         invZOptions(shape).layer_bytes > device.info().limits.storage_bytes_max;
+}
+
+LayeredBufferOptions divided(LayeredBufferOptions options, bool is_divided) {
+  options.is_divided = is_divided;
+  return options;
+}
+
+}  // namespace
 
 StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
+    : StructureSlot(device, shape, mustDivide(device, shape)) {}
+
+StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool is_divided)
     : shape_(shape),
       layout_(structureLayout(shape.depth_px)),
       staging_(device, {.size_bytes = shape.staged_bytes,
                         .intent = MemoryIntent::kUpload,
                         .debug_name = "staged planes"}),
       measured_(device, {.size_bytes = sizeof(abi::Measured), .debug_name = "measured"}),
-      measured_readback_(device, {.size_bytes = offsetof(abi::Measured, depth_histogram),
+      measured_readback_(device, {.size_bytes = sizeof(abi::MeasuredHead),
                                   .intent = MemoryIntent::kReadback,
-                                  .debug_name = "measured readback"}) {
-  for (const SizePx& color_px : shape.color_px) {
-    color_.emplace_back(device, BufferOptions{.size_bytes = colorBytes(shape.color_storage, color_px),
-                                              .debug_name = "color"});
-    inv_z_.emplace_back(
-        device, BufferOptions{.size_bytes = layout_.invZBytes(), .debug_name = "inv_z"});
-    layers_.emplace_back(
-        device, BufferOptions{.size_bytes = layout_.layerBytes(), .debug_name = "structure layer"});
-  }
+                                  .debug_name = "measured readback"}),
+      color_(device, divided(colorOptions(shape), is_divided)),
+      inv_z_(device, divided(invZOptions(shape), is_divided)),
+      structure_(device, divided(structureOptions(shape), is_divided)),
+      writes_by_address_(!inv_z_.fitsStorage(device) || !structure_.fitsStorage(device)) {
   staged_.reserve(shape.layerCount());
   linearise_.reserve(shape.layerCount());
   conversions_.reserve(shape.layerCount());
+}
+
+Descriptor StructureSlot::measuredDescriptor() const {
+  return {.binding = abi::kBindingMeasured,
+          .kind = DescriptorKind::kUniform,
+          .buffer = measured_.handle(),
+          .size_bytes = sizeof(abi::MeasuredHead)};
 }
 
 void StructureSlot::upload(const Frame& frame) {
@@ -48,19 +94,21 @@ void StructureSlot::describe(const Frame& frame) {
   linearise_.clear();
   conversions_.clear();
   for (size_t i = 0; i < staged_.size(); ++i) {
+    const uint32_t layer = uint32_t(i);
     abi::LinearisePush depth = describeDepth(source.layers[i].depth, source.camera.intrinsics);
     depth.samples = addressWords(staging_.address() + staged_[i].depth.offset);
-    depth.inv_z = addressWords(inv_z_[i].address());
+    depth.inv_z = addressWords(inv_z_.address(layer));
+    depth.layer = layer;
     depth.measured = addressWords(measured_.address());
     linearise_.push_back(depth);
     abi::ConvertColorPush color =
         describeConversion(source.layers[i].color, frame.sources.front()[i].color_encoding,
                            frame.format.exposure_ev);
     color.from = addressWords(staging_.address() + staged_[i].color.offset);
-    color.to = addressWords(color_[i].address());
+    color.to = addressWords(color_.address(layer));
     conversions_.push_back(color);
-    build_.inv_z[i] = addressWords(inv_z_[i].address());
-    build_.layers[i] = addressWords(layers_[i].address());
+    build_.inv_z[i] = addressWords(inv_z_.address(layer));
+    build_.layers[i] = addressWords(structure_.address(layer));
   }
   build_.measured = addressWords(measured_.address());
   build_.width_px = shape_.depth_px.width;
@@ -71,7 +119,7 @@ void StructureSlot::describe(const Frame& frame) {
 }
 
 SourceStats StructureSlot::stats() const {
-  abi::Measured measured;
+  abi::MeasuredHead measured;
   std::memcpy(&measured, measured_readback_.mapped().data(), measured_readback_.sizeBytes());
   const bool has_surface = measured.inv_z_min_bits <= measured.inv_z_max_bits;
   return {.depth_step = measured.depth_step,

@@ -2,13 +2,14 @@
 // The GPU resources of one structure, reused from frame to frame.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "frame/frame.h"
 #include "frame/stage_times.h"
-#include "gpu/buffer.h"
 #include "shared/structure_abi.h"
 #include "structure/frame_shape.h"
+#include "structure/layered_buffer.h"
 #include "structure/structure_layout.h"
 
 namespace viewloom {
@@ -20,7 +21,7 @@ class StructureSlot {
   // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
   StructureSlot(const Device& device, const FrameShape& shape);
 
-  // Copies the planes and describes them in mapped memory. The frame has this slot's shape.
+  // Copies the planes into mapped memory. The frame has this slot's shape.
   void upload(const Frame& frame);
 
   const FrameShape& shape() const { return shape_; }
@@ -30,13 +31,18 @@ class StructureSlot {
   // Once the build's submission is done.
   SourceStats stats() const;
 
+  // Kernels reach what is read as texels, or what is written, by address: it is larger than bindings.
+  bool readsByAddress() const { return structure_.isDivided(); }
+  bool writesByAddress() const { return writes_by_address_; }
+
   const Buffer& staging() const { return staging_; }
   const std::vector<StagedLayer>& staged() const { return staged_; }
+  const LayeredBuffer& color() const { return color_; }          // texels
+  const LayeredBuffer& invZ() const { return inv_z_; }           // float[height][width]
+  const LayeredBuffer& structure() const { return structure_; }  // cells, then links
   const Buffer& measured() const { return measured_; }
   const Buffer& measuredReadback() const { return measured_readback_; }
-  const std::vector<Buffer>& color() const { return color_; }  // [layer] texels
-  const std::vector<Buffer>& invZ() const { return inv_z_; }    // [layer] float[height][width]
-  const std::vector<Buffer>& layers() const { return layers_; }  // [layer] cells, then links
+  Descriptor measuredDescriptor() const;
 
   // What the build's passes are told of the uploaded frame.
   const std::vector<abi::LinearisePush>& linearisePushes() const { return linearise_; }
@@ -44,6 +50,8 @@ class StructureSlot {
   const abi::BuildPush& buildPush() const { return build_; }
 
  private:
+  // Undivided arrays, or all of them divided.
+  StructureSlot(const Device& device, const FrameShape& shape, bool is_divided);
   void describe(const Frame& frame);
 
   FrameShape shape_;
@@ -52,9 +60,10 @@ class StructureSlot {
   Buffer staging_;
   Buffer measured_;
   Buffer measured_readback_;
-  std::vector<Buffer> color_;
-  std::vector<Buffer> inv_z_;
-  std::vector<Buffer> layers_;
+  LayeredBuffer color_;
+  LayeredBuffer inv_z_;
+  LayeredBuffer structure_;
+  bool writes_by_address_;
   std::vector<StagedLayer> staged_;
   std::vector<abi::LinearisePush> linearise_;
   std::vector<abi::ConvertColorPush> conversions_;
@@ -62,7 +71,7 @@ class StructureSlot {
 };
 
 // A device address as shaders take it.
-inline abi::uvec2 addressWords(vk::DeviceAddress address) {
+inline abi::Address addressWords(vk::DeviceAddress address) {
   return {uint32_t(address), uint32_t(address >> 32)};
 }
 

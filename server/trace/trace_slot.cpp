@@ -45,7 +45,7 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   records_ = planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, abi::kClassCount * sizeof(uint32_t), "band counters");
   const uint64_t params_bytes =
-      sizeof(abi::TraceExtras) + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);
+      kTilesOffset_bytes + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);
   upload_ = Buffer(device, {.size_bytes = params_bytes,
                             .intent = MemoryIntent::kUpload,
                             .debug_name = "trace upload"});

@@ -51,6 +51,9 @@ class ReadablePlane {
   bool is_direct_ = true;
 };
 
+// Where the tiles begin in a slot's parameters: aligned for any device's storage descriptors.
+inline constexpr uint64_t kTilesOffset_bytes = 256;
+
 // Owner decides when the slot is free. Thread-safety: none.
 class TraceSlot {
  public:
@@ -78,7 +81,7 @@ class TraceSlot {
   ReadablePlane linear_;
   ReadablePlane records_;
   ReadablePlane counters_;
-  Buffer upload_;  // abi::TraceExtras, then abi::ViewParams of every tile
+  Buffer upload_;  // abi::TraceExtras, at kTilesOffset_bytes abi::ViewParams of every tile
   Buffer params_;  // the same, on the device
 };
 

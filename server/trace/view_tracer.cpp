@@ -19,6 +19,13 @@ constexpr uint32_t kPixelsWithPixelLanes = 1;
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
+constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                     {abi::kBindingColor, DescriptorKind::kTexels},
+                                     {abi::kBindingMeasured, DescriptorKind::kUniform},
+                                     {abi::kBindingViews, DescriptorKind::kStorage},
+                                     {abi::kBindingExtras, DescriptorKind::kUniform},
+                                     {abi::kBindingBand, DescriptorKind::kStorage}};
+
 uint32_t wantedFlags(const TraceOutputs& outputs) {
   return (outputs.depth ? abi::kWantDepth : 0) | (outputs.mask ? abi::kWantMask : 0) |
          (outputs.linear ? abi::kWantLinear : 0) | (outputs.records ? abi::kWantRecords : 0);
@@ -55,12 +62,14 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.wanted, variant.color_format, variant.pixels_per_invocation,
+    static_assert(abi::kOwnConstants == 2);
+    const uint32_t constants[] = {variant.reads_by_address, 0, variant.wanted, variant.color_format, variant.pixels_per_invocation,
                                   variant.lanes_are_views, variant.color_is_scaled};
     made = std::make_unique<ComputePass>(
         *device_, ComputePassOptions{.spirv = walk_views_spirv,
                                      .push_bytes = sizeof(abi::TracePush),
                                      .specialization = constants,
+                                     .descriptors = kSlots,
                                      .debug_name = "walk views"});
   }
   return *made;
@@ -76,28 +85,47 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
           .color_height_px = structure.shape().color_px.front().height};
 }
 
+std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& structure,
+                                                     const TraceSlot& slot, uint64_t tiles_bytes) {
+  std::vector<Descriptor> bindings{
+      structure.measuredDescriptor(),
+      {.binding = abi::kBindingViews,
+       .kind = DescriptorKind::kStorage,
+       .buffer = slot.params_.handle(),
+       .offset_bytes = kTilesOffset_bytes,
+       .size_bytes = tiles_bytes},
+      {.binding = abi::kBindingExtras,
+       .kind = DescriptorKind::kUniform,
+       .buffer = slot.params_.handle(),
+       .size_bytes = sizeof(abi::TraceExtras)},
+      {.binding = abi::kBindingBand,
+       .kind = DescriptorKind::kStorage,
+       .buffer = slot.color_.target().handle(),
+       .size_bytes = slot.color_.target().sizeBytes()}};
+  if (!structure.readsByAddress()) {
+    bindings.push_back(structure.structure().asTexels(abi::kBindingStructure));
+    bindings.push_back(structure.color().asTexels(abi::kBindingColor));
+  }
+  return bindings;
+}
+
 abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const TraceJob& job,
-                                        BandRows rows, const TraceSlot& slot) {
+                                        BandRows rows) {
   const AtlasLayout& layout = *job.layout;
   const uint32_t border = job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
-  abi::TracePush push{
-      .layers = {},
-      .color = {},
-      .measured = addressWords(structure.measured().address()),
-      .views = addressWords(slot.params_.address() + sizeof(abi::TraceExtras)),
-      .band = addressOf(slot.color_),
-      .extras = addressWords(slot.params_.address()),
-      .source_size_px = packSize(structure.shape().depth_px),
-      .layer_count = structure.shape().layerCount(),
-      .atlas_width_px = layout.size_px.width,
-      .first_row = rows.first_row,
-      .tile_size_px = packSize(layout.tile_size_px),
-      .tile_grid = packSize({layout.columns, layout.rows}),
-      .padding_top_px = layout.padding_top_px,
-      .fill = (job.background_rgb & 0xffffff) | border};
+  abi::TracePush push{.layers = {},
+                      .color = {},
+                      .source_size_px = packSize(structure.shape().depth_px),
+                      .layer_count = structure.shape().layerCount(),
+                      .atlas_width_px = layout.size_px.width,
+                      .first_row = rows.first_row,
+                      .tile_size_px = packSize(layout.tile_size_px),
+                      .tile_grid = packSize({layout.columns, layout.rows}),
+                      .padding_top_px = layout.padding_top_px,
+                      .fill = (job.background_rgb & 0xffffff) | border};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
-    push.layers[i] = addressWords(structure.layers()[i].address());
-    push.color[i] = addressWords(structure.color()[i].address());
+    push.layers[i] = addressWords(structure.structure().address(i));
+    push.color[i] = addressWords(structure.color().address(i));
   }
   return push;
 }
@@ -112,12 +140,13 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   const abi::TraceExtras extras = describeExtras(structure, slot);
   const size_t tiles_bytes = job.tiles.size() * sizeof(abi::ViewParams);
   std::memcpy(slot.upload_.mapped().data(), &extras, sizeof extras);
-  std::memcpy(slot.upload_.mapped().data() + sizeof extras, job.tiles.data(), tiles_bytes);
+  std::memcpy(slot.upload_.mapped().data() + kTilesOffset_bytes, job.tiles.data(), tiles_bytes);
 
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = lanes_are_views ? kPixelsWithViewLanes : kPixelsWithPixelLanes;
   const ComputePass& walk =
-      pass({.wanted = wantedFlags(slot.shape_.outputs),
+      pass({.reads_by_address = structure.readsByAddress(),
+            .wanted = wantedFlags(slot.shape_.outputs),
             .color_format = structure.shape().color_storage == ColorStorage::kRgba8Srgb
                                 ? abi::kColorRgba8
                                 : abi::kColorRgba16f,
@@ -127,7 +156,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
 
   if (timer) timer->recordBegin(commands, "trace");
   commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = sizeof extras + tiles_bytes});
+                      vk::BufferCopy{.size = kTilesOffset_bytes + tiles_bytes});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
     recordClear(commands, slot.color_, kOpaqueBlack);
@@ -137,7 +166,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   }
   recordTransferToCompute(commands);
   const uint32_t invocations = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
-  walk.record(commands, describeBand(structure, job, rows, slot),
+  walk.recordDescriptors(commands, describeBindings(structure, slot, tiles_bytes));
+  walk.record(commands, describeBand(structure, job, rows),
               (invocations + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize, rows.row_count);
   if (timer) timer->recordEnd(commands);
 

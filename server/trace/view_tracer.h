@@ -35,6 +35,7 @@ class ViewTracer {
  private:
   // What the pipeline is specialised to.
   struct Variant {
+    uint32_t reads_by_address;
     uint32_t wanted;  // abi::kWant... flags
     uint32_t color_format;
     uint32_t pixels_per_invocation;
@@ -45,8 +46,10 @@ class ViewTracer {
   };
 
   static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceSlot& slot);
+  static std::vector<Descriptor> describeBindings(const StructureSlot& structure,
+                                                  const TraceSlot& slot, uint64_t tiles_bytes);
   static abi::TracePush describeBand(const StructureSlot& structure, const TraceJob& job,
-                                     BandRows rows, const TraceSlot& slot);
+                                     BandRows rows);
   const ComputePass& pass(const Variant& variant);
 
   const Device* device_;

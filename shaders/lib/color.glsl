@@ -6,12 +6,13 @@
 #include "lib/srgb.glsl"
 #include "lib/structure_access.glsl"
 
-// Premultiplied linear BT.709.
-vec4 loadTexel(Address texels, uint color_format, uint index) {
-  if (color_format == kColorRgba8) {
-    return vec4(linearFromSrgb(unpackUnorm4x8(UintRef(texels).at[index]).rgb), 1.0);
-  }
-  const uvec2 bits = Uvec2Ref(texels).at[index];
+// Premultiplied linear BT.709. `count`: texels of a layer.
+vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format, uint index) {
+  uvec2 bits;
+  if (!kReadByAddress) bits = texelFetch(color_texels, int(layer * count + index)).xy;
+  else if (color_format == kColorRgba8) bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
+  else bits = Uvec2Ref(pickAddress(color, layer)).at[index];
+  if (color_format == kColorRgba8) return vec4(linearFromSrgb(unpackUnorm4x8(bits.x).rgb), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 
@@ -29,7 +30,7 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   const ivec2 toward = ivec2(offset.x >= 0.0 ? 1 : -1, offset.y >= 0.0 ? 1 : -1);
   const uint edge_x = toward.x > 0 ? kEdgeRight : kEdgeLeft;
   const uint edge_y = toward.y > 0 ? kEdgeBottom : kEdgeTop;
-  const uint links = loadLinks(pickAddress(layers, layer), extent, cell);
+  const uint links = loadLinks(layers, layer, extent, cell);
   const uint link_x = linkOfEdge(links, edge_x);
   const uint link_y = linkOfEdge(links, edge_y);
   // The fourth is reached through either neighbour.
@@ -37,7 +38,7 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   const uint via = through_x ? link_x : link_y;
   const ivec2 via_cell = cell + (through_x ? ivec2(toward.x, 0) : via > 0u ? ivec2(0, toward.y) : ivec2(0));
   const uint via_layer = via > 0u ? via - 1u : layer;
-  const uint via_links = loadLinks(pickAddress(layers, via_layer), extent, via_cell);
+  const uint via_links = loadLinks(layers, via_layer, extent, via_cell);
   const uint link_xy = via > 0u ? linkOfEdge(via_links, through_x ? edge_y : edge_x) : 0u;
 
   const vec2 other = 1.0 - share;
@@ -50,9 +51,10 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
                                  link_xy > 0u ? link_xy - 1u : layer);
   const uvec4 taps = uvec4(own, link_x > 0u ? own + step_x : own, link_y > 0u ? own + step_y : own,
                            link_xy > 0u ? own + step_x + step_y : own);
+  const uint count = uint(extent.size_px.x * extent.size_px.y);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
-    sum += weights[i] * loadTexel(pickAddress(color, tap_layers[i]), color_format, taps[i]);
+    sum += weights[i] * loadTexel(color, tap_layers[i], count, color_format, taps[i]);
   }
   return sum / (weights.x + weights.y + weights.z + weights.w);
 }
@@ -63,13 +65,13 @@ uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent ex
                      ivec2 column, vec2 kappa) {
   if (column == cell) return layer;
   const vec2 apart = vec2(column - cell);
-  const uvec2 facet = loadFacet(pickAddress(layers, layer), extent, cell);
+  const uvec2 facet = loadFacet(layers, layer, extent, cell);
   const float expected = facetAt(facetInvZ(facet), unpackSlopes(facet.y), apart);
   float distance_min =
       connectionTolerance(kappa.x, kappa.y, expected) * max(abs(apart.x) + abs(apart.y), 1.0);
   uint nearest = kLayerCountMax;
   for (uint i = 0u; i < layer_count; ++i) {
-    const float inv_z = facetInvZ(loadFacet(pickAddress(layers, i), extent, column));
+    const float inv_z = facetInvZ(loadFacet(layers, i, extent, column));
     if (inv_z < 0.0 || abs(inv_z - expected) > distance_min) continue;
     distance_min = abs(inv_z - expected);
     nearest = i;
@@ -82,6 +84,7 @@ uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent ex
 vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax], uint layer_count,
                         Extent extent, ivec2 color_size, uint color_format, uint layer, ivec2 cell, vec2 point,
                         vec2 kappa) {
+  const uint count = uint(color_size.x * color_size.y);
   const vec2 scale = vec2(color_size) / vec2(extent.size_px);
   const vec2 position = round((point * scale - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const vec2 share = position - floor(position);
@@ -95,12 +98,12 @@ vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCoun
     const uint other = continuingLayer(layers, layer_count, extent, layer, cell, column, kappa);
     if (other == kLayerCountMax) continue;
     const uint index = uint(texel.y * color_size.x + texel.x);
-    sum += shares.x * shares.y * loadTexel(pickAddress(color, other), color_format, index);
+    sum += shares.x * shares.y * loadTexel(color, other, count, color_format, index);
     weight += shares.x * shares.y;
   }
   if (weight > 0.0) return sum / weight;
   const ivec2 own = clamp(ivec2((vec2(cell) + 0.5) * scale), ivec2(0), color_size - 1);
-  return loadTexel(pickAddress(color, layer), color_format, uint(own.y * color_size.x + own.x));
+  return loadTexel(color, layer, count, color_format, uint(own.y * color_size.x + own.x));
 }
 
 #endif  // VIEWLOOM_LIB_COLOR_GLSL_

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays by address. Every buffer is reached this way, so none is bound by the descriptor limit.
+// Arrays, through bindings where they fit and by address where they do not.
 #ifndef VIEWLOOM_LIB_MEMORY_GLSL_
 #define VIEWLOOM_LIB_MEMORY_GLSL_
 
 #include "shared/structure_abi.h"
+
+layout(constant_id = 0) const bool kReadByAddress = false;
+layout(constant_id = 1) const bool kWriteByAddress = false;
+
+layout(set = 0, binding = kBindingStructure) uniform usamplerBuffer structure_texels;
+layout(set = 0, binding = kBindingColor) uniform usamplerBuffer color_texels;
+layout(set = 0, binding = kBindingInvZ) uniform samplerBuffer inv_z_texels;
+layout(set = 0, binding = kBindingInvZOut, scalar) writeonly buffer InvZOut { float inv_z_out[]; };
+layout(set = 0, binding = kBindingStructureOut, scalar) writeonly buffer StructureOut { uvec2 structure_out[]; };
+layout(set = 0, binding = kBindingLinksOut, scalar) writeonly buffer LinksOut { uint16_t links_out[]; };
+layout(set = 0, binding = kBindingMeasured, scalar) uniform MeasuredBlock { MeasuredHead measured_head; };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MeasuredRef { Measured value; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FloatRef { float at[]; };
@@ -16,6 +27,17 @@ Address pickAddress(Address addresses[kLayerCountMax], uint layer) {
   const Address low = layer == 0u ? addresses[0] : addresses[1];
   const Address high = layer == 2u ? addresses[2] : addresses[3];
   return layer < 2u ? low : high;
+}
+
+// `area`: px of a layer.
+float loadInvZ(Address inv_z[kLayerCountMax], uint layer, uint area, uint index) {
+  if (kReadByAddress) return FloatRef(pickAddress(inv_z, layer)).at[index];
+  return texelFetch(inv_z_texels, int(layer * area + index)).x;
+}
+
+void storeInvZ(Address inv_z, uint layer, uint area, uint index, float value) {
+  if (kWriteByAddress) FloatRef(inv_z).at[index] = value;
+  else inv_z_out[layer * area + index] = value;
 }
 
 #endif  // VIEWLOOM_LIB_MEMORY_GLSL_

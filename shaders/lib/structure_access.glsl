@@ -11,12 +11,14 @@ struct Extent {
   ivec2 size_px;
   uint padded_width;
   uint padded_area;
+  uint layer_words;
 };
 
 Extent makeExtent(ivec2 size_px) {
   const uint mask = (1u << kLevelLast) - 1u;
   const uvec2 padded = (uvec2(size_px) + mask) & ~mask;
-  return Extent(size_px, padded.x, padded.x * padded.y);
+  const uint area = padded.x * padded.y;
+  return Extent(size_px, padded.x, area, layerWords(area));
 }
 
 bool isInside(Extent extent, ivec2 pixel) {
@@ -33,12 +35,26 @@ uint cellIndex(Extent extent, uint level, uvec2 cell) {
   return levelOffset(level, extent.padded_area) + cell.y * (extent.padded_width >> shift) + cell.x;
 }
 
-uvec2 loadFacet(Address layer, Extent extent, ivec2 pixel) {
-  return Uvec2Ref(layer).at[facetIndex(extent, pixel)];
+uvec2 loadWord(Address layers[kLayerCountMax], uint layer, Extent extent, uint index) {
+  if (kReadByAddress) return Uvec2Ref(pickAddress(layers, layer)).at[index];
+  return texelFetch(structure_texels, int(layer * extent.layer_words + index)).xy;
 }
 
-uvec2 loadCell(Address layer, Extent extent, uint level, uvec2 cell) {
-  return Uvec2Ref(layer).at[cellIndex(extent, level, cell)];
+void storeWord(Address layers[kLayerCountMax], uint layer, Extent extent, uint index, uvec2 word) {
+  if (kWriteByAddress) Uvec2Ref(pickAddress(layers, layer)).at[index] = word;
+  else structure_out[layer * extent.layer_words + index] = word;
+}
+
+uvec2 loadFacet(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
+  return loadWord(layers, layer, extent, facetIndex(extent, pixel));
+}
+
+uvec2 loadCell(Address layers[kLayerCountMax], uint layer, Extent extent, uint level, uvec2 cell) {
+  return loadWord(layers, layer, extent, cellIndex(extent, level, cell));
+}
+
+void storeCell(Address layers[kLayerCountMax], uint layer, Extent extent, uint level, uvec2 cell, uvec2 bits) {
+  storeWord(layers, layer, extent, cellIndex(extent, level, cell), bits);
 }
 
 // kNoSurface where there is none.
@@ -52,13 +68,17 @@ float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
   return inv_z < 0.0 ? kNoSurface : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(pixel) - 0.5);
 }
 
-// uint16 index of a link word, from the start of the layer.
-uint linkIndex(Extent extent, ivec2 pixel) {
-  return cellCount(extent.padded_area) * 4u + facetIndex(extent, pixel);
+uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
+  const uint index = facetIndex(extent, pixel);
+  const uvec2 four = loadWord(layers, layer, extent, cellCount(extent.padded_area) + index / 4u);
+  const uint two = (index & 2u) != 0u ? four.y : four.x;
+  return (index & 1u) != 0u ? two >> 16 : two & 0xffffu;
 }
 
-uint loadLinks(Address layer, Extent extent, ivec2 pixel) {
-  return uint(Uint16Ref(layer).at[linkIndex(extent, pixel)]);
+void storeLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel, uint links) {
+  const uint index = cellCount(extent.padded_area) * 4u + facetIndex(extent, pixel);
+  if (kWriteByAddress) Uint16Ref(pickAddress(layers, layer)).at[index] = uint16_t(links);
+  else links_out[layer * extent.layer_words * 4u + index] = uint16_t(links);
 }
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.

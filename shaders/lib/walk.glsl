@@ -79,7 +79,7 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
 // How far the ray stands in front of a facet at a point of the facet's edge (x), and how that changes along
 // the ray (y).
 vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent) {
-  const uvec2 facet = loadFacet(pickAddress(scene.layers, layer), scene.extent, cell);
+  const uvec2 facet = loadFacet(scene.layers, layer, scene.extent, cell);
   return vec2(point.z - facetAtPoint(facet, cell, point.xy), extent.z - dot(unpackSlopes(facet.y), extent.xy));
 }
 
@@ -95,14 +95,14 @@ uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec
   const bool leaving = event == kComesForward;
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   if (!leaving) {
-    const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, layer), scene.extent, at.cell), edge);
+    const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, at.cell), edge);
     if (link == 0u) return 0u;
     if (link - 1u >= layer) return layer + 1u;
     const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent);
     return front.x > (front.y < 0.0 ? -tolerance : 0.0) ? layer + 1u : 0u;
   }
   for (uint from = layer; from < scene.layer_count; ++from) {
-    const uint link = linkOfEdge(loadLinks(pickAddress(scene.layers, from), scene.extent, before), edge);
+    const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, before), edge);
     if (link == 0u || link - 1u >= layer) continue;
     const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent);
     if (front.x <= (front.y < 0.0 ? tolerance : 0.0)) return link;
@@ -129,7 +129,6 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   result.visits = 0u;
 
   uint layer = 0u;
-  Address cells = scene.layers[0];
   Place at = start.place;
   bool state_unknown = start.behind_count == kStateUnknown;
   bool in_front = start.behind_count == 0u;
@@ -153,7 +152,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const uint shift = level == kLevelEntries ? kLevelFirst : level;
       const uvec2 block = uvec2(at.cell) >> shift;
       const uint index = levelOffset(level, area) + block.y * (scene.extent.padded_width >> shift) + block.x;
-      const uvec2 bits = Uvec2Ref(cells).at[index];
+      const uvec2 bits = loadWord(scene.layers, layer, scene.extent, index);
       const bool is_facet = level == kLevelFacets;
       const bool is_plane = is_facet ? bits.x != kNoFacet : isPlane(bits);
       const uint own_level = is_facet ? 0u : bits.x & 7u;
@@ -275,7 +274,6 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     }
     if (!has_passed || layer + 1u >= scene.layer_count) break;
     ++layer;
-    cells = pickAddress(scene.layers, layer);
     at = passed;
     state_unknown = passed_at_start && start.behind_count == kStateUnknown;
     just_left = passed_at_start && !state_unknown && layer < start.behind_count;

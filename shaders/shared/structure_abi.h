@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure of one frame as it lies in device memory, and what its kernels are told.
 //
-// All that a kernel needs for every px comes by push constants: on software devices a uniform that must
-// be loaded through an address costs as much as the data itself.
+// What every px needs comes by push constants and bindings: on software devices a load through an address
+// costs five times one through a storage binding, and ten times a texel fetch (shaders/README.md, Measured).
+// Addresses serve what is larger than the device's bindings.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 
@@ -47,6 +48,32 @@ uint cellCount(uint padded_area) {
   return levelOffset(kLevelLast, padded_area) + padded_area / 4096u;
 }
 
+// 8-byte words of a layer: cells, then links. Layer k of an undivided structure begins at k times this.
+#ifdef __cplusplus
+inline constexpr
+#endif
+uint layerWords(uint padded_area) {
+  return cellCount(padded_area) + padded_area / 4u;
+}
+
+// Bindings, all in set 0.
+VIEWLOOM_ABI_CONST uint kBindingStructure = 0u;     // texels of two uints: all layers, one after the other
+VIEWLOOM_ABI_CONST uint kBindingColor = 1u;         // texels of one or two uints: all layers
+VIEWLOOM_ABI_CONST uint kBindingInvZ = 2u;          // texels of one float: all layers
+VIEWLOOM_ABI_CONST uint kBindingSamples = 3u;       // storage, read: depth samples of one layer
+VIEWLOOM_ABI_CONST uint kBindingInvZOut = 4u;       // storage, written: inv_z of all layers
+VIEWLOOM_ABI_CONST uint kBindingStructureOut = 5u;  // storage, written: the cells of all layers
+VIEWLOOM_ABI_CONST uint kBindingLinksOut = 6u;      // storage, written: the same buffer as 16-bit words
+VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;      // uniform: MeasuredHead
+VIEWLOOM_ABI_CONST uint kBindingViews = 8u;         // storage, read: ViewParams per tile
+VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;        // uniform: TraceExtras
+VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint per px
+
+// Specialisation constants that every kernel has, before its own.
+// 0: reads go by address: the structure is larger than a texel binding, and divided by layer.
+// 1: writes go by address: larger than a storage binding.
+VIEWLOOM_ABI_CONST uint kOwnConstants = 2u;
+
 // In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative), with
 // the sign set when a link of its column leads from this layer or a deeper one to one before this layer:
 // a walk of this layer must look at such an edge.
@@ -77,8 +104,9 @@ VIEWLOOM_ABI_CONST uint kDepthSampleU16 = 2u;
 // One depth plane to inv_z. The coefficients are those of frame/depth.h DepthCoefficients.
 struct LinearisePush {
   Address samples;   // packed, top row first
-  Address inv_z;     // float[height][width]
+  Address inv_z;     // float[height][width] of this layer
   Address measured;  // Measured
+  uint layer;
   uint width_px;
   uint height_px;
   float focal_x_px;
@@ -115,7 +143,7 @@ struct BuildPush {
 VIEWLOOM_ABI_CONST uint kDepthHistogramBinCount = 2048u;  // 32 bins an octave, 2^-40 .. 2^24 1/m
 VIEWLOOM_ABI_CONST uint kNoiseHistogramBinCount = 1024u;  // 16 bins an octave
 
-struct Measured {
+struct MeasuredHead {
   uint bad_samples_count;
   uint unsorted_columns_count;
   uint surface_count;   // of layer 0, of the px that were looked at
@@ -127,6 +155,10 @@ struct Measured {
   float kappa_rel;
   float inv_z_far;      // 2nd percentile of layer 0, 1/m
   float inv_z_near;     // 98th percentile of layer 0, 1/m
+};
+
+struct Measured {
+  MeasuredHead head;
   uint depth_histogram[kDepthHistogramBinCount];  // of inv_z, layer 0
   uint noise_histogram[kNoiseHistogramBinCount];  // of second differences of inv_z, layer 0
 };
@@ -155,7 +187,7 @@ struct ConvertColorPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LinearisePush) == 88);
+static_assert(sizeof(LinearisePush) == 92);
 static_assert(sizeof(BuildPush) == 104);
 static_assert(offsetof(Measured, noise_histogram) == 44 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 40);

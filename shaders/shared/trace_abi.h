@@ -53,14 +53,11 @@ struct TraceExtras {
   uint color_height_px;
 };
 
-// A band: full-width rows of the atlas, top row first.
+// A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with red in
+// the low byte and alpha 255. Views are bound per tile, row-major from the top left.
 struct TracePush {
   Address layers[kLayerCountMax];  // of the structure
   Address color[kLayerCountMax];   // texels of the source
-  Address measured;                // Measured
-  Address views;                   // ViewParams per tile, row-major from the top left
-  Address band;                    // uint[rows][width]: sRGB, red in the low byte, alpha 255
-  Address extras;                  // TraceExtras
   uint source_size_px;             // width | height << 16
   uint layer_count;
   uint atlas_width_px;
@@ -83,7 +80,7 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 56);
 static_assert(sizeof(TraceExtras) == 48);
-static_assert(sizeof(TracePush) == 128);
+static_assert(sizeof(TracePush) == 96);
 static_assert(sizeof(RayRecord) == 24);
 #endif
 

@@ -17,11 +17,11 @@ float nearestForward(Extent extent, uint layer, ivec2 pixel) {
   const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
   float nearest = kNoSurface;
   for (uint from = layer; from < push.layer_count; ++from) {
-    const uint links = loadLinks(pickAddress(push.layers, from), extent, pixel);
+    const uint links = loadLinks(push.layers, from, extent, pixel);
     for (uint edge = 0u; edge < 4u; ++edge) {
       const uint link = linkOfEdge(links, edge);
       if (link == 0u || link - 1u >= layer) continue;
-      const uvec2 facet = loadFacet(pickAddress(push.layers, link - 1u), extent, pixel + steps[edge]);
+      const uvec2 facet = loadFacet(push.layers, link - 1u, extent, pixel + steps[edge]);
       nearest = max(nearest, facetBox(facetInvZ(facet), unpackSlopes(facet.y)).y);
     }
   }
@@ -29,27 +29,26 @@ float nearestForward(Extent extent, uint layer, ivec2 pixel) {
 }
 
 void main() {
-  MeasuredRef measured = MeasuredRef(push.measured);
-  const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
+  const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
   const ivec2 origin = ivec2(cell) * kBlockSize;
   if (origin.x >= extent.size_px.x) return;
   const ivec2 covered = min(extent.size_px - origin, ivec2(kBlockSize));
-  const float kappa_abs = measured.value.kappa_abs;
-  const float kappa_rel = measured.value.kappa_rel;
+  const float kappa_abs = measured_head.kappa_abs;
+  const float kappa_rel = measured_head.kappa_rel;
 
   PlaneFit fit = startFit();
   vec2 box = vec2(3.4e38, kNoSurface);
   float inv_z_min = 3.4e38;
   bool has_hole = false;
-  bool has_forward_link = false;
+  uint forward_links = 0u;  // facets that have one, a bit each
   float inv_z[kBlockSize * kBlockSize];
   uint slopes[kBlockSize * kBlockSize];
   for (int y = 0; y < kBlockSize; ++y) {
     for (int x = 0; x < kBlockSize; ++x) {
       if (x >= covered.x || y >= covered.y) continue;
-      const uvec2 facet = loadFacet(cells, extent, origin + ivec2(x, y));
+      const uvec2 facet = loadFacet(push.layers, layer, extent, origin + ivec2(x, y));
       const float center = facetInvZ(facet);
       inv_z[y * kBlockSize + x] = center;
       slopes[y * kBlockSize + x] = facet.y;
@@ -58,18 +57,22 @@ void main() {
         continue;
       }
       const vec2 slope = unpackSlopes(facet.y);
-      vec2 facet_box = facetBox(center, slope);
-      if ((facet.x & kForwardLinkFlag) != 0u) {
-        // A walk of this layer must look at such an edge: the surface goes on in front of it.
-        has_forward_link = true;
-        facet_box.y = max(facet_box.y, nearestForward(extent, gl_WorkGroupID.z, origin + ivec2(x, y)));
-      }
+      const vec2 facet_box = facetBox(center, slope);
+      forward_links |= (facet.x & kForwardLinkFlag) != 0u ? 1u << uint(y * kBlockSize + x) : 0u;
       box = vec2(min(box.x, facet_box.x), max(box.y, facet_box.y));
       inv_z_min = min(inv_z_min, facet_box.x);
       addSample(fit, vec2(x, y) + 0.5 - 0.5 * float(kBlockSize), center, slope);
     }
   }
   if (has_hole) box.x = 0.0;
+  const bool has_forward_link = forward_links != 0u;
+  // A walk of this layer must look at such edges: the surface goes on in front of it. A loop of its own,
+  // since few blocks have any.
+  while (forward_links != 0u) {
+    const int i = findLSB(forward_links);
+    forward_links &= forward_links - 1u;
+    box.y = max(box.y, nearestForward(extent, layer, origin + ivec2(i % kBlockSize, i / kBlockSize)));
+  }
 
   uvec2 node = packBox(kLevelFirst, box);
   if (!has_hole && !has_forward_link) {
@@ -96,5 +99,5 @@ void main() {
       node = packPlane(kLevelFirst, center, slope, exponent);
     }
   }
-  Uvec2Ref(cells).at[cellIndex(extent, kLevelFirst, cell)] = node;
+  storeCell(push.layers, layer, extent, kLevelFirst, cell, node);
 }

@@ -6,7 +6,7 @@
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
-layout(constant_id = 0) const uint kLayerCount = 2u;
+layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 struct Column {
@@ -20,7 +20,7 @@ Column loadColumn(ivec2 pixel) {
   const ivec2 inside = clamp(pixel, ivec2(0), size - 1);
   const uint index = uint(inside.y) * push.width_px + uint(inside.x);
   for (uint i = 0u; i < kLayerCount; ++i) {
-    const float inv_z = FloatRef(push.inv_z[i]).at[index];
+    const float inv_z = loadInvZ(push.inv_z, i, push.width_px * push.height_px, index);
     column.inv_z[i] = exists ? inv_z : kNoSurface;
   }
   return column;
@@ -70,6 +70,6 @@ void main() {
     const float inv_z = here.inv_z[i];
     const vec2 slope = vec2(slopeAlong(inv_z, left, right, beyond_x), slopeAlong(inv_z, above, below, beyond_y));
     const uvec2 facet = inv_z < 0.0 ? uvec2(kNoFacet, 0u) : uvec2(floatBitsToUint(inv_z), packSlopes(slope));
-    Uvec2Ref(push.layers[i]).at[facetIndex(extent, pixel)] = facet;
+    storeWord(push.layers, i, extent, facetIndex(extent, pixel), facet);
   }
 }

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
-  const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
+  const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
   const int child_size_px = 1 << (push.level - 1u);
@@ -28,7 +28,7 @@ void main() {
     const uvec2 child_cell = 2u * cell + uvec2(i & 1u, i >> 1);
     exists[i] = all(lessThan(ivec2(child_cell) * child_size_px, extent.size_px));
     if (!exists[i]) continue;
-    children[i] = unpackNode(loadCell(cells, extent, push.level - 1u, child_cell));
+    children[i] = unpackNode(loadCell(push.layers, layer, extent, push.level - 1u, child_cell));
     all_planes = all_planes && children[i].is_plane;
     const vec2 child_box = nodeBox(children[i]);
     box = vec2(min(box.x, child_box.x), max(box.y, child_box.y));
@@ -52,15 +52,16 @@ void main() {
     }
     error += box.y * (8.0 / 8388608.0);
     const uint exponent = errorExponent(error);
-    const float kappa = connectionTolerance(measured.value.kappa_abs, measured.value.kappa_rel, box.x);
+    const float kappa = connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, box.x);
     if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
       node = packPlane(push.level, center, slope, exponent);
     }
   }
-  Uvec2Ref(cells).at[cellIndex(extent, push.level, cell)] = node;
+  storeCell(push.layers, layer, extent, push.level, cell, node);
 
   if (push.level == kLevelLast && box.y >= 0.0) {
-    atomicMax(measured.value.inv_z_max_bits, floatBitsToUint(box.y));
-    atomicMin(measured.value.inv_z_min_bits, floatBitsToUint(box.x));
+    // Layer 0 is the nearest of every column.
+    if (layer == 0u) atomicMax(measured.value.head.inv_z_max_bits, floatBitsToUint(box.y));
+    atomicMin(measured.value.head.inv_z_min_bits, floatBitsToUint(box.x));
   }
 }

@@ -6,7 +6,7 @@
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
-layout(constant_id = 0) const uint kLayerCount = 2u;
+layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const uint kNoLayer = kLayerCountMax;
@@ -26,7 +26,7 @@ Column loadColumn(Extent extent, ivec2 pixel) {
   const ivec2 inside = clamp(pixel, ivec2(0), extent.size_px - 1);
   Column column;
   for (uint i = 0u; i < kLayerCount; ++i) {
-    const uvec2 facet = loadFacet(push.layers[i], extent, inside);
+    const uvec2 facet = loadFacet(push.layers, i, extent, inside);
     column.inv_z[i] = exists ? facetInvZ(facet) : kNoSurface;
     column.slope[i] = unpackSlopes(facet.y);
   }
@@ -88,9 +88,8 @@ void main() {
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (!isInside(extent, pixel)) return;
-  MeasuredRef measured = MeasuredRef(push.measured);
-  const float kappa_abs = measured.value.kappa_abs;
-  const float kappa_rel = measured.value.kappa_rel;
+  const float kappa_abs = measured_head.kappa_abs;
+  const float kappa_rel = measured_head.kappa_rel;
 
   uint words[kLayerCountMax];
   for (uint i = 0u; i < kLayerCount; ++i) words[i] = 0u;
@@ -104,10 +103,10 @@ void main() {
                forward);
   }
   for (uint i = 0u; i < kLayerCount; ++i) {
-    Uint16Ref(push.layers[i]).at[linkIndex(extent, pixel)] = uint16_t(words[i]);
+    storeLinks(push.layers, i, extent, pixel, words[i]);
     if (((forward >> i) & 1u) != 0u) {
       const uint flagged = floatBitsToUint(here.inv_z[i]) | kForwardLinkFlag;
-      UintRef(push.layers[i]).at[2u * facetIndex(extent, pixel)] = flagged;
+      storeWord(push.layers, i, extent, facetIndex(extent, pixel), uvec2(flagged, packSlopes(here.slope[i])));
     }
   }
 }

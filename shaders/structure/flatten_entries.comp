@@ -10,16 +10,16 @@ layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 void main() {
-  const Address cells = pickAddress(push.layers, gl_WorkGroupID.z);
+  const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
   if (int(cell.x << kLevelFirst) >= extent.size_px.x) return;
-  uvec2 entry = loadCell(cells, extent, kLevelFirst, cell);
+  uvec2 entry = loadCell(push.layers, layer, extent, kLevelFirst, cell);
   // An ancestor is planar only if all below it are.
   for (uint level = kLevelFirst + 1u; level <= kLevelLast && isPlane(entry); ++level) {
-    const uvec2 ancestor = loadCell(cells, extent, level, cell >> (level - kLevelFirst));
+    const uvec2 ancestor = loadCell(push.layers, layer, extent, level, cell >> (level - kLevelFirst));
     if (!isPlane(ancestor)) break;
     entry = ancestor;
   }
-  Uvec2Ref(cells).at[cellIndex(extent, kLevelEntries, cell)] = entry;
+  storeCell(push.layers, layer, extent, kLevelEntries, cell, entry);
 }

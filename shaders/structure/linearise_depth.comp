@@ -7,12 +7,17 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
-layout(constant_id = 0) const uint kSampleType = kDepthSampleF32;
+layout(constant_id = kOwnConstants) const uint kSampleType = kDepthSampleF32;
 layout(push_constant, scalar) uniform Push { LinearisePush push; };
 
+layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples32 { float samples_32[]; };
+layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples16 { uint16_t samples_16[]; };
+
 float loadSample(uint index) {
-  if (kSampleType == kDepthSampleF32) return FloatRef(push.samples).at[index];
-  const uint bits = uint(Uint16Ref(push.samples).at[index]);
+  if (kSampleType == kDepthSampleF32) {
+    return kReadByAddress ? FloatRef(push.samples).at[index] : samples_32[index];
+  }
+  const uint bits = uint(kReadByAddress ? Uint16Ref(push.samples).at[index] : samples_16[index]);
   return kSampleType == kDepthSampleF16 ? unpackHalf2x16(bits).x : float(bits);
 }
 
@@ -39,9 +44,9 @@ void main() {
     const vec2 ray = (vec2(pixel) + 0.5 - principal_px) / vec2(push.focal_x_px, push.focal_y_px);
     const float inv_z = linearise(loadSample(index), push.ray_distance != 0u ? length(vec3(ray, 1.0)) : 1.0);
     bad_count = isnan(inv_z) ? 1u : 0u;
-    FloatRef(push.inv_z).at[index] = inv_z >= 0.0 ? inv_z : kNoSurface;
+    storeInvZ(push.inv_z, push.layer, push.width_px * push.height_px, index, inv_z >= 0.0 ? inv_z : kNoSurface);
   }
   const uint sum = subgroupAdd(bad_count);
   MeasuredRef measured = MeasuredRef(push.measured);
-  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.bad_samples_count, sum);
+  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.head.bad_samples_count, sum);
 }

@@ -13,8 +13,9 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 // Differences of a few roundings are none: 8 ulp.
 const float kRoundingShare = 8.0 / 8388608.0;
 
-float loadInvZ(ivec2 pixel) {
-  return FloatRef(push.inv_z[0]).at[uint(pixel.y) * push.width_px + uint(pixel.x)];
+float nearestInvZ(ivec2 pixel) {
+  const uint area = push.width_px * push.height_px;
+  return loadInvZ(push.inv_z, 0u, area, uint(pixel.y) * push.width_px + uint(pixel.x));
 }
 
 void main() {
@@ -24,17 +25,17 @@ void main() {
   if (any(greaterThanEqual(block * 4, size))) return;
   const ivec2 pixel = min(block * 4 + 2, size - 1);
 
-  const float inv_z = loadInvZ(pixel);
+  const float inv_z = nearestInvZ(pixel);
   if (inv_z < 0.0) return;
-  atomicAdd(measured.value.surface_count, 1u);
+  atomicAdd(measured.value.head.surface_count, 1u);
   atomicAdd(measured.value.depth_histogram[depthBin(inv_z)], 1u);
 
   const ivec2 along = ((block.x + block.y) & 1) == 0 ? ivec2(1, 0) : ivec2(0, 1);
   const ivec2 before = pixel - along;
   const ivec2 after = pixel + along;
   if (any(lessThan(before, ivec2(0))) || any(greaterThanEqual(after, size))) return;
-  const float inv_z_before = loadInvZ(before);
-  const float inv_z_after = loadInvZ(after);
+  const float inv_z_before = nearestInvZ(before);
+  const float inv_z_after = nearestInvZ(after);
   if (inv_z_before < 0.0 || inv_z_after < 0.0) return;
   const float difference = abs((inv_z_after - inv_z) - (inv_z - inv_z_before));
   const float seen = difference <= inv_z * kRoundingShare ? 0.0 : difference;

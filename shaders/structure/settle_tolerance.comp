@@ -20,7 +20,7 @@ const float kMedianPerSigma = 0.6745 * 2.44949;
 const float kStepQuantile = 0.01;
 
 float depthQuantile(MeasuredRef measured, float share) {
-  const float wanted = share * float(measured.value.surface_count);
+  const float wanted = share * float(measured.value.head.surface_count);
   float below = 0.0;
   for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
     const float here = float(measured.value.depth_histogram[bin]);
@@ -53,11 +53,11 @@ void main() {
   const float depth_step = noiseQuantile(measured, 1u, kStepQuantile);
   const float noise_sigma = noiseQuantile(measured, 0u, 0.5) / kMedianPerSigma;
   const float given = push.given_kappa;
-  measured.value.depth_step = depth_step;
-  measured.value.noise_sigma = noise_sigma;
-  measured.value.kappa_abs =
+  measured.value.head.depth_step = depth_step;
+  measured.value.head.noise_sigma = noise_sigma;
+  measured.value.head.kappa_abs =
       given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
-  measured.value.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  measured.value.inv_z_far = depthQuantile(measured, 0.02);
-  measured.value.inv_z_near = depthQuantile(measured, 0.98);
+  measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
+  measured.value.head.inv_z_far = depthQuantile(measured, 0.02);
+  measured.value.head.inv_z_near = depthQuantile(measured, 0.98);
 }

@@ -7,16 +7,17 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
-layout(constant_id = 0) const uint kLayerCount = 2u;
+layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;
   bool is_unsorted = false;
   if (pixel.x < push.width_px && pixel.y < push.height_px) {
+    const uint area = push.width_px * push.height_px;
     const uint index = pixel.y * push.width_px + pixel.x;
     float column[kLayerCountMax];
-    for (uint i = 0u; i < kLayerCount; ++i) column[i] = FloatRef(push.inv_z[i]).at[index];
+    for (uint i = 0u; i < kLayerCount; ++i) column[i] = loadInvZ(push.inv_z, i, area, index);
 
     // A surface behind a gap counts as in order; one in front of an earlier surface does not.
     float farthest = 3.4e38;
@@ -46,9 +47,9 @@ void main() {
       ++count;
       last = inv_z;
     }
-    for (uint i = 0u; i < kLayerCount; ++i) FloatRef(push.inv_z[i]).at[index] = kept[i];
+    for (uint i = 0u; i < kLayerCount; ++i) storeInvZ(push.inv_z[i], i, area, index, kept[i]);
   }
   const uint sum = subgroupAdd(is_unsorted ? 1u : 0u);
   MeasuredRef measured = MeasuredRef(push.measured);
-  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.unsorted_columns_count, sum);
+  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.head.unsorted_columns_count, sum);
 }

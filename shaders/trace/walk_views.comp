@@ -13,15 +13,16 @@
 #include "lib/walk.glsl"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = 0) const uint kWanted = 0u;  // kWant... flags
-layout(constant_id = 1) const uint kColorFormat = kColorRgba8;
-layout(constant_id = 2) const uint kPixelsPerInvocation = 8u;
-layout(constant_id = 3) const bool kLanesAreViews = true;
-layout(constant_id = 4) const bool kColorIsScaled = false;  // colour planes of another size than depth
+layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWant... flags
+layout(constant_id = kOwnConstants + 1u) const uint kColorFormat = kColorRgba8;
+layout(constant_id = kOwnConstants + 2u) const uint kPixelsPerInvocation = 8u;
+layout(constant_id = kOwnConstants + 3u) const bool kLanesAreViews = true;
+layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;  // colour planes of another size than depth
 layout(push_constant, scalar) uniform Push { TracePush push; };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExtrasRef { TraceExtras value; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ViewsRef { ViewParams at[]; };
+layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views { ViewParams views[]; };
+layout(set = 0, binding = kBindingExtras, scalar) uniform Extras { TraceExtras extras; };
+layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band { uint band[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef { RayRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Vec4Ref { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref { uint8_t at[]; };
@@ -41,8 +42,7 @@ uvec2 unpackSize(uint size_px) {
 
 vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, vec2 point) {
   if (kColorIsScaled) {
-    ExtrasRef extras = ExtrasRef(push.extras);
-    const ivec2 color_size = ivec2(extras.value.color_width_px, extras.value.color_height_px);
+    const ivec2 color_size = ivec2(extras.color_width_px, extras.color_height_px);
     return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, color_size,
                               kColorFormat, layer, cell, point, scene.kappa);
   }
@@ -67,7 +67,7 @@ StartRegion startRegion(Scene scene, vec2 low_px, vec2 high_px) {
   float bound = 0.0;
   ivec2 cell = first;
   for (int i = 0; i < count.x * count.y; ++i) {
-    const uvec2 bits = loadCell(scene.layers[0], scene.extent, kStartLevel, uvec2(cell));
+    const uvec2 bits = loadCell(scene.layers, 0u, scene.extent, kStartLevel, uvec2(cell));
     bound = max(bound, nodeBox(unpackNode(bits)).y);
     cell = cell.x == last.x ? ivec2(first.x, cell.y + 1) : ivec2(cell.x + 1, cell.y);
   }
@@ -114,7 +114,7 @@ Place2d fillPlace(Scene scene, Walk walk) {
   const ivec2 cell = is_far_side ? walk.far_cell : walk.cell;
   const bool is_border = walk.leaves && (push.fill & kFillBorder) != 0u;
   const bool is_known = walk.ends_behind || is_border;
-  const uvec2 facet = loadFacet(pickAddress(scene.layers, layer), scene.extent, cell);
+  const uvec2 facet = loadFacet(scene.layers, layer, scene.extent, cell);
   return Place2d(is_known && facet.x != kNoFacet ? layer : kLayerCountMax, cell);
 }
 
@@ -149,18 +149,17 @@ vec3 layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
 
 void store(uint index, vec3 light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
   const vec3 srgb = srgbFromLinear(light);
-  UintRef(push.band).at[index] = packUnorm4x8(vec4(srgb, 1.0));
+  band[index] = packUnorm4x8(vec4(srgb, 1.0));
   if (kWanted == 0u) return;
-  ExtrasRef extras = ExtrasRef(push.extras);
   const vec3 point = ray.start + walk.t * ray.extent;
   const uint ray_class = classOf(walk);
   if ((kWanted & kWantDepth) != 0u) {
-    FloatRef(extras.value.depth).at[index] = walk.is_hit ? viewInvZ(eye, direction, point) : 0.0;
+    FloatRef(extras.depth).at[index] = walk.is_hit ? viewInvZ(eye, direction, point) : 0.0;
   }
-  if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.value.mask).at[index] = uint8_t(ray_class);
-  if ((kWanted & kWantLinear) != 0u) Vec4Ref(extras.value.linear).at[index] = vec4(srgb, 1.0);
+  if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
+  if ((kWanted & kWantLinear) != 0u) Vec4Ref(extras.linear).at[index] = vec4(srgb, 1.0);
   if ((kWanted & kWantRecords) != 0u) {
-    RecordsRef(extras.value.records).at[index] =
+    RecordsRef(extras.records).at[index] =
         RayRecord(point.x, point.y, point.z, ray_class, walk.layer, walk.visits);
   }
 }
@@ -217,8 +216,7 @@ void main() {
   const uint tile_row = row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
   const bool exists = run_in_tile < runs && column < tile_grid.x && tile_row < tile_grid.y;
   const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
-  const ViewParams view = ViewsRef(push.views).at[tile];
-  MeasuredRef measured = MeasuredRef(push.measured);
+  const ViewParams view = views[tile];
 
   uint counts[kClassCount];
   for (uint k = 0u; k < kClassCount; ++k) counts[k] = 0u;
@@ -228,8 +226,8 @@ void main() {
     scene.layer_count = push.layer_count;
     scene.extent = makeExtent(ivec2(unpackSize(push.source_size_px)));
     // A little in front of everything; never 0, it is a divisor.
-    scene.inv_z_near = max(uintBitsToFloat(measured.value.inv_z_max_bits), 1e-12) * 1.0001;
-    scene.kappa = vec2(measured.value.kappa_abs, measured.value.kappa_rel);
+    scene.inv_z_near = max(uintBitsToFloat(measured_head.inv_z_max_bits), 1e-12) * 1.0001;
+    scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
     Run run;
     run.first_x = run_in_tile * kPixelsPerInvocation;
     run.count = min(kPixelsPerInvocation, tile_size.x - run.first_x);
@@ -239,7 +237,6 @@ void main() {
   }
   for (uint k = kClassHit; k < kClassCount; ++k) {
     const uint sum = subgroupAdd(counts[k]);
-    ExtrasRef extras = ExtrasRef(push.extras);
-    if (subgroupElect() && sum > 0u) atomicAdd(UintRef(extras.value.counters).at[k], sum);
+    if (subgroupElect() && sum > 0u) atomicAdd(UintRef(extras.counters).at[k], sum);
   }
 }

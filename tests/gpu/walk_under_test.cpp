@@ -127,16 +127,17 @@ std::unique_ptr<StructureSlot> WalkUnderTest::build(const Frame& frame) {
 }
 
 template <typename Element>
-std::vector<Element> WalkUnderTest::read(const Buffer& buffer) {
-  const Buffer readback(device_, {.size_bytes = buffer.sizeBytes(),
+std::vector<Element> WalkUnderTest::read(const LayeredBuffer& arrays, uint32_t layer) {
+  const Buffer readback(device_, {.size_bytes = arrays.layerBytes(),
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "structure readback"});
   const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(buffer.handle(), readback.handle(),
-                      vk::BufferCopy{.size = buffer.sizeBytes()});
+  commands.copyBuffer(arrays.buffer(layer).handle(), readback.handle(),
+                      vk::BufferCopy{.srcOffset = arrays.offsetBytes(layer),
+                                     .size = arrays.layerBytes()});
   recordTransferToHost(commands);
   timeline_.wait(recorder_.submit(timeline_));
-  std::vector<Element> elements(buffer.sizeBytes() / sizeof(Element));
+  std::vector<Element> elements(arrays.layerBytes() / sizeof(Element));
   std::memcpy(elements.data(), readback.mapped().data(), elements.size() * sizeof(Element));
   return elements;
 }
@@ -146,16 +147,16 @@ StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   StructureImage image{.width = int(layout.size_px.width),
                        .height = int(layout.size_px.height),
                        .kappa_abs = float(slot.stats().connection_tolerance)};
-  for (size_t index = 0; index < slot.layers().size(); ++index) {
-    const std::vector<PackedPair> cells = read<PackedPair>(slot.layers()[index]);
+  for (uint32_t index = 0; index < slot.shape().layerCount(); ++index) {
+    const std::vector<PackedPair> cells = read<PackedPair>(slot.structure(), index);
     LayerImage& layer = image.layers.emplace_back();
-    layer.inv_z = read<float>(slot.invZ()[index]);
+    layer.inv_z = read<float>(slot.invZ(), index);
     layer.facets = gridOf(layout, cells, abi::kLevelFacets);
     layer.entries = gridOf(layout, cells, abi::kLevelEntries);
     for (uint32_t level = abi::kLevelFirst; level <= abi::kLevelLast; ++level) {
       layer.levels.push_back(gridOf(layout, cells, level));
     }
-    const std::vector<uint16_t> halves = read<uint16_t>(slot.layers()[index]);
+    const std::vector<uint16_t> halves = read<uint16_t>(slot.structure(), index);
     for (uint32_t row = 0; row < layout.size_px.height; ++row) {
       const auto first = halves.begin() + ptrdiff_t(layout.cellCount() * 4) +
                          ptrdiff_t{row} * layout.padded_px.width;

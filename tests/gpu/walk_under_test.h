@@ -51,7 +51,7 @@ class WalkUnderTest {
 
  private:
   template <typename Element>
-  std::vector<Element> read(const Buffer& buffer);
+  std::vector<Element> read(const LayeredBuffer& arrays, uint32_t layer);
 
   const Device& device_;
   StructureBuilder builder_;

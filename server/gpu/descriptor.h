@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a shader reads and writes through bindings: pushed with each dispatch, never pooled.
+//
+// Most data could be reached by address alone, but software devices load through bindings several
+// times faster (shaders/README.md, Measured).
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/buffer.h"
+
+namespace viewloom {
+
+enum class DescriptorKind : uint8_t {
+  kTexels,   // usamplerBuffer, samplerBuffer: a TexelView
+  kStorage,  // buffer block: up to DeviceLimits::storage_bytes_max
+  kUniform   // uniform block: the same for all invocations
+};
+
+// A binding of a shader, in set 0.
+struct DescriptorSlot {
+  uint32_t binding = 0;
+  DescriptorKind kind = DescriptorKind::kStorage;
+};
+
+// Reads a buffer as a one-dimensional image of texels. The buffer must outlive it.
+class TexelView {
+ public:
+  TexelView() : view_(nullptr) {}
+  // Throws vk::SystemError. At most DeviceLimits::texel_count_max texels.
+  TexelView(const Device& device, const Buffer& buffer, vk::Format format);
+
+  bool isEmpty() const { return !*view_; }
+  vk::BufferView handle() const { return *view_; }
+
+ private:
+  vk::raii::BufferView view_;
+};
+
+// What stands in a slot for one dispatch.
+struct Descriptor {
+  uint32_t binding = 0;
+  DescriptorKind kind = DescriptorKind::kStorage;
+  vk::Buffer buffer = {};      // kStorage, kUniform
+  uint64_t offset_bytes = 0;   // a multiple of 256 serves every device
+  uint64_t size_bytes = 0;
+  vk::BufferView texels = {};  // kTexels
+};
+
+}  // namespace viewloom

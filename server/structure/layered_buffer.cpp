@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/layered_buffer.h"
+
+#include <algorithm>
+
+namespace viewloom {
+
+LayeredBuffer::LayeredBuffer(const Device& device, const LayeredBufferOptions& options)
+    : layer_bytes_(options.layer_bytes) {
+  const uint32_t buffer_count = options.is_divided ? options.layer_count : 1;
+  const uint64_t buffer_bytes = layer_bytes_ * (options.is_divided ? 1 : options.layer_count);
+  for (uint32_t i = 0; i < buffer_count; ++i) {
+    buffers_.emplace_back(
+        device, BufferOptions{.size_bytes = buffer_bytes, .debug_name = options.debug_name});
+  }
+  if (!options.is_divided) texels_ = TexelView(device, buffers_.front(), options.texel_format);
+}
+
+bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions& options) {
+  const DeviceLimits& limits = device.info().limits;
+  const uint64_t total_bytes = options.layer_bytes * options.layer_count;
+  return total_bytes > limits.allocation_bytes_max ||
+         total_bytes / options.texel_bytes > limits.texel_count_max;
+}
+
+vk::DeviceAddress LayeredBuffer::address(uint32_t layer) const {
+  return buffer(layer).address() + offsetBytes(layer);
+}
+
+Descriptor LayeredBuffer::asTexels(uint32_t binding) const {
+  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = texels_.handle()};
+}
+
+Descriptor LayeredBuffer::asStorage(uint32_t binding) const {
+  return {.binding = binding,
+          .kind = DescriptorKind::kStorage,
+          .buffer = buffers_.front().handle(),
+          .size_bytes = buffers_.front().sizeBytes()};
+}
+
+bool LayeredBuffer::fitsStorage(const Device& device) const {
+  return !isDivided() && buffers_.front().sizeBytes() <= device.info().limits.storage_bytes_max;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// An array per layer: in one buffer, read as texels, where the device allows that; else one buffer each.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gpu/descriptor.h"
+
+namespace viewloom {
+
+struct LayeredBufferOptions {
+  uint64_t layer_bytes = 0;
+  uint32_t layer_count = 1;
+  vk::Format texel_format = vk::Format::eR32Uint;
+  uint32_t texel_bytes = 4;
+  // Whether all layers must be divided because another array of the same structure is.
+  bool is_divided = false;
+  const char* debug_name = "";
+};
+
+// The device must outlive it. Thread-safety: const methods may be called from any thread.
+class LayeredBuffer {
+ public:
+  LayeredBuffer(const Device& device, const LayeredBufferOptions& options);
+
+  // Whether these arrays are too large for one buffer, or for one texel view.
+  static bool mustDivide(const Device& device, const LayeredBufferOptions& options);
+
+  vk::DeviceAddress address(uint32_t layer) const;
+  // Where a layer lies, for copies.
+  const Buffer& buffer(uint32_t layer) const { return buffers_[texels_.isEmpty() ? layer : 0]; }
+  uint64_t offsetBytes(uint32_t layer) const { return texels_.isEmpty() ? 0 : layer * layer_bytes_; }
+  uint64_t layerBytes() const { return layer_bytes_; }
+
+  // Descriptors of all layers. Divided arrays have none: what stands there is never used.
+  Descriptor asTexels(uint32_t binding) const;
+  Descriptor asStorage(uint32_t binding) const;
+  bool isDivided() const { return texels_.isEmpty(); }
+  bool fitsStorage(const Device& device) const;
+
+ private:
+  uint64_t layer_bytes_;
+  std::vector<Buffer> buffers_;
+  TexelView texels_;
+};
+
+}  // namespace viewloom
