@@ -34,7 +34,7 @@ int serve(const Config& config) {
   const SteadyClock clock;
   std::atomic<bool> has_failed = false;
   Service service(config, clock, [&](const std::exception& error) {
-    if (has_failed.exchange(true)) return;
+    has_failed = true;
     log(LogLevel::kError, "the server cannot go on: ", error.what());
     kill(getpid(), SIGTERM);  // wakes the wait below
   });

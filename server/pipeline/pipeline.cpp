@@ -68,6 +68,7 @@ struct Pipeline::Loops {
   WakeUp structure_wake_up;
   WakeUp gpu_wake_up;
   std::atomic<bool> is_draining = false;
+  std::atomic<bool> has_failed = false;
   Timeline timeline;
   AtlasPublisher publisher;
   EncodePool encoders;
@@ -79,6 +80,7 @@ struct Pipeline::Loops {
 };
 
 void Pipeline::Loops::fail(const std::exception& error) {
+  if (has_failed.exchange(true)) return;  // what follows from the first failure
   gpu.abandon();
   on_failure(error);
 }

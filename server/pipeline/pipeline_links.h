@@ -19,7 +19,8 @@ struct PipelineLinks {
   const Metrics& metrics;
   Broadcaster& broadcaster;
   StreamDirectory& directory;
-  // A thread of the pipeline cannot go on (device lost, out of memory); called from that thread.
+  // A thread of the pipeline cannot go on (device lost, out of memory); called once, from that
+  // thread.
   std::function<void(const std::exception& error)> on_failure;
 };
 

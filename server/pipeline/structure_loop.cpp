@@ -6,6 +6,22 @@
 #include "base/log.h"
 
 namespace viewloom {
+namespace {
+
+// What the frame itself says.
+ResidentStructure describe(const Frame& frame) {
+  const SourceFormat& source = frame.format.sources.front();
+  ResidentStructure structure;
+  structure.frame_number = frame.format.number;
+  structure.capture_time_ns = frame.format.capture_time_ns;
+  structure.times = frame.times;
+  structure.defaults.source_camera = source.camera;
+  structure.defaults.source_size_px = source.layers.front().depth.size_px;
+  return structure;
+}
+
+}  // namespace
+
 StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams, GpuLoop& gpu,
                              WakeUp& wake_up, OnResident on_resident)
     : links_(links),
@@ -71,17 +87,13 @@ std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
 
 void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
                           std::shared_ptr<StructureBuild> slot) {
-  const Frame& frame = *offered.frame;
-  const SourceFormat& source = frame.format.sources.front();
-  auto structure = std::make_shared<ResidentStructure>();
+  auto structure = std::make_shared<ResidentStructure>(describe(*offered.frame));
   structure->stream = stream.name;
   structure->serial = ++last_serial_;
-  structure->frame_number = frame.format.number;
-  structure->capture_time_ns = frame.format.capture_time_ns;
-  structure->times = frame.times;
 
   const int64_t started_ns = links_.clock.nowNs();
-  slot->slot.upload(frame);
+  slot->slot.upload(*offered.frame);
+  offered.frame.reset();  // its planes go back to their pool
   const int64_t uploaded_ns = links_.clock.nowNs();
   gpu_.build(*slot);
   structure->built_at_ns = links_.clock.nowNs();
@@ -90,22 +102,24 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
 
   structure->stats = slot->slot.stats();
   if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
-  structure->defaults = {.source_camera = source.camera,
-                         .source_size_px = source.layers.front().depth.size_px,
-                         .focal_distance_m = *stream.focal_distance_m};
+  structure->defaults.focal_distance_m = *stream.focal_distance_m;
   structure->build = std::move(slot);
 
-  const FrameTimes& times = structure->times;
+  count(*structure);
+  stream.setResident(std::move(structure));
+  on_resident_(stream, std::move(offered.ticket));
+}
+
+void StructureLoop::count(const ResidentStructure& structure) const {
+  const FrameTimes& times = structure.times;
   links_.metrics.structures_built.add();
   links_.metrics.observeStage(Stage::kReceive, times.last_chunk_ns - times.first_chunk_ns);
   links_.metrics.observeStage(Stage::kDecode, times.decoded_ns - times.last_chunk_ns);
-  links_.metrics.observeStage(Stage::kUpload, structure->upload_ns);
-  links_.metrics.observeStage(Stage::kBuild, structure->build_ns);
-  links_.directory.noteResident(stream.name, structure->frame_number,
-                                structure->defaults.source_size_px,
-                                static_cast<uint32_t>(source.layers.size()), structure->stats);
-  stream.setResident(std::move(structure));
-  on_resident_(stream, std::move(offered.ticket));
+  links_.metrics.observeStage(Stage::kUpload, structure.upload_ns);
+  links_.metrics.observeStage(Stage::kBuild, structure.build_ns);
+  links_.directory.noteResident(structure.stream, structure.frame_number,
+                                structure.defaults.source_size_px,
+                                structure.build->slot.shape().layerCount(), structure.stats);
 }
 
 }  // namespace viewloom

@@ -33,6 +33,7 @@ class StructureLoop {
   bool serve(PipelineStream& stream);
   std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
+  void count(const ResidentStructure& structure) const;
 
   const PipelineLinks& links_;
   StreamTable& streams_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which atlas goes first, and what a part that fails does to the rest.
+#include <gmock/gmock.h>
+
+#include <future>
+#include <stdexcept>
+
+#include "e2e/pipeline_fixture.h"
+
+namespace viewloom::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+// Notes under a name when its first atlas comes.
+class OrderNoter final : public Subscriber {
+ public:
+  OrderNoter(std::string name, std::vector<std::string>& order, std::mutex& mutex)
+      : name_(std::move(name)), order_(order), mutex_(mutex) {}
+
+  void offer(AtlasPtr) override {
+    {
+      std::lock_guard lock(mutex_);
+      order_.push_back(name_);
+    }
+    arrived_.set_value();
+  }
+  void end(const absl::Status&) override {}
+  std::future<void> arrived() { return arrived_.get_future(); }
+
+ private:
+  const std::string name_;
+  std::vector<std::string>& order_;
+  std::mutex& mutex_;
+  std::promise<void> arrived_;
+};
+
+// Holds the one encode thread in its first atlas until it is released.
+class Gate final : public Subscriber {
+ public:
+  void offer(AtlasPtr) override {
+    reached_.set_value();
+    released_.get_future().wait();
+  }
+  void end(const absl::Status&) override {}
+  void waitUntilReached() { reached_.get_future().wait(); }
+  void release() { released_.set_value(); }
+
+ private:
+  std::promise<void> reached_;
+  std::promise<void> released_;
+};
+
+class Thrower final : public Subscriber {
+ public:
+  void offer(AtlasPtr) override { throw std::runtime_error("out of paper"); }
+  void end(const absl::Status&) override {}
+};
+
+class PipelineOrderTest : public PipelineFixture {
+ protected:
+  static std::unique_ptr<Broadcaster::Subscription> join(Server& server, const DisplaySpec& spec,
+                                                         std::shared_ptr<Subscriber> subscriber) {
+    return server.broadcaster.subscribe("scene", spec, {}, std::move(subscriber)).value();
+  }
+};
+
+TEST_F(PipelineOrderTest, letsASmallAtlasOvertakeALargeOneBetweenTwoStrips) {
+  Server server(device(), {.encode_thread_count = 1, .trace_slot_count = 2});
+  std::vector<std::string> order;
+  std::mutex order_mutex;
+  const auto gate = std::make_shared<Gate>();
+  const auto large = std::make_shared<OrderNoter>("large", order, order_mutex);
+  const auto small = std::make_shared<OrderNoter>("small", order, order_mutex);
+
+  const auto gate_place = join(server, smallQuilt({64, 48}), gate);
+  // 8 strips, of which two can be on their way while the gate holds the encode thread.
+  const auto large_place = join(server, smallQuilt({320, 1000}), large);
+  server.offer(syntheticFrame(1));
+  gate->waitUntilReached();
+  const auto small_place = join(server, smallQuilt({80, 60}), small);
+  gate->release();
+  small->arrived().wait();
+  large->arrived().wait();
+  EXPECT_THAT(order, ElementsAre("small", "large"));
+}
+
+TEST_F(PipelineOrderTest, tellsOfAFailureOnceAndStillDrainsWithEveryFrameReported) {
+  ManualClock clock;
+  Metrics metrics;
+  Broadcaster broadcaster({});
+  StreamDirectory directory(clock, 1);
+  ReportLog reports;
+  std::promise<std::string> failure;
+  {
+    Pipeline pipeline({.device = device(),
+                       .clock = clock,
+                       .metrics = metrics,
+                       .broadcaster = broadcaster,
+                       .directory = directory,
+                       .on_failure = [&](const std::exception& e) { failure.set_value(e.what()); }},
+                      {.encode_thread_count = 1});
+    const auto place =
+        broadcaster.subscribe("scene", smallQuilt(), {}, std::make_shared<Thrower>()).value();
+    pipeline.offerFrame("scene", syntheticFrame(1), reports.recorder());
+    EXPECT_EQ(failure.get_future().get(), "out of paper");
+    pipeline.offerFrame("scene", syntheticFrame(2), reports.recorder());
+    pipeline.drain();
+  }
+  EXPECT_THAT(reports.waitForReports(2), SizeIs(2));
+}
+
+}  // namespace
+}  // namespace viewloom::test
