@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer page: joins the choices, the connection, the picture and the figures.
 import {AtlasStream} from './atlas_stream.js';
+import {AutoDetail} from './auto_detail.js';
 import {Decoder} from './decoder.js';
 import {DisplayControls} from './display_controls.js';
 import {Look} from './look.js';
@@ -16,6 +17,7 @@ const byId = (id) => document.getElementById(id);
 const root = document.documentElement;
 const panel = new Panel();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
+const autoDetail = new AutoDetail(() => stream.change(sizeParameters(pageParameters())));
 let presets = [];
 let watching = null;  // name of the stream
 let publishing = true;  // whether the stream's publisher was there when last asked
@@ -45,6 +47,7 @@ const decoder = new Decoder(
 const stream = new AtlasStream({
   onAtlas(atlas) {
     panel.noteArrived(atlas);
+    if (byId('detail').value === 'auto') autoDetail.note(atlas.header);
     decoder.decode(atlas);
   },
   onLive() { notice(''); },
@@ -82,17 +85,29 @@ function pageParameters() {
   return new URLSearchParams(location.search);
 }
 
+function chosenPreset() {
+  return presets.find(({name}) => name === byId('preset').value);
+}
+
+// Width and height of the quilt: the address's or the preset's, times the detail.
+function sizeParameters(parameters) {
+  const chosen = byId('detail').value;
+  const detail = chosen === 'auto' ? autoDetail.detail : Number(chosen);
+  const size = {};
+  for (const side of ['width', 'height']) {
+    const full_px = Number(parameters.get(side) ?? chosenPreset()?.size[side]);
+    if (full_px) size[side] = Math.round(full_px * detail);
+  }
+  return size;
+}
+
 function watchParameters() {
   const parameters = pageParameters();
+  const size = sizeParameters(parameters);
   parameters.delete('detail');
   parameters.set('stream', watching);
-  const detail = Number(byId('detail').value);
-  const preset = presets.find(({name}) => name === byId('preset').value);
-  if (preset) parameters.set('preset', preset.name);
-  for (const side of ['width', 'height']) {
-    const full_px = Number(parameters.get(side) ?? preset?.size[side]);
-    if (full_px) parameters.set(side, Math.round(full_px * detail));
-  }
+  if (chosenPreset()) parameters.set('preset', chosenPreset().name);
+  for (const [side, length_px] of Object.entries(size)) parameters.set(side, length_px);
   return parameters;
 }
 
@@ -173,7 +188,7 @@ async function start() {
   byId('preset').replaceChildren(...options);
   const standard = parameters.has('columns') ? '' : kDefaultPreset;
   byId('preset').value = parameters.get('preset') ?? standard;
-  byId('detail').value = parameters.get('detail') ?? '1';
+  byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
   poll();
 }
 

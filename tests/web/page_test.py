@@ -140,6 +140,12 @@ class Page(PageTest):
         self.browser.wait_for("fetch('/api/displays').then(r => r.json()).then("
                               "j => j.displays[0].layout?.focal_distance_m === 4)")
 
+    def test_takes_less_detail_from_a_server_that_is_slow(self):
+        # Painted atlases say that they cost 116 ms, whatever their size.
+        self.open("?stream=painted")
+        self.browser.wait_for(
+            "document.getElementById('panel').innerText.includes('840 × 840 px')")
+
     def test_comes_back_after_a_restart_of_the_server(self):
         self.open()
         self.look(0.25)
