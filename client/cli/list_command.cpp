@@ -65,7 +65,7 @@ void print(const v1::GetServerInfoResponse& info) {
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),
               info.atlas_side_px_max());
-  if (!info.http_address().empty()) std::printf("page: http://%s/\n", info.http_address().c_str());
+  if (!info.http_address().empty()) std::printf("page: %s\n", info.http_address().c_str());
 }
 
 template <typename Response>

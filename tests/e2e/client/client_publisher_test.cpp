@@ -103,18 +103,14 @@ std::string bytesOf(const SharedBytes& bytes) {
 
 TEST(ClientPublisher, sendsWholeFramesInOrderAndGetsTheirReports) {
   std::vector<ReceivedFrame> received;
-  ScriptedServer server(
-      [&](PublishStream& stream, int) {
-        return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int) {
+    return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
+  };
+  ScriptedServer server(serve, noWatching);
   std::vector<uint64_t> reported;
-  Publisher publisher =
-      makePublisher(server, {},
-                    {.on_accepted = {},
-                     .on_report = [&](const v1::FrameReport& r) { reported.push_back(r.number()); },
-                     .on_wanted = {},
-                     .on_connection = {}});
+  PublisherCallbacks callbacks;
+  callbacks.on_report = [&](const v1::FrameReport& frame) { reported.push_back(frame.number()); };
+  Publisher publisher = makePublisher(server, {}, callbacks);
   const WireFrame frame = makeFrame(3);
   publisher.offer(frame);
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
@@ -128,11 +124,10 @@ TEST(ClientPublisher, sendsWholeFramesInOrderAndGetsTheirReports) {
 
 TEST(ClientPublisher, compressesPlanesWhenAsked) {
   std::vector<ReceivedFrame> received;
-  ScriptedServer server(
-      [&](PublishStream& stream, int) {
-        return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int) {
+    return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
+  };
+  ScriptedServer server(serve, noWatching);
   Publisher publisher = makePublisher(server, {.stream = {}, .session_id = {}, .zstd_level = 1});
   const WireFrame frame = makeFrame(3);
   publisher.offer(frame);
@@ -150,16 +145,15 @@ TEST(ClientPublisher, compressesPlanesWhenAsked) {
 TEST(ClientPublisher, sendsTheNewestFrameWhenTheServerIsSlow) {
   std::promise<void> has_first, may_report;
   std::vector<ReceivedFrame> received;
-  ScriptedServer server(
-      [&](PublishStream& stream, int) {
-        if (!accept(stream)) return grpc::Status::OK;
-        received.push_back(*readFrame(stream));
-        has_first.set_value();
-        may_report.get_future().wait();
-        report(stream, 1);
-        return takeAll(stream, received);
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int) {
+    if (!accept(stream)) return grpc::Status::OK;
+    received.push_back(*readFrame(stream));
+    has_first.set_value();
+    may_report.get_future().wait();
+    report(stream, 1);
+    return takeAll(stream, received);
+  };
+  ScriptedServer server(serve, noWatching);
   Publisher publisher =
       makePublisher(server, {.stream = {}, .session_id = {}, .zstd_level = 0, .in_flight_max = 1});
   publisher.offer(makeFrame(1));
@@ -176,14 +170,13 @@ TEST(ClientPublisher, sendsTheNewestFrameWhenTheServerIsSlow) {
 TEST(ClientPublisher, comesBackWithItsSessionAndShowsTheNewestFrameAgain) {
   std::vector<v1::PublishSettings> settings(3);
   std::vector<ReceivedFrame> received;
-  ScriptedServer server(
-      [&](PublishStream& stream, int call) {
-        if (!accept(stream, &settings[static_cast<size_t>(call)])) return grpc::Status::OK;
-        if (call == 2) return takeAll(stream, received);
-        readFrame(stream);
-        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "drains");
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int call) {
+    if (!accept(stream, &settings[static_cast<size_t>(call)])) return grpc::Status::OK;
+    if (call == 2) return takeAll(stream, received);
+    readFrame(stream);
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "drains");
+  };
+  ScriptedServer server(serve, noWatching);
   Publisher publisher = makePublisher(server);
   publisher.offer(makeFrame(9));
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
@@ -198,27 +191,23 @@ TEST(ClientPublisher, comesBackWithItsSessionAndShowsTheNewestFrameAgain) {
 TEST(ClientPublisher, survivesARestartOfTheServer) {
   std::promise<void> has_first;
   std::vector<ReceivedFrame> received;
-  ScriptedServer server(
-      [&](PublishStream& stream, int call) {
-        if (!accept(stream)) return grpc::Status::OK;
-        if (call > 1) return takeAll(stream, received);
-        const auto first = readFrame(stream);
-        report(stream, first->header.number());
-        has_first.set_value();
-        readFrame(stream);  // until the server goes down
-        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "down");
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int call) {
+    if (!accept(stream)) return grpc::Status::OK;
+    if (call > 1) return takeAll(stream, received);
+    const auto first = readFrame(stream);
+    report(stream, first->header.number());
+    has_first.set_value();
+    readFrame(stream);  // until the server goes down
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "down");
+  };
+  ScriptedServer server(serve, noWatching);
   std::promise<void> came_back;
   std::atomic<int> connections{0};
-  Publisher publisher = makePublisher(server, {},
-                                      {.on_accepted =
-                                           [&](const v1::PublishAccepted&) {
-                                             if (++connections == 2) came_back.set_value();
-                                           },
-                                       .on_report = {},
-                                       .on_wanted = {},
-                                       .on_connection = {}});
+  PublisherCallbacks callbacks;
+  callbacks.on_accepted = [&](const v1::PublishAccepted&) {
+    if (++connections == 2) came_back.set_value();
+  };
+  Publisher publisher = makePublisher(server, {}, callbacks);
   publisher.offer(makeFrame(1));
   has_first.get_future().wait();
   server.stop();
@@ -230,11 +219,10 @@ TEST(ClientPublisher, survivesARestartOfTheServer) {
 }
 
 TEST(ClientPublisher, endsWhenTheServerRefusesIt) {
-  ScriptedServer server(
-      [](PublishStream&, int) {
-        return grpc::Status(grpc::StatusCode::ALREADY_EXISTS, "another publisher");
-      },
-      noWatching);
+  const auto serve = [](PublishStream&, int) {
+    return grpc::Status(grpc::StatusCode::ALREADY_EXISTS, "another publisher");
+  };
+  ScriptedServer server(serve, noWatching);
   Publisher publisher = makePublisher(server);
   ASSERT_TRUE(publisher.waitEnded(kLong_ns));
   EXPECT_EQ(publisher.ended()->code(), absl::StatusCode::kAlreadyExists);
@@ -243,14 +231,13 @@ TEST(ClientPublisher, endsWhenTheServerRefusesIt) {
 
 TEST(ClientPublisher, canBeDestroyedWhileTheServerDoesNotRead) {
   std::promise<void> is_stalling, client_is_gone;
-  ScriptedServer server(
-      [&](PublishStream& stream, int) {
-        accept(stream);
-        is_stalling.set_value();
-        client_is_gone.get_future().wait();
-        return grpc::Status::OK;
-      },
-      noWatching);
+  const auto serve = [&](PublishStream& stream, int) {
+    accept(stream);
+    is_stalling.set_value();
+    client_is_gone.get_future().wait();
+    return grpc::Status::OK;
+  };
+  ScriptedServer server(serve, noWatching);
   {
     Publisher publisher = makePublisher(server);
     publisher.offer(makeFrame(1));

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// The client, the command and the Python example against a real viewloomd.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <algorithm>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "e2e/server_process.h"
+#include "files/jpeg_image.h"
+#include "lib/catalog.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "lib/watcher.h"
+#include "synthetic/synthetic_wire_frame.h"
+
+namespace viewloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kLong_ns = 120'000'000'000;  // only a failing test waits so long
+constexpr BackoffOptions kQuick{.first_ns = 10'000'000, .max_ns = 200'000'000, .factor = 2};
+
+WireFrame smallFrame(double time_s) {
+  return syntheticWireFrame({.size_px = {64, 36}, .layer_count = 2, .time_s = time_s, .camera = {}},
+                            1);
+}
+
+v1::OpenDisplay smallQuilt(uint32_t count) {
+  v1::OpenDisplay open;
+  open.set_stream("s");
+  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
+  quilt.set_columns(2);
+  quilt.set_rows(2);
+  quilt.mutable_size()->set_width(96);
+  quilt.mutable_size()->set_height(64);
+  open.mutable_encoding()->set_with_mask(true);
+  open.set_count(count);
+  open.set_wait_for_stream(true);
+  return open;
+}
+
+// The exit code of a shell command.
+int runCommand(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Listens on a socket of its own, so that it can come back at the same address.
+class ClientWithViewloomd : public ::testing::Test {
+ protected:
+  ClientWithViewloomd() {
+    std::string pattern = (fs::temp_directory_path() / "viewloom_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = pattern;
+    address_ = "unix:" + (folder_ / "server").string();
+    start();
+  }
+  ~ClientWithViewloomd() override {
+    server_.reset();
+    fs::remove_all(folder_);
+  }
+
+  void start() {
+    server_.emplace(
+        std::vector<std::string>{"serve", "--grpc.address", address_, "--http.enabled", "false"});
+  }
+
+  // By SIGTERM; returns the exit code.
+  int stop() {
+    server_->sendSignal(SIGTERM);
+    return server_->waitForExit();
+  }
+
+  std::unique_ptr<Publisher> publish(PublisherCallbacks callbacks = {}) {
+    return std::make_unique<Publisher>(
+        makeChannel(address_), PublisherOptions{.stream = "s", .session_id = {}, .backoff = kQuick},
+        std::move(callbacks));
+  }
+
+  std::unique_ptr<Watcher> watch(uint32_t count, std::function<void(const Atlas&)> on_atlas) {
+    const WatcherCallbacks callbacks{
+        .on_layout = {}, .on_atlas = std::move(on_atlas), .on_connection = {}};
+    return std::make_unique<Watcher>(makeChannel(address_), smallQuilt(count), callbacks, kQuick);
+  }
+
+  fs::path folder_;
+  std::string address_;
+  std::optional<test::ServerProcess> server_;
+};
+
+TEST_F(ClientWithViewloomd, publishesAFrameAndWatchesItsQuilt) {
+  std::vector<Atlas> atlases;
+  const auto watcher = watch(1, [&](const Atlas& atlas) { atlases.push_back(atlas); });
+  const auto publisher = publish();
+  publisher->offer(smallFrame(0));
+  ASSERT_TRUE(watcher->waitEnded(kLong_ns));
+  EXPECT_EQ(*watcher->ended(), absl::OkStatus());
+  EXPECT_EQ(publisher->finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(atlases.size(), 1U);
+  EXPECT_EQ(atlases[0].layout->view_count(), 4U);
+  const auto color = decodePlane(atlases[0], v1::ATLAS_PLANE_COLOR);
+  ASSERT_TRUE(color.ok()) << color.status();
+  EXPECT_EQ(color->width_px, 96U);
+  const auto mask = decodePlane(atlases[0], v1::ATLAS_PLANE_MASK);
+  ASSERT_TRUE(mask.ok()) << mask.status();
+  const auto hits = std::count(mask->samples.begin(), mask->samples.end(), v1::RAY_CLASS_HIT);
+  EXPECT_GT(hits, static_cast<std::ptrdiff_t>(mask->samples.size() / 2));
+  EXPECT_EQ(stop(), 0);
+}
+
+TEST_F(ClientWithViewloomd, servesWhoCameBackAfterARestart) {
+  std::promise<void> seen_before, seen_after;
+  int seen = 0;
+  const auto watcher = watch(2, [&](const Atlas&) {
+    if (++seen == 1) seen_before.set_value();
+  });
+  const auto publisher = publish();
+  publisher->offer(smallFrame(0));
+  ASSERT_EQ(seen_before.get_future().wait_for(std::chrono::nanoseconds(kLong_ns)),
+            std::future_status::ready);
+  EXPECT_EQ(stop(), 0);
+  start();
+  // Nothing is offered again: the publisher shows its still, the watcher gets the second atlas of
+  // it.
+  ASSERT_TRUE(watcher->waitEnded(kLong_ns))
+      << "publisher: " << publisher->ended().value_or(absl::OkStatus()) << ", sent "
+      << publisher->counts().sent << ", watcher has " << watcher->counts().atlases.whole;
+  EXPECT_EQ(*watcher->ended(), absl::OkStatus());
+  EXPECT_EQ(watcher->counts().reconnects, 1U);
+  EXPECT_EQ(publisher->counts().reconnects, 1U);
+}
+
+TEST_F(ClientWithViewloomd, tellsItsPresetsAndLimits) {
+  const Catalog catalog(makeChannel(address_));
+  const auto presets = catalog.listPresets();
+  ASSERT_TRUE(presets.ok()) << presets.status();
+  EXPECT_GT(presets->presets_size(), 5);
+  const auto info = catalog.getServerInfo();
+  ASSERT_TRUE(info.ok()) << info.status();
+  EXPECT_EQ(info->ingest_limits().layer_count_max(), 4U);
+}
+
+TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
+  const auto publisher = publish();
+  publisher->offer(smallFrame(0));
+  const std::string command = std::string(VIEWLOOM) + " --server " + address_;
+  const fs::path out = folder_ / "out";
+  EXPECT_EQ(runCommand(command + " watch s --count 1 --columns 2 --rows 2 --size 96x64 -q --out " +
+                       out.string()),
+            0);
+  const fs::path quilt = out / "s_000001_000001_qs2x2a1.5.jpg";
+  const auto image = files::readJpegColor(quilt);
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(image->encoding, v1::PLANE_ENCODING_JPEG) << "baseline";
+  EXPECT_EQ(image->width_px, 96U);
+  EXPECT_EQ(runCommand(command +
+                       " watch s --count 1 --columns 2 --rows 2 --size 96x64 -q --views"
+                       " --format png --out " +
+                       out.string()),
+            0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 1 + 4);
+  EXPECT_EQ(runCommand(command + " list --json streams >/dev/null"), 0);
+  EXPECT_EQ(runCommand(command + " publish --synthetic --size 64x36 --seconds 0.2 -q --stream t"),
+            0);
+}
+
+TEST_F(ClientWithViewloomd, thePythonExampleSavesAQuiltAndAView) {
+  const auto publisher = publish();
+  publisher->offer(smallFrame(0));
+  const std::string out = (folder_ / "python").string();
+  ASSERT_EQ(runCommand(std::string("PYTHONPATH=") + VIEWLOOM_PYTHON + " /usr/bin/python3 " +
+                       VIEWLOOM_EXAMPLE + " --stream s --preset portrait --server " + address_ +
+                       " --out " + out),
+            0);
+  EXPECT_TRUE(fs::exists(out + "_view00.png"));
+}
+
+}  // namespace
+}  // namespace viewloom
