@@ -52,8 +52,8 @@ struct StreamDefaults {
   bool operator==(const StreamDefaults&) const = default;
 };
 
-// A focal distance from content: the harmonic mean of the 2nd and 98th depth percentile. A stream of
-// sky alone has none; then the default of StreamDefaults.
+// A focal distance from content: the harmonic mean of the 2nd and 98th depth percentile. A stream
+// of sky alone has none; then the default of StreamDefaults.
 double contentFocalDistance(const SourceStats& stats);
 
 // Largest atlas of this device and this server.

@@ -4,7 +4,8 @@
 namespace viewloom {
 
 TexelView::TexelView(const Device& device, const Buffer& buffer, vk::Format format)
-    : view_(device.handle(), vk::BufferViewCreateInfo{
-                                 .buffer = buffer.handle(), .format = format, .range = VK_WHOLE_SIZE}) {}
+    : view_(device.handle(),
+            vk::BufferViewCreateInfo{
+                .buffer = buffer.handle(), .format = format, .range = VK_WHOLE_SIZE}) {}
 
 }  // namespace viewloom

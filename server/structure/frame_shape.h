@@ -27,7 +27,8 @@ struct FrameShape {
 
 FrameShape shapeOf(const Frame& frame);
 
-// Device and host memory one slot of this shape takes, bytes; to check before anything is allocated.
+// Device and host memory one slot of this shape takes, bytes; to check before anything is
+// allocated.
 uint64_t structureBytes(const FrameShape& shape);
 
 // Where each plane of the frame lies in the upload buffer, bytes.

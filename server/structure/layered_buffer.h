@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array per layer: in one buffer, read as texels, where the device allows that; else one buffer each.
+// An array per layer: in one buffer, read as texels, where the device allows that; else one buffer
+// each.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,9 @@ class LayeredBuffer {
   vk::DeviceAddress address(uint32_t layer) const;
   // Where a layer lies, for copies.
   const Buffer& buffer(uint32_t layer) const { return buffers_[texels_.isEmpty() ? layer : 0]; }
-  uint64_t offsetBytes(uint32_t layer) const { return texels_.isEmpty() ? 0 : layer * layer_bytes_; }
+  uint64_t offsetBytes(uint32_t layer) const {
+    return texels_.isEmpty() ? 0 : layer * layer_bytes_;
+  }
   uint64_t layerBytes() const { return layer_bytes_; }
 
   // Descriptors of all layers. Divided arrays have none: what stands there is never used.

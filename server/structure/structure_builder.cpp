@@ -189,7 +189,8 @@ void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSl
                                          .size = slot.staged()[i].color.size_bytes});
       continue;
     }
-    // Two dimensions of groups: one alone would pass the least limit of 65535 from 2048 x 2048 px on.
+    // Two dimensions of groups: one alone would pass the least limit of 65535 from 2048 x 2048 px
+    // on.
     const uint32_t group_count = groups(slot.conversions()[i].texel_count, abi::kNodeGroupSize);
     const uint32_t groups_x = std::min(group_count, 1024u);
     convert_color_.record(commands, slot.conversions()[i], groups_x, groups(group_count, groups_x));

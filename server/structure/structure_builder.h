@@ -15,8 +15,8 @@ namespace viewloom {
 // Passes a recording times at most.
 inline constexpr uint32_t kStructurePassCountMax = 16;
 
-// The device must outlive it. Thread-safety: record() may be called from any thread. The first recording
-// for a layer count makes its pipelines.
+// The device must outlive it. Thread-safety: record() may be called from any thread. The first
+// recording for a layer count makes its pipelines.
 class StructureBuilder {
  public:
   explicit StructureBuilder(const Device& device);

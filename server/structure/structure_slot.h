@@ -31,7 +31,8 @@ class StructureSlot {
   // Once the build's submission is done.
   SourceStats stats() const;
 
-  // Kernels reach what is read as texels, or what is written, by address: it is larger than bindings.
+  // Kernels reach what is read as texels, or what is written, by address: it is larger than
+  // bindings.
   bool readsByAddress() const { return structure_.isDivided(); }
   bool writesByAddress() const { return writes_by_address_; }
 

@@ -48,14 +48,15 @@ abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
   const auto direction = [&](double x, double y, double z) {
     return abi::vec3(homogeneousPx(in, source_from_view.orientation * glm::dvec3(x, y, z)));
   };
-  const double moved_px =
-      std::max(out.focal_px.x, out.focal_px.y) * largestCross(source_from_view.position_m, in, source_px);
+  const double moved_px = std::max(out.focal_px.x, out.focal_px.y) *
+                          largestCross(source_from_view.position_m, in, source_px);
   return {.eye = abi::vec3(homogeneousPx(in, source_from_view.position_m)),
           .direction = direction(-out.principal_px.x / out.focal_px.x,
                                  out.principal_px.y / out.focal_px.y, -1.0),
           .direction_dx = direction(1.0 / out.focal_px.x, 0.0, 0.0),
           .direction_dy = direction(0.0, -1.0 / out.focal_px.y, 0.0),
-          .inv_z_tolerance = float(std::min(tolerance_px / std::max(moved_px, 1e-300), kInvZToleranceMax)),
+          .inv_z_tolerance =
+              float(std::min(tolerance_px / std::max(moved_px, 1e-300), kInvZToleranceMax)),
           .is_used = 1};
 }
 

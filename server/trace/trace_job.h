@@ -13,7 +13,8 @@ namespace viewloom {
 
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
-  std::vector<abi::ViewParams> tiles;  // row-major from the top left; is_used = 0 where no view stands
+  // Row-major from the top left; is_used = 0 where no view stands
+  std::vector<abi::ViewParams> tiles;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
 };
@@ -25,9 +26,10 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
 // Where the display of a spec stands: its own world pose, else the source's.
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera);
 
-// One view as a kernel takes it. The tolerance: an error dw in inv_z, seen from an eye at b (source camera
-// space, m) along r = (x/f, y/f, 1), moves the picture by f_out |r x b| dw / |r - w b|^2 px. Here
-// |r x b| is its largest value over the image, and |r - w b| >= |1 - w b_z|, which the kernel applies.
+// One view as a kernel takes it. The tolerance: an error dw in inv_z, seen from an eye at b (source
+// camera space, m) along r = (x/f, y/f, 1), moves the picture by f_out |r x b| dw / |r - w b|^2 px.
+// Here |r x b| is its largest value over the image, and |r - w b| >= |1 - w b_z|, which the kernel
+// applies.
 abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
                                const Camera& source_camera, SizePx source_px, double tolerance_px);
 

@@ -32,7 +32,8 @@ ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const ch
 
 void ReadablePlane::recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const {
   if (isEmpty() || is_direct_) return;
-  commands.copyBuffer(device_only_.handle(), readback_.handle(), vk::BufferCopy{.size = size_bytes});
+  commands.copyBuffer(device_only_.handle(), readback_.handle(),
+                      vk::BufferCopy{.size = size_bytes});
 }
 
 TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_(shape) {
@@ -42,7 +43,8 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   // Filled in words: rounded up to whole ones.
   mask_ = planeIf(shape.outputs.mask, device, (area_px + 3) / 4 * 4, "band mask");
   linear_ = planeIf(shape.outputs.linear, device, area_px * 4 * sizeof(float), "band linear");
-  records_ = planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
+  records_ =
+      planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, abi::kClassCount * sizeof(uint32_t), "band counters");
   const uint64_t params_bytes =
       kTilesOffset_bytes + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);

@@ -63,8 +63,13 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
   std::unique_ptr<ComputePass>& made = passes_[variant];
   if (!made) {
     static_assert(abi::kOwnConstants == 2);
-    const uint32_t constants[] = {variant.reads_by_address, 0, variant.wanted, variant.color_format, variant.pixels_per_invocation,
-                                  variant.lanes_are_views, variant.color_is_scaled};
+    const uint32_t constants[] = {variant.reads_by_address,
+                                  0,
+                                  variant.wanted,
+                                  variant.color_format,
+                                  variant.pixels_per_invocation,
+                                  variant.lanes_are_views,
+                                  variant.color_is_scaled};
     made = std::make_unique<ComputePass>(
         *device_, ComputePassOptions{.spirv = walk_views_spirv,
                                      .push_bytes = sizeof(abi::TracePush),

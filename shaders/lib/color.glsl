@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour of a surface point, interpolated within its connected surface and never across a silhouette.
+// The colour of a surface point, interpolated within its connected surface and never across a
+// silhouette.
 #ifndef VIEWLOOM_LIB_COLOR_GLSL_
 #define VIEWLOOM_LIB_COLOR_GLSL_
 
@@ -7,24 +8,26 @@
 #include "lib/structure_access.glsl"
 
 // Premultiplied linear BT.709. `count`: texels of a layer.
-vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format, uint index) {
+vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format,
+               uint index) {
   uvec2 bits;
   if (!kReadByAddress) bits = texelFetch(color_texels, int(layer * count + index)).xy;
-  else if (color_format == kColorRgba8) bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
+  else if (color_format == kColorRgba8)
+    bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
   else bits = Uvec2Ref(pickAddress(color, layer)).at[index];
   if (color_format == kColorRgba8) return vec4(linearFromSrgb(unpackUnorm4x8(bits.x).rgb), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 
-// Sub-texel positions have 1/256 px, as in texture units: a ray through a sample's centre returns the
-// sample, whatever the last bits of its position.
+// Sub-texel positions have 1/256 px, as in texture units: a ray through a sample's centre returns
+// the sample, whatever the last bits of its position.
 const float kSubtexelSteps = 256.0;
 
-// Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around the
-// point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a branch
-// would cost as much.
-vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax], Extent extent,
-                          uint color_format, uint layer, ivec2 cell, vec2 point) {
+// Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around
+// the point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a
+// branch would cost as much.
+vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
+                          Extent extent, uint color_format, uint layer, ivec2 cell, vec2 point) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const vec2 share = min(abs(offset), vec2(0.5));
   const ivec2 toward = ivec2(offset.x >= 0.0 ? 1 : -1, offset.y >= 0.0 ? 1 : -1);
@@ -36,7 +39,9 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   // The fourth is reached through either neighbour.
   const bool through_x = link_x > 0u;
   const uint via = through_x ? link_x : link_y;
-  const ivec2 via_cell = cell + (through_x ? ivec2(toward.x, 0) : via > 0u ? ivec2(0, toward.y) : ivec2(0));
+  const ivec2 via_cell = cell + (through_x  ? ivec2(toward.x, 0)
+                                 : via > 0u ? ivec2(0, toward.y)
+                                            : ivec2(0));
   const uint via_layer = via > 0u ? via - 1u : layer;
   const uint via_links = loadLinks(layers, via_layer, extent, via_cell);
   const uint link_xy = via > 0u ? linkOfEdge(via_links, through_x ? edge_y : edge_x) : 0u;
@@ -45,10 +50,12 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   const uint own = uint(cell.y * extent.size_px.x + cell.x);
   const uint step_x = uint(toward.x);
   const uint step_y = uint(toward.y * extent.size_px.x);
-  const vec4 weights = vec4(other.x * other.y, link_x > 0u ? share.x * other.y : 0.0,
-                            link_y > 0u ? other.x * share.y : 0.0, link_xy > 0u ? share.x * share.y : 0.0);
-  const uvec4 tap_layers = uvec4(layer, link_x > 0u ? link_x - 1u : layer, link_y > 0u ? link_y - 1u : layer,
-                                 link_xy > 0u ? link_xy - 1u : layer);
+  const vec4 weights =
+      vec4(other.x * other.y, link_x > 0u ? share.x * other.y : 0.0,
+           link_y > 0u ? other.x * share.y : 0.0, link_xy > 0u ? share.x * share.y : 0.0);
+  const uvec4 tap_layers =
+      uvec4(layer, link_x > 0u ? link_x - 1u : layer, link_y > 0u ? link_y - 1u : layer,
+            link_xy > 0u ? link_xy - 1u : layer);
   const uvec4 taps = uvec4(own, link_x > 0u ? own + step_x : own, link_y > 0u ? own + step_y : own,
                            link_xy > 0u ? own + step_x + step_y : own);
   const uint count = uint(extent.size_px.x * extent.size_px.y);
@@ -59,10 +66,10 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   return sum / (weights.x + weights.y + weights.z + weights.w);
 }
 
-// The layer of a column that continues a facet there: the surface nearest to the facet's plane, if it is
-// within the connection tolerance for every px between. kLayerCountMax: none.
-uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent extent, uint layer, ivec2 cell,
-                     ivec2 column, vec2 kappa) {
+// The layer of a column that continues a facet there: the surface nearest to the facet's plane, if
+// it is within the connection tolerance for every px between. kLayerCountMax: none.
+uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent extent, uint layer,
+                     ivec2 cell, ivec2 column, vec2 kappa) {
   if (column == cell) return layer;
   const vec2 apart = vec2(column - cell);
   const uvec2 facet = loadFacet(layers, layer, extent, cell);
@@ -79,11 +86,11 @@ uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent ex
   return nearest;
 }
 
-// Colour planes of another size, looked up by uv: bilinear over the texels whose facet continues the
-// hit's. `kappa`: absolute, relative.
-vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax], uint layer_count,
-                        Extent extent, ivec2 color_size, uint color_format, uint layer, ivec2 cell, vec2 point,
-                        vec2 kappa) {
+// Colour planes of another size, looked up by uv: bilinear over the texels whose facet continues
+// the hit's. `kappa`: absolute, relative.
+vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax],
+                        uint layer_count, Extent extent, ivec2 color_size, uint color_format,
+                        uint layer, ivec2 cell, vec2 point, vec2 kappa) {
   const uint count = uint(color_size.x * color_size.y);
   const vec2 scale = vec2(color_size) / vec2(extent.size_px);
   const vec2 position = round((point * scale - 0.5) * kSubtexelSteps) / kSubtexelSteps;

@@ -5,10 +5,11 @@
 
 #include "shared/structure_abi.h"
 
-// A slope keeps a sign, 6 bits of exponent and 9 of mantissa: 10 significant bits over 2^-39 .. 2^24
-// (1/m per px), so no scene needs a scale of its own. 0.5 px away the rounding moves a surface by less
-// than 2^-12 of its slope.
-const float kSlopeExponentScale = 154742504910672534362390528.0;  // 2^87: exponent 0 stands for 2^-40
+// A slope keeps a sign, 6 bits of exponent and 9 of mantissa: 10 significant bits over 2^-39 ..
+// 2^24 (1/m per px), so no scene needs a scale of its own. 0.5 px away the rounding moves a surface
+// by less than 2^-12 of its slope.
+// 2^87: exponent 0 stands for 2^-40
+const float kSlopeExponentScale = 154742504910672534362390528.0;
 
 uint packSlope(float slope) {
   const uint magnitude = floatBitsToUint(abs(slope) * (1.0 / kSlopeExponentScale));
@@ -34,8 +35,8 @@ float facetAt(float inv_z, vec2 slope, vec2 offset) {
   return max(0.0, inv_z + slope.x * offset.x + slope.y * offset.y);
 }
 
-// The smallest and largest inv_z of a facet over its footprint. Three roundings, each of at most half an
-// ulp of the largest value: outward by one to two ulp of that.
+// The smallest and largest inv_z of a facet over its footprint. Three roundings, each of at most
+// half an ulp of the largest value: outward by one to two ulp of that.
 vec2 facetBox(float inv_z, vec2 slope) {
   precise const float half_range = 0.5 * (abs(slope.x) + abs(slope.y));
   precise const float margin = (inv_z + half_range) * 1.1920928955078125e-7;

@@ -10,12 +10,15 @@ const uint kNoiseMantissaBits = 4u;
 const uint kLeastExponent = 127u - 40u;
 
 uint logBin(float value, uint mantissa_bits, uint bin_count) {
-  const int bin = int(floatBitsToUint(value) >> (23u - mantissa_bits)) - int(kLeastExponent << mantissa_bits);
+  const int bin =
+      int(floatBitsToUint(value) >> (23u - mantissa_bits)) - int(kLeastExponent << mantissa_bits);
   return uint(clamp(bin, 0, int(bin_count) - 1));
 }
 
 float binStart(uint bin, uint mantissa_bits) {
-  return bin == 0u ? 0.0 : uintBitsToFloat((bin + (kLeastExponent << mantissa_bits)) << (23u - mantissa_bits));
+  return bin == 0u
+             ? 0.0
+             : uintBitsToFloat((bin + (kLeastExponent << mantissa_bits)) << (23u - mantissa_bits));
 }
 
 uint depthBin(float inv_z) {

@@ -12,9 +12,15 @@ layout(set = 0, binding = kBindingStructure) uniform usamplerBuffer structure_te
 layout(set = 0, binding = kBindingColor) uniform usamplerBuffer color_texels;
 layout(set = 0, binding = kBindingInvZ) uniform samplerBuffer inv_z_texels;
 layout(set = 0, binding = kBindingInvZOut, scalar) writeonly buffer InvZOut { float inv_z_out[]; };
-layout(set = 0, binding = kBindingStructureOut, scalar) writeonly buffer StructureOut { uvec2 structure_out[]; };
-layout(set = 0, binding = kBindingLinksOut, scalar) writeonly buffer LinksOut { uint16_t links_out[]; };
-layout(set = 0, binding = kBindingMeasured, scalar) uniform MeasuredBlock { MeasuredHead measured_head; };
+layout(set = 0, binding = kBindingStructureOut, scalar) writeonly buffer StructureOut {
+  uvec2 structure_out[];
+};
+layout(set = 0, binding = kBindingLinksOut, scalar) writeonly buffer LinksOut {
+  uint16_t links_out[];
+};
+layout(set = 0, binding = kBindingMeasured, scalar) uniform MeasuredBlock {
+  MeasuredHead measured_head;
+};
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MeasuredRef { Measured value; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FloatRef { float at[]; };

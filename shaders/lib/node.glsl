@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes of the pyramid: 8 bytes that are either a plane with its error or a box.
 //
-//   plane  x: bit 31 = 1 | bits 30..9 the upper bits of inv_z at the centre | bits 8..3 error | 2..0 level
+//   plane  x: bit 31 = 1 | bits 30..9 the upper bits of inv_z at the centre | bits 8..3 error |
+//   2..0 level
 //          y: two slopes (lib/facet.glsl)
 //   box    x: bit 31 = 0 | the least inv_z, its low 3 bits dropped | bits 2..0 level
 //          y: the largest inv_z (kNoSurface: nothing in it)
 //
-// The level is the node's own, so a copy of a large plane still knows its size. The least inv_z of a box
-// with a hole is 0: nothing can be known to be behind it everywhere.
+// The level is the node's own, so a copy of a large plane still knows its size. The least inv_z of
+// a box with a hole is 0: nothing can be known to be behind it everywhere.
 #ifndef VIEWLOOM_LIB_NODE_GLSL_
 #define VIEWLOOM_LIB_NODE_GLSL_
 
@@ -77,7 +78,8 @@ vec2 nodeBox(Node node) {
   if (!node.is_plane) return node.box;
   const float half_size = 0.5 * float(1u << node.level);
   precise const float half_range =
-      (half_size * (abs(node.slope.x) + abs(node.slope.y)) + node.error) * (1.0 + 2.384185791015625e-7);
+      (half_size * (abs(node.slope.x) + abs(node.slope.y)) + node.error) *
+      (1.0 + 2.384185791015625e-7);
   precise const float low = (node.inv_z - half_range) * (1.0 - 2.384185791015625e-7);
   precise const float high = (node.inv_z + half_range) * (1.0 + 2.384185791015625e-7);
   return vec2(max(0.0, low), high);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Least-squares planes over a regular grid of samples, some of which may be missing at the image border.
+// Least-squares planes over a regular grid of samples, some of which may be missing at the image
+// border.
 #ifndef VIEWLOOM_LIB_PLANE_FIT_GLSL_
 #define VIEWLOOM_LIB_PLANE_FIT_GLSL_
 
-// Sums over the samples that exist. They form a rectangle (a border cuts whole rows and columns), so the
-// two axes are independent: slope = sum((x - mean x) w) / sum((x - mean x)^2).
+// Sums over the samples that exist. They form a rectangle (a border cuts whole rows and columns),
+// so the two axes are independent: slope = sum((x - mean x) w) / sum((x - mean x)^2).
 struct PlaneFit {
   float count;
   vec2 position;    // sum of positions, px from the block's centre

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of the source's image space: a straight segment in (x px, y px, inv_z), clipped to the frustum.
+// Rays of the source's image space: a straight segment in (x px, y px, inv_z), clipped to the
+// frustum.
 #ifndef VIEWLOOM_LIB_RAY_GLSL_
 #define VIEWLOOM_LIB_RAY_GLSL_
 
@@ -9,7 +10,8 @@ struct Ray {
   vec3 start;       // x px, y px, inv_z
   vec3 extent;      // end - start; the ray is start + t * extent, t in [0, 1]
   bool is_inside;   // false: it never sees the source's image
-  bool is_endless;  // its end lies at inv_z = 0; else it leaves the image or passes the camera plane
+  // Its end lies at inv_z = 0; else it leaves the image or passes the camera plane
+  bool is_endless;
 };
 
 // Direction in homogeneous image coordinates of the source.
@@ -26,9 +28,9 @@ void clipRange(float a, float b, inout vec2 range) {
 }
 
 // The ray's points are (1 - u) eye + u direction, u in [0, 1]: u = 1 is infinitely far. Both are
-// homogeneous, so every face of the frustum is one linear clip and nothing is divided before the end.
-// `inv_z_near`: nothing of the source is nearer, 1/m, > 0. It also is the unit of depth here, so that
-// scenes of any scale use the range of u evenly.
+// homogeneous, so every face of the frustum is one linear clip and nothing is divided before the
+// end. `inv_z_near`: nothing of the source is nearer, 1/m, > 0. It also is the unit of depth here,
+// so that scenes of any scale use the range of u evenly.
 Ray makeRay(vec3 eye, vec3 direction, vec2 size_px, float inv_z_near) {
   const vec3 near_eye = eye * inv_z_near;
   vec2 range = vec2(0.0, 1.0);
@@ -52,7 +54,8 @@ Ray makeRay(vec3 eye, vec3 direction, vec2 size_px, float inv_z_near) {
 
 // 1/Z along the axis of the view of a point of the ray: s from point = (eye + s direction) / Z.
 float viewInvZ(vec3 eye, vec3 direction, vec3 position) {
-  // Z(s) = eye.z + s direction.z, and Z x(s) = eye.x + s direction.x; the larger divisor is the safer.
+  // Z(s) = eye.z + s direction.z, and Z x(s) = eye.x + s direction.x; the larger divisor is the
+  // safer.
   const vec3 divisors = abs(vec3(direction.x - position.x * direction.z,
                                  direction.y - position.y * direction.z, direction.z));
   if (position.z <= 0.0) return 0.0;

@@ -53,7 +53,8 @@ uvec2 loadCell(Address layers[kLayerCountMax], uint layer, Extent extent, uint l
   return loadWord(layers, layer, extent, cellIndex(extent, level, cell));
 }
 
-void storeCell(Address layers[kLayerCountMax], uint layer, Extent extent, uint level, uvec2 cell, uvec2 bits) {
+void storeCell(Address layers[kLayerCountMax], uint layer, Extent extent, uint level, uvec2 cell,
+               uvec2 bits) {
   storeWord(layers, layer, extent, cellIndex(extent, level, cell), bits);
 }
 
@@ -65,7 +66,8 @@ float facetInvZ(uvec2 facet) {
 // The facet's surface at an image point; kNoSurface where there is none.
 float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
   const float inv_z = facetInvZ(facet);
-  return inv_z < 0.0 ? kNoSurface : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(pixel) - 0.5);
+  return inv_z < 0.0 ? kNoSurface
+                     : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(pixel) - 0.5);
 }
 
 uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
@@ -75,7 +77,8 @@ uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 
   return (index & 1u) != 0u ? two >> 16 : two & 0xffffu;
 }
 
-void storeLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel, uint links) {
+void storeLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel,
+                uint links) {
   const uint index = cellCount(extent.padded_area) * 4u + facetIndex(extent, pixel);
   if (kWriteByAddress) Uint16Ref(pickAddress(layers, layer)).at[index] = uint16_t(links);
   else links_out[layer * extent.layer_words * 4u + index] = uint16_t(links);

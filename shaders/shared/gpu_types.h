@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types that C++ and GLSL both know. Only 4-byte scalars and their vectors; buffers are scalar layout.
+// The types that C++ and GLSL both know. Only 4-byte scalars and their vectors; buffers are scalar
+// layout.
 #ifndef VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_
 #define VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_
 

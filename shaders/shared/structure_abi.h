@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure of one frame as it lies in device memory, and what its kernels are told.
 //
-// What every px needs comes by push constants and bindings: on software devices a load through an address
-// costs five times one through a storage binding, and ten times a texel fetch (shaders/README.md, Measured).
-// Addresses serve what is larger than the device's bindings.
+// What every px needs comes by push constants and bindings: on software devices a load through an
+// address costs five times one through a storage binding, and ten times a texel fetch
+// (shaders/README.md, Measured). Addresses serve what is larger than the device's bindings.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 
@@ -16,19 +16,21 @@ VIEWLOOM_ABI_CONST uint kLayerCountMax = 4u;
 // A layer of a structure is one array of cells (uvec2), level after level, then the links:
 //   facets   level 0, one per px
 //   entries  one per 4x4 px: where a walk enters it
-//   nodes    levels 2..6: a node of level n covers 2^n x 2^n px. Level 1 is not kept: a walk that cannot
+//   nodes    levels 2..6: a node of level n covers 2^n x 2^n px. Level 1 is not kept: a walk that
+//   cannot
 //            use a 4x4 node goes straight to the facets.
 //   links    uint16 per px, in the order of the facets
-// Both sides of the image are rounded up to whole nodes of the last level, so every level is exactly a
-// quarter of the one below it and no table of offsets is needed. What lies outside the image is never
-// read.
+// Both sides of the image are rounded up to whole nodes of the last level, so every level is
+// exactly a quarter of the one below it and no table of offsets is needed. What lies outside the
+// image is never read.
 VIEWLOOM_ABI_CONST uint kLevelFacets = 0u;
 VIEWLOOM_ABI_CONST uint kLevelEntries = 1u;
 VIEWLOOM_ABI_CONST uint kLevelFirst = 2u;
 VIEWLOOM_ABI_CONST uint kLevelLast = 6u;
 
 // Where the cells of a level begin, for sides already rounded up; area = width * height.
-// Nodes of levels 3, 4, 5 come after 64, 16, 4 times the count of the last level: bytes of a constant.
+// Nodes of levels 3, 4, 5 come after 64, 16, 4 times the count of the last level: bytes of a
+// constant.
 #ifdef __cplusplus
 inline constexpr
 #endif
@@ -48,7 +50,8 @@ uint cellCount(uint padded_area) {
   return levelOffset(kLevelLast, padded_area) + padded_area / 4096u;
 }
 
-// 8-byte words of a layer: cells, then links. Layer k of an undivided structure begins at k times this.
+// 8-byte words of a layer: cells, then links. Layer k of an undivided structure begins at k times
+// this.
 #ifdef __cplusplus
 inline constexpr
 #endif
@@ -57,13 +60,15 @@ uint layerWords(uint padded_area) {
 }
 
 // Bindings, all in set 0.
-VIEWLOOM_ABI_CONST uint kBindingStructure = 0u;     // texels of two uints: all layers, one after the other
+// Texels of two uints: all layers, one after the other
+VIEWLOOM_ABI_CONST uint kBindingStructure = 0u;
 VIEWLOOM_ABI_CONST uint kBindingColor = 1u;         // texels of one or two uints: all layers
 VIEWLOOM_ABI_CONST uint kBindingInvZ = 2u;          // texels of one float: all layers
 VIEWLOOM_ABI_CONST uint kBindingSamples = 3u;       // storage, read: depth samples of one layer
 VIEWLOOM_ABI_CONST uint kBindingInvZOut = 4u;       // storage, written: inv_z of all layers
 VIEWLOOM_ABI_CONST uint kBindingStructureOut = 5u;  // storage, written: the cells of all layers
-VIEWLOOM_ABI_CONST uint kBindingLinksOut = 6u;      // storage, written: the same buffer as 16-bit words
+// Storage, written: the same buffer as 16-bit words
+VIEWLOOM_ABI_CONST uint kBindingLinksOut = 6u;
 VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;      // uniform: MeasuredHead
 VIEWLOOM_ABI_CONST uint kBindingViews = 8u;         // storage, read: ViewParams per tile
 VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;        // uniform: TraceExtras
@@ -74,9 +79,9 @@ VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint pe
 // 1: writes go by address: larger than a storage binding.
 VIEWLOOM_ABI_CONST uint kOwnConstants = 2u;
 
-// In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative), with
-// the sign set when a link of its column leads from this layer or a deeper one to one before this layer:
-// a walk of this layer must look at such an edge.
+// In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative),
+// with the sign set when a link of its column leads from this layer or a deeper one to one before
+// this layer: a walk of this layer must look at such an edge.
 VIEWLOOM_ABI_CONST uint kNoFacet = 0xffffffffu;
 VIEWLOOM_ABI_CONST uint kForwardLinkFlag = 0x80000000u;
 

@@ -8,8 +8,9 @@
 
 VIEWLOOM_ABI_BEGIN
 
-// One output camera, seen from the source. The point at depth s (m along the view's axis) of the ray
-// through tile px (x, y) is, in homogeneous image coordinates of the source (px * Z, px * Z, Z),
+// One output camera, seen from the source. The point at depth s (m along the view's axis) of the
+// ray through tile px (x, y) is, in homogeneous image coordinates of the source (px * Z, px * Z,
+// Z),
 //   eye + s * (direction + x * direction_dx + y * direction_dy).
 struct ViewParams {
   vec3 eye;
@@ -41,8 +42,8 @@ struct RayRecord {
   uint visits;     // nodes and facets looked at
 };
 
-// Where a band goes beside its colour, and what few rays need. Addresses of planes that are not wanted
-// are 0.
+// Where a band goes beside its colour, and what few rays need. Addresses of planes that are not
+// wanted are 0.
 struct TraceExtras {
   Address depth;     // float[rows][width]: 1/Z of the view, 1/m
   Address mask;      // uint8[rows][width]: kClass...
@@ -53,8 +54,8 @@ struct TraceExtras {
   uint color_height_px;
 };
 
-// A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with red in
-// the low byte and alpha 255. Views are bound per tile, row-major from the top left.
+// A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with
+// red in the low byte and alpha 255. Views are bound per tile, row-major from the top left.
 struct TracePush {
   Address layers[kLayerCountMax];  // of the structure
   Address color[kLayerCountMax];   // texels of the source

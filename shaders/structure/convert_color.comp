@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour planes that are not opaque sRGB BT.709 to what the trace blends: linear BT.709, premultiplied,
-// binary16.
+// Colour planes that are not opaque sRGB BT.709 to what the trace blends: linear BT.709,
+// premultiplied, binary16.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -20,7 +20,8 @@ const mat3 kBt709FromBt2020 = mat3(1.6604910, -0.1245505, -0.0181508,  //
                                    -0.0728499, -0.0083494, 1.1187297);
 
 void main() {
-  const uint index = gl_WorkGroupID.y * gl_NumWorkGroups.x * kNodeGroupSize + gl_GlobalInvocationID.x;
+  const uint index =
+      gl_WorkGroupID.y * gl_NumWorkGroups.x * kNodeGroupSize + gl_GlobalInvocationID.x;
   if (index >= push.texel_count) return;
   vec4 texel;
   if (push.from_format == kColorRgba8) {
@@ -30,7 +31,8 @@ void main() {
     texel = vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
   }
   // Not a number, or no light: black.
-  const float alpha = push.alpha == kAlphaOpaque ? 1.0 : clamp(isnan(texel.a) ? 0.0 : texel.a, 0.0, 1.0);
+  const float alpha =
+      push.alpha == kAlphaOpaque ? 1.0 : clamp(isnan(texel.a) ? 0.0 : texel.a, 0.0, 1.0);
   vec3 light = mix(texel.rgb, vec3(0.0), isnan(texel.rgb));
   // A transfer applies to the colour itself, so premultiplied values are divided first.
   const bool is_encoded = push.is_linear == 0u;

@@ -17,7 +17,8 @@ void main() {
   uvec2 entry = loadCell(push.layers, layer, extent, kLevelFirst, cell);
   // An ancestor is planar only if all below it are.
   for (uint level = kLevelFirst + 1u; level <= kLevelLast && isPlane(entry); ++level) {
-    const uvec2 ancestor = loadCell(push.layers, layer, extent, level, cell >> (level - kLevelFirst));
+    const uvec2 ancestor =
+        loadCell(push.layers, layer, extent, level, cell >> (level - kLevelFirst));
     if (!isPlane(ancestor)) break;
     entry = ancestor;
   }

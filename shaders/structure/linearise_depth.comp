@@ -10,8 +10,12 @@ layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
 layout(constant_id = kOwnConstants) const uint kSampleType = kDepthSampleF32;
 layout(push_constant, scalar) uniform Push { LinearisePush push; };
 
-layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples32 { float samples_32[]; };
-layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples16 { uint16_t samples_16[]; };
+layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples32 {
+  float samples_32[];
+};
+layout(set = 0, binding = kBindingSamples, scalar) readonly buffer Samples16 {
+  uint16_t samples_16[];
+};
 
 float loadSample(uint index) {
   if (kSampleType == kDepthSampleF32) {
@@ -42,9 +46,11 @@ void main() {
     const uint index = pixel.y * push.width_px + pixel.x;
     const vec2 principal_px = vec2(push.principal_x_px, push.principal_y_px);
     const vec2 ray = (vec2(pixel) + 0.5 - principal_px) / vec2(push.focal_x_px, push.focal_y_px);
-    const float inv_z = linearise(loadSample(index), push.ray_distance != 0u ? length(vec3(ray, 1.0)) : 1.0);
+    const float inv_z =
+        linearise(loadSample(index), push.ray_distance != 0u ? length(vec3(ray, 1.0)) : 1.0);
     bad_count = isnan(inv_z) ? 1u : 0u;
-    storeInvZ(push.inv_z, push.layer, push.width_px * push.height_px, index, inv_z >= 0.0 ? inv_z : kNoSurface);
+    storeInvZ(push.inv_z, push.layer, push.width_px * push.height_px, index,
+              inv_z >= 0.0 ? inv_z : kNoSurface);
   }
   const uint sum = subgroupAdd(bad_count);
   MeasuredRef measured = MeasuredRef(push.measured);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histograms of layer 0: of inv_z, and of its second differences. One px of every 4x4 block is enough,
-// and which one is fixed: the result depends on nothing but the frame.
+// Histograms of layer 0: of inv_z, and of its second differences. One px of every 4x4 block is
+// enough, and which one is fixed: the result depends on nothing but the frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns in canonical form: nearest first, no duplicates, no gaps. Counts those that came unsorted.
+// Columns in canonical form: nearest first, no duplicates, no gaps. Counts those that came
+// unsorted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

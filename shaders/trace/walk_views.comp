@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces a band of an atlas: one ray per px of every view, by the walk.
 //
-// An invocation takes kPixelsPerInvocation neighbouring px of one view, so that they can share the bound
-// where their rays may start. Neighbouring invocations are neighbouring *views* where the atlas has
-// enough columns: between views a ray moves less in the source than between px.
+// An invocation takes kPixelsPerInvocation neighbouring px of one view, so that they can share the
+// bound where their rays may start. Neighbouring invocations are neighbouring *views* where the
+// atlas has enough columns: between views a ray moves less in the source than between px.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -17,23 +17,31 @@ layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWant... f
 layout(constant_id = kOwnConstants + 1u) const uint kColorFormat = kColorRgba8;
 layout(constant_id = kOwnConstants + 2u) const uint kPixelsPerInvocation = 8u;
 layout(constant_id = kOwnConstants + 3u) const bool kLanesAreViews = true;
-layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;  // colour planes of another size than depth
+// Colour planes of another size than depth
+layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
 layout(push_constant, scalar) uniform Push { TracePush push; };
 
 layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views { ViewParams views[]; };
 layout(set = 0, binding = kBindingExtras, scalar) uniform Extras { TraceExtras extras; };
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band { uint band[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef { RayRecord at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Vec4Ref { vec4 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref { uint8_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
+  RayRecord at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Vec4Ref {
+  vec4 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref {
+  uint8_t at[];
+};
 
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
-// Cells of this level share a start bound; rays over more of them start at the bound of the whole source.
+// Cells of this level share a start bound; rays over more of them start at the bound of the whole
+// source.
 const uint kStartLevel = 5u;
 const int kStartCellsMax = 16;
-// Distance a start keeps from the bound, as a share of the largest inv_z: 16 ulp, more than the rounding
-// of positions along a ray.
+// Distance a start keeps from the bound, as a share of the largest inv_z: 16 ulp, more than the
+// rounding of positions along a ray.
 const float kStartMargin = 16.0 / 8388608.0;
 
 uvec2 unpackSize(uint size_px) {
@@ -46,7 +54,8 @@ vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, vec2 point) {
     return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, color_size,
                               kColorFormat, layer, cell, point, scene.kappa);
   }
-  return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell, point);
+  return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
+                              point);
 }
 
 // Cells that neighbouring rays pass, and the largest inv_z in them.
@@ -62,7 +71,8 @@ StartRegion startRegion(Scene scene, vec2 low_px, vec2 high_px) {
   const ivec2 last = clamp(ivec2(floor(high_px)) >> int(kStartLevel), ivec2(0), last_cell);
   const ivec2 count = last - first + 1;
   const float cell_px = float(1u << kStartLevel);
-  StartRegion region = StartRegion(vec2(first) * cell_px, vec2(last + 1) * cell_px, scene.inv_z_near);
+  StartRegion region =
+      StartRegion(vec2(first) * cell_px, vec2(last + 1) * cell_px, scene.inv_z_near);
   if (count.x * count.y > kStartCellsMax) return region;
   float bound = 0.0;
   ivec2 cell = first;
@@ -75,8 +85,9 @@ StartRegion startRegion(Scene scene, vec2 low_px, vec2 high_px) {
   return region;
 }
 
-// The start of a ray: as far along as nothing can be, then the column it is in. A wide fan of rays clipped
-// by the image may pass cells between the first and the last ray that neither of the two passes.
+// The start of a ray: as far along as nothing can be, then the column it is in. A wide fan of rays
+// clipped by the image may pass cells between the first and the last ray that neither of the two
+// passes.
 WalkStart startOf(Scene scene, Ray ray, StartRegion region) {
   const vec2 end = (ray.start + ray.extent).xy;
   const bool is_covered = all(greaterThanEqual(min(ray.start.xy, end), region.low_px)) &&
@@ -85,7 +96,8 @@ WalkStart startOf(Scene scene, Ray ray, StartRegion region) {
   const bool goes_away = ray.extent.z < 0.0 && ray.start.z > bound;
   const float t = goes_away ? min((bound - ray.start.z) / ray.extent.z, 1.0) : 0.0;
   const ivec2 cell = ivec2(floor((ray.start + t * ray.extent).xy));
-  return WalkStart(Place(t, clamp(cell, ivec2(0), scene.extent.size_px - 1), kAxisNone), kStateUnknown);
+  return WalkStart(Place(t, clamp(cell, ivec2(0), scene.extent.size_px - 1), kAxisNone),
+                   kStateUnknown);
 }
 
 uint classOf(Walk walk) {
@@ -96,13 +108,14 @@ uint classOf(Walk walk) {
 
 // A ray that never sees the image continues the border next to where it goes.
 Walk walkBeside(Scene scene, vec3 direction) {
-  const vec2 toward = direction.z > 0.0 ? direction.xy / direction.z : 0.5 * vec2(scene.extent.size_px);
+  const vec2 toward =
+      direction.z > 0.0 ? direction.xy / direction.z : 0.5 * vec2(scene.extent.size_px);
   const ivec2 cell = ivec2(clamp(toward, vec2(0.0), vec2(scene.extent.size_px - 1)));
   return Walk(false, false, false, true, 1.0, cell, 0u, false, cell, 0u, 0u);
 }
 
-// What stands where a walk ends. Without a hit: the far side of the silhouette the ray passed behind, or
-// the image's border, goes on; else there is nothing (layer kLayerCountMax).
+// What stands where a walk ends. Without a hit: the far side of the silhouette the ray passed
+// behind, or the image's border, goes on; else there is nothing (layer kLayerCountMax).
 struct Place2d {
   uint layer;
   ivec2 cell;
@@ -196,7 +209,8 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uint counts[kClassCou
     vec3 direction;
     const Ray ray = rayOfPixel(scene, view, run, i, direction);
     Walk walk = walkBeside(scene, direction);
-    if (ray.is_inside) walk = walkRay(scene, ray, startOf(scene, ray, region), view.inv_z_tolerance, view.eye.z);
+    if (ray.is_inside)
+      walk = walkRay(scene, ray, startOf(scene, ray, region), view.inv_z_tolerance, view.eye.z);
     const vec3 light = kColorFormat == kColorRgba8 ? opaqueLight(scene, ray, walk)
                                                    : layeredLight(scene, view, ray, walk);
     store(run.first_index + i, light, walk, ray, view.eye, direction);
@@ -213,7 +227,8 @@ void main() {
   const uint runs = (tile_size.x + kPixelsPerInvocation - 1u) / kPixelsPerInvocation;
   const uint column = kLanesAreViews ? invocation % tile_grid.x : invocation / runs;
   const uint run_in_tile = kLanesAreViews ? invocation / tile_grid.x : invocation % runs;
-  const uint tile_row = row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
+  const uint tile_row =
+      row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
   const bool exists = run_in_tile < runs && column < tile_grid.x && tile_row < tile_grid.y;
   const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
   const ViewParams view = views[tile];

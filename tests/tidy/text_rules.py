@@ -22,8 +22,8 @@ LONG_FILES = {}
 # Written in halves, so that this list does not find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|X" r"XX)\b")
 # Words that tell how the project was made instead of what it is.
-MAKING = re.compile(r"\b((the|an?|our|this|earlier)\s+proto" r"types?\b(?! of)|issue #?\d+|issue tra" r"cker"
-                    r"|co-auth" r"ored-by)\b", re.IGNORECASE)
+MAKING = re.compile(r"\b((the|an?|our|this|earlier)\s+proto" r"types?\b(?! of)"
+                    r"|issue #?\d+|issue tra" r"cker|co-auth" r"ored-by)\b", re.IGNORECASE)
 MACHINE_PATH = re.compile(r"(?<![\w.:/-])/(work|home/\w+|Users|root)/")
 VAGUE = r"(Manager|Helper|Utils?|Utilities)"
 VAGUE_TYPE = re.compile(r"\b(?:class|struct|enum|concept|namespace|message|service)\s+"
