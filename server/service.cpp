@@ -108,7 +108,8 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
                 .trace_slot_count = config.pipeline.trace_slots,
                 .atlas_limits = atlasLimits(config.limits)}),
       intake(pipeline, clock, planes,
-             {.thread_count = threadCount(config.pipeline.decode_threads)}) {
+             {.thread_count = threadCount(config.pipeline.decode_threads),
+              .on_replaced = [this] { metrics.replaced[HandOver::kDecode].add(); }}) {
   log(LogLevel::kInfo, "device: ", device.info().name, " (", device.info().driver, ")");
   connect();
   if (config.http.enabled) openHttp(config, clock);

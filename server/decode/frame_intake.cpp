@@ -44,12 +44,13 @@ struct OpenFrame {
 }  // namespace
 
 struct FrameIntake::State {
-  State(FrameSink& to, const Clock& time, BytePool& buffers)
-      : sink(to), clock(time), pool(buffers) {}
+  State(FrameSink& to, const Clock& time, BytePool& buffers, std::function<void()> when_replaced)
+      : sink(to), clock(time), pool(buffers), on_replaced(std::move(when_replaced)) {}
 
   FrameSink& sink;
   const Clock& clock;
   BytePool& pool;
+  const std::function<void()> on_replaced;
 
   std::mutex mutex;
   std::condition_variable work;
@@ -120,7 +121,7 @@ struct FrameIntake::State {
 
 FrameIntake::FrameIntake(FrameSink& sink, const Clock& clock, BytePool& pool,
                          FrameIntakeOptions options)
-    : state_(std::make_unique<State>(sink, clock, pool)) {
+    : state_(std::make_unique<State>(sink, clock, pool, std::move(options.on_replaced))) {
   for (uint32_t i = 0; i < options.thread_count; ++i) {
     state_->threads.emplace_back(
         [state = state_.get(), decoder = std::make_unique<PlaneDecoder>(pool)] {
@@ -153,6 +154,7 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
   }
   lock.unlock();
   if (replaced) {
+    state_->on_replaced();
     replaced->report(
         {.number = replaced->collected.format.number, .outcome = FrameOutcome::kReplaced});
   }

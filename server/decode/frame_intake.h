@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace viewloom {
 
 struct FrameIntakeOptions {
   uint32_t thread_count = 2;
+  std::function<void()> on_replaced = [] {};  // for each frame reported kReplaced here; any thread
 };
 
 // Decodes on threads of its own, the planes of a frame side by side. Of each stream one frame waits

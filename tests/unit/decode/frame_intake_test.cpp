@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -113,7 +114,9 @@ class FrameIntakeTest : public testing::Test {
   Reports reports_;
   ManualClock clock_;
   BytePool pool_{16};
-  FrameIntake intake_{sink_, clock_, pool_, {.thread_count = 3}};
+  std::atomic<int> replaced_count_ = 0;
+  FrameIntake intake_{
+      sink_, clock_, pool_, {.thread_count = 3, .on_replaced = [this] { ++replaced_count_; }}};
 };
 
 TEST_F(FrameIntakeTest, deliversADecodedFrameWithItsTimes) {
@@ -135,6 +138,7 @@ TEST_F(FrameIntakeTest, replacesTheFrameThatStillWaits) {
   EXPECT_EQ(reports_.outcomes("a"),
             (std::map<uint64_t, FrameOutcome>{{2, FrameOutcome::kReplaced},
                                               {3, FrameOutcome::kReplaced}}));
+  EXPECT_EQ(replaced_count_, 2);
   sink_.letGo();
   intake_.close();
   EXPECT_EQ(sink_.offered("a"), (std::vector<uint64_t>{1, 4}));
