@@ -51,16 +51,22 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
   const vk::raii::ShaderModule module(
       device.handle(), {.codeSize = options.spirv.size_bytes(), .pCode = options.spirv.data()});
   std::vector<vk::SpecializationMapEntry> entries;
-  for (uint32_t id = 0; id < options.specialization.size(); ++id) {
+  std::vector<uint32_t> values;
+  const auto specialise = [&](uint32_t id, uint32_t value) {
     entries.push_back({.constantID = id,
-                       .offset = id * static_cast<uint32_t>(sizeof(uint32_t)),
+                       .offset = static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
                        .size = sizeof(uint32_t)});
+    values.push_back(value);
+  };
+  for (uint32_t id = 0; id < options.specialization.size(); ++id) {
+    specialise(id, options.specialization[id]);
   }
+  if (device.plantedFault() != 0) specialise(kFaultConstantId, device.plantedFault());
   const vk::SpecializationInfo specialization{
       .mapEntryCount = static_cast<uint32_t>(entries.size()),
       .pMapEntries = entries.data(),
-      .dataSize = options.specialization.size_bytes(),
-      .pData = options.specialization.data()};
+      .dataSize = values.size() * sizeof(uint32_t),
+      .pData = values.data()};
   const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute,
                                                 .module = *module,
                                                 .pName = "main",

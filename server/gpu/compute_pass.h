@@ -19,6 +19,9 @@ struct ComputePassOptions {
   const char* debug_name = "";
 };
 
+// The constant_id under which shaders learn of Device::plantedFault().
+inline constexpr uint32_t kFaultConstantId = 31;
+
 // The device must outlive it. Thread-safety: const methods may be called from any thread.
 class ComputePass {
  public:

@@ -159,6 +159,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical_device,
 
 Device::Device(const DeviceOptions& options)
     : validation_(options.validation),
+      planted_fault_(options.planted_fault),
       instance_(makeInstance(context_, validation_ ? &validation_log_ : nullptr)),
       messenger_(nullptr),
       physical_device_(nullptr),

@@ -17,6 +17,8 @@ struct DeviceOptions {
   // An index as listDevices() gives it, or part of a name; "" = the first real GPU, else lavapipe.
   std::string select;
   bool validation = false;  // core and synchronization validation; needs the Khronos layer
+  // For tests of the tests: the mistake that every shader makes which knows it. 0 = none.
+  uint32_t planted_fault = 0;
 };
 
 struct DeviceLimits {
@@ -53,6 +55,7 @@ class Device {
   const vk::raii::PhysicalDevice& physicalDevice() const { return physical_device_; }
   uint32_t queueFamily() const { return queue_family_; }
   const DeviceInfo& info() const { return info_; }
+  uint32_t plantedFault() const { return planted_fault_; }
 
   // Nanoseconds per timestamp tick; 0 = the queue has no timestamps.
   double timestampPeriodNs() const { return timestamp_period_ns_; }
@@ -69,6 +72,7 @@ class Device {
  private:
   ValidationLog validation_log_;  // outlives the messenger
   bool validation_;
+  uint32_t planted_fault_;
   vk::raii::Context context_;
   vk::raii::Instance instance_;
   vk::raii::DebugUtilsMessengerEXT messenger_;

@@ -11,6 +11,7 @@
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
+#include "lib/fault.glsl"
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
 #include "lib/structure_access.glsl"
@@ -90,11 +91,12 @@ vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent
 // whoever is undecided and comes closer hits.
 uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point, vec3 extent,
              float tolerance) {
-  if (at.axis == kAxisNone) return 0u;
+  if (at.axis == kAxisNone || hasFault(kFaultLinks)) return 0u;
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
   const bool leaving = event == kComesForward;
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   if (!leaving) {
+    if (hasFault(kFaultBehindIsHit)) return layer + 1u;
     const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, at.cell), edge);
     if (link == 0u) return 0u;
     if (link - 1u >= layer) return layer + 1u;
@@ -168,7 +170,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const vec3 to = ray.start + end_t * ray.extent;
 
       // How far in front of the plane, or of the box: only the signs count for a box.
-      const vec2 center = vec2(origin) + 0.5 * float(size_px);
+      vec2 center = vec2(origin) + 0.5 * float(size_px);
+      if (hasFault(kFaultPlaneOff)) center.x += 1.0;
       const float inv_z = uintBitsToFloat(bits.x & (is_facet ? 0x7fffffffu : 0x7ffffe00u));
       const vec2 slope = unpackSlopes(bits.y);
       const float error = is_facet ? 0.0 : planeError(bits);
@@ -178,7 +181,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const float above_to = to.z - inv_z - dot(slope, to.xy - center);
       const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
       const float nearness = 1.0 - from.z * eye_z;
-      const bool is_exact = is_plane && error <= inv_z_tolerance * nearness * nearness;
+      const bool is_accepted = hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
+      const bool is_exact = is_plane && is_accepted;
       const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
       const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
       const bool all_front = is_plane ? min(plane_from, plane_to) > error : min(from.z, to.z) > box_high;
@@ -191,6 +195,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       float front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
       const float front_to = is_exact ? plane_to : front_from;
       front_from = just_left ? min(front_from, 0.0) : front_from;
+      if (hasFault(kFaultEntryInFront) && state_unknown) front_from = max(front_from, 1e-9);
 
       // How far apart linked facets are is bounded at the middle of their edge only, so whoever passes to
       // behind must look at the links.
@@ -229,6 +234,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const bool same_block = all(equal(at.cell >> int(kLevelFirst), next >> int(kLevelFirst)));
       level = is_facet ? (same_block ? kLevelFacets : kLevelEntries)
                        : (is_plane ? kLevelEntries : min(own_level + 1u, kLevelLast));
+      if (hasFault(kFaultNeverClimbs) && is_facet) level = kLevelFacets;
       from_forward_link = is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
       event = from_forward_link ? kComesForward : kStepOn;
       at = Place(end_t, next, cross_x ? kAxisX : kAxisY);
@@ -272,7 +278,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       result.far_cell = passed.cell - stepOfAxis(passed.axis, direction);
       result.far_layer = layer;
     }
-    if (!has_passed || layer + 1u >= scene.layer_count) break;
+    if (!has_passed || layer + 1u >= scene.layer_count || hasFault(kFaultLayerDropped)) break;
     ++layer;
     at = passed;
     state_unknown = passed_at_start && start.behind_count == kStateUnknown;

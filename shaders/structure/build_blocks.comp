@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "lib/fault.glsl"
 #include "lib/node.glsl"
 #include "lib/plane_fit.glsl"
 #include "lib/structure_access.glsl"
@@ -53,7 +54,7 @@ void main() {
       inv_z[y * kBlockSize + x] = center;
       slopes[y * kBlockSize + x] = facet.y;
       if (center < 0.0) {
-        has_hole = true;
+        has_hole = !hasFault(kFaultHoleIsSurface);
         continue;
       }
       const vec2 slope = unpackSlopes(facet.y);
@@ -65,6 +66,7 @@ void main() {
     }
   }
   if (has_hole) box.x = 0.0;
+  if (hasFault(kFaultBoxTooSmall)) box.y = uintBitsToFloat(floatBitsToUint(box.y) - 4u);
   const bool has_forward_link = forward_links != 0u;
   // A walk of this layer must look at such edges: the surface goes on in front of it. A loop of its own,
   // since few blocks have any.
@@ -93,6 +95,7 @@ void main() {
     }
     // A few roundings of the sums above, of numbers no larger than the box.
     error += box.y * (8.0 / 8388608.0);
+    if (hasFault(kFaultErrorUnderstated)) error *= 0.25;
     const uint exponent = errorExponent(error);
     const float kappa = connectionTolerance(kappa_abs, kappa_rel, inv_z_min);
     if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "lib/fault.glsl"
 #include "lib/node.glsl"
 #include "lib/plane_fit.glsl"
 #include "lib/structure_access.glsl"
@@ -31,7 +32,9 @@ void main() {
     children[i] = unpackNode(loadCell(push.layers, layer, extent, push.level - 1u, child_cell));
     all_planes = all_planes && children[i].is_plane;
     const vec2 child_box = nodeBox(children[i]);
-    box = vec2(min(box.x, child_box.x), max(box.y, child_box.y));
+    if (!(hasFault(kFaultChildForgotten) && i == 3u)) {
+      box = vec2(min(box.x, child_box.x), max(box.y, child_box.y));
+    }
     const vec2 position = (vec2(i & 1u, i >> 1) - 0.5) * child_size;
     addSample(fit, position, children[i].inv_z, children[i].slope);
   }

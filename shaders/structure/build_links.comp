@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "lib/fault.glsl"
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
@@ -71,7 +72,7 @@ void linkAcross(EdgeValues here, EdgeValues there, uint edge, float kappa_abs, f
     taken |= linked ? 1u << i : 0u;
     words[i] |= linked ? (i + 1u) << (edge * kLinkBits) : 0u;
   }
-  if (kLayerCount == 1u) return;
+  if (kLayerCount == 1u || hasFault(kFaultCrossLinks)) return;
   for (uint i = 0u; i < kLayerCount; ++i) {
     if (here.at[i] < 0.0 || ((taken >> i) & 1u) != 0u) continue;
     const uint other = nearestFree(here.at[i], there, taken, i, kappa_abs, kappa_rel);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mistakes that tests plant in the build and the walk, to prove that they would be found. Every product
+// kernel is compiled with none: the constant folds the branches away.
+#ifndef VIEWLOOM_SHADERS_SHARED_FAULT_H_
+#define VIEWLOOM_SHADERS_SHARED_FAULT_H_
+
+#include "shared/gpu_types.h"
+
+VIEWLOOM_ABI_BEGIN
+
+// Of the specialisation constant that says which mistake is planted.
+VIEWLOOM_ABI_CONST uint kFaultConstantId = 31u;
+
+VIEWLOOM_ABI_CONST uint kFaultNone = 0u;
+// In the build.
+VIEWLOOM_ABI_CONST uint kFaultSlopeSign = 1u;         // facets lean the wrong way along y
+VIEWLOOM_ABI_CONST uint kFaultCrossLinks = 2u;        // no links between different layers
+VIEWLOOM_ABI_CONST uint kFaultHoleIsSurface = 3u;     // blocks do not notice their holes
+VIEWLOOM_ABI_CONST uint kFaultBoxTooSmall = 4u;       // boxes of blocks lose their margin and an ulp
+VIEWLOOM_ABI_CONST uint kFaultChildForgotten = 5u;    // a level leaves one node below it out
+VIEWLOOM_ABI_CONST uint kFaultErrorUnderstated = 6u;  // planes state a quarter of their error
+// In the walk.
+VIEWLOOM_ABI_CONST uint kFaultLayerDropped = 16u;   // only layer 0 is walked
+VIEWLOOM_ABI_CONST uint kFaultPlaneOff = 17u;       // planes are evaluated a px aside
+VIEWLOOM_ABI_CONST uint kFaultNeverClimbs = 18u;    // a walk that descended stays with the facets
+VIEWLOOM_ABI_CONST uint kFaultBehindIsHit = 19u;    // passing behind a silhouette counts as a hit
+VIEWLOOM_ABI_CONST uint kFaultLinks = 20u;          // connected surfaces have cracks
+VIEWLOOM_ABI_CONST uint kFaultEntryInFront = 21u;   // whoever enters from the side is in front
+VIEWLOOM_ABI_CONST uint kFaultErrorIgnored = 22u;   // every plane is taken, whatever its error
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_SHADERS_SHARED_FAULT_H_
