@@ -92,6 +92,12 @@ void Complaints::add(const std::string& kind, const std::string& where) {
   if (found->first.size() < kNamedCount) found->first.push_back(where);
 }
 
+void Complaints::add(const Complaints& others) {
+  for (const Kind& kind : others.kinds_) {
+    for (const std::string& where : kind.first) add(kind.name, where);
+  }
+}
+
 std::string Complaints::text() const {
   std::ostringstream text;
   for (const Kind& kind : kinds_) {

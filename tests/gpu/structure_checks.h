@@ -16,6 +16,7 @@ namespace viewloom {
 class Complaints {
  public:
   void add(const std::string& kind, const std::string& where);
+  void add(const Complaints& others);
   bool empty() const { return kinds_.empty(); }
   std::string text() const;
 

@@ -132,9 +132,9 @@ std::vector<Element> WalkUnderTest::read(const LayeredBuffer& arrays, uint32_t l
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "structure readback"});
   const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(arrays.buffer(layer).handle(), readback.handle(),
-                      vk::BufferCopy{.srcOffset = arrays.offsetBytes(layer),
-                                     .size = arrays.layerBytes()});
+  commands.copyBuffer(
+      arrays.buffer(layer).handle(), readback.handle(),
+      vk::BufferCopy{.srcOffset = arrays.offsetBytes(layer), .size = arrays.layerBytes()});
   recordTransferToHost(commands);
   timeline_.wait(recorder_.submit(timeline_));
   std::vector<Element> elements(arrays.layerBytes() / sizeof(Element));

@@ -209,13 +209,24 @@ double Judge::invZTolerance(const ViewRay& ray, const TestedAnswer& tested) cons
   return turn > 0 ? tolerance_.output_px * px / turn : infinity;
 }
 
+// Whether the layer that an answer names has its surface where the answer lies: where two layers
+// meet within the tolerance, either may be named.
+bool Judge::standsThere(const TestedAnswer& tested, double inv_z_tolerance) const {
+  if (tested.layer < 0 || tested.layer >= source_.layerCount()) return false;
+  const FacetAt at{tested.layer, std::clamp(int(tested.x_px), 0, source_.width() - 1),
+                   std::clamp(int(tested.y_px), 0, source_.height() - 1)};
+  return source_.exists(at) && std::abs(source_.planeInvZ(at, tested.x_px, tested.y_px) -
+                                        tested.inv_z) <= inv_z_tolerance;
+}
+
 // Whether the tested answer lies among those of the moved rays, which agree with each other.
 bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
                       const TestedAnswer& tested) const {
   if (tested.ray_class != answers.front().ray_class) return false;
   if (!isHit(tested.ray_class)) return true;
   Range x_px, y_px, inv_z;
-  bool layer_named = false;
+  const double inv_z_tolerance = tolerance_.inv_z + invZTolerance(ray, tested);
+  bool layer_named = standsThere(tested, inv_z_tolerance);
   for (const OracleAnswer& answer : answers) {
     const OracleHit& hit = answer.hits.front();
     x_px.include(hit.x_px);
@@ -225,7 +236,7 @@ bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& r
   }
   return layer_named && x_px.holds(tested.x_px, tolerance_.source_px) &&
          y_px.holds(tested.y_px, tolerance_.source_px) &&
-         inv_z.holds(tested.inv_z, tolerance_.inv_z + invZTolerance(ray, tested));
+         inv_z.holds(tested.inv_z, inv_z_tolerance);
 }
 
 }  // namespace viewloom::oracle

@@ -59,6 +59,7 @@ class Judge {
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
   double invZTolerance(const ViewRay& ray, const TestedAnswer& tested) const;
+  bool standsThere(const TestedAnswer& tested, double inv_z_tolerance) const;
   bool amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
                  const TestedAnswer& tested) const;
 

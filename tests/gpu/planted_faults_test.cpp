@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tests of structure and walk would notice: each mistake planted in the shaders is found by
+// them.
+#include <array>
+
+#include "gpu/judge_views.h"
+#include "gpu/structure_checks.h"
+#include "gpu/test_device.h"
+#include "shared/fault.h"
+
+namespace viewloom {
+namespace {
+
+constexpr double kTolerance_px = 0.005;
+constexpr double kVisitsMean_max = 16.0;
+
+static_assert(abi::kFaultConstantId == kFaultConstantId);
+
+// What the suite sees of a device.
+struct Findings {
+  Complaints complaints;    // of the structures
+  oracle::Verdict verdict;  // of the walks
+  double visits_mean = 0;   // on a smooth scene
+};
+
+void lookAtScene(WalkUnderTest& walk, uint64_t seed, Findings& findings) {
+  const oracle::Scene scene = oracle::randomScene(seed);
+  const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
+  const oracle::OracleSource source = sourceOf(scene, *slot);
+  StructureImage image = walk.readBack(*slot);
+  image.kappa_rel = scene.kappa.relative;
+  findings.complaints.add(checkStructure(image, source));
+  oracle::Random random(seed);
+  std::vector<oracle::OutputView> views;
+  for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
+    views.push_back(oracle::randomView(random, kind, 13, 10));
+  }
+  findings.verdict.add(
+      judgeViews(walk, *slot, source, views, kTolerance_px, "seed " + std::to_string(seed))
+          .verdict);
+}
+
+Findings lookAt(const Device& device) {
+  // One scene of each larger size, with one to four layers.
+  constexpr std::array<uint64_t, 10> kSeeds = {12, 20, 21, 22, 27, 34, 35, 36, 49, 50};
+  WalkUnderTest walk(device);
+  Findings findings;
+  for (const uint64_t seed : kSeeds) lookAtScene(walk, seed, findings);
+
+  // A pole over a smooth surface: a walk that descended at it has to climb again.
+  oracle::Scene scene = oracle::smoothScene(256, 64, 1);
+  for (int row = 0; row < 64; ++row) scene.planes.at(0, 128, row) = 1.5f;
+  const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
+  oracle::OutputView view = oracle::ownView(scene);
+  view.position_m.x = -0.4;
+  const TracedView traced = walk.trace(*slot, {view}, kTolerance_px).front();
+  for (const abi::RayRecord& record : traced.records) findings.visits_mean += record.visits;
+  findings.visits_mean /= double(traced.records.size());
+  return findings;
+}
+
+enum class FoundBy { kStructure, kWalk, kVisits };
+
+struct PlantedFault {
+  uint32_t fault;
+  const char* name;
+  FoundBy found_by;
+};
+
+class PlantedFaultTest : public testing::TestWithParam<PlantedFault> {};
+
+TEST_P(PlantedFaultTest, isFound) {
+  if (Device::listDevices().empty()) GTEST_SKIP() << "no Vulkan device";
+  const Device device({.planted_fault = GetParam().fault});
+  const Findings findings = lookAt(device);
+  switch (GetParam().found_by) {
+    case FoundBy::kStructure:
+      EXPECT_FALSE(findings.complaints.empty());
+      break;
+    case FoundBy::kWalk:
+      EXPECT_GT(findings.verdict.differing, 0u) << findings.verdict.summary();
+      break;
+    case FoundBy::kVisits:
+      EXPECT_GT(findings.visits_mean, kVisitsMean_max);
+      break;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, PlantedFaultTest,
+    testing::Values(PlantedFault{abi::kFaultSlopeSign, "slopeSign", FoundBy::kStructure},
+                    PlantedFault{abi::kFaultCrossLinks, "crossLinks", FoundBy::kStructure},
+                    PlantedFault{abi::kFaultHoleIsSurface, "holeIsSurface", FoundBy::kStructure},
+                    PlantedFault{abi::kFaultBoxTooSmall, "boxTooSmall", FoundBy::kStructure},
+                    PlantedFault{abi::kFaultChildForgotten, "childForgotten", FoundBy::kStructure},
+                    PlantedFault{abi::kFaultErrorUnderstated, "errorUnderstated",
+                                 FoundBy::kStructure},
+                    PlantedFault{abi::kFaultSlopeSign, "slopeSignInTheWalk", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultCrossLinks, "crossLinksInTheWalk", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultLayerDropped, "layerDropped", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultPlaneOff, "planeOff", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultNeverClimbs, "neverClimbs", FoundBy::kVisits},
+                    PlantedFault{abi::kFaultBehindIsHit, "behindIsHit", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultLinks, "links", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultEntryInFront, "entryInFront", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk}),
+    [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
+
+class NoFaultTest : public GpuTest {};
+
+TEST_F(NoFaultTest, withoutAFaultNothingIsFound) {
+  const Findings findings = lookAt(device());
+  EXPECT_TRUE(findings.complaints.empty()) << findings.complaints.text();
+  EXPECT_EQ(findings.verdict.differing, 0u) << findings.verdict.summary();
+  EXPECT_LE(findings.visits_mean, kVisitsMean_max);
+}
+
+}  // namespace
+}  // namespace viewloom
