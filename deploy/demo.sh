@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 # Of the published frames; two cores without a GPU then show 8 atlases a second and more.
-size="${VIEWLOOM_DEMO_SIZE:-640x360}"
+size="${VIEWLOOM_DEMO_SIZE:-480x270}"
 rate_hz="${VIEWLOOM_DEMO_RATE:-15}"
 log_folder=build/demo
 server_pid=
