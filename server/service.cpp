@@ -130,7 +130,8 @@ void Service::Parts::connect() {
 }
 
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
-  http.emplace(httpOptions(config.http, config.limits.subscribers_max), directory, broadcaster, metrics, clock);
+  http.emplace(httpOptions(config.http, config.limits.subscribers_max), directory, broadcaster,
+               metrics, clock);
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mistakes that tests plant in the build and the walk, to prove that they would be found. Every product
-// kernel is compiled with none: the constant folds the branches away.
+// Mistakes that tests plant in the build and the walk, to prove that they would be found. Every
+// product kernel is compiled with none: the constant folds the branches away.
 #ifndef VIEWLOOM_SHADERS_SHARED_FAULT_H_
 #define VIEWLOOM_SHADERS_SHARED_FAULT_H_
 
@@ -16,7 +16,8 @@ VIEWLOOM_ABI_CONST uint kFaultNone = 0u;
 VIEWLOOM_ABI_CONST uint kFaultSlopeSign = 1u;         // facets lean the wrong way along y
 VIEWLOOM_ABI_CONST uint kFaultCrossLinks = 2u;        // no links between different layers
 VIEWLOOM_ABI_CONST uint kFaultHoleIsSurface = 3u;     // blocks do not notice their holes
-VIEWLOOM_ABI_CONST uint kFaultBoxTooSmall = 4u;       // boxes of blocks lose their margin and an ulp
+// Boxes of blocks lose their margin and an ulp
+VIEWLOOM_ABI_CONST uint kFaultBoxTooSmall = 4u;
 VIEWLOOM_ABI_CONST uint kFaultChildForgotten = 5u;    // a level leaves one node below it out
 VIEWLOOM_ABI_CONST uint kFaultErrorUnderstated = 6u;  // planes state a quarter of their error
 // In the walk.

@@ -13,7 +13,8 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const int kBlockSize = 4;
 
-// The nearest inv_z of what the column's links lead to before this layer, from this layer or a deeper one.
+// The nearest inv_z of what the column's links lead to before this layer, from this layer or a
+// deeper one.
 float nearestForward(Extent extent, uint layer, ivec2 pixel) {
   const ivec2 steps[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
   float nearest = kNoSurface;
@@ -68,12 +69,13 @@ void main() {
   if (has_hole) box.x = 0.0;
   if (hasFault(kFaultBoxTooSmall)) box.y = uintBitsToFloat(floatBitsToUint(box.y) - 4u);
   const bool has_forward_link = forward_links != 0u;
-  // A walk of this layer must look at such edges: the surface goes on in front of it. A loop of its own,
-  // since few blocks have any.
+  // A walk of this layer must look at such edges: the surface goes on in front of it. A loop of its
+  // own, since few blocks have any.
   while (forward_links != 0u) {
     const int i = findLSB(forward_links);
     forward_links &= forward_links - 1u;
-    box.y = max(box.y, nearestForward(extent, layer, origin + ivec2(i % kBlockSize, i / kBlockSize)));
+    box.y =
+        max(box.y, nearestForward(extent, layer, origin + ivec2(i % kBlockSize, i / kBlockSize)));
   }
 
   uvec2 node = packBox(kLevelFirst, box);

@@ -69,9 +69,11 @@ void main() {
   const Column beyond_y = loadColumn(pixel + ivec2(0, below.inv_z[0] >= 0.0 ? 2 : -2));
   for (uint i = 0u; i < kLayerCount; ++i) {
     const float inv_z = here.inv_z[i];
-    vec2 slope = vec2(slopeAlong(inv_z, left, right, beyond_x), slopeAlong(inv_z, above, below, beyond_y));
+    vec2 slope =
+        vec2(slopeAlong(inv_z, left, right, beyond_x), slopeAlong(inv_z, above, below, beyond_y));
     if (hasFault(kFaultSlopeSign)) slope.y = -slope.y;
-    const uvec2 facet = inv_z < 0.0 ? uvec2(kNoFacet, 0u) : uvec2(floatBitsToUint(inv_z), packSlopes(slope));
+    const uvec2 facet =
+        inv_z < 0.0 ? uvec2(kNoFacet, 0u) : uvec2(floatBitsToUint(inv_z), packSlopes(slope));
     storeWord(push.layers, i, extent, facetIndex(extent, pixel), facet);
   }
 }

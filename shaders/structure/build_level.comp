@@ -55,7 +55,8 @@ void main() {
     }
     error += box.y * (8.0 / 8388608.0);
     const uint exponent = errorExponent(error);
-    const float kappa = connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, box.x);
+    const float kappa =
+        connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, box.x);
     if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
       node = packPlane(push.level, center, slope, exponent);
     }

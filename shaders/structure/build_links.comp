@@ -48,7 +48,8 @@ bool mayLink(float a, float b, float kappa_abs, float kappa_rel) {
 }
 
 // The layer nearest to a value among those not taken by their own layer.
-uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, float kappa_abs, float kappa_rel) {
+uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, float kappa_abs,
+                 float kappa_rel) {
   uint nearest = kNoLayer;
   float distance_min = 3.4e38;
   for (uint i = 0u; i < kLayerCount; ++i) {
@@ -62,8 +63,8 @@ uint nearestFree(float value, EdgeValues there, uint taken, uint own_layer, floa
   return nearest;
 }
 
-// Adds the links of all layers across one edge to the link words. Bit k of `forward`: a link leads from
-// layer k or a deeper one to one before layer k.
+// Adds the links of all layers across one edge to the link words. Bit k of `forward`: a link leads
+// from layer k or a deeper one to one before layer k.
 void linkAcross(EdgeValues here, EdgeValues there, uint edge, float kappa_abs, float kappa_rel,
                 inout uint words[kLayerCountMax], inout uint forward) {
   uint taken = 0u;  // layers linked to themselves
@@ -77,7 +78,8 @@ void linkAcross(EdgeValues here, EdgeValues there, uint edge, float kappa_abs, f
     if (here.at[i] < 0.0 || ((taken >> i) & 1u) != 0u) continue;
     const uint other = nearestFree(here.at[i], there, taken, i, kappa_abs, kappa_rel);
     for (uint j = 0u; j < kLayerCount; ++j) {
-      if (j != other || nearestFree(there.at[j], here, taken, j, kappa_abs, kappa_rel) != i) continue;
+      if (j != other || nearestFree(there.at[j], here, taken, j, kappa_abs, kappa_rel) != i)
+        continue;
       words[i] |= (j + 1u) << (edge * kLinkBits);
       // Layers j + 1 .. i.
       forward |= j < i ? (2u << i) - (2u << j) : 0u;
@@ -100,14 +102,15 @@ void main() {
   for (uint edge = 0u; edge < 4u; ++edge) {
     const vec2 to_edge = 0.5 * vec2(steps[edge]);
     const Column there = loadColumn(extent, pixel + steps[edge]);
-    linkAcross(edgeValues(here, to_edge), edgeValues(there, -to_edge), edge, kappa_abs, kappa_rel, words,
-               forward);
+    linkAcross(edgeValues(here, to_edge), edgeValues(there, -to_edge), edge, kappa_abs, kappa_rel,
+               words, forward);
   }
   for (uint i = 0u; i < kLayerCount; ++i) {
     storeLinks(push.layers, i, extent, pixel, words[i]);
     if (((forward >> i) & 1u) != 0u) {
       const uint flagged = floatBitsToUint(here.inv_z[i]) | kForwardLinkFlag;
-      storeWord(push.layers, i, extent, facetIndex(extent, pixel), uvec2(flagged, packSlopes(here.slope[i])));
+      storeWord(push.layers, i, extent, facetIndex(extent, pixel),
+                uvec2(flagged, packSlopes(here.slope[i])));
     }
   }
 }
