@@ -38,6 +38,7 @@ const decoder = new Decoder(
       setState('live');
       stage.show(atlas);
       controls.show(atlas.header.layout);
+      nameView();
     },
     (atlas) => {
       stream.shown(atlas.header.delivery);
@@ -46,7 +47,7 @@ const decoder = new Decoder(
 
 const stream = new AtlasStream({
   onAtlas(atlas) {
-    panel.noteArrived(atlas);
+    panel.noteArrived();
     if (byId('detail').value === 'auto') autoDetail.note(atlas.header);
     decoder.decode(atlas);
   },
@@ -60,11 +61,15 @@ const stream = new AtlasStream({
 
 new Look(byId('stage'), byId('view'), (position) => {
   stage.look(position);
+  nameView();
+});
+
+function nameView() {
   const count = stage.layout?.view_count ?? 0;
-  const view = Math.round(position * (count - 1)) + 1;
+  const view = Math.round(stage.position * (count - 1)) + 1;
   byId('ruler-view').textContent = count ? `view ${view} of ${count}` : 'view –';
   byId('view').setAttribute('aria-valuetext', byId('ruler-view').textContent);
-});
+}
 
 function setState(state) {
   root.dataset.state = state;

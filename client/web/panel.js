@@ -5,6 +5,7 @@ const kRateWindow_ms = 3000;
 const kSmoothing = 0.25;  // weight of the newest atlas in a running mean
 const kHistoryCount = 120;
 const kRefresh_ms = 250;
+const kLongLatency_ms = 10_000;  // from here on in seconds
 const kMsPerNs = 1e-6;
 
 // What each bar means, in the order in which an atlas meets them.
@@ -33,12 +34,20 @@ function element(tag, properties = {}, parent = null) {
   return made;
 }
 
+// Of arrivals, per second: by the gaps between them, or by the time since the newest when that is
+// longer.
+function rateOf(arrivals, now_ms) {
+  if (arrivals.length < 2) return 0;
+  const [first, last] = [arrivals[0].time_ms, arrivals.at(-1).time_ms];
+  return (arrivals.length - 1) * 1000 / Math.max(last - first, now_ms - last);
+}
+
 function milliseconds(value) {
   return value >= 100 ? value.toFixed(0) : value.toFixed(1);
 }
 
 export class Panel {
-  #arrivals = [];  // {time_ms, bytes}
+  #arrivals = [];  // {time_ms}, oldest first
   #means = {};     // ms
   #history = [];   // end to end, ms
   #newest = null;
@@ -80,8 +89,8 @@ export class Panel {
     this.#drops++;
   }
 
-  noteArrived(atlas) {
-    this.#arrivals.push({time_ms: performance.now(), bytes: atlas.bytes});
+  noteArrived() {
+    this.#arrivals.push({time_ms: performance.now()});
   }
 
   noteShown(atlas) {
@@ -106,16 +115,25 @@ export class Panel {
   #refresh() {
     if (!this.#newest) return;
     const now_ms = performance.now();
-    this.#arrivals = this.#arrivals.filter(({time_ms}) => now_ms - time_ms < kRateWindow_ms);
-    const perSecond = 1000 / kRateWindow_ms;
-    const bytes = this.#arrivals.reduce((sum, arrival) => sum + arrival.bytes, 0);
-    byId('rate').textContent = (this.#arrivals.length * perSecond).toFixed(1);
-    byId('latency').textContent = 'latency' in this.#means ? this.#means.latency.toFixed(0) : '–';
+    // A slow server's newest two count however old they are.
+    this.#arrivals = this.#arrivals.filter(({time_ms}, index, all) =>
+        now_ms - time_ms < kRateWindow_ms || index >= all.length - 2);
+    const rate_hz = rateOf(this.#arrivals, now_ms);
+    byId('rate').textContent = rate_hz.toFixed(rate_hz < 1 ? 2 : 1);
+    this.#refreshLatency();
     byId('drops').textContent = this.#newest.header.dropped_count + this.#drops;
     this.#refreshStages();
     this.#refreshCoverage();
-    this.#refreshFacts(bytes * perSecond);
+    this.#refreshFacts(rate_hz);
     this.#drawHistory();
+  }
+
+  #refreshLatency() {
+    const {latency} = this.#means;
+    if (latency === undefined) return;
+    const isLong = latency >= kLongLatency_ms;
+    byId('latency').textContent = isLong ? (latency / 1000).toFixed(1) : latency.toFixed(0);
+    byId('latency-unit').textContent = `${isLong ? 's' : 'ms'} end to end`;
   }
 
   #refreshStages() {
@@ -136,7 +154,7 @@ export class Panel {
     }
   }
 
-  #refreshFacts(bytesPerSecond) {
+  #refreshFacts(rate_hz) {
     const {header, bytes} = this.#newest;
     const {layout} = header;
     const facts = {
@@ -146,7 +164,7 @@ export class Panel {
       'Quilt': `${layout.size.width} × ${layout.size.height} px`,
       'Tile': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
       'Size': `${(bytes / 1e6).toFixed(2)} MB`,
-      'Rate': `${(bytesPerSecond * 8 / 1e6).toFixed(1)} Mbit/s`,
+      'Rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
     };
     for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;
   }
