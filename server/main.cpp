@@ -36,6 +36,8 @@ int run(int argc, char** argv) {
   viewloom::Command command = viewloom::serve;
   viewloom::addServeCommand(app, command);
   viewloom::addRenderCommand(app, command);
+  viewloom::addBenchCommand(app, command);
+  viewloom::addDoctorCommand(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -20,5 +20,8 @@ using Command = std::function<int(const Config& config)>;
 void addServeCommand(CLI::App& app, Command& chosen);
 // Returns 1 when its input is refused.
 void addRenderCommand(CLI::App& app, Command& chosen);
+void addBenchCommand(CLI::App& app, Command& chosen);
+// Returns 1 when something must be put right before the server can run.
+void addDoctorCommand(CLI::App& app, Command& chosen);
 
 }  // namespace viewloom

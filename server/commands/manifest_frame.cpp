@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "base/byte_pool.h"
+#include "base/check.h"
 #include "base/str_cat.h"
 #include "decode/frame_decoder.h"
 #include "files/file_bytes.h"
 #include "files/frame_manifest.h"
 #include "rpc/display_from_proto.h"
 #include "rpc/frame_from_proto.h"
+#include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom {
 namespace {
@@ -22,21 +24,34 @@ namespace {
 // A list of a thousand posed cameras is a tenth of this.
 constexpr uint64_t kDisplayFileBytesMax = uint64_t{1} << 20;
 
-}  // namespace
-
-absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path) {
-  absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
-  if (!manifest.ok()) return manifest.status();
-  absl::StatusOr<WireFrame> wire = files::loadFrame(*manifest, path.parent_path());
-  if (!wire.ok()) return wire.status();
-  absl::StatusOr<FrameFormat> format = frameFormatFromProto(wire->header, FrameLimits{});
+// Checks and decodes what a publisher would send.
+absl::StatusOr<FramePtr> frameFromWire(const WireFrame& wire) {
+  absl::StatusOr<FrameFormat> format = frameFormatFromProto(wire.header, FrameLimits{});
   if (!format.ok()) return format.status();
   BytePool pool(0);  // one frame: nothing to keep
   FrameDecoder decoder(pool);
   absl::StatusOr<std::unique_ptr<Frame>> frame =
-      decoder.decode({.format = *std::move(format), .planes = std::move(wire->planes)});
+      decoder.decode({.format = *std::move(format), .planes = wire.planes});
   if (!frame.ok()) return frame.status();
   return FramePtr(*std::move(frame));
+}
+
+}  // namespace
+
+absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path) {
+  const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
+  if (!manifest.ok()) return manifest.status();
+  const absl::StatusOr<WireFrame> wire = files::loadFrame(*manifest, path.parent_path());
+  if (!wire.ok()) return wire.status();
+  return frameFromWire(*wire);
+}
+
+FramePtr makeSyntheticFrame(const SyntheticOptions& options) {
+  WireFrame wire = syntheticWireFrame(options, 0);
+  wire.header.set_number(1);
+  const absl::StatusOr<FramePtr> frame = frameFromWire(wire);
+  VIEWLOOM_CHECK(frame.ok());
+  return *frame;
 }
 
 absl::StatusOr<DisplaySpec> readDisplayFile(const std::filesystem::path& path) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what `render` is given: frames and displays as JSON of their protos.
+// Frames and displays of the commands that work offline: from files, or the synthetic scene.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,15 @@
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "frame/frame.h"
+#include "synthetic/synthetic_frame.h"
 
 namespace viewloom {
 
 // The frame of a FrameManifest, checked and decoded as if it had come over the wire.
 absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path);
+
+// The synthetic scene, by the same way.
+FramePtr makeSyntheticFrame(const SyntheticOptions& options);
 
 // A Display, completed. Unknown keys are errors.
 absl::StatusOr<DisplaySpec> readDisplayFile(const std::filesystem::path& path);

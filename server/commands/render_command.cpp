@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // viewloomd render: one frame from files, on one display, to picture files.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -28,7 +30,9 @@ struct RenderArguments {
   CompareOptions compare;
 };
 
+// For a person who waits, not for a log.
 void showProgress(uint32_t done_rows, uint32_t row_count) {
+  if (isatty(STDERR_FILENO) == 0) return;
   std::cerr << "\rtraced " << done_rows << " of " << row_count << " rows"
             << (done_rows == row_count ? "\n" : "") << std::flush;
 }

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/doctor_checks.h"
+
+#include <sys/resource.h>
+
+#include <exception>
+#include <thread>
+
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "base/str_cat.h"
+#include "commands/listen_probe.h"
+#include "commands/manifest_frame.h"
+#include "commands/offline_renderer.h"
+
+namespace viewloom {
+namespace {
+
+constexpr double kGib = 1024.0 * 1024 * 1024;
+// A Looking Glass Portrait from a 1080p source, with two slots and everything else of a process.
+constexpr double kComfortableMemory_gib = 2;
+// A connection and a socket each; hundreds of viewers shall fit.
+constexpr uint64_t kComfortableFileCount = 4096;
+
+std::string describe(const DeviceInfo& info) {
+  return absl::StrFormat("%u: %s, driver %s, %.1f GiB, buffers up to %.2f GiB", info.index,
+                         info.name, info.driver,
+                         static_cast<double>(info.limits.memory_bytes) / kGib,
+                         static_cast<double>(info.limits.allocation_bytes_max) / kGib);
+}
+
+Finding judge(const DeviceInfo& info) {
+  if (!info.missing_features.empty()) {
+    return {Verdict::kAdvice, "device",
+            strCat(describe(info), "; it lacks ", absl::StrJoin(info.missing_features, ", ")),
+            "update its driver, or leave it to others: viewloomd takes another device"};
+  }
+  return {Verdict::kFine, "device", describe(info), ""};
+}
+
+Finding judgeChosen(const DeviceInfo& info) {
+  if (info.is_software) {
+    return {Verdict::kAdvice, "device", strCat("would use ", info.name, ", which runs on the CPU"),
+            "for speed install the driver of a GPU, or name it with --device"};
+  }
+  if (static_cast<double>(info.limits.memory_bytes) < kComfortableMemory_gib * kGib) {
+    return {Verdict::kAdvice, "device",
+            strCat("would use ", info.name, ", which has little memory"),
+            "publish smaller frames, or name another device with --device"};
+  }
+  return {Verdict::kFine, "device", strCat("would use ", info.name), ""};
+}
+
+bool isLoopback(const std::string& address) {
+  return address.starts_with("127.") || address.starts_with("localhost:") ||
+         address.starts_with("[::1]:") || address.starts_with("unix:");
+}
+
+std::vector<Finding> checkPort(const std::string& address, const std::string& setting) {
+  std::vector<Finding> findings;
+  const std::string refusal = whyNotListen(address);
+  if (refusal.empty()) {
+    findings.push_back({Verdict::kFine, "port", strCat(setting, " ", address, " is free"), ""});
+  } else {
+    findings.push_back(
+        {Verdict::kProblem, "port", strCat(setting, " ", address, " cannot be taken: ", refusal),
+         strCat("stop what listens there, or choose another address with --", setting)});
+  }
+  if (!isLoopback(address)) {
+    findings.push_back({Verdict::kAdvice, "port",
+                        strCat(setting, " ", address,
+                               " is open to the network, without encryption "
+                               "or passwords"),
+                        "use it in a lab you trust, or listen on 127.0.0.1"});
+  }
+  return findings;
+}
+
+}  // namespace
+
+std::vector<Finding> checkDevices(const Config& config) {
+  std::vector<Finding> findings;
+  const std::vector<DeviceInfo> devices = Device::listDevices();
+  for (const DeviceInfo& info : devices) findings.push_back(judge(info));
+  if (devices.empty()) {
+    return {{Verdict::kProblem, "device", "there is no Vulkan device",
+             "install mesa-vulkan-drivers, which has one that runs on the CPU"}};
+  }
+  try {
+    const Device chosen({.select = config.device, .validation = config.validation});
+    findings.push_back(judgeChosen(chosen.info()));
+  } catch (const std::exception& error) {
+    findings.push_back({Verdict::kProblem, "device", error.what(),
+                        "name a device of the list above with --device, or none"});
+  }
+  return findings;
+}
+
+std::vector<Finding> checkTrace(const Config& config) try {
+  const FramePtr frame = makeSyntheticFrame({.size_px = {64, 48}, .layer_count = 2, .camera = {}});
+  const auto spec =
+      completeDisplaySpec({.kind = QuiltSpec{.columns = 2, .rows = 2, .size_px = {128, 96}}});
+  if (!spec.ok()) throw std::runtime_error(std::string(spec.status().message()));
+  const Device device({.select = config.device});
+  OfflineRenderer renderer(device);
+  renderer.build(*frame);
+  const auto atlas = renderer.render(*spec, {}, [](uint32_t, uint32_t) {});
+  if (!atlas.ok()) throw std::runtime_error(std::string(atlas.status().message()));
+  const Coverage& coverage = atlas->coverage;
+  if (coverage.rayCount() != uint64_t{128} * 96 || coverage.hit == 0) {
+    throw std::runtime_error("rays of a small scene got lost");
+  }
+  return {{Verdict::kFine, "trace", "a small scene was built and traced", ""}};
+} catch (const std::exception& error) {
+  return {{Verdict::kProblem, "trace", strCat("a small scene could not be traced: ", error.what()),
+           "update the device's driver, or name another device with --device"}};
+}
+
+std::vector<Finding> checkPorts(const Config& config) {
+  std::vector<Finding> findings = checkPort(config.grpc.address, "grpc.address");
+  if (!config.http.enabled) return findings;
+  for (Finding& finding : checkPort(config.http.address, "http.address")) {
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+std::vector<Finding> checkHost() {
+  std::vector<Finding> findings;
+  const unsigned cores = std::thread::hardware_concurrency();
+  findings.push_back({Verdict::kFine, "host", strCat(cores, cores == 1 ? " core" : " cores"), ""});
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  if (files.rlim_cur < kComfortableFileCount) {
+    findings.push_back({Verdict::kAdvice, "host",
+                        strCat("a process may hold ", files.rlim_cur, " files and connections"),
+                        strCat("for hundreds of viewers raise it: ulimit -n ",
+                               kComfortableFileCount, ", or LimitNOFILE of the service")});
+  }
+  return findings;
+}
+
+}  // namespace viewloom

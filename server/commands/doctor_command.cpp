@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// viewloomd doctor: says what is well, what is not, and what to do about it.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "commands/command.h"
+#include "commands/doctor_checks.h"
+
+namespace viewloom {
+namespace {
+
+constexpr int kExitProblem = 1;
+
+const char* wordOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFine:
+      return "ok      ";
+    case Verdict::kAdvice:
+      return "advice  ";
+    case Verdict::kProblem:
+      return "PROBLEM ";
+  }
+  return "";
+}
+
+int doctor(const Config& config) {
+  bool has_problem = false;
+  const auto tell = [&](const std::vector<Finding>& findings) {
+    for (const Finding& finding : findings) {
+      std::cout << wordOf(finding.verdict) << finding.subject << "  " << finding.what << "\n";
+      if (!finding.remedy.empty()) std::cout << "        -> " << finding.remedy << "\n";
+      has_problem |= finding.verdict == Verdict::kProblem;
+    }
+  };
+  tell(checkHost());
+  tell(checkDevices(config));
+  if (!has_problem) tell(checkTrace(config));
+  tell(checkPorts(config));
+  std::cout << (has_problem ? "viewloomd cannot run yet\n" : "viewloomd can run\n");
+  return has_problem ? kExitProblem : 0;
+}
+
+}  // namespace
+
+void addDoctorCommand(CLI::App& app, Command& chosen) {
+  CLI::App* const command =
+      app.add_subcommand("doctor", "Checks device, ports and host, and says what to do");
+  command->fallthrough();
+  command->callback([&chosen] { chosen = doctor; });
+}
+
+}  // namespace viewloom

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/stage_bench.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "base/check.h"
+#include "base/clock.h"
+#include "display/atlas_layout.h"
+#include "encode/band_encoder.h"
+#include "gpu/command_recorder.h"
+#include "gpu/gpu_timer.h"
+#include "gpu/timeline.h"
+#include "structure/structure_builder.h"
+#include "trace/view_tracer.h"
+
+namespace viewloom {
+namespace {
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Nodes of all levels above the facets.
+uint64_t nodeCount(const StructureLayout& layout) {
+  uint64_t count = 0;
+  for (uint32_t level = abi::kLevelFirst; level <= abi::kLevelLast; ++level) {
+    count += layout.levelSize(level).area();
+  }
+  return count;
+}
+
+double perPixel(uint64_t count, const StructureLayout& layout) {
+  return static_cast<double>(count) / static_cast<double>(layout.size_px.area());
+}
+
+// Everything one repetition needs, kept from one to the next.
+class StageBench {
+ public:
+  StageBench(const Device& device, const Frame& frame, const DisplaySpec& spec,
+             const EncodingSpec& encoding)
+      : frame_(frame),
+        spec_(spec),
+        encoding_(encoding),
+        timeline_(device),
+        recorder_(device),
+        structure_(device, shapeOf(frame)),
+        builder_(device),
+        tracer_(device),
+        build_timer_(device, kStructurePassCountMax),
+        trace_timer_(device, 1),
+        encoder_(pool_) {
+    build();  // what the layout needs to know of the content
+    const Camera& camera = structure_.sourceCamera();
+    const SizePx source_px = structure_.layout().size_px;
+    const auto layout =
+        makeAtlasLayout(spec, {.source_camera = camera,
+                               .source_size_px = source_px,
+                               .focal_distance_m = contentFocalDistance(structure_.stats())});
+    VIEWLOOM_CHECK(layout.ok());
+    layout_ = std::make_shared<AtlasLayout>(*layout);
+    job_ = makeTraceJob(layout_, spec_, displayPose(spec_, camera), camera, source_px);
+    trace_slot_ = std::make_unique<TraceSlot>(
+        device, TraceSlotShape{.width_px = layout_->size_px.width,
+                               .row_count_max = bandRowCount(encoding_),
+                               .tile_count_max = layout_->columns * layout_->rows});
+  }
+
+  void repeat() {
+    samples_["upload"].push_back(timed([&] { structure_.upload(frame_); }));
+    samples_["build"].push_back(timed([&] { build(); }));
+    for (const GpuPassTime& pass : build_timer_.results()) {
+      build_passes_[pass.name].push_back(static_cast<double>(pass.duration_ns) * 1e-6);
+    }
+    double trace_ms = 0;
+    double submit_ms = 0;
+    double encode_ms = 0;
+    ray_count_ = 0;
+    encoded_bytes_ = 0;
+    for (uint32_t row = 0; row < layout_->size_px.height; row += bandRowCount(encoding_)) {
+      const BandRows rows = {row, std::min(bandRowCount(encoding_), layout_->size_px.height - row)};
+      const double band_ms = timed([&] { trace(rows); });
+      const std::span<const GpuPassTime> passes = trace_timer_.results();
+      trace_ms += passes.empty() ? band_ms : static_cast<double>(passes[0].duration_ns) * 1e-6;
+      submit_ms += band_ms;
+      encode_ms += timed([&] { encode(rows); });
+      ray_count_ += trace_slot_->coverage().rayCount();
+    }
+    samples_["trace"].push_back(trace_ms);
+    samples_["readback"].push_back(submit_ms - trace_ms);
+    samples_["encode"].push_back(encode_ms);
+  }
+
+  void forgetSamples() {
+    samples_.clear();
+    build_passes_.clear();
+  }
+
+  StageReport report() const {
+    const StructureLayout& layout = structure_.layout();
+    StageReport report = {.source_px = layout.size_px.area() * structure_.shape().layerCount(),
+                          .ray_count = ray_count_,
+                          .upload_ms = medianOf(samples_.at("upload")),
+                          .build_ms = medianOf(samples_.at("build")),
+                          .build_pass_ms = {},
+                          .trace_ms = medianOf(samples_.at("trace")),
+                          .readback_ms = medianOf(samples_.at("readback")),
+                          .encode_ms = medianOf(samples_.at("encode")),
+                          .encoded_bytes = encoded_bytes_,
+                          .nodes_per_px = perPixel(nodeCount(layout), layout),
+                          .structure_bytes_per_px = perPixel(layout.layerBytes(), layout),
+                          .structure_bytes = structureBytes(structure_.shape()),
+                          .trace_slot_bytes = trace_slot_->sizeBytes()};
+    for (const auto& [name, values] : build_passes_) report.build_pass_ms[name] = medianOf(values);
+    return report;
+  }
+
+ private:
+  template <typename Work>
+  double timed(Work work) const {
+    const int64_t started_ns = clock_.nowNs();
+    work();
+    return static_cast<double>(clock_.nowNs() - started_ns) * 1e-6;
+  }
+
+  void build() {
+    if (!is_uploaded_) structure_.upload(frame_);
+    is_uploaded_ = true;
+    const vk::CommandBuffer commands = recorder_.begin();
+    build_timer_.recordReset(commands);
+    builder_.record(commands, structure_, &build_timer_);
+    timeline_.wait(recorder_.submit(timeline_));
+  }
+
+  void trace(BandRows rows) {
+    const vk::CommandBuffer commands = recorder_.begin();
+    trace_timer_.recordReset(commands);
+    tracer_.recordBand(commands, structure_, job_, rows, *trace_slot_, &trace_timer_);
+    timeline_.wait(recorder_.submit(timeline_));
+  }
+
+  void encode(BandRows rows) {
+    const auto bytes = std::as_bytes(trace_slot_->color());
+    const EncodedBand band =
+        encoder_.encode({.plane = AtlasPlane::kColor,
+                         .first_row = rows.first_row,
+                         .row_count = rows.row_count,
+                         .width_px = layout_->size_px.width,
+                         .bytes = {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()},
+                         .stride_bytes = size_t{4} * layout_->size_px.width},
+                        encoding_, *layout_);
+    encoded_bytes_ += band.bytes->size();
+  }
+
+  const Frame& frame_;
+  const DisplaySpec& spec_;
+  const EncodingSpec encoding_;
+  const SteadyClock clock_;
+  Timeline timeline_;
+  CommandRecorder recorder_;
+  StructureSlot structure_;
+  bool is_uploaded_ = false;
+  StructureBuilder builder_;
+  ViewTracer tracer_;
+  GpuTimer build_timer_;
+  GpuTimer trace_timer_;
+  BytePool pool_{4};
+  BandEncoder encoder_;
+  std::shared_ptr<const AtlasLayout> layout_;
+  TraceJob job_;
+  std::unique_ptr<TraceSlot> trace_slot_;
+
+  uint64_t ray_count_ = 0;                                   // of the last repetition
+  uint64_t encoded_bytes_ = 0;                               // of the last repetition
+  std::map<std::string, std::vector<double>> samples_;       // ms
+  std::map<std::string, std::vector<double>> build_passes_;  // ms
+};
+
+}  // namespace
+
+StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,
+                          const EncodingSpec& encoding, uint32_t repetition_count) {
+  StageBench bench(device, frame, spec, encoding);
+  bench.repeat();
+  bench.forgetSamples();
+  for (uint32_t i = 0; i < repetition_count; ++i) bench.repeat();
+  return bench.report();
+}
+
+}  // namespace viewloom

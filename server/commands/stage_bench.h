@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times each stage on its own, one after the other: what the overlapped pipeline is made of.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "display/display_spec.h"
+#include "frame/frame.h"
+#include "gpu/device.h"
+
+namespace viewloom {
+
+// Medians over the repetitions.
+struct StageReport {
+  uint64_t source_px = 0;  // of all layers
+  uint64_t ray_count = 0;
+  double upload_ms = 0;
+  double build_ms = 0;                          // submitted until done
+  std::map<std::string, double> build_pass_ms;  // on the device, by pass; empty without timestamps
+  double trace_ms = 0;     // on the device; all of the submissions without timestamps
+  double readback_ms = 0;  // the rest of the trace's submissions: clearing, copying, waiting
+  double encode_ms = 0;    // one thread
+  uint64_t encoded_bytes = 0;
+  double nodes_per_px = 0;            // above the facets, of one layer
+  double structure_bytes_per_px = 0;  // of one layer: facets, nodes, entries, links
+  uint64_t structure_bytes = 0;       // one slot, host and device
+  uint64_t trace_slot_bytes = 0;
+};
+
+// The first repetition warms up and does not count.
+StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,
+                          const EncodingSpec& encoding, uint32_t repetition_count);
+
+}  // namespace viewloom
