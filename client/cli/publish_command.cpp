@@ -22,7 +22,7 @@ namespace viewloom::cli {
 namespace {
 
 constexpr int64_t kTick_ns = 20'000'000;            // how soon an interrupt or a due frame is seen
-constexpr int64_t kFinish_ns = 30'000'000'000;      // for the reports of the last frames
+constexpr int64_t kFinish_ns = 120'000'000'000;     // for the reports of the last frames
 constexpr int64_t kInterrupted_ns = 1'000'000'000;  // the same after Ctrl-C
 
 struct PublishOptions {

@@ -175,6 +175,42 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
             0);
 }
 
+TEST_F(ClientWithViewloomd, theCommandPublishesRealFiles) {
+  const fs::path data = VIEWLOOM_SHARED_DATA;
+  if (!fs::exists(data)) GTEST_SKIP() << data << " is not there";
+  const std::string command = std::string(VIEWLOOM) + " --server " + address_ + " publish -q ";
+  const std::string ball = (data / "beachball-stereo").string();
+  const std::string antinous = (data / "hci-antinous").string();
+  EXPECT_EQ(runCommand(command + ball +
+                       "/singlepart.0001.exr --view right --depth-far-zero "
+                       "--focal-px 2048 --stream ball"),
+            0);
+  // Its data window leaves the display window.
+  EXPECT_EQ(runCommand(command + ball +
+                       "/singlepart.0008.exr --view left --depth-far-zero "
+                       "--focal-px 2048 --stream ball8"),
+            0);
+  EXPECT_EQ(runCommand(command + antinous + "/input_Cam040.png --depth " + antinous +
+                       "/gt_disp_lowres.pfm --depth-meaning disparity --scale 0.025 "
+                       "--depth-offset 0.125 --focal-px 1462.857 --stream antinous"),
+            0);
+  const auto streams = Catalog(makeChannel(address_)).listStreams();
+  ASSERT_TRUE(streams.ok()) << streams.status();
+  ASSERT_EQ(streams->streams_size(), 3);
+  const v1::StreamEntry& of_antinous = streams->streams(0);
+  const v1::StreamEntry& of_ball = streams->streams(1);
+  EXPECT_EQ(of_ball.size().width(), 2048U);
+  EXPECT_EQ(of_ball.size().height(), 1556U);
+  EXPECT_EQ(of_ball.frame_number(), 1U);
+  EXPECT_EQ(of_ball.stats().bad_samples_count(), 0U);
+  // 1/m. Facets reach half a pixel beyond their samples; 3e-4 at the steepest of these two.
+  constexpr double kFacetReach = 1e-3;
+  // Z is 9.0..10.92 on the ball, far around it; the disparity -3.131..2.689 px (see SOURCE.txt).
+  EXPECT_NEAR(of_ball.stats().inv_z_max(), 1 / 9.0, kFacetReach);
+  EXPECT_NEAR(of_antinous.stats().inv_z_min(), 0.125 - 0.025 * 3.131, kFacetReach);
+  EXPECT_NEAR(of_antinous.stats().inv_z_max(), 0.125 + 0.025 * 2.689, kFacetReach);
+}
+
 TEST_F(ClientWithViewloomd, thePythonExampleSavesAQuiltAndAView) {
   const auto publisher = publish();
   publisher->offer(smallFrame(0));
