@@ -13,6 +13,10 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 
 const int kBlockSize = 4;
 
+// The facets of this invocation's block: kBlockSize rows.
+float inv_z[kBlockSize * kBlockSize];
+uint slopes[kBlockSize * kBlockSize];
+
 // The nearest inv_z of what the column's links lead to before this layer, from this layer or a
 // deeper one.
 float nearestForward(Extent extent, uint layer, ivec2 pixel) {
@@ -30,6 +34,36 @@ float nearestForward(Extent extent, uint layer, ivec2 pixel) {
   return nearest;
 }
 
+// The plane that fits the block, where its error is within half the connection tolerance; else the
+// box. inv_z_min: of the block's facets.
+uvec2 planeOrBox(PlaneFit fit, vec2 box, float inv_z_min, ivec2 covered) {
+  const vec2 fitted = fittedSlope(fit);
+  const float fitted_center = fittedCenter(fit, fitted);
+  // The error is that of the plane as stored.
+  const float center = planeCenter(packPlane(kLevelFirst, max(fitted_center, 0.0), fitted, 0u));
+  const vec2 slope = unpackSlopes(packSlopes(fitted));
+  float error = 0.0;
+  for (int y = 0; y < kBlockSize; ++y) {
+    for (int x = 0; x < kBlockSize; ++x) {
+      if (x >= covered.x || y >= covered.y) continue;
+      const vec2 position = vec2(x, y) + 0.5 - 0.5 * float(kBlockSize);
+      const vec2 lean = abs(unpackSlopes(slopes[y * kBlockSize + x]) - slope);
+      const float apart = abs(inv_z[y * kBlockSize + x] - (center + dot(slope, position)));
+      error = max(error, apart + 0.5 * (lean.x + lean.y));
+    }
+  }
+  // A few roundings of the sums above, of numbers no larger than the box.
+  error += box.y * (8.0 / 8388608.0);
+  if (hasFault(kFaultErrorUnderstated)) error *= 0.25;
+  const uint exponent = errorExponent(error);
+  const float kappa =
+      connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, inv_z_min);
+  if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
+    return packPlane(kLevelFirst, center, slope, exponent);
+  }
+  return packBox(kLevelFirst, box);
+}
+
 void main() {
   const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
@@ -37,16 +71,12 @@ void main() {
   const ivec2 origin = ivec2(cell) * kBlockSize;
   if (origin.x >= extent.size_px.x) return;
   const ivec2 covered = min(extent.size_px - origin, ivec2(kBlockSize));
-  const float kappa_abs = measured_head.kappa_abs;
-  const float kappa_rel = measured_head.kappa_rel;
 
   PlaneFit fit = startFit();
   vec2 box = vec2(3.4e38, kNoSurface);
   float inv_z_min = 3.4e38;
   bool has_hole = false;
   uint forward_links = 0u;  // facets that have one, a bit each
-  float inv_z[kBlockSize * kBlockSize];
-  uint slopes[kBlockSize * kBlockSize];
   for (int y = 0; y < kBlockSize; ++y) {
     for (int x = 0; x < kBlockSize; ++x) {
       if (x >= covered.x || y >= covered.y) continue;
@@ -78,31 +108,8 @@ void main() {
         max(box.y, nearestForward(extent, layer, origin + ivec2(i % kBlockSize, i / kBlockSize)));
   }
 
-  uvec2 node = packBox(kLevelFirst, box);
-  if (!has_hole && !has_forward_link) {
-    const vec2 fitted = fittedSlope(fit);
-    const float fitted_center = fittedCenter(fit, fitted);
-    // The error is that of the plane as stored.
-    const float center = planeCenter(packPlane(kLevelFirst, max(fitted_center, 0.0), fitted, 0u));
-    const vec2 slope = unpackSlopes(packSlopes(fitted));
-    float error = 0.0;
-    for (int y = 0; y < kBlockSize; ++y) {
-      for (int x = 0; x < kBlockSize; ++x) {
-        if (x >= covered.x || y >= covered.y) continue;
-        const vec2 position = vec2(x, y) + 0.5 - 0.5 * float(kBlockSize);
-        const vec2 lean = abs(unpackSlopes(slopes[y * kBlockSize + x]) - slope);
-        const float apart = abs(inv_z[y * kBlockSize + x] - (center + dot(slope, position)));
-        error = max(error, apart + 0.5 * (lean.x + lean.y));
-      }
-    }
-    // A few roundings of the sums above, of numbers no larger than the box.
-    error += box.y * (8.0 / 8388608.0);
-    if (hasFault(kFaultErrorUnderstated)) error *= 0.25;
-    const uint exponent = errorExponent(error);
-    const float kappa = connectionTolerance(kappa_abs, kappa_rel, inv_z_min);
-    if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
-      node = packPlane(kLevelFirst, center, slope, exponent);
-    }
-  }
+  const bool may_be_plane = !has_hole && !has_forward_link;
+  const uvec2 node = may_be_plane ? planeOrBox(fit, box, inv_z_min, covered)
+                                  : packBox(kLevelFirst, box);
   storeCell(push.layers, layer, extent, kLevelFirst, cell, node);
 }

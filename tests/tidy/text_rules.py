@@ -18,6 +18,10 @@ FUNCTION_LINES_MAX = 60
 MAIN_LINES_MAX = 60
 # Path: why it may be longer.
 LONG_FILES = {}
+LONG_FUNCTIONS = {
+    "shaders/lib/walk.glsl": "two nested loops over one state of some twenty variables: as "
+                             "functions they would hand all of it in and out",
+}
 
 # Written in halves, so that this list does not find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|X" r"XX)\b")
@@ -95,7 +99,7 @@ def check_functions(tree):
         found = _python_functions("\n".join(lines)) if path.endswith(".py") \
             else _braced_functions(lines)
         for line, length in found:
-            if length > FUNCTION_LINES_MAX:
+            if length > FUNCTION_LINES_MAX and path not in LONG_FUNCTIONS:
                 yield Finding(path, line, "function",
                               f"{length} lines, at most {FUNCTION_LINES_MAX}")
 
