@@ -273,9 +273,12 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
 
     // This layer is done; the next begins where the ray passed behind it.
     if (layer == 0u && has_passed) first_passed_t = passed.t;
-    if (has_passed && !passed_at_start) {
+    // The far side that lies furthest back is the best one, where there is a surface at all.
+    const ivec2 far_cell = passed.cell - (has_passed ? stepOfAxis(passed.axis, direction) : ivec2(0));
+    const uvec2 far_facet = loadFacet(scene.layers, layer, scene.extent, far_cell);
+    if (has_passed && !passed_at_start && far_facet.x != kNoFacet) {
       result.has_far_side = true;
-      result.far_cell = passed.cell - stepOfAxis(passed.axis, direction);
+      result.far_cell = far_cell;
       result.far_layer = layer;
     }
     if (!has_passed || layer + 1u >= scene.layer_count || hasFault(kFaultLayerDropped)) break;

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/memory.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
@@ -41,18 +40,14 @@ float linearise(float depth_sample, float ray_length) {
 
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;
-  uint bad_count = 0u;
-  if (pixel.x < push.width_px && pixel.y < push.height_px) {
-    const uint index = pixel.y * push.width_px + pixel.x;
-    const vec2 principal_px = vec2(push.principal_x_px, push.principal_y_px);
-    const vec2 ray = (vec2(pixel) + 0.5 - principal_px) / vec2(push.focal_x_px, push.focal_y_px);
-    const float inv_z =
-        linearise(loadSample(index), push.ray_distance != 0u ? length(vec3(ray, 1.0)) : 1.0);
-    bad_count = isnan(inv_z) ? 1u : 0u;
-    storeInvZ(push.inv_z, push.layer, push.width_px * push.height_px, index,
-              inv_z >= 0.0 ? inv_z : kNoSurface);
-  }
-  const uint sum = subgroupAdd(bad_count);
+  if (pixel.x >= push.width_px || pixel.y >= push.height_px) return;
+  const uint index = pixel.y * push.width_px + pixel.x;
+  const vec2 principal_px = vec2(push.principal_x_px, push.principal_y_px);
+  const vec2 ray = (vec2(pixel) + 0.5 - principal_px) / vec2(push.focal_x_px, push.focal_y_px);
+  const float ray_length = push.ray_distance != 0u ? length(vec3(ray, 1.0)) : 1.0;
+  const float inv_z = linearise(loadSample(index), ray_length);
+  storeInvZ(push.inv_z, push.layer, push.width_px * push.height_px, index,
+            inv_z >= 0.0 ? inv_z : kNoSurface);
   MeasuredRef measured = MeasuredRef(push.measured);
-  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.head.bad_samples_count, sum);
+  if (isnan(inv_z)) atomicAdd(measured.value.head.bad_samples_count, 1u);
 }

@@ -4,7 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/memory.glsl"
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
@@ -50,7 +49,6 @@ void main() {
     }
     for (uint i = 0u; i < kLayerCount; ++i) storeInvZ(push.inv_z[i], i, area, index, kept[i]);
   }
-  const uint sum = subgroupAdd(is_unsorted ? 1u : 0u);
   MeasuredRef measured = MeasuredRef(push.measured);
-  if (subgroupElect() && sum > 0u) atomicAdd(measured.value.head.unsorted_columns_count, sum);
+  if (is_unsorted) atomicAdd(measured.value.head.unsorted_columns_count, 1u);
 }
