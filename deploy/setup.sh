@@ -16,8 +16,8 @@ TEXT
 # where there is one.
 runtime_packages=(
   ca-certificates libabsl20220623 libgrpc++1.51 libjpeg62-turbo libopenexr-3-1-30 libpng16-16
-  libprometheus-cpp-core1.0 libprotobuf32 libspdlog1.10 libturbojpeg0 libvulkan1 libzstd1
-  mesa-vulkan-drivers
+  libprometheus-cpp-core1.0 libprotobuf32 libspdlog1.10 libtomlplusplus3 libturbojpeg0 libvulkan1
+  libzstd1 mesa-vulkan-drivers
 )
 build_packages=(
   ccache cmake g++ git ninja-build pkg-config
