@@ -6,7 +6,12 @@
 namespace viewloom {
 
 Bystander::Bystander(TestServer& server)
-    : publisher_(server.connect(), "healthy"), watcher_(server.connect(), smallQuilt("healthy")) {}
+    : publisher_(server.connect(), "healthy"), watcher_(server.connect(), smallQuilt("healthy")) {
+  // The first frame may come before the display: only from the next on both know of each other.
+  EXPECT_TRUE(publisher_.sendFrame(++number_));
+  EXPECT_TRUE(publisher_.readReport().has_value());
+  EXPECT_TRUE(watcher_.readAtlas().has_value());
+}
 
 void Bystander::expectUndisturbed() {
   ++number_;

@@ -95,5 +95,20 @@ TEST(StreamAtlases, refusesMoreDisplaysAndSubscribersThanItTakes) {
   bystander.expectUndisturbed();
 }
 
+TEST(StreamAtlases, endsWhenTheDisplayFitsNoCameraOfTheStream) {
+  TestServer server;
+  Bystander bystander(server);
+  v1::OpenDisplay other = smallQuilt("healthy");
+  other.mutable_display()->mutable_quilt()->set_view_count(1);
+  TestWatcher watcher(server.connect(), other);
+  ASSERT_TRUE(watcher.readAtlas().has_value());
+  const ActiveDisplayPtr display = server.broadcaster().displays("healthy").back();
+  server.broadcaster().refuse(
+      display->id, fieldError(absl::StatusCode::kFailedPrecondition, "quilt.size", "does not fit"));
+  EXPECT_EQ(refusalOf(watcher.finish()),
+            (Refusal{grpc::StatusCode::FAILED_PRECONDITION, "open.display.quilt.size"}));
+  bystander.expectUndisturbed();
+}
+
 }  // namespace
 }  // namespace viewloom
