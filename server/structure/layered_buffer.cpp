@@ -4,16 +4,26 @@
 #include <algorithm>
 
 namespace viewloom {
+namespace {
+
+constexpr uint64_t kPlaceholderBytes = 256;
+
+}  // namespace
 
 LayeredBuffer::LayeredBuffer(const Device& device, const LayeredBufferOptions& options)
-    : layer_bytes_(options.layer_bytes) {
+    : layer_bytes_(options.layer_bytes), is_divided_(options.is_divided) {
   const uint32_t buffer_count = options.is_divided ? options.layer_count : 1;
   const uint64_t buffer_bytes = layer_bytes_ * (options.is_divided ? 1 : options.layer_count);
   for (uint32_t i = 0; i < buffer_count; ++i) {
     buffers_.emplace_back(
         device, BufferOptions{.size_bytes = buffer_bytes, .debug_name = options.debug_name});
   }
-  if (!options.is_divided) texels_ = TexelView(device, buffers_.front(), options.texel_format);
+  storage_bytes_ = std::min(buffer_bytes, device.info().limits.storage_bytes_max);
+  if (is_divided_) {
+    placeholder_ = Buffer(device, {.size_bytes = kPlaceholderBytes, .debug_name = "placeholder"});
+  }
+  const Buffer& read = is_divided_ ? placeholder_ : buffers_.front();
+  texels_ = TexelView(device, read, options.texel_format);
 }
 
 bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions& options) {
@@ -35,7 +45,7 @@ Descriptor LayeredBuffer::asStorage(uint32_t binding) const {
   return {.binding = binding,
           .kind = DescriptorKind::kStorage,
           .buffer = buffers_.front().handle(),
-          .size_bytes = buffers_.front().sizeBytes()};
+          .size_bytes = storage_bytes_};
 }
 
 bool LayeredBuffer::fitsStorage(const Device& device) const {

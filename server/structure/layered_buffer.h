@@ -30,21 +30,23 @@ class LayeredBuffer {
 
   vk::DeviceAddress address(uint32_t layer) const;
   // Where a layer lies, for copies.
-  const Buffer& buffer(uint32_t layer) const { return buffers_[texels_.isEmpty() ? layer : 0]; }
-  uint64_t offsetBytes(uint32_t layer) const {
-    return texels_.isEmpty() ? 0 : layer * layer_bytes_;
-  }
+  const Buffer& buffer(uint32_t layer) const { return buffers_[is_divided_ ? layer : 0]; }
+  uint64_t offsetBytes(uint32_t layer) const { return is_divided_ ? 0 : layer * layer_bytes_; }
   uint64_t layerBytes() const { return layer_bytes_; }
 
-  // Descriptors of all layers. Divided arrays have none: what stands there is never used.
+  // Descriptors of all layers. What stands there for arrays that are reached by address is valid, as
+  // Vulkan asks of every binding, and never used.
   Descriptor asTexels(uint32_t binding) const;
   Descriptor asStorage(uint32_t binding) const;
-  bool isDivided() const { return texels_.isEmpty(); }
+  bool isDivided() const { return is_divided_; }
   bool fitsStorage(const Device& device) const;
 
  private:
   uint64_t layer_bytes_;
+  bool is_divided_;
+  uint64_t storage_bytes_;  // of the storage descriptor
   std::vector<Buffer> buffers_;
+  Buffer placeholder_;  // of divided arrays
   TexelView texels_;
 };
 

@@ -38,19 +38,13 @@ void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
   commands.fillBuffer(measured.handle(), kMin + sizeof(uint32_t), VK_WHOLE_SIZE, 0);
 }
 
-// The bindings of a slot's arrays; those that are reached by address are left out.
 std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
-  std::vector<Descriptor> bindings{slot.measuredDescriptor()};
-  if (!slot.readsByAddress()) {
-    bindings.push_back(slot.structure().asTexels(abi::kBindingStructure));
-    bindings.push_back(slot.invZ().asTexels(abi::kBindingInvZ));
-  }
-  if (!slot.writesByAddress()) {
-    bindings.push_back(slot.invZ().asStorage(abi::kBindingInvZOut));
-    bindings.push_back(slot.structure().asStorage(abi::kBindingStructureOut));
-    bindings.push_back(slot.structure().asStorage(abi::kBindingLinksOut));
-  }
-  return bindings;
+  return {slot.measuredDescriptor(),
+          slot.structure().asTexels(abi::kBindingStructure),
+          slot.invZ().asTexels(abi::kBindingInvZ),
+          slot.invZ().asStorage(abi::kBindingInvZOut),
+          slot.structure().asStorage(abi::kBindingStructureOut),
+          slot.structure().asStorage(abi::kBindingLinksOut)};
 }
 
 // One build, stage after stage.
@@ -112,14 +106,13 @@ void Recording::linearise() {
   for (const abi::LinearisePush& push : slot_.linearisePushes()) {
     const ComputePass& pass = passes_.linearise_depth[push.sample_type];
     std::vector<Descriptor> bindings = bindings_;
-    if (!slot_.readsByAddress()) {
-      const StagedPlane& depth = slot_.staged()[push.layer].depth;
-      bindings.push_back({.binding = abi::kBindingSamples,
-                          .kind = DescriptorKind::kStorage,
-                          .buffer = slot_.staging().handle(),
-                          .offset_bytes = depth.offset,
-                          .size_bytes = depth.size_bytes});
-    }
+    const StagedPlane& depth = slot_.staged()[push.layer].depth;
+    // Samples reached by address may be more than a binding can hold: then a sample stands for them.
+    bindings.push_back({.binding = abi::kBindingSamples,
+                        .kind = DescriptorKind::kStorage,
+                        .buffer = slot_.staging().handle(),
+                        .offset_bytes = depth.offset,
+                        .size_bytes = slot_.readsByAddress() ? sizeof(float) : depth.size_bytes});
     pass.recordDescriptors(commands_, bindings);
     pass.record(commands_, push, group_count.width, group_count.height);
   }

@@ -92,7 +92,7 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
 
 std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& structure,
                                                      const TraceSlot& slot, uint64_t tiles_bytes) {
-  std::vector<Descriptor> bindings{
+  return {
       structure.measuredDescriptor(),
       {.binding = abi::kBindingViews,
        .kind = DescriptorKind::kStorage,
@@ -106,12 +106,9 @@ std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& struct
       {.binding = abi::kBindingBand,
        .kind = DescriptorKind::kStorage,
        .buffer = slot.color_.target().handle(),
-       .size_bytes = slot.color_.target().sizeBytes()}};
-  if (!structure.readsByAddress()) {
-    bindings.push_back(structure.structure().asTexels(abi::kBindingStructure));
-    bindings.push_back(structure.color().asTexels(abi::kBindingColor));
-  }
-  return bindings;
+       .size_bytes = slot.color_.target().sizeBytes()},
+      structure.structure().asTexels(abi::kBindingStructure),
+      structure.color().asTexels(abi::kBindingColor)};
 }
 
 abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const TraceJob& job,
