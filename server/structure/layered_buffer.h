@@ -34,8 +34,8 @@ class LayeredBuffer {
   uint64_t offsetBytes(uint32_t layer) const { return is_divided_ ? 0 : layer * layer_bytes_; }
   uint64_t layerBytes() const { return layer_bytes_; }
 
-  // Descriptors of all layers. What stands there for arrays that are reached by address is valid, as
-  // Vulkan asks of every binding, and never used.
+  // Descriptors of all layers. What stands there for arrays that are reached by address is valid,
+  // as Vulkan asks of every binding, and never used.
   Descriptor asTexels(uint32_t binding) const;
   Descriptor asStorage(uint32_t binding) const;
   bool isDivided() const { return is_divided_; }

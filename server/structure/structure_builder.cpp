@@ -107,7 +107,7 @@ void Recording::linearise() {
     const ComputePass& pass = passes_.linearise_depth[push.sample_type];
     std::vector<Descriptor> bindings = bindings_;
     const StagedPlane& depth = slot_.staged()[push.layer].depth;
-    // Samples reached by address may be more than a binding can hold: then a sample stands for them.
+    // Samples reached by address may be more than a binding holds: then one stands for them.
     bindings.push_back({.binding = abi::kBindingSamples,
                         .kind = DescriptorKind::kStorage,
                         .buffer = slot_.staging().handle(),
