@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walk: the first event of a ray (shaders/README.md, What a ray answers), found through the pyramid.
+// The walk: the first event of a ray (shaders/README.md, What a ray answers), found through the
+// pyramid.
 //
-// Opaque layers are walked one after the other. Layer l + 1 lies behind layer l, so it is entered only
-// where the ray first passed behind layer l, and followed only to the hit known so far. Cells are integers
-// and move only along the ray, so every walk ends; there is no limit of steps.
+// Opaque layers are walked one after the other. Layer l + 1 lies behind layer l, so it is entered
+// only where the ray first passed behind layer l, and followed only to the hit known so far. Cells
+// are integers and move only along the ray, so every walk ends; there is no limit of steps.
 //
-// Two loops: the inner one steps from cell to cell, one load a visit; what is rare (an edge that may be
-// linked, the end of a layer) stops it and is dealt with by the outer one. On devices that mask instead of
-// branching, rare code inside the inner loop would cost every visit.
+// Two loops: the inner one steps from cell to cell, one load a visit; what is rare (an edge that
+// may be linked, the end of a layer) stops it and is dealt with by the outer one. On devices that
+// mask instead of branching, rare code inside the inner loop would cost every visit.
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
@@ -15,29 +16,10 @@
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
 #include "lib/structure_access.glsl"
+#include "lib/walk_edges.glsl"
 
-// What is walked through.
-struct Scene {
-  Address layers[kLayerCountMax];
-  uint layer_count;
-  Extent extent;
-  float inv_z_near;  // nothing is nearer, 1/m
-  vec2 kappa;        // connection tolerance: absolute (1/m), relative
-};
-
-const uint kAxisNone = 0u;  // in the ray's first column
-const uint kAxisX = 1u;
-const uint kAxisY = 2u;
-
-// A place on the ray: where it entered `cell`, and across which axis.
-struct Place {
-  float t;
-  ivec2 cell;
-  uint axis;
-};
-
-// A walk begins in the state of its first column (kStateUnknown), or behind the layers < behind_count and
-// in front of the others, at a surface that was seen through.
+// A walk begins in the state of its first column (kStateUnknown), or behind the layers <
+// behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
 struct WalkStart {
@@ -58,59 +40,6 @@ struct Walk {
   uint far_layer;
   uint visits;
 };
-
-// Why the inner loop stops.
-const uint kStepOn = 0u;
-const uint kMeetsEdge = 1u;     // from in front to behind across an edge that may be linked
-const uint kComesForward = 2u;  // the last facet has a link to a lower layer; it may stand before the ray
-const uint kHits = 3u;          // inside a node
-const uint kEnds = 4u;          // the ray, or the stretch of it that is still of interest
-
-ivec2 stepOfAxis(uint axis, ivec2 direction) {
-  return axis == kAxisX ? ivec2(direction.x, 0) : axis == kAxisY ? ivec2(0, direction.y) : ivec2(0);
-}
-
-// The edge through which a ray leaves a facet across an axis, or comes in.
-uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
-  const int along = axis == kAxisX ? direction.x : direction.y;
-  const uint first = axis == kAxisX ? kEdgeLeft : kEdgeTop;
-  return first + ((along > 0) == leaving ? 1u : 0u);
-}
-
-// How far the ray stands in front of a facet at a point of the facet's edge (x), and how that changes along
-// the ray (y).
-vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent) {
-  const uvec2 facet = loadFacet(scene.layers, layer, scene.extent, cell);
-  return vec2(point.z - facetAtPoint(facet, cell, point.xy), extent.z - dot(unpackSlopes(facet.y), extent.xy));
-}
-
-// 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
-// kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface it was
-// in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind what one of
-// them is linked to. `tolerance`, 1/m: the walk of the other layer may have taken a plane for its facet, so
-// whoever is undecided and comes closer hits.
-uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point, vec3 extent,
-             float tolerance) {
-  if (at.axis == kAxisNone || hasFault(kFaultLinks)) return 0u;
-  const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
-  const bool leaving = event == kComesForward;
-  const uint edge = edgeOfAxis(at.axis, direction, leaving);
-  if (!leaving) {
-    if (hasFault(kFaultBehindIsHit)) return layer + 1u;
-    const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, at.cell), edge);
-    if (link == 0u) return 0u;
-    if (link - 1u >= layer) return layer + 1u;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent);
-    return front.x > (front.y < 0.0 ? -tolerance : 0.0) ? layer + 1u : 0u;
-  }
-  for (uint from = layer; from < scene.layer_count; ++from) {
-    const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, before), edge);
-    if (link == 0u || link - 1u >= layer) continue;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent);
-    if (front.x <= (front.y < 0.0 ? tolerance : 0.0)) return link;
-  }
-  return 0u;
-}
 
 Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
   const ivec2 direction = ivec2(ray.extent.x >= 0.0 ? 1 : -1, ray.extent.y >= 0.0 ? 1 : -1);
@@ -153,7 +82,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       ++result.visits;
       const uint shift = level == kLevelEntries ? kLevelFirst : level;
       const uvec2 block = uvec2(at.cell) >> shift;
-      const uint index = levelOffset(level, area) + block.y * (scene.extent.padded_width >> shift) + block.x;
+      const uint index =
+          levelOffset(level, area) + block.y * (scene.extent.padded_width >> shift) + block.x;
       const uvec2 bits = loadWord(scene.layers, layer, scene.extent, index);
       const bool is_facet = level == kLevelFacets;
       const bool is_plane = is_facet ? bits.x != kNoFacet : isPlane(bits);
@@ -175,20 +105,24 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const float inv_z = uintBitsToFloat(bits.x & (is_facet ? 0x7fffffffu : 0x7ffffe00u));
       const vec2 slope = unpackSlopes(bits.y);
       const float error = is_facet ? 0.0 : planeError(bits);
-      // Without the bound at the sky, so that the distance stays linear along the ray: above it both have
-      // the same sign, and whoever arrives at the sky arrives at the surface.
+      // Without the bound at the sky, so that the distance stays linear along the ray: above it
+      // both have the same sign, and whoever arrives at the sky arrives at the surface.
       const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
       const float above_to = to.z - inv_z - dot(slope, to.xy - center);
       const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
       const float nearness = 1.0 - from.z * eye_z;
-      const bool is_accepted = hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
+      const bool is_accepted =
+          hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
       const bool is_exact = is_plane && is_accepted;
       const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
       const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
-      const bool all_front = is_plane ? min(plane_from, plane_to) > error : min(from.z, to.z) > box_high;
-      const bool all_behind = is_plane ? max(plane_from, plane_to) < -error : max(from.z, to.z) < box_low;
+      const bool all_front =
+          is_plane ? min(plane_from, plane_to) > error : min(from.z, to.z) > box_high;
+      const bool all_behind =
+          is_plane ? max(plane_from, plane_to) < -error : max(from.z, to.z) < box_low;
       if (!(is_exact || all_front || all_behind)) {
-        // A box was reached from its entry, the largest plane there is; a plane has planes below it.
+        // A box was reached from its entry, the largest plane there is; a plane has planes below
+        // it.
         level = own_level <= kLevelFirst ? kLevelFacets : is_plane ? own_level - 1u : kLevelEntries;
         continue;
       }
@@ -197,8 +131,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       front_from = just_left ? min(front_from, 0.0) : front_from;
       if (hasFault(kFaultEntryInFront) && state_unknown) front_from = max(front_from, 1e-9);
 
-      // How far apart linked facets are is bounded at the middle of their edge only, so whoever passes to
-      // behind must look at the links.
+      // How far apart linked facets are is bounded at the middle of their edge only, so whoever
+      // passes to behind must look at the links.
       if (in_front && front_from <= 0.0) {
         event = kMeetsEdge;
         continue;
@@ -217,8 +151,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         hit_size = size_px;
         continue;
       }
-      // Who comes out from behind is in front only where the plane's error leaves no doubt: the next plane
-      // may say otherwise, and that is no hit.
+      // Who comes out from behind is in front only where the plane's error leaves no doubt: the
+      // next plane may say otherwise, and that is no hit.
       in_front = front_to > (front_from > 0.0 ? 0.0 : error);
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
@@ -246,7 +180,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const vec3 point = ray.start + at.t * ray.extent;
       const float nearness = 1.0 - point.z * eye_z;
       const float tolerance = inv_z_tolerance * nearness * nearness;
-      const uint edge_hit = edgeHit(scene, event, layer, at, direction, point, ray.extent, tolerance);
+      const uint edge_hit =
+          edgeHit(scene, event, layer, at, direction, point, ray.extent, tolerance);
       if (edge_hit == 0u) {
         if (event == kMeetsEdge) {
           if (!has_passed) passed = at;
@@ -264,7 +199,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       result.is_hit = true;
       result.t = hit_t;
       const ivec2 cell = ivec2(floor((ray.start + hit_t * ray.extent).xy));
-      result.cell = min(clamp(cell, hit_origin, hit_origin + hit_size - 1), scene.extent.size_px - 1);
+      result.cell =
+          min(clamp(cell, hit_origin, hit_origin + hit_size - 1), scene.extent.size_px - 1);
       result.layer = layer;
     } else if (layer == 0u) {
       result.ends_behind = !in_front;
@@ -274,7 +210,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     // This layer is done; the next begins where the ray passed behind it.
     if (layer == 0u && has_passed) first_passed_t = passed.t;
     // The far side that lies furthest back is the best one, where there is a surface at all.
-    const ivec2 far_cell = passed.cell - (has_passed ? stepOfAxis(passed.axis, direction) : ivec2(0));
+    const ivec2 far_cell =
+        passed.cell - (has_passed ? stepOfAxis(passed.axis, direction) : ivec2(0));
     const uvec2 far_facet = loadFacet(scene.layers, layer, scene.extent, far_cell);
     if (has_passed && !passed_at_start && far_facet.x != kNoFacet) {
       result.has_far_side = true;
