@@ -8,6 +8,7 @@
 
 #include "e2e/server_process.h"
 #include "e2e/wire_frames.h"
+#include "gpu/test_device.h"
 #include "lib/atlas_assembler.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
@@ -19,6 +20,8 @@ namespace {
 const std::vector<std::string> kAnyPorts{"--grpc.address", "127.0.0.1:0", "--http.address",
                                          "127.0.0.1:0"};
 constexpr SizePx kFramePx{160, 90};
+
+using ViewloomdProcess = DeviceNeededTest;
 
 // Offers frame after frame until it is told to stop.
 class EndlessPublisher {
@@ -40,7 +43,7 @@ class EndlessPublisher {
   Publisher publisher_;
 };
 
-TEST(ViewloomdProcess, givesWholeAtlasesOnlyAndExitsWithZeroWhenTerminatedInMidStream) {
+TEST_F(ViewloomdProcess, givesWholeAtlasesOnlyAndExitsWithZeroWhenTerminatedInMidStream) {
   ServerProcess server(kAnyPorts);
   ASSERT_FALSE(server.grpcAddress().empty());
   EndlessPublisher publisher(server.grpcAddress());
@@ -74,7 +77,7 @@ TEST(ViewloomdProcess, givesWholeAtlasesOnlyAndExitsWithZeroWhenTerminatedInMidS
   EXPECT_EQ(server.waitForExit(), 0);
 }
 
-TEST(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
+TEST_F(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
   ServerProcess server(kAnyPorts);
   ASSERT_FALSE(server.grpcAddress().empty());
   EndlessPublisher publisher(server.grpcAddress());
@@ -98,13 +101,13 @@ TEST(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
   EXPECT_FALSE(call->Finish().ok());
 }
 
-TEST(ViewloomdProcess, exitsWithTwoOnASettingThatDoesNotExist) {
+TEST_F(ViewloomdProcess, exitsWithTwoOnASettingThatDoesNotExist) {
   ServerProcess server({"--no.such.setting", "1"});
   EXPECT_TRUE(server.grpcAddress().empty());
   EXPECT_EQ(server.waitForExit(), 2);
 }
 
-TEST(ViewloomdProcess, exitsWithTwoWhenItsPortIsTaken) {
+TEST_F(ViewloomdProcess, exitsWithTwoWhenItsPortIsTaken) {
   const ServerProcess first(kAnyPorts);
   ASSERT_FALSE(first.grpcAddress().empty());
   ServerProcess second({"--grpc.address", first.grpcAddress(), "--http.address", "127.0.0.1:0"});
@@ -112,7 +115,7 @@ TEST(ViewloomdProcess, exitsWithTwoWhenItsPortIsTaken) {
   EXPECT_EQ(second.waitForExit(), 2);
 }
 
-TEST(ViewloomdProcess, exitsWithTwoWhenTheDeviceDoesNotExist) {
+TEST_F(ViewloomdProcess, exitsWithTwoWhenTheDeviceDoesNotExist) {
   ServerProcess server({"--device", "no such device"});
   EXPECT_TRUE(server.grpcAddress().empty());
   EXPECT_EQ(server.waitForExit(), 2);

@@ -5,11 +5,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "base/clock.h"
 #include "e2e/wire_frames.h"
-#include "gpu/device.h"
+#include "gpu/test_device.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "lib/watcher.h"
@@ -55,11 +56,18 @@ class FrameLog {
   std::vector<uint64_t> numbers_;
 };
 
-class ServiceStreamTest : public testing::Test {
+class ServiceStreamTest : public DeviceNeededTest {
  protected:
+  void SetUp() override {
+    DeviceNeededTest::SetUp();
+    if (IsSkipped()) return;
+    service_.emplace(anyPorts(), clock_,
+                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
+  }
+
   std::unique_ptr<Watcher> watch(FrameLog& log, SizePx size_px) {
     return std::make_unique<Watcher>(
-        makeChannel(service_.grpcAddress()), openQuilt("scene", size_px),
+        makeChannel(service_->grpcAddress()), openQuilt("scene", size_px),
         WatcherCallbacks{.on_layout = {},
                          .on_atlas =
                              [&log](const Atlas& atlas) {
@@ -70,13 +78,12 @@ class ServiceStreamTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  Service service_{anyPorts(), clock_,
-                   [](const std::exception& error) { ADD_FAILURE() << error.what(); }};
+  std::optional<Service> service_;
 };
 
 TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
   constexpr uint64_t kFrameCount = 12;
-  const auto stub = v1::DisplayService::NewStub(makeChannel(service_.grpcAddress()));
+  const auto stub = v1::DisplayService::NewStub(makeChannel(service_->grpcAddress()));
   grpc::ClientContext never_reads;
   const auto stuck = stub->StreamAtlases(&never_reads);
   v1::StreamAtlasesRequest request;
@@ -90,7 +97,7 @@ TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
   const auto second = watch(second_log, {200, 320});
   FrameLog reported;
   Publisher publisher(
-      makeChannel(service_.grpcAddress()), {.stream = "scene", .session_id = "", .backoff = {}},
+      makeChannel(service_->grpcAddress()), {.stream = "scene", .session_id = "", .backoff = {}},
       {.on_accepted = {},
        .on_report = [&](const v1::FrameReport& report) { reported.add(report.number()); },
        .on_wanted = {},
@@ -115,12 +122,12 @@ TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
   EXPECT_EQ(first_log.numbers(), every_frame);
   EXPECT_EQ(second_log.numbers(), every_frame);
   never_reads.TryCancel();
-  EXPECT_EQ(service_.device().validationLog().messageCount(), 0u);
+  EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
 }
 
 TEST_F(ServiceStreamTest, servesAJoinerFromTheLastFrameOfAPublisherThatHasLeft) {
   {
-    Publisher publisher(makeChannel(service_.grpcAddress()),
+    Publisher publisher(makeChannel(service_->grpcAddress()),
                         {.stream = "scene", .session_id = "", .backoff = {}}, {});
     publisher.offer(syntheticWireFrame({160, 90}, 1, 0));
     const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
@@ -129,8 +136,8 @@ TEST_F(ServiceStreamTest, servesAJoinerFromTheLastFrameOfAPublisherThatHasLeft) 
   FrameLog log;
   const auto joiner = watch(log, {320, 200});
   EXPECT_TRUE(log.waitFor(1));
-  EXPECT_EQ(service_.metrics().structures_built.value(), 1);
-  EXPECT_EQ(service_.device().validationLog().messageCount(), 0u);
+  EXPECT_EQ(service_->metrics().structures_built.value(), 1);
+  EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
 }
 
 }  // namespace

@@ -10,10 +10,15 @@ const Device& GpuTest::device() {
   return kDevice;
 }
 
-void GpuTest::SetUp() {
+void DeviceNeededTest::SetUp() {
   if (Device::listDevices().empty() && !std::getenv("VIEWLOOM_REQUIRE_GPU")) {
     GTEST_SKIP() << "no Vulkan device";
   }
+}
+
+void GpuTest::SetUp() {
+  DeviceNeededTest::SetUp();
+  if (IsSkipped()) return;
   messages_before_ = device().validationLog().messageCount();
 }
 

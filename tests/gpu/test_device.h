@@ -8,9 +8,14 @@
 
 namespace viewloom {
 
-// Skips without a device, unless VIEWLOOM_REQUIRE_GPU is set; fails on any validation message of
-// warning or above that the test caused.
-class GpuTest : public testing::Test {
+// Skips without a device, unless VIEWLOOM_REQUIRE_GPU is set.
+class DeviceNeededTest : public testing::Test {
+ protected:
+  void SetUp() override;
+};
+
+// Fails on any validation message of warning or above that the test caused.
+class GpuTest : public DeviceNeededTest {
  protected:
   void SetUp() override;
   void TearDown() override;
