@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compute shader, ready to be dispatched: what it needs comes by push constants
-// and
+// One compute shader, ready to be dispatched: what it needs comes by push constants and
 // descriptors.
 #pragma once
 
