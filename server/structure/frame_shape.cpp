@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/frame_shape.h"
 
+#include <algorithm>
+
 #include "structure/structure_layout.h"
 
 namespace viewloom {
@@ -54,8 +56,12 @@ std::vector<StagedLayer> stagedLayers(const Frame& frame) {
 uint64_t structureBytes(const FrameShape& shape) {
   const StructureLayout layout = structureLayout(shape.depth_px);
   uint64_t total_bytes = shape.staged_bytes;
+  uint64_t color_bytes = 0;
   for (const SizePx& color_px : shape.color_px) {
-    total_bytes += colorBytes(shape.color_storage, color_px);
+    color_bytes = std::max(color_bytes, colorBytes(shape.color_storage, color_px));
+  }
+  for (uint32_t i = 0; i < shape.layerCount(); ++i) {
+    total_bytes += color_bytes;
     total_bytes += layout.layerBytes() + layout.invZBytes();
   }
   return total_bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/structure_slot.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -9,9 +10,18 @@
 namespace viewloom {
 namespace {
 
+// Layers may differ in size: all take the room of the largest.
+uint64_t colorLayerBytes(const FrameShape& shape) {
+  uint64_t largest_bytes = 0;
+  for (const SizePx& color_px : shape.color_px) {
+    largest_bytes = std::max(largest_bytes, colorBytes(shape.color_storage, color_px));
+  }
+  return largest_bytes;
+}
+
 LayeredBufferOptions colorOptions(const FrameShape& shape) {
   const bool is_plain = shape.color_storage == ColorStorage::kRgba8Srgb;
-  return {.layer_bytes = colorBytes(shape.color_storage, shape.color_px.front()),
+  return {.layer_bytes = colorLayerBytes(shape),
           .layer_count = shape.layerCount(),
           .texel_format = is_plain ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
           .texel_bytes = is_plain ? 4u : 8u,
@@ -68,6 +78,11 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
   staged_.reserve(shape.layerCount());
   linearise_.reserve(shape.layerCount());
   conversions_.reserve(shape.layerCount());
+}
+
+uint32_t StructureSlot::colorStride() const {
+  const uint32_t texel_bytes = shape_.color_storage == ColorStorage::kRgba8Srgb ? 4 : 8;
+  return uint32_t(color_.layerBytes() / texel_bytes);
 }
 
 Descriptor StructureSlot::measuredDescriptor() const {

@@ -39,6 +39,7 @@ class StructureSlot {
   const Buffer& staging() const { return staging_; }
   const std::vector<StagedLayer>& staged() const { return staged_; }
   const LayeredBuffer& color() const { return color_; }          // texels
+  uint32_t colorStride() const;  // texels from layer to layer
   const LayeredBuffer& invZ() const { return inv_z_; }           // float[height][width]
   const LayeredBuffer& structure() const { return structure_; }  // cells, then links
   const Buffer& measured() const { return measured_; }

@@ -81,13 +81,17 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
 }
 
 abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, const TraceSlot& slot) {
-  return {.depth = addressOf(slot.depth_),
-          .mask = addressOf(slot.mask_),
-          .linear = addressOf(slot.linear_),
-          .records = addressOf(slot.records_),
-          .counters = addressOf(slot.counters_),
-          .color_width_px = structure.shape().color_px.front().width,
-          .color_height_px = structure.shape().color_px.front().height};
+  abi::TraceExtras extras{.depth = addressOf(slot.depth_),
+                          .mask = addressOf(slot.mask_),
+                          .linear = addressOf(slot.linear_),
+                          .records = addressOf(slot.records_),
+                          .counters = addressOf(slot.counters_),
+                          .color_size_px = {},
+                          .color_stride = structure.colorStride()};
+  for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
+    extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
+  }
+  return extras;
 }
 
 std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& structure,

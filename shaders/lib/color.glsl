@@ -86,31 +86,52 @@ uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent ex
   return nearest;
 }
 
-// Colour planes of another size, looked up by uv: bilinear over the texels whose facet continues
-// the hit's. `kappa`: absolute, relative.
+// Sizes of colour planes that are not all the depth's: width | height << 16 of each layer, and the texels
+// from layer to layer.
+struct ColorSizes {
+  uint size_px[kLayerCountMax];
+  uint stride;
+};
+
+ivec2 colorSize(ColorSizes sizes, uint layer) {
+  const uint low = layer == 0u ? sizes.size_px[0] : sizes.size_px[1];
+  const uint high = layer == 2u ? sizes.size_px[2] : sizes.size_px[3];
+  const uint size_px = layer < 2u ? low : high;
+  return ivec2(size_px & 0xffffu, size_px >> 16);
+}
+
+// The texel of a layer at a uv position.
+vec4 texelAtUv(Address color[kLayerCountMax], ColorSizes sizes, uint color_format, uint layer, vec2 uv) {
+  const ivec2 size_px = colorSize(sizes, layer);
+  const ivec2 texel = clamp(ivec2(uv * vec2(size_px)), ivec2(0), size_px - 1);
+  return loadTexel(color, layer, sizes.stride, color_format, uint(texel.y * size_px.x + texel.x));
+}
+
+// Colour planes of another size, looked up by uv: bilinear over the texels around the point in the hit's
+// plane whose facet continues the hit's; what another layer continues is looked up in that layer's plane.
+// `kappa`: absolute, relative.
 vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax],
-                        uint layer_count, Extent extent, ivec2 color_size, uint color_format,
+                        uint layer_count, Extent extent, ColorSizes sizes, uint color_format,
                         uint layer, ivec2 cell, vec2 point, vec2 kappa) {
-  const uint count = uint(color_size.x * color_size.y);
-  const vec2 scale = vec2(color_size) / vec2(extent.size_px);
-  const vec2 position = round((point * scale - 0.5) * kSubtexelSteps) / kSubtexelSteps;
+  const vec2 color_size = vec2(colorSize(sizes, layer));
+  const vec2 uv_per_px = 1.0 / vec2(extent.size_px);
+  const vec2 position = round((point * uv_per_px * color_size - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const vec2 share = position - floor(position);
   vec4 sum = vec4(0.0);
   float weight = 0.0;
   for (int i = 0; i < 4; ++i) {
     const ivec2 corner = ivec2(i & 1, i >> 1);
     const vec2 shares = mix(1.0 - share, share, equal(corner, ivec2(1)));
-    const ivec2 texel = clamp(ivec2(floor(position)) + corner, ivec2(0), color_size - 1);
-    const ivec2 column = clamp(ivec2((vec2(texel) + 0.5) / scale), ivec2(0), extent.size_px - 1);
+    const vec2 texel = clamp(floor(position) + vec2(corner), vec2(0.0), color_size - 1.0);
+    const vec2 uv = (texel + 0.5) / color_size;
+    const ivec2 column = clamp(ivec2(uv / uv_per_px), ivec2(0), extent.size_px - 1);
     const uint other = continuingLayer(layers, layer_count, extent, layer, cell, column, kappa);
     if (other == kLayerCountMax) continue;
-    const uint index = uint(texel.y * color_size.x + texel.x);
-    sum += shares.x * shares.y * loadTexel(color, other, count, color_format, index);
+    sum += shares.x * shares.y * texelAtUv(color, sizes, color_format, other, uv);
     weight += shares.x * shares.y;
   }
   if (weight > 0.0) return sum / weight;
-  const ivec2 own = clamp(ivec2((vec2(cell) + 0.5) * scale), ivec2(0), color_size - 1);
-  return loadTexel(color, layer, count, color_format, uint(own.y * color_size.x + own.x));
+  return texelAtUv(color, sizes, color_format, layer, (vec2(cell) + 0.5) * uv_per_px);
 }
 
 #endif  // VIEWLOOM_LIB_COLOR_GLSL_

@@ -50,8 +50,10 @@ struct TraceExtras {
   Address linear;    // vec4[rows][width]: colour before rounding, sRGB-encoded floats
   Address records;   // RayRecord[rows][width]
   Address counters;  // uint[kClassCount]: rays by class, added to
-  uint color_width_px;   // of the colour planes, when that is not the depth's size
-  uint color_height_px;
+  // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels from
+  // layer to layer.
+  uint color_size_px[kLayerCountMax];
+  uint color_stride;
 };
 
 // A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with
@@ -80,7 +82,7 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 56);
-static_assert(sizeof(TraceExtras) == 48);
+static_assert(sizeof(TraceExtras) == 60);
 static_assert(sizeof(TracePush) == 96);
 static_assert(sizeof(RayRecord) == 24);
 #endif

@@ -50,8 +50,8 @@ uvec2 unpackSize(uint size_px) {
 
 vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, vec2 point) {
   if (kColorIsScaled) {
-    const ivec2 color_size = ivec2(extras.color_width_px, extras.color_height_px);
-    return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, color_size,
+    const ColorSizes sizes = ColorSizes(extras.color_size_px, extras.color_stride);
+    return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, sizes,
                               kColorFormat, layer, cell, point, scene.kappa);
   }
   return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
