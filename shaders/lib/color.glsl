@@ -86,8 +86,8 @@ uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent ex
   return nearest;
 }
 
-// Sizes of colour planes that are not all the depth's: width | height << 16 of each layer, and the texels
-// from layer to layer.
+// Sizes of colour planes that are not all the depth's: width | height << 16 of each layer, and the
+// texels from layer to layer.
 struct ColorSizes {
   uint size_px[kLayerCountMax];
   uint stride;
@@ -101,21 +101,23 @@ ivec2 colorSize(ColorSizes sizes, uint layer) {
 }
 
 // The texel of a layer at a uv position.
-vec4 texelAtUv(Address color[kLayerCountMax], ColorSizes sizes, uint color_format, uint layer, vec2 uv) {
+vec4 texelAtUv(Address color[kLayerCountMax], ColorSizes sizes, uint color_format, uint layer,
+               vec2 uv) {
   const ivec2 size_px = colorSize(sizes, layer);
   const ivec2 texel = clamp(ivec2(uv * vec2(size_px)), ivec2(0), size_px - 1);
   return loadTexel(color, layer, sizes.stride, color_format, uint(texel.y * size_px.x + texel.x));
 }
 
-// Colour planes of another size, looked up by uv: bilinear over the texels around the point in the hit's
-// plane whose facet continues the hit's; what another layer continues is looked up in that layer's plane.
-// `kappa`: absolute, relative.
+// Colour planes of another size, looked up by uv: bilinear over the texels around the point in the
+// hit's plane whose facet continues the hit's; what another layer continues is looked up in that
+// layer's plane. `kappa`: absolute, relative.
 vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax],
                         uint layer_count, Extent extent, ColorSizes sizes, uint color_format,
                         uint layer, ivec2 cell, vec2 point, vec2 kappa) {
   const vec2 color_size = vec2(colorSize(sizes, layer));
   const vec2 uv_per_px = 1.0 / vec2(extent.size_px);
-  const vec2 position = round((point * uv_per_px * color_size - 0.5) * kSubtexelSteps) / kSubtexelSteps;
+  const vec2 position =
+      round((point * uv_per_px * color_size - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const vec2 share = position - floor(position);
   vec4 sum = vec4(0.0);
   float weight = 0.0;

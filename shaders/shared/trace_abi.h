@@ -50,8 +50,8 @@ struct TraceExtras {
   Address linear;    // vec4[rows][width]: colour before rounding, sRGB-encoded floats
   Address records;   // RayRecord[rows][width]
   Address counters;  // uint[kClassCount]: rays by class, added to
-  // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels from
-  // layer to layer.
+  // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels
+  // from layer to layer.
   uint color_size_px[kLayerCountMax];
   uint color_stride;
 };
