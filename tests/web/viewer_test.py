@@ -73,14 +73,15 @@ class Viewers(unittest.TestCase):
         viewers = [self.watch() for _ in range(200)]
         for viewer in viewers:
             viewer.shown(viewer.receive_atlas())
-        self.assertEqual(self.server.status_field("Threads"), threads)
+        # One that waited for its end when they were counted may have gone since.
+        self.assertLessEqual(self.server.status_field("Threads"), threads)
         for expected in range(2, 6):
             self.server.command("frame")
             for viewer in viewers:
                 atlas = viewer.receive_atlas()
                 self.assertEqual(atlas.header["sequence"], expected)
                 viewer.shown(atlas)
-        self.assertEqual(self.server.status_field("Threads"), threads)
+        self.assertLessEqual(self.server.status_field("Threads"), threads)
         displays = fetch(self.server.port, "/api/displays").json()["displays"]
         self.assertEqual(sorted(display["subscriber_count"] for display in displays), [1, 200])
         self.assertIsNone(deaf.close_code)

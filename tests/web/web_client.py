@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A foreign HTTP and WebSocket client on plain sockets, and the server under test as a process."""
 import base64
+import contextlib
 import json
 import os
 import socket
@@ -161,7 +162,9 @@ class WebSocket:
                 self.send_frame(self.PONG, payload)
             elif opcode == self.CLOSE:
                 (self.close_code,) = struct.unpack("!H", payload[:2])
-                self.send_frame(self.CLOSE, payload)
+                # A server that refuses to read on may be gone before it gets the answer.
+                with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+                    self.send_frame(self.CLOSE, payload)
                 return None
             elif opcode == self.TEXT:
                 return json.loads(payload)
