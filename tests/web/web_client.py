@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A foreign HTTP and WebSocket client on plain sockets, and the server under test as a process."""
+import contextlib
 import base64
 import contextlib
 import json
