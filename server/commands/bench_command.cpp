@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <vector>
@@ -35,6 +36,7 @@ constexpr double kFrameInterval_s = 1.0 / 30;
 struct BenchArguments {
   uint32_t repetition_count = 7;
   double seconds = 10;
+  double cone_deg = 40;  // the preset's
 };
 
 SyntheticOptions sceneAt(double time_s) {
@@ -111,6 +113,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
   const FramePtr frame = makeSyntheticFrame(sceneAt(0));
   v1::Display display;
   display.mutable_quilt()->set_preset(kPreset);
+  display.mutable_quilt()->set_view_cone_rad(arguments.cone_deg * std::numbers::pi / 180);
   const auto spec = displayFromProto(display);
   if (!spec.ok()) throw std::runtime_error(std::string(spec.status().message()));
 
@@ -126,7 +129,8 @@ int bench(const BenchArguments& arguments, const Config& config) {
     json["scene"] = {{"width_px", kSource_px.width},
                      {"height_px", kSource_px.height},
                      {"layers", kLayerCount},
-                     {"display", kPreset}};
+                     {"display", kPreset},
+                     {"cone_deg", arguments.cone_deg}};
     json["stages"] = stagesJson(stages);
     json["structure"] = {{"nodes_per_px", stages.nodes_per_px},
                          {"bytes_per_node", kNodeBytes},
@@ -156,6 +160,10 @@ void addBenchCommand(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--seconds", arguments->seconds, "Length of the run through gRPC")
       ->check(CLI::Range(0.1, 3600.0));
+  command
+      ->add_option("--cone", arguments->cone_deg,
+                   "Angle between the outermost views, degrees: how far rays travel sets the cost")
+      ->check(CLI::Range(0.01, 140.0));
   command->callback([arguments, &chosen] {
     chosen = [arguments](const Config& config) { return bench(*arguments, config); };
   });
