@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Of the published frames; two cores without a GPU then show 8 atlases a second and more.
+# Of the published frames: small, for machines without a GPU.
 size="${VIEWLOOM_DEMO_SIZE:-480x270}"
 rate_hz="${VIEWLOOM_DEMO_RATE:-15}"
 log_folder=build/demo
