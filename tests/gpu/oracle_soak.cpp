@@ -5,13 +5,11 @@
 #include <cstdio>
 #include <cstring>
 
-#include "gpu/judge_views.h"
-#include "gpu/structure_checks.h"
+#include "gpu/judge_seed.h"
 
 namespace viewloom {
 namespace {
 
-constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 constexpr uint64_t kProgressEvery = 100;
 
 uint64_t numberOr(const char* text, uint64_t otherwise) {
@@ -20,28 +18,11 @@ uint64_t numberOr(const char* text, uint64_t otherwise) {
   return number;
 }
 
-// One scene with its structure and a view of every kind.
 bool agrees(WalkUnderTest& walk, uint64_t seed, JudgedViews& sum) {
-  const oracle::Scene scene = oracle::randomScene(seed);
-  const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
-  const oracle::OracleSource source = sourceOf(scene, *slot);
-  StructureImage image = walk.readBack(*slot);
-  image.kappa_rel = scene.kappa.relative;
-  const Complaints complaints = checkStructure(image, source);
-
-  oracle::Random random(seed);
-  std::vector<oracle::OutputView> views;
-  for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
-    views.push_back(oracle::randomView(random, kind, 13, 10));
-  }
-  const JudgedViews judged =
-      judgeViews(walk, *slot, source, views, kTolerances_px[seed % 3], "soak");
-  sum.add(judged);
-  if (complaints.empty() && judged.verdict.differing == 0) return true;
-  std::printf("seed %llu %s%dx%dx%d\n%s%s\n", static_cast<unsigned long long>(seed),
-              scene.name.c_str(), source.width(), source.height(), source.layerCount(),
-              complaints.text().c_str(), judged.summary().c_str());
-  return false;
+  const JudgedSeed judged = judgeSeed(walk, seed);
+  sum.add(judged.judged);
+  if (!judged.agrees()) std::printf("%s\n", judged.text().c_str());
+  return judged.agrees();
 }
 
 int soak(uint64_t first, uint64_t count) {
