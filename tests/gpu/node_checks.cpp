@@ -16,8 +16,10 @@ using oracle::OracleSource;
 
 constexpr float kNothing = -1.0f;  // the upper bound of a box without a surface
 
-// Tightness of a first-level box: 4 ulp of the upper bound for rounding, and 7 of the lower bound,
-// which loses the 3 bits that hold the level.
+// Tightness of a first-level box, outward. In ulp of the upper bound: half an ulp of rounding each
+// in half the range of a facet, in the bound made from it and in adding the margin, and the margin
+// itself, 2^-23 of the upper bound and so less than 2: 3.5 together. The lower bound also gives up
+// the 3 bits that hold the level: up to 7 of its own ulp.
 constexpr int kBoxUlps = 4;
 constexpr int kDroppedUlps = 7;
 
