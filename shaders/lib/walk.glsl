@@ -22,6 +22,9 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
+// 1/m: in front, and not by anything that counts.
+const float kJustInFront = 1e-30;
+
 struct WalkStart {
   Place place;
   uint behind_count;
@@ -107,8 +110,13 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const float error = is_facet ? 0.0 : planeError(bits);
       // Without the bound at the sky, so that the distance stays linear along the ray: above it
       // both have the same sign, and whoever arrives at the sky arrives at the surface.
-      const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
-      const float above_to = to.z - inv_z - dot(slope, to.xy - center);
+      const float above_from = from.z - inv_z - dot(slope, from.xy - center);
+      const float moved_to = to.z - inv_z - dot(slope, to.xy - center);
+      // Who is in front, meets the plane within its error and moves away from it stays in front:
+      // the step up may be the plane's alone.
+      const bool slips_by = in_front && above_from > -error && moved_to > above_from;
+      const float plane_from = slips_by ? max(above_from, kJustInFront) : above_from;
+      const float above_to = slips_by ? max(moved_to, kJustInFront) : moved_to;
       const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
       const float nearness = 1.0 - from.z * eye_z;
       const bool is_accepted =

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of viewloom-oracle-soak on which the walk once differed from the oracle, and what each
+// was.
+#include <ostream>
+
+#include "gpu/judge_seed.h"
+#include "gpu/test_device.h"
+
+namespace viewloom {
+namespace {
+
+struct OnceDiffered {
+  uint64_t seed;
+  const char* mistake;
+};
+
+std::ostream& operator<<(std::ostream& out, const OnceDiffered& once) {
+  return out << once.seed << ", " << once.mistake;
+}
+
+// A ray that came out from behind a facet met a plane that stands nearer within its error, and hit
+// it although it was moving away from it.
+constexpr const char* kStepsUpToAPlane = "hits the error of a plane that it moves away from";
+
+constexpr OnceDiffered kSeeds[] = {
+    {12495, kStepsUpToAPlane},
+    {14247, kStepsUpToAPlane},
+    {14721, kStepsUpToAPlane},
+};
+
+class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
+
+TEST_P(SeedsThatDiffered, agreeWithTheOracle) {
+  WalkUnderTest walk(device());
+  const JudgedSeed judged = judgeSeed(walk, GetParam().seed);
+  EXPECT_TRUE(judged.agrees()) << judged.text();
+}
+
+std::string nameOf(const testing::TestParamInfo<OnceDiffered>& once) {
+  return "seed" + std::to_string(once.param.seed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, SeedsThatDiffered, testing::ValuesIn(kSeeds), nameOf);
+
+}  // namespace
+}  // namespace viewloom
