@@ -46,19 +46,25 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
-// How far the ray stands in front of a facet at a point of the facet's edge (x), and how that
-// changes along the ray (y).
-vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent) {
+// How far the ray stands in front of a facet at a point of the facet's edge (x), and how far off
+// that may be in favour of a hit (y): who comes closer is undecided where the walk of that layer
+// may have taken a plane for the facet, by the error of the largest plane there or the tolerance.
+vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent,
+                    float tolerance) {
   const uvec2 facet = loadFacet(scene.layers, layer, scene.extent, cell);
-  return vec2(point.z - facetAtPoint(facet, cell, point.xy),
-              extent.z - dot(unpackSlopes(facet.y), extent.xy));
+  const float front = point.z - facetAtPoint(facet, cell, point.xy);
+  const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
+  const uvec2 entry =
+      loadCell(scene.layers, layer, scene.extent, kLevelEntries, uvec2(cell) >> kLevelFirst);
+  const bool is_undecided = comes_closer && isPlane(entry);
+  return vec2(front, is_undecided ? min(tolerance, planeError(entry)) : 0.0);
 }
 
 // 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface
 // it was in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind
-// what one of them is linked to. `tolerance`, 1/m: the walk of the other layer may have taken a
-// plane for its facet, so whoever is undecided and comes closer hits.
+// what one of them is linked to. Whoever is undecided and comes closer hits. `tolerance`, 1/m: the
+// largest error of a plane that a walk takes here.
 uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point,
              vec3 extent, float tolerance) {
   if (at.axis == kAxisNone || hasFault(kFaultLinks)) return 0u;
@@ -70,14 +76,14 @@ uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec
     const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, at.cell), edge);
     if (link == 0u) return 0u;
     if (link - 1u >= layer) return layer + 1u;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent);
-    return front.x > (front.y < 0.0 ? -tolerance : 0.0) ? layer + 1u : 0u;
+    const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent, tolerance);
+    return front.x > -front.y ? layer + 1u : 0u;
   }
   for (uint from = layer; from < scene.layer_count; ++from) {
     const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, before), edge);
     if (link == 0u || link - 1u >= layer) continue;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent);
-    if (front.x <= (front.y < 0.0 ? tolerance : 0.0)) return link;
+    const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent, tolerance);
+    if (front.x <= front.y) return link;
   }
   return 0u;
 }
