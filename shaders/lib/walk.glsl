@@ -136,6 +136,9 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       }
       float front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
       const float front_to = is_exact ? plane_to : front_from;
+      // Out from behind a plane that falls below the sky before the ray ends there.
+      const bool comes_out_over_sky =
+          is_exact && !just_left && to.z <= 0.0 && above_to > error;
       front_from = just_left ? min(front_from, 0.0) : front_from;
       if (hasFault(kFaultEntryInFront) && state_unknown) front_from = max(front_from, 1e-9);
 
@@ -152,9 +155,10 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       in_front = front_from > 0.0;
       state_unknown = false;
       just_left = false;
-      if (in_front && front_to <= 0.0) {
+      if ((in_front || comes_out_over_sky) && front_to <= 0.0) {
         event = kHits;
-        hit_t = at.t + (end_t - at.t) * (front_from / (front_from - front_to));
+        const float share = in_front ? front_from / (front_from - front_to) : 1.0;
+        hit_t = at.t + (end_t - at.t) * share;
         hit_origin = origin;
         hit_size = size_px;
         continue;

@@ -149,11 +149,11 @@ class AllFacets {
     const bool last = inside.begin < last_ && inside.end >= last_;
     if (at_begin <= 0) behind_from_ = std::min(behind_from_, inside.begin);
     if (at_begin <= 0 && at_end <= 0 && last) behind_at_end_ = true;
-    if (at_begin <= 0) return;
     if (at_end > 0) {
       if (inside.end == kInfinity) offer({kInfinity, at});
       return;
     }
+    if (at_begin <= 0) return;
     const double per_step = glm::dot(plane.normal, ray_.direction);
     offer({-(glm::dot(plane.normal, ray_.origin_m) + plane.distance) / per_step, at});
   }

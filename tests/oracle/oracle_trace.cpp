@@ -99,9 +99,9 @@ class Travel {
       if (!source_.exists(at)) continue;
       const double at_begin = front(at, begin);
       const double at_end = front(at, end);
-      if (at_begin <= 0) continue;
-      // A facet is never below 0: whoever arrives at 1/Z = 0 in front of its plane hits it there.
-      if (at_end > 0 && !ends_at_infinity) continue;
+      // A facet is never below 0: whoever arrives at 1/Z = 0 in front of its plane hits it there,
+      // also after having come out from behind it.
+      if (at_end > 0 ? !ends_at_infinity : at_begin <= 0) continue;
       const double s = at_end > 0 ? end : begin + (end - begin) * (at_begin / (at_begin - at_end));
       events.emplace_back(s, hitAt(s, at, {}));
     }

@@ -110,6 +110,25 @@ TEST(OracleTrace, endsAtTheSkyOrInNothing) {
   EXPECT_EQ(traceOracle(source, lateralRay(scene, 0.3, 9)).ray_class, RayClass::kOutside);
 }
 
+TEST(OracleTrace, comesOutOfAFacetThatFallsBelowTheSkyAndHitsItThere) {
+  // One column behind whose facet the ray starts; at its right end the facet's plane is below 0.
+  Scene scene = planeScene({0, 0, 0}, 3, 1);
+  const float inv_z[] = {0.9f, 0.5f, 0.1f};
+  for (int column = 0; column < 3; ++column) scene.planes.at(0, column, 0) = inv_z[column];
+  const OracleSource source = sourceOf(scene);
+  // From x = 2 at 1/Z = 0.2, 0.1 behind the facet, to x = 2.875 at the sky: its plane is at -0.05.
+  const Pinhole& pinhole = scene.pinhole;
+  const auto onRow = [&](double x_px) {
+    return glm::dvec3((x_px - pinhole.principal_px.x) / pinhole.focal_px.x, 0, -1);
+  };
+  const Ray ray{5.0 * onRow(2.0), onRow(2.875)};
+  for (const OracleAnswer& answer : {traceOracle(source, ray), traceAllFacets(source, ray)}) {
+    ASSERT_EQ(answer.ray_class, RayClass::kHitAssumed);
+    EXPECT_EQ(answer.hits[0].inv_z, 0);
+    EXPECT_NEAR(answer.hits[0].x_px, 2.875, kPosition_px);
+  }
+}
+
 TEST(OracleTrace, startsInTheStateOfItsEntryColumn) {
   const Scene scene = planeScene({0, 0, 0.5}, 8, 8);
   const OracleSource source = sourceOf(scene);
