@@ -129,6 +129,10 @@ void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::
     ++verdict_.exact;
     return;
   }
+  if (besideHitOf(own, ray, tested)) {
+    ++verdict_.within;
+    return;
+  }
   const std::vector<OracleAnswer> answers = answersOfMovedRays(ray);
   if (!agreeing(answers)) {
     ++verdict_.excused;
@@ -209,14 +213,59 @@ double Judge::invZTolerance(const ViewRay& ray, const TestedAnswer& tested) cons
   return turn > 0 ? tolerance_.output_px * px / turn : infinity;
 }
 
+// The facet that an answer names; layer -1 where nothing stands.
+FacetAt Judge::facetOf(const TestedAnswer& tested) const {
+  if (tested.layer < 0 || tested.layer >= source_.layerCount()) return {};
+  const FacetAt at{tested.layer, std::clamp(int(tested.x_px), 0, source_.width() - 1),
+                   std::clamp(int(tested.y_px), 0, source_.height() - 1)};
+  return source_.exists(at) ? at : FacetAt{};
+}
+
 // Whether the layer that an answer names has its surface where the answer lies: where two layers
 // meet within the tolerance, either may be named.
 bool Judge::standsThere(const TestedAnswer& tested, double inv_z_tolerance) const {
-  if (tested.layer < 0 || tested.layer >= source_.layerCount()) return false;
-  const FacetAt at{tested.layer, std::clamp(int(tested.x_px), 0, source_.width() - 1),
-                   std::clamp(int(tested.y_px), 0, source_.height() - 1)};
-  return source_.exists(at) && std::abs(source_.planeInvZ(at, tested.x_px, tested.y_px) -
-                                        tested.inv_z) <= inv_z_tolerance;
+  const FacetAt at = facetOf(tested);
+  return at.layer >= 0 && std::abs(source_.planeInvZ(at, tested.x_px, tested.y_px) -
+                                   tested.inv_z) <= inv_z_tolerance;
+}
+
+// Whether a position lies on a ray, up to rounding: its distance from the straight line in
+// (x, y, 1/Z), in units of the rounding along each axis.
+bool Judge::liesOn(const ProjectedRay& ray, const glm::dvec3& position) const {
+  const SeenPart seen = seenPart(source_, ray);
+  const auto scaled = [&](const glm::dvec3& p) {
+    return p / glm::dvec3(tolerance_.source_px, tolerance_.source_px, tolerance_.inv_z);
+  };
+  const auto at = [&](double s) {
+    const HomogeneousPoint p = ray.at(s);
+    return scaled({p.u / p.z, p.v / p.z, p.h / p.z});
+  };
+  // The ends may lie at the camera's plane; what lies between is finite.
+  const glm::dvec3 one = at(0.75 * seen.begin + 0.25 * seen.end);
+  const glm::dvec3 other = at(0.25 * seen.begin + 0.75 * seen.end);
+  const glm::dvec3 along = other - one;
+  const glm::dvec3 beside = glm::cross(scaled(position) - one, along);
+  return glm::length(beside) <= std::sqrt(3.0) * glm::length(along);
+}
+
+// Whether the answer is the ray's own hit on a surface that is off by no more than the tolerance:
+// it lies on the ray, and both facets, the same or linked, pass both points within the tolerance.
+// Their distance from the ray is linear along it, so between the points they do as well. Moved rays
+// cannot tell, where all that would lie around it hit elsewhere.
+bool Judge::besideHitOf(const OracleAnswer& own, const ViewRay& ray,
+                        const TestedAnswer& tested) const {
+  if (!isHit(own.ray_class) || own.ray_class != tested.ray_class) return false;
+  const OracleHit& hit = own.hits.front();
+  const FacetAt at = facetOf(tested);
+  if (at.layer < 0 || !(at == hit.facet || source_.linked(at, hit.facet))) return false;
+  const double inv_z_tolerance = tolerance_.inv_z + invZTolerance(ray, tested);
+  const auto passes = [&](const FacetAt& facet, double x_px, double y_px, double inv_z) {
+    return std::abs(source_.planeInvZ(facet, x_px, y_px) - inv_z) <= inv_z_tolerance;
+  };
+  return passes(at, tested.x_px, tested.y_px, tested.inv_z) &&
+         passes(hit.facet, tested.x_px, tested.y_px, tested.inv_z) &&
+         passes(at, hit.x_px, hit.y_px, hit.inv_z) &&
+         liesOn(projectRay(source_.pinhole(), ray.ray), {tested.x_px, tested.y_px, tested.inv_z});
 }
 
 // Whether the tested answer lies among those of the moved rays, which agree with each other.

@@ -34,7 +34,7 @@ JudgeTolerance toleranceOf(const OracleSource& source, double output_px);
 struct Verdict {
   uint64_t rays = 0;
   uint64_t exact = 0;    // the oracle's own answer, up to rounding
-  uint64_t within = 0;   // the answer of the ray moved by less than the tolerance
+  uint64_t within = 0;   // the answer of the ray, or its surface, moved by less than the tolerance
   uint64_t excused = 0;  // not the oracle's, but the moved rays do not agree with each other either
   uint64_t differing = 0;          // the moved rays all agree, and not with it
   std::vector<std::string> worst;  // the first few differing rays, in words
@@ -59,6 +59,9 @@ class Judge {
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
   double invZTolerance(const ViewRay& ray, const TestedAnswer& tested) const;
+  FacetAt facetOf(const TestedAnswer& tested) const;
+  bool liesOn(const ProjectedRay& ray, const glm::dvec3& position) const;
+  bool besideHitOf(const OracleAnswer& own, const ViewRay& ray, const TestedAnswer& tested) const;
   bool standsThere(const TestedAnswer& tested, double inv_z_tolerance) const;
   bool amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
                  const TestedAnswer& tested) const;

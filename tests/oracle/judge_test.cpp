@@ -74,6 +74,33 @@ TEST(Judge, rejectsAPictureMovedByTwiceTheTolerance) {
   EXPECT_GT(verdict.differing, verdict.rays / 2) << verdict.summary();
 }
 
+// A ray that enters just behind a near surface and hits a far one that is linked to it, as a tracer
+// answers whose far surface is off by `off`, 1/m. All rays to its right hit the near one.
+Verdict judgeBesideANearSurface(double off) {
+  Scene scene = stepScene({0, 0, 2.0}, {0, 0, 2.0}, 0, true, 64, 4);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 64; ++column) {
+      scene.planes.at(1, column, row) = column < 6 ? 0.8f : 0.3f;
+    }
+  }
+  scene.kappa = {0.6f, 0};
+  const OracleSource source(scene.planes, scene.pinhole, scene.kappa);
+  const double eye_x_m = -0.5, parallax_px = scene.pinhole.focal_px.x * eye_x_m;
+  const double start_inv_z = 0.798, x_px = -parallax_px * start_inv_z;
+  const double inv_z = 0.3 + off;
+  Judge judge(source, toleranceOf(source, kTolerance_px));
+  judge.consider(rayOf(besideView(scene, eye_x_m), x_px, 2.5),
+                 {RayClass::kHitAssumed, 1, x_px + parallax_px * inv_z, 2.5, inv_z}, "ray");
+  return judge.verdict();
+}
+
+TEST(Judge, acceptsASurfaceWithinTheToleranceWhereAllRaysBesideHitElsewhere) {
+  const double tolerance = kTolerance_px / 40;  // 1/m: the parallax is 40 px m
+  EXPECT_EQ(judgeBesideANearSurface(0).exact, 1u);
+  EXPECT_EQ(judgeBesideANearSurface(-0.2 * tolerance).within, 1u);
+  EXPECT_EQ(judgeBesideANearSurface(-2 * tolerance).differing, 1u);
+}
+
 TEST(Judge, rejectsAForgottenLayer) {
   Scene scene = layeredScene();
   scene.planes.inv_z.resize(scene.planes.inv_z.size() / 2);
