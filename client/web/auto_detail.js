@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses how finely the display is traced, so that a slow server still gives a moving picture.
+// Chooses how finely the display is traced: as finely as a moving picture allows.
 
-const kDetails = [1, 0.5, 0.25];  // of the preset's width and height
-const kStart = 0.5;
-const kTarget_ms = 110;       // what an atlas may cost the server: nine a second
-const kRaiseShare = 0.7;      // of it: more detail is only taken with room to spare
-const kJudgedCount = 6;       // atlases of one size before it is judged
+// Of the preset's width and height. A step halves the number of rays.
+const kDetails = [1, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125];
+const kStart = 0.25;  // a slow server's first atlas comes soon; a fast one's next is full detail
+const kStepsDownMax = 2;  // at once: a judgement while a server starts is a bad one
+
+const kWanted_hz = 8;  // atlases shown; fewer is no motion
+// More detail is taken when it promises this much: what is taken must not be given back.
+const kPromised_hz = 9;
+// Who shows four of five frames that were published is not slow, the publisher is.
+const kPublishedShare = 0.8;
+// A step down that saves less is not taken: the time goes elsewhere. Share of an atlas's time.
+const kWorthShare = 0.15;
+
+const kWindow_ms = 8000;      // atlases that a judgement is made of
+const kFullShare = 0.8;       // of the window, at least
+const kHurry_ms = 1500;       // after a start, a step down, or when the rate is hopeless
+const kHopelessShare = 0.6;   // of the wanted rate
+const kAnswer_ms = 10_000;    // by then the server has answered a change, or never will
+
+// How long more detail is not tried after less was needed: longer with every try that failed.
+const kHoldFirst_ms = 12_000;
+const kHoldMax_ms = 300_000;
+const kProven_ms = 240_000;  // a try that lasted as long has not failed
 
 const kMsPerNs = 1e-6;
 
 export class AutoDetail {
-  #costs = [];  // {fixed_ms, traced_ms} of the newest atlases of this detail
+  #shown = [];  // {time_ms, frame, fixed_ms, traced_ms}, oldest first, all of this detail
+  #size = '';
+  #left = {size: '', until_ms: 0};  // the detail before: its atlases are still on their way
+  #isSettled = false;               // no hurry: this detail was judged, or is one to be proven
+  #raised_ms = null;                // the newest try of more detail, until it is given back
+  #held_until_ms = -Infinity;
+  #hold_ms = kHoldFirst_ms;
 
   // onChange(): detail is another
   constructor(onChange) {
@@ -18,31 +42,109 @@ export class AutoDetail {
     this.detail = kStart;
   }
 
-  note({times, layout}) {
+  // Time that passed without the server being asked says nothing about it.
+  restart() {
+    this.#shown = [];
+  }
+
+  // An atlas came to be seen.
+  note({times, layout, frame_number}, now_ms) {
     const size = `${layout.size.width}x${layout.size.height}`;
-    if (size !== this.size) this.#costs = [];
-    this.size = size;
-    this.#costs.push({
+    if (size === this.#left.size && now_ms < this.#left.until_ms) return;
+    this.#left.size = '';
+    const shown = {
+      time_ms: now_ms,
+      frame: Number(frame_number),
       fixed_ms: (times.upload_ns + times.build_ns) * kMsPerNs,
       traced_ms: (times.trace_ns + times.encode_ns) * kMsPerNs,
-    });
-    if (this.#costs.length < kJudgedCount) return;
-    const better = this.#affordable();
-    this.#costs = [];
-    if (better === this.detail) return;
-    this.detail = better;
-    this.onChange();
+    };
+    const isOther = size !== this.#size || shown.frame <= this.#shown.at(-1)?.frame;
+    this.#size = size;
+    this.#shown = isOther ? [] : this.#shown;
+    this.#shown.push(shown);
+    // A slow server's newest two count however old they are.
+    this.#shown = this.#shown.filter(({time_ms}, index, all) =>
+        now_ms - time_ms <= kWindow_ms || index >= all.length - 2);
+    this.#judge(now_ms);
+  }
+
+  #judge(now_ms) {
+    const measured = this.#measure();
+    if (!measured) return;
+    const {rate_hz, wanted_hz, span_ms} = measured;
+    const isHopeless = rate_hz < kHopelessShare * wanted_hz;
+    if (span_ms < (this.#isSettled && !isHopeless ? kFullShare * kWindow_ms : kHurry_ms)) return;
+    this.#isSettled = true;
+    const index = kDetails.indexOf(this.detail);
+    const better = rate_hz < wanted_hz ? this.#lower(index, measured)
+        : now_ms >= this.#held_until_ms ? this.#higher(index, measured) : index;
+    if (better !== index) this.#take(better, now_ms);
+  }
+
+  // Over the atlases noted; null as long as they say nothing.
+  #measure() {
+    const [first, last] = [this.#shown[0], this.#shown.at(-1)];
+    const span_ms = last.time_ms - first.time_ms;
+    if (span_ms <= 0) return null;
+    const count = this.#shown.length - 1;
+    const rate_hz = count * 1000 / span_ms;
+    const published_hz = (last.frame - first.frame) * 1000 / span_ms;
+    const mean = (key) => this.#shown.reduce((sum, atlas) => sum + atlas[key], 0) / (count + 1);
+    const [fixed_ms, traced_ms] = [mean('fixed_ms'), mean('traced_ms')];
+    return {
+      span_ms,
+      rate_hz,
+      wanted_hz: Math.min(kWanted_hz, kPublishedShare * published_hz),
+      // Stages of several frames overlap: an atlas takes no longer than the time to the next.
+      atlas_ms: Math.min(fixed_ms + traced_ms, 1000 / rate_hz),
+      tracedShare: traced_ms / Math.max(fixed_ms + traced_ms, kMsPerNs),
+    };
   }
 
   // Tracing and encoding grow with the number of pixels, the rest does not.
-  #affordable() {
-    const mean = (key) => this.#costs.reduce((sum, cost) => sum + cost[key], 0) / kJudgedCount;
-    const fixed_ms = mean('fixed_ms');
-    const traced_ms = mean('traced_ms');
-    const fits = (detail) => {
-      const allowed_ms = detail > this.detail ? kTarget_ms * kRaiseShare : kTarget_ms;
-      return fixed_ms + traced_ms * (detail / this.detail) ** 2 <= allowed_ms;
-    };
-    return kDetails.find(fits) ?? kDetails.at(-1);
+  #promised_ms(index, atlas_ms, tracedShare) {
+    const pixels = (kDetails[index] / this.detail) ** 2;
+    return atlas_ms * (1 - tracedShare + tracedShare * pixels);
+  }
+
+  // The most detail that promises the wanted rate; none where less of it saves nothing.
+  #lower(index, {rate_hz, wanted_hz, tracedShare}) {
+    const lowest = Math.min(index + kStepsDownMax, kDetails.length - 1);
+    const promised_ms = (at) => this.#promised_ms(at, 1000 / rate_hz, tracedShare);
+    let better = index;
+    while (better < lowest && promised_ms(better) * wanted_hz > 1000 &&
+           promised_ms(better + 1) < (1 - kWorthShare) * promised_ms(better)) {
+      ++better;
+    }
+    return better;
+  }
+
+  #higher(index, {atlas_ms, tracedShare}) {
+    let better = index;
+    while (better > 0 &&
+           this.#promised_ms(better - 1, atlas_ms, tracedShare) * kPromised_hz <= 1000) {
+      --better;
+    }
+    return better;
+  }
+
+  #take(index, now_ms) {
+    const detail = kDetails[index];
+    const isRaise = detail > this.detail;
+    if (isRaise) {
+      this.#raised_ms = now_ms;
+    } else {
+      if (this.#raised_ms !== null) {
+        const hasFailed = now_ms - this.#raised_ms < kProven_ms;
+        this.#hold_ms = hasFailed ? Math.min(2 * this.#hold_ms, kHoldMax_ms) : kHoldFirst_ms;
+      }
+      this.#raised_ms = null;
+      this.#held_until_ms = now_ms + this.#hold_ms;
+    }
+    this.detail = detail;
+    this.#left = {size: this.#size, until_ms: now_ms + kAnswer_ms};
+    this.#shown = [];
+    this.#isSettled = isRaise;
+    this.onChange();
   }
 }

@@ -29,6 +29,7 @@ const stage = new Stage(byId('stage'), (atlas) => {
     atlas.acknowledged = true;
     stream.shown(atlas.header.delivery);
     panel.noteShown(atlas);
+    if (byId('detail').value === 'auto') autoDetail.note(atlas.header, performance.now());
   }
   root.dataset.sequence = atlas.header.sequence;
 });
@@ -48,10 +49,12 @@ const decoder = new Decoder(
 const stream = new AtlasStream({
   onAtlas(atlas) {
     panel.noteArrived();
-    if (byId('detail').value === 'auto') autoDetail.note(atlas.header);
     decoder.decode(atlas);
   },
-  onLive() { notice(''); },
+  onLive() {
+    autoDetail.restart();
+    notice('');
+  },
   onWaiting({message, retry_ms}) {
     setState('reconnecting');
     notice(`${message} Trying again in ${Math.ceil(retry_ms / 1000)} s.`, 'bad', Infinity);
@@ -194,6 +197,7 @@ async function start() {
   const standard = parameters.has('columns') ? '' : kDefaultPreset;
   byId('preset').value = parameters.get('preset') ?? standard;
   byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
+  if (byId('detail').selectedIndex < 0) byId('detail').value = 'auto';  // none of the choices
   poll();
 }
 
@@ -236,6 +240,7 @@ byId('detail').addEventListener('change', ({target}) => {
 // Nobody looks: the display need not be traced.
 document.addEventListener('visibilitychange', () => {
   clearTimeout(hiddenTimer);
+  autoDetail.restart();
   if (document.hidden) {
     hiddenTimer = setTimeout(() => {
       stream.close();

@@ -21,7 +21,8 @@ std::map<std::string, int> readOptions(int argc, char** argv) {
                                         {"--rate-hz", 0},
                                         {"--connections", 1024},
                                         {"--timeout-ms", 10'000},
-                                        {"--thread-count", 2}};
+                                        {"--thread-count", 2},
+                                        {"--ms-per-megapixel", 0}};
   for (int i = 1; i + 1 < argc; i += 2) options.at(argv[i]) = std::atoi(argv[i + 1]);
   return options;
 }
@@ -54,7 +55,8 @@ int main(int argc, char** argv) {
   broadcaster.onDemandChange([&](const std::string& stream) {
     if (stream == "painted") painted->noteDemand();
   });
-  painted.emplace("painted", streams, broadcaster);
+  painted.emplace("painted", streams, broadcaster,
+                  std::chrono::milliseconds(options.at("--ms-per-megapixel")));
   const auto silent = streams.claim("silent", "", [] {});
   viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock);
   std::cout << server.url() << std::endl;

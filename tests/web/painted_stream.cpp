@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -94,10 +95,12 @@ std::vector<EncodedBand> cutIntoBands(const std::vector<uint8_t>& jpeg, uint32_t
 
 }  // namespace
 
-PaintedStream::PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster)
+PaintedStream::PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster,
+                             std::chrono::milliseconds per_megapixel)
     : name_(std::move(name)),
       streams_(streams),
       broadcaster_(broadcaster),
+      per_megapixel_(per_megapixel),
       claim_(*streams.claim(name_, "painter", [] {})),
       painter_([this](const std::stop_token& stop) { run(stop); }) {
   streams_.noteResident(name_, 1, kSourceSize, 2, SourceStats{});
@@ -164,6 +167,7 @@ void PaintedStream::paint(const ActiveDisplay& display) {
                  .total_ns = 122 * kMs};
   atlas.coverage = {.hit = 900, .hit_assumed = 40, .hidden = 30, .outside = 20, .empty = 10};
   const SizePx size_px = atlas.layout->size_px;
+  std::this_thread::sleep_for(per_megapixel_ * (static_cast<double>(size_px.area()) / 1e6));
   atlas.bands =
       cutIntoBands(encodeJpeg(paintAtlas(*atlas.layout, painted_frame_), size_px, display.encoding),
                    size_px.height);

@@ -2,6 +2,7 @@
 // A stream without a device: atlases painted on the CPU, each view recognisable in the picture.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -21,7 +22,9 @@ namespace viewloom {
 // with the frame number. Thread-safety: all methods may be called from any thread.
 class PaintedStream {
  public:
-  PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster);
+  // per_megapixel: what an atlas takes at least
+  PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster,
+                std::chrono::milliseconds per_megapixel);
   ~PaintedStream();
 
   void publishFrame();
@@ -35,6 +38,7 @@ class PaintedStream {
   const std::string name_;
   StreamDirectory& streams_;
   Broadcaster& broadcaster_;
+  const std::chrono::milliseconds per_megapixel_;
   std::unique_ptr<StreamDirectory::Claim> claim_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
