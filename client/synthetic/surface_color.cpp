@@ -82,60 +82,6 @@ vec3 skyColor(const glm::dvec3& direction, const glm::dvec3& to_sun, double time
          vec3(0.25F, 0.18F, 0.08F) * glow * glow * glow;
 }
 
-// How much of the sun a thing of half width size_m lets by when the ray to the sun passes its
-// middle line at distance_m: a penumbra of a quarter of its size, at least 2 cm.
-float passing(float distance_m, float size_m) {
-  const float blur_m = std::max(0.25F * size_m, 0.02F);
-  return glm::smoothstep(size_m - blur_m, size_m + blur_m, distance_m);
-}
-
-float sphereShade(const Sphere& sphere, const vec3& point_m, const vec3& to_sun) {
-  const vec3 to_center = vec3(sphere.center_m) - point_m;
-  const float along_m = glm::dot(to_center, to_sun);
-  if (along_m <= 0) return 1;
-  const float square_m2 = glm::dot(to_center, to_center) - along_m * along_m;
-  const float radius_m = static_cast<float>(sphere.radius_m);
-  const float reach_m = 1.25F * radius_m + 0.02F;
-  if (square_m2 > reach_m * reach_m) return 1;
-  return passing(std::sqrt(std::max(square_m2, 0.0F)), radius_m);
-}
-
-float poleShade(const Pole& pole, const vec3& point_m, const vec3& to_sun) {
-  const vec2 to_pole = vec2(pole.center_xz_m) - vec2(point_m.x, point_m.z);
-  const vec2 flat_sun{to_sun.x, to_sun.z};
-  const float square = glm::dot(flat_sun, flat_sun);
-  const float along = glm::dot(to_pole, flat_sun) / square;
-  if (along <= 0 || point_m.y + along * to_sun.y > static_cast<float>(pole.top_y_m)) return 1;
-  const float cross = to_pole.x * flat_sun.y - to_pole.y * flat_sun.x;
-  return passing(std::abs(cross) / std::sqrt(square), static_cast<float>(pole.radius_m));
-}
-
-float panelShade(const Panel& panel, const vec3& point_m, const vec3& to_sun) {
-  const vec3 to_center = vec3(panel.center_m) - point_m;
-  const vec3 normal(panel.normal);
-  const float along_m = glm::dot(to_center, normal) / glm::dot(to_sun, normal);
-  if (!(along_m > 0)) return 1;
-  const vec3 on_panel = along_m * to_sun - to_center;
-  const vec2 half_size_m(panel.half_size_m);
-  return std::max(passing(std::abs(glm::dot(on_panel, vec3(panel.right))), half_size_m.x),
-                  passing(std::abs(glm::dot(on_panel, vec3(panel.up))), half_size_m.y));
-}
-
-// Share of the sun that reaches the point; a surface never shades itself here (its normal does).
-float sunShare(const Scene& scene, const Hit& hit, const vec3& point_m) {
-  const vec3 to_sun(scene.to_sun);
-  float share = 1;
-  for (size_t i = 0; i < scene.spheres.size(); ++i) {
-    if (hit.kind == SurfaceKind::kSphere && hit.index == i) continue;
-    share *= sphereShade(scene.spheres[i], point_m, to_sun);
-  }
-  if (hit.kind == SurfaceKind::kGround || hit.kind == SurfaceKind::kSphere) {
-    for (const Pole& pole : scene.poles) share *= poleShade(pole, point_m, to_sun);
-  }
-  if (hit.kind != SurfaceKind::kPanel) share *= panelShade(scene.panel, point_m, to_sun);
-  return share;
-}
-
 struct Material {
   vec3 color;
   vec3 normal;
@@ -172,12 +118,12 @@ Material materialAt(const Scene& scene, const Hit& hit, const glm::dvec3& point_
 
 }  // namespace
 
-vec3 surfaceColor(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
-                  const glm::dvec3& direction, float edge_m) {
+vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
+                  const glm::dvec3& point_m, const glm::dvec3& direction, float edge_m) {
   if (hit.kind == SurfaceKind::kSky) return skyColor(direction, scene.to_sun, scene.time_s);
   const Material material = materialAt(scene, hit, point_m, direction, edge_m);
   const float facing = std::max(0.0F, glm::dot(material.normal, vec3(scene.to_sun)));
-  const float sun = facing > 0 ? facing * sunShare(scene, hit, vec3(point_m)) : 0.0F;
+  const float sun = facing > 0 ? facing * shadows.sunShare(hit, vec3(point_m)) : 0.0F;
   const vec3 ambient = glm::mix(kGroundLight, kSkyLight, 0.5F + 0.5F * material.normal.y);
   // Haze by distance in the world, not from the eye: a point looks the same in every view.
   const float haze = std::clamp(static_cast<float>(-point_m.z - 3.0) * 0.04F, 0.0F, 0.18F);

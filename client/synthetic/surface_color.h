@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface of the synthetic scene looks like: textures, sun, shadows; the same from every
+// What a surface of the synthetic scene looks like: textures, sun, haze; the same from every
 // side.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 #include "synthetic/cast_row.h"
+#include "synthetic/sun_shadows.h"
 
 namespace viewloom::synthetic {
 
 // Linear light, 0..1. `direction` is the ray's, of any length; it matters for the sky alone.
 // edge_m: half width over which texture edges blend, metres on the surface.
-glm::vec3 surfaceColor(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
-                       const glm::dvec3& direction, float edge_m);
+glm::vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
+                       const glm::dvec3& point_m, const glm::dvec3& direction, float edge_m);
 
 }  // namespace viewloom::synthetic

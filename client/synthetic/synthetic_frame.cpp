@@ -86,7 +86,8 @@ class FrameRenderer {
       const glm::dvec3 direction = rays.direction(x);
       const glm::dvec3 point_m = rays.eye_m + hit.depth_m * direction;
       const auto edge_m = static_cast<float>(0.5 * hit.depth_m / camera_.intrinsics.focal_px.x);
-      const glm::vec3 linear = synthetic::surfaceColor(scene_, hit, point_m, direction, edge_m);
+      const glm::vec3 linear =
+          synthetic::surfaceColor(scene_, shadows_, hit, point_m, direction, edge_m);
       depth_m[x] = static_cast<float>(hit.depth_m);
       for (int channel = 0; channel < 3; ++channel) color[channel] = srgb.encode(linear[channel]);
       color[3] = 255;
@@ -94,6 +95,7 @@ class FrameRenderer {
   }
 
   const synthetic::Scene scene_;
+  const synthetic::SunShadows shadows_{scene_};
   const SizePx size_px_;
   const Camera camera_;
   glm::dvec3 step_{0.0};
