@@ -22,9 +22,6 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
-// 1/m: in front, and not by anything that counts.
-const float kJustInFront = 1e-30;
-
 struct WalkStart {
   Place place;
   uint behind_count;
@@ -110,18 +107,15 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const float error = is_facet ? 0.0 : planeError(bits);
       // Without the bound at the sky, so that the distance stays linear along the ray: above it
       // both have the same sign, and whoever arrives at the sky arrives at the surface.
-      const float above_from = from.z - inv_z - dot(slope, from.xy - center);
-      const float moved_to = to.z - inv_z - dot(slope, to.xy - center);
-      // Who is in front, meets the plane within its error and moves away from it stays in front:
-      // the step up may be the plane's alone.
-      const bool slips_by = in_front && above_from > -error && moved_to > above_from;
-      const float plane_from = slips_by ? max(above_from, kJustInFront) : above_from;
-      const float above_to = slips_by ? max(moved_to, kJustInFront) : moved_to;
+      const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
+      const float above_to = to.z - inv_z - dot(slope, to.xy - center);
       const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
       const float nearness = 1.0 - from.z * eye_z;
       const bool is_accepted =
           hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
-      const bool is_exact = is_plane && is_accepted;
+      // Planes are solved for rays that come closer. Who moves away meets nothing but the roughness
+      // that a plane leaves out, and comes out where the facets say so.
+      const bool is_exact = is_plane && is_accepted && (is_facet || above_to <= plane_from);
       const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
       const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
       const bool all_front =
@@ -163,9 +157,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         hit_size = size_px;
         continue;
       }
-      // Who comes out from behind is in front only where the plane's error leaves no doubt: the
-      // next plane may say otherwise, and that is no hit.
-      in_front = front_to > (front_from > 0.0 ? 0.0 : error);
+      in_front = front_to > 0.0;
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const bool cross_x = exit_t.x <= exit_t.y;
