@@ -110,7 +110,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
       const float above_to = to.z - inv_z - dot(slope, to.xy - center);
       const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
-      const float nearness = 1.0 - from.z * eye_z;
+      // Where the picture shows the error largest, it also has to be within the tolerance.
+      const float nearness = min(abs(1.0 - from.z * eye_z), abs(1.0 - to.z * eye_z));
       const bool is_accepted =
           hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
       // Planes are solved for rays that come closer. Who moves away meets nothing but the roughness
