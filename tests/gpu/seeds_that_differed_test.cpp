@@ -31,13 +31,16 @@ constexpr const char* kHitsFromAfar = "hits a link from further off than any err
 constexpr const char* kComesOutOverTheSky = "comes out from behind a facet and ends at the sky";
 // The judge compared with moved rays that had all hit elsewhere on the same surface.
 constexpr const char* kBesideItsOwnHit = "lies within the tolerance of its own ray's hit alone";
+// The judge compared with rays moved by the whole tolerance, which all hit one surface again, and
+// with none between.
+constexpr const char* kMissesBetween = "misses, as rays do that are moved by less";
 
 constexpr OnceDiffered kSeeds[] = {
     {12495, kMovesAway},          {14247, kMovesAway},          {14721, kMovesAway},
     {20172, kMovesAway},          {20868, kMovesAway},          {22798, kMovesAway},
     {31065, kMovesAway},          {33720, kMovesAway},          {33966, kEyeBehindTheSource},
     {43278, kEyeBehindTheSource}, {43360, kEyeBehindTheSource}, {13320, kHitsFromAfar},
-    {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},
+    {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},    {24972, kMissesBetween},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};

@@ -20,6 +20,9 @@ constexpr size_t kWorstCount = 6;
 // 1 / cos(pi / 8).
 constexpr double kOctagonRadius = 1.0824;
 
+// Of the tolerance, by which rays are moved; an octave apart, since what is met changes by scales.
+constexpr double kMovedShares[] = {1, 0.5, 0.25, 0.125};
+
 bool isHit(RayClass ray_class) {
   return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
 }
@@ -159,9 +162,10 @@ bool Judge::matches(const OracleAnswer& oracle, const TestedAnswer& tested) cons
          std::abs(hit.inv_z - tested.inv_z) <= tolerance_.inv_z;
 }
 
-// The ray itself, its picture moved all around by the tolerance, and itself moved by what rounding
-// may do to a position. A surface off by dw in 1/Z moves the picture along the epipolar line, so
-// moved pictures also stand for surfaces that are off by as much as the tolerance allows.
+// The ray itself, its picture moved all around by the tolerance and by shares of it (further out a
+// ray may hit again what a nearer one misses), and itself moved by what rounding may do to a
+// position. A surface off by dw in 1/Z moves the picture along the epipolar line, so moved pictures
+// also stand for surfaces that are off by as much as the tolerance allows.
 std::vector<OracleAnswer> Judge::answersOfMovedRays(const ViewRay& ray) const {
   const double straight = tolerance_.output_px * kOctagonRadius;
   const double slanted = straight * std::sqrt(0.5);
@@ -175,8 +179,10 @@ std::vector<OracleAnswer> Judge::answersOfMovedRays(const ViewRay& ray) const {
                                  {-slanted, slanted},
                                  {-slanted, -slanted}};
   std::vector<OracleAnswer> answers;
-  for (const glm::dvec2& move_px : moves_px) {
-    answers.push_back(traceOracle(source_, ray.movedBy(move_px.x, move_px.y)));
+  for (const double share : kMovedShares) {
+    for (const glm::dvec2& move_px : moves_px) {
+      answers.push_back(traceOracle(source_, ray.movedBy(share * move_px.x, share * move_px.y)));
+    }
   }
   const ProjectedRay own = projectRay(source_.pinhole(), ray.ray);
   for (const double sign : {-1.0, 1.0}) {
