@@ -105,6 +105,9 @@ bool TraceLoop::begin(AtlasJob& job) {
     }
     return false;
   }
+  for (const ActiveDisplayPtr& display : displays) {
+    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
+  }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);

@@ -52,6 +52,7 @@ struct WatchedDisplay {
   ActiveDisplayPtr active;
   std::string key;  // stream, picture and encoding
   std::vector<MemberPtr> members;
+  std::shared_ptr<const AtlasLayout> layout;
   AtlasPtr newest;
   uint64_t atlas_count = 0;
 };
@@ -201,6 +202,18 @@ uint32_t Broadcaster::subscriberCount(const std::string& stream) const {
   uint32_t count = 0;
   for (const ActiveDisplayPtr& display : displays(stream)) count += display->subscriber_count;
   return count;
+}
+
+void Broadcaster::noteLayout(uint64_t display_id, std::shared_ptr<const AtlasLayout> layout) {
+  std::lock_guard lock(state_->mutex);
+  const auto found = state_->displays.find(display_id);
+  if (found != state_->displays.end()) found->second.layout.swap(layout);
+}
+
+std::shared_ptr<const AtlasLayout> Broadcaster::layout(uint64_t display_id) const {
+  std::lock_guard lock(state_->mutex);
+  const auto found = state_->displays.find(display_id);
+  return found == state_->displays.end() ? nullptr : found->second.layout;
 }
 
 void Broadcaster::publish(AtlasPtr atlas) {

@@ -57,6 +57,11 @@ class Broadcaster {
   std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;
   uint32_t subscriberCount(const std::string& stream) const;
 
+  // The layout of the display's next atlas, before that is traced. Told again when it changes.
+  void noteLayout(uint64_t display_id, std::shared_ptr<const AtlasLayout> layout);
+  // The layout last noted; nullptr = the display has met no frame of its stream yet.
+  std::shared_ptr<const AtlasLayout> layout(uint64_t display_id) const;
+
   // A finished atlas. Its sequence must grow. Atlases of a display that nobody watches any more are
   // dropped.
   void publish(AtlasPtr atlas);

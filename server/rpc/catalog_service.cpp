@@ -106,9 +106,8 @@ grpc::ServerUnaryReactor* CatalogService::ListDisplays(grpc::CallbackServerConte
     v1::DisplayEntry& entry = *response->add_displays();
     entry.set_id(display->id);
     entry.set_stream(display->stream);
-    // Known once the display has met a frame of its stream.
-    if (const AtlasPtr atlas = broadcaster_.newest(display->id)) {
-      *entry.mutable_layout() = layoutToProto(*atlas->layout, atlas->encoding);
+    if (const auto layout = broadcaster_.layout(display->id)) {
+      *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
     }
     entry.set_subscriber_count(display->subscriber_count);
     entry.set_atlas_count(broadcaster_.atlasCount(display->id));

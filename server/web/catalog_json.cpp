@@ -61,10 +61,10 @@ json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster)
 json displaysJson(const Broadcaster& broadcaster) {
   json entries = json::array();
   for (const ActiveDisplayPtr& display : broadcaster.displays("")) {
-    const AtlasPtr newest = broadcaster.newest(display->id);
+    const auto layout = broadcaster.layout(display->id);
     entries.push_back({{"id", display->id},
                        {"stream", display->stream},
-                       {"layout", newest ? layoutJson(*newest->layout) : json()},
+                       {"layout", layout ? layoutJson(*layout) : json()},
                        {"encoding", encodingJson(display->encoding)},
                        {"subscriber_count", display->subscriber_count},
                        {"atlas_count", broadcaster.atlasCount(display->id)}});

@@ -95,6 +95,8 @@ DisplayReport AnsweringSink::publishAtlas(const ActiveDisplay& display, const Fr
     broadcaster_.refuse(display.id, layout.status());
     return {};
   }
+  const auto shared_layout = std::make_shared<const AtlasLayout>(*layout);
+  broadcaster_.noteLayout(display.id, shared_layout);
   auto atlas = std::make_shared<EncodedAtlas>();
   atlas->display_id = display.id;
   atlas->sequence = broadcaster_.atlasCount(display.id) + 1;
@@ -102,7 +104,7 @@ DisplayReport AnsweringSink::publishAtlas(const ActiveDisplay& display, const Fr
   atlas->capture_time_ns = frame.format.capture_time_ns;
   atlas->source_camera = source.camera;
   atlas->display_pose = source.camera.pose;
-  atlas->layout = std::make_shared<AtlasLayout>(*layout);
+  atlas->layout = shared_layout;
   atlas->encoding = display.encoding;
   atlas->coverage = {.hit = 3, .hidden = 1};
   const uint32_t height_px = layout->size_px.height;

@@ -42,6 +42,7 @@ TEST_F(PipelineResidentTest, servesAJoinerAStillAndAChangedFocusFromOneUploadAnd
     EXPECT_EQ(atlas->sequence, 1u);
     EXPECT_TRUE(isWhole(*atlas));
     EXPECT_EQ(atlas->coverage.rayCount(), atlas->layout->size_px.area());
+    EXPECT_EQ(server.broadcaster.layout(atlas->display_id), atlas->layout);
   }
   EXPECT_EQ(refocused.subscriber->waitForAtlases(1).front()->layout->focal_distance_m, 3);
   EXPECT_EQ(server.metrics.structures_built.value(), 1);

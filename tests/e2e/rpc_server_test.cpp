@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "e2e/raw_call.h"
@@ -53,6 +54,35 @@ TEST(CatalogService, listsStreamsAndDisplays) {
   EXPECT_EQ(displays.displays(0).layout().views_size(), 2);
   EXPECT_EQ(displays.displays(0).subscriber_count(), 1u);
   EXPECT_EQ(displays.displays(0).atlas_count(), 1u);
+}
+
+TEST(CatalogService, tellsTheLayoutOfADisplayThatWaitsForItsFirstAtlas) {
+  TestServer server;
+  TestPublisher publisher(server.connect(), "scene");
+  TestWatcher watcher(server.connect(), smallQuilt("scene"));
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+  const auto list = [&] {
+    grpc::ClientContext context;
+    v1::ListDisplaysResponse displays;
+    EXPECT_TRUE(stub->ListDisplays(&context, {}, &displays).ok());
+    return displays;
+  };
+  v1::ListDisplaysResponse displays = list();
+  for (; displays.displays_size() == 0; displays = list()) std::this_thread::yield();
+  EXPECT_FALSE(displays.displays(0).has_layout());
+
+  const ActiveDisplayPtr display = server.broadcaster().displays("scene").front();
+  const absl::StatusOr<AtlasLayout> layout =
+      makeAtlasLayout(display->spec, {.source_camera = {.intrinsics = {.focal_px = {4, 4}}},
+                                      .source_size_px = {4, 4},
+                                      .focal_distance_m = 1});
+  ASSERT_TRUE(layout.ok()) << layout.status();
+  server.broadcaster().noteLayout(display->id, std::make_shared<const AtlasLayout>(*layout));
+  displays = list();
+  EXPECT_EQ(displays.displays(0).layout().columns(), 2u);
+  EXPECT_EQ(displays.displays(0).layout().encoding().jpeg_quality(),
+            display->encoding.jpeg_quality);
+  EXPECT_EQ(displays.displays(0).atlas_count(), 0u);
 }
 
 TEST(CatalogService, listsPresetsWithTheirLayouts) {

@@ -156,6 +156,7 @@ void PaintedStream::paint(const ActiveDisplay& display) {
   atlas.sequence = ++sequences_[display.id];
   atlas.frame_number = painted_frame_;
   atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
+  broadcaster_.noteLayout(display.id, atlas.layout);
   atlas.encoding = display.encoding;
   atlas.times = {.receive_ns = 2 * kMs,
                  .decode_ns = 3 * kMs,

@@ -50,6 +50,20 @@ TEST(Broadcaster, handsEachAtlasToAllWatchersOfItsDisplayAlone) {
   EXPECT_EQ(broadcaster.newest(c->displayId()), nullptr);
 }
 
+TEST(Broadcaster, tellsALayoutBeforeAnAtlasIsTraced) {
+  Broadcaster broadcaster({});
+  auto a = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  const uint64_t id = a->displayId();
+  EXPECT_EQ(broadcaster.layout(id), nullptr);
+  const auto layout = std::make_shared<const AtlasLayout>();
+  broadcaster.noteLayout(id, layout);
+  EXPECT_EQ(broadcaster.layout(id), layout);
+  EXPECT_EQ(broadcaster.newest(id), nullptr);
+  a.reset();
+  broadcaster.noteLayout(id, layout);
+  EXPECT_EQ(broadcaster.layout(id), nullptr) << "nobody watches it any more";
+}
+
 TEST(Broadcaster, givesALateJoinerTheNewestCompleteAtlasAtOnce) {
   Broadcaster broadcaster({});
   std::vector<std::string> demands;
