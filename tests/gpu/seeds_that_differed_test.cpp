@@ -34,6 +34,8 @@ constexpr const char* kBesideItsOwnHit = "lies within the tolerance of its own r
 // The judge compared with rays moved by the whole tolerance, which all hit one surface again, and
 // with none between.
 constexpr const char* kMissesBetween = "misses, as rays do that are moved by less";
+// Oracle and walk differed on facets whose slopes carry them before the layer in front of them.
+constexpr const char* kBeforeItsLayer = "passes facets that stand before the layer before them";
 
 constexpr OnceDiffered kSeeds[] = {
     {12495, kMovesAway},          {14247, kMovesAway},          {14721, kMovesAway},
@@ -41,6 +43,8 @@ constexpr OnceDiffered kSeeds[] = {
     {31065, kMovesAway},          {33720, kMovesAway},          {33966, kEyeBehindTheSource},
     {43278, kEyeBehindTheSource}, {43360, kEyeBehindTheSource}, {13320, kHitsFromAfar},
     {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},    {24972, kMissesBetween},
+    {26357, kBeforeItsLayer},     {30742, kBeforeItsLayer},     {33983, kBeforeItsLayer},
+    {34922, kBeforeItsLayer},     {53702, kBeforeItsLayer},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};

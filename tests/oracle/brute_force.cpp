@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -93,7 +94,8 @@ struct Event {
 
 class AllFacets {
  public:
-  AllFacets(const OracleSource& source, const Ray& ray) : source_(source), ray_(ray) {}
+  AllFacets(const OracleSource& source, const Ray& ray)
+      : source_(source), ray_(ray), behind_from_(size_t(source.layerCount()), kInfinity) {}
 
   OracleAnswer run() {
     const Stretch seen =
@@ -101,13 +103,14 @@ class AllFacets {
     OracleAnswer answer;
     if (seen.empty()) return answer;
     last_ = seen.end == kInfinity ? kInfinity : seen.end - kJustBefore * (seen.end - seen.begin);
+    visitFacets([&](const FacetAt& at) { considerBegin(at); });
     visitFacets([&](const FacetAt& at) { considerFacet(at); });
     visitFacets([&](const FacetAt& at) {
       considerEdges(at, {-1, at.column + 1, at.row});
       considerEdges(at, {-1, at.column, at.row + 1});
     });
     if (first_) {
-      const bool assumed = behind_from_ < first_->distance;
+      const bool assumed = behind_from_[0] < first_->distance;
       answer.ray_class = assumed ? RayClass::kHitAssumed : RayClass::kHit;
       answer.hits.push_back(hitAt(*first_, assumed));
     } else if (behind_at_end_) {
@@ -140,6 +143,20 @@ class AllFacets {
     if (!first_ || event.distance < first_->distance) first_ = event;
   }
 
+  // Where all layers before this one have once been passed, and it counts.
+  double countsFrom(const FacetAt& at) const {
+    return at.layer == 0 ? 0 : behind_from_[size_t(at.layer - 1)];
+  }
+
+  // Layer by layer, nearest first.
+  void considerBegin(const FacetAt& at) {
+    const double begin = inColumn(at).begin;
+    if (inColumn(at).empty() || begin < countsFrom(at)) return;
+    if (sideAt(metricPlane(source_, at), ray_, begin) > 0) return;
+    double& behind_from = behind_from_[size_t(at.layer)];
+    behind_from = std::min(behind_from, begin);
+  }
+
   void considerFacet(const FacetAt& at) {
     const Stretch inside = inColumn(at);
     if (inside.empty()) return;
@@ -147,14 +164,15 @@ class AllFacets {
     const double at_begin = sideAt(plane, ray_, inside.begin);
     const double at_end = sideAt(plane, ray_, inside.end);
     const bool last = inside.begin < last_ && inside.end >= last_;
-    if (at_begin <= 0) behind_from_ = std::min(behind_from_, inside.begin);
-    if (at_begin <= 0 && at_end <= 0 && last) behind_at_end_ = true;
+    const bool counts = countsFrom(at) <= inside.begin;
+    if (counts && at_begin <= 0 && at_end <= 0 && last) behind_at_end_ = true;
     if (at_end > 0) {
-      if (inside.end == kInfinity) offer({kInfinity, at});
+      if (counts && inside.end == kInfinity) offer({kInfinity, at});
       return;
     }
     if (at_begin <= 0) return;
     const double per_step = glm::dot(plane.normal, ray_.direction);
+    if (!counts) return;
     offer({-(glm::dot(plane.normal, ray_.origin_m) + plane.distance) / per_step, at});
   }
 
@@ -169,8 +187,10 @@ class AllFacets {
       const bool leaves = here.begin < there.begin;
       const FacetAt& from = leaves ? at : other;
       const FacetAt& to = leaves ? other : at;
-      const double distance = leaves ? here.end : there.end;
-      if (sideAt(metricPlane(source_, from), ray_, distance) <= 0) continue;
+      const double distance = leaves ? there.begin : here.begin;
+      if (countsFrom(to) > distance) continue;
+      const bool from_counts = countsFrom(from) < distance;
+      if (from_counts && sideAt(metricPlane(source_, from), ray_, distance) <= 0) continue;
       if (sideAt(metricPlane(source_, to), ray_, distance) > 0) continue;
       offer({distance, to});
     }
@@ -193,7 +213,8 @@ class AllFacets {
   const Ray& ray_;
   std::optional<Event> first_;
   double last_ = 0;  // a place in the last column
-  double behind_from_ = kInfinity;
+  // Where the ray first is behind each layer, having been behind those before it.
+  std::vector<double> behind_from_;
   bool behind_at_end_ = false;
 };
 

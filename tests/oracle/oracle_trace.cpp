@@ -75,7 +75,10 @@ class Travel {
     Column column = columnAt(source_, ray_.at(0.5 * (seen_.begin + first_end)));
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt at{layer, column.column, column.row};
-      if (source_.exists(at) && front(at, seen_.begin) <= 0) been_behind_ = true;
+      if (isBehind(at, seen_.begin)) {
+        been_behind_ = true;
+        passBehind(layer);
+      }
     }
     double begin = seen_.begin;
     for (const Crossing& crossing : crossings) {
@@ -92,6 +95,12 @@ class Travel {
  private:
   double front(const FacetAt& at, double s) const { return inFront(source_, at, ray_.at(s)); }
 
+  // Layers are in order: whoever has not been behind one is in front of all behind it.
+  bool isBehind(const FacetAt& at, double s) const {
+    return at.layer <= behind_count_ && source_.exists(at) && front(at, s) <= 0;
+  }
+  void passBehind(int layer) { behind_count_ = std::max(behind_count_, layer + 1); }
+
   void crossColumn(const Column& column, double begin, double end, bool ends_at_infinity) {
     std::vector<std::pair<double, OracleHit>> events;
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
@@ -107,14 +116,19 @@ class Travel {
     }
     std::stable_sort(events.begin(), events.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
-    for (const auto& [s, hit] : events) record(hit);
+    for (const auto& [s, hit] : events) {
+      if (hit.facet.layer > behind_count_) continue;
+      record(hit);
+      passBehind(hit.facet.layer);
+    }
   }
 
   void crossEdge(const Column& from, const Column& to, double s) {
     bool passes_behind = false;  // from here on: not before what is hit at this very edge
+    const int behind_count = behind_count_;  // before the edge
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt next{layer, to.column, to.row};
-      if (!source_.exists(next) || front(next, s) > 0) continue;
+      if (!isBehind(next, s)) continue;
       bool connected_behind = false;
       bool connected_in_front = false;
       FacetAt linked;
@@ -122,13 +136,15 @@ class Travel {
         const FacetAt previous{other, from.column, from.row};
         if (!source_.linked(previous, next)) continue;
         linked = previous;
-        (front(previous, s) > 0 ? connected_in_front : connected_behind) = true;
+        const bool in_front = other > behind_count || front(previous, s) > 0;
+        (in_front ? connected_in_front : connected_behind) = true;
       }
       if (connected_in_front) {
         record(hitAt(s, next, linked));
       } else if (!connected_behind) {
         passes_behind = true;
       }
+      passBehind(layer);
     }
     been_behind_ = been_behind_ || passes_behind;
   }
@@ -152,7 +168,7 @@ class Travel {
     answer_.ray_class = seen_.ends_at_infinity ? RayClass::kEmpty : RayClass::kOutside;
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt at{layer, last.column, last.row};
-      if (source_.exists(at) && front(at, seen_.end) <= 0) answer_.ray_class = RayClass::kHidden;
+      if (isBehind(at, seen_.end)) answer_.ray_class = RayClass::kHidden;
     }
     return answer_;
   }
@@ -162,6 +178,7 @@ class Travel {
   const SeenPart seen_;
   const size_t limit_;
   bool been_behind_ = false;
+  int behind_count_ = 0;  // of layers, from the first on, that the ray has been behind
   OracleAnswer answer_;
 };
 

@@ -51,6 +51,11 @@ Ray lateralRay(const Scene& scene, double eye_x_m, double x_px) {
   return rayOf(view, x_px, 0.5 * scene.planes.height).ray;
 }
 
+// The point at depth 1 m of an image position on the middle row.
+glm::dvec3 onRow(const Scene& scene, double x_px) {
+  return {(x_px - scene.pinhole.principal_px.x) / scene.pinhole.focal_px.x, 0, -1};
+}
+
 TEST(OracleTrace, followsTheEpipolarLineOverAStep) {
   const Scene scene = stepScene(kNear, {0, 0, 0.25}, 32, false, 64, 4);
   const OracleSource source = sourceOf(scene);
@@ -117,15 +122,29 @@ TEST(OracleTrace, comesOutOfAFacetThatFallsBelowTheSkyAndHitsItThere) {
   for (int column = 0; column < 3; ++column) scene.planes.at(0, column, 0) = inv_z[column];
   const OracleSource source = sourceOf(scene);
   // From x = 2 at 1/Z = 0.2, 0.1 behind the facet, to x = 2.875 at the sky: its plane is at -0.05.
-  const Pinhole& pinhole = scene.pinhole;
-  const auto onRow = [&](double x_px) {
-    return glm::dvec3((x_px - pinhole.principal_px.x) / pinhole.focal_px.x, 0, -1);
-  };
-  const Ray ray{5.0 * onRow(2.0), onRow(2.875)};
+  const Ray ray{onRow(scene, 2.0) / 0.2, onRow(scene, 2.875)};
   for (const OracleAnswer& answer : {traceOracle(source, ray), traceAllFacets(source, ray)}) {
     ASSERT_EQ(answer.ray_class, RayClass::kHitAssumed);
     EXPECT_EQ(answer.hits[0].inv_z, 0);
     EXPECT_NEAR(answer.hits[0].x_px, 2.875, kPosition_px);
+  }
+}
+
+TEST(OracleTrace, hitsNoLayerBeforeTheOneInFrontOfIt) {
+  // The slope of layer 1 carries its middle facet from 0.48 to 0.57, before layer 0 at 0.5.
+  Scene scene = stepScene({0, 0, 0.5}, {0, 0, 0.48}, 0, true, 3, 1);
+  const float inv_z[2][3] = {{0.69f, 0.5f, 0.7f}, {0.3f, 0.48f, 0.66f}};
+  for (int column = 0; column < 3; ++column) {
+    for (int layer : {0, 1}) scene.planes.at(layer, column, 0) = inv_z[layer][column];
+  }
+  const OracleSource source = sourceOf(scene);
+  ASSERT_GT(source.planeInvZ({1, 1, 0}, 1.9, 0.5), source.planeInvZ({0, 1, 0}, 1.9, 0.5));
+  // From x = 1.88 at 1/Z = 0.7 to x = 1.92 at the sky.
+  const Ray ray{onRow(scene, 1.88) / 0.7, onRow(scene, 1.92)};
+  for (const OracleAnswer& answer : {traceOracle(source, ray), traceAllFacets(source, ray)}) {
+    ASSERT_EQ(answer.ray_class, RayClass::kHit);
+    EXPECT_EQ(answer.hits[0].facet.layer, 0);
+    EXPECT_NEAR(answer.hits[0].inv_z, 0.5, kPosition_px);
   }
 }
 
