@@ -115,8 +115,12 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const bool is_accepted =
           hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
       // Planes are solved for rays that come closer. Who moves away meets nothing but the roughness
-      // that a plane leaves out, and comes out where the facets say so.
-      const bool is_exact = is_plane && is_accepted && (is_facet || above_to <= plane_from);
+      // that a plane leaves out, and comes out where the facets say so. They also say who is behind
+      // one at its edge where its error leaves a doubt.
+      const bool is_decided =
+          in_front || plane_from <= -error || plane_from > (state_unknown ? 0.0 : error);
+      const bool is_exact =
+          is_plane && is_accepted && (is_facet || (above_to <= plane_from && is_decided));
       const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
       const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
       const bool all_front =

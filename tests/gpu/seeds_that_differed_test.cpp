@@ -27,6 +27,9 @@ constexpr const char* kEyeBehindTheSource = "hits where the tolerance is least i
 // At the edge of a link to a lower layer, a ray that came closer hit from as far off as the
 // display's tolerance allows, where no walk had taken a plane for the facets.
 constexpr const char* kHitsFromAfar = "hits a link from further off than any error";
+// The other way round: the walk of the lower layer took a plane just in front of which the ray left
+// the facet, so that its link alone is left to be hit.
+constexpr const char* kHitsWithinAPlane = "hits a link that a plane of the lower layer has missed";
 // Oracle and walk both missed the sky that ends a facet which falls below it in its footprint.
 constexpr const char* kComesOutOverTheSky = "comes out from behind a facet and ends at the sky";
 // The judge compared with moved rays that had all hit elsewhere on the same surface.
@@ -36,15 +39,19 @@ constexpr const char* kBesideItsOwnHit = "lies within the tolerance of its own r
 constexpr const char* kMissesBetween = "misses, as rays do that are moved by less";
 // Oracle and walk differed on facets whose slopes carry them before the layer in front of them.
 constexpr const char* kBeforeItsLayer = "passes facets that stand before the layer before them";
+// A plane whose error reaches before all facets was taken for what a ray began behind, or went on
+// behind, although it was in front of the facets.
+constexpr const char* kTakenForBehind = "is taken for behind by the error of a plane";
 
 constexpr OnceDiffered kSeeds[] = {
     {12495, kMovesAway},          {14247, kMovesAway},          {14721, kMovesAway},
     {20172, kMovesAway},          {20868, kMovesAway},          {22798, kMovesAway},
     {31065, kMovesAway},          {33720, kMovesAway},          {33966, kEyeBehindTheSource},
     {43278, kEyeBehindTheSource}, {43360, kEyeBehindTheSource}, {13320, kHitsFromAfar},
-    {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},    {24972, kMissesBetween},
-    {26357, kBeforeItsLayer},     {30742, kBeforeItsLayer},     {33983, kBeforeItsLayer},
-    {34922, kBeforeItsLayer},     {53702, kBeforeItsLayer},
+    {28710, kHitsWithinAPlane},   {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},
+    {24972, kMissesBetween},      {26357, kBeforeItsLayer},     {30742, kBeforeItsLayer},
+    {33983, kBeforeItsLayer},     {34922, kBeforeItsLayer},     {53702, kBeforeItsLayer},
+    {47695, kTakenForBehind},     {58966, kTakenForBehind},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
