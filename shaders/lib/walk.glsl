@@ -22,6 +22,10 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
+// Of the distance to a facet, as a share of the largest inv_z: 16 ulp, the rounding of positions
+// along a ray and a few of the sums.
+const float kRounding = 16.0 / 8388608.0;
+
 struct WalkStart {
   Place place;
   uint behind_count;
@@ -162,7 +166,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         hit_size = size_px;
         continue;
       }
-      in_front = front_to > 0.0;
+      // Who comes out by less than rounding might meet the next facet as a step up.
+      in_front = front_to > (front_from > 0.0 ? 0.0 : kRounding * scene.inv_z_near);
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const bool cross_x = exit_t.x <= exit_t.y;

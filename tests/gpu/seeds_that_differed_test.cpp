@@ -39,6 +39,8 @@ constexpr const char* kBesideItsOwnHit = "lies within the tolerance of its own r
 constexpr const char* kMissesBetween = "misses, as rays do that are moved by less";
 // Oracle and walk differed on facets whose slopes carry them before the layer in front of them.
 constexpr const char* kBeforeItsLayer = "passes facets that stand before the layer before them";
+// A ray that came out from behind a facet by less than rounding hit the next one.
+constexpr const char* kComesOutByRounding = "comes out from behind a facet by less than rounding";
 // A plane whose error reaches before all facets was taken for what a ray began behind, or went on
 // behind, although it was in front of the facets.
 constexpr const char* kTakenForBehind = "is taken for behind by the error of a plane";
@@ -51,7 +53,7 @@ constexpr OnceDiffered kSeeds[] = {
     {28710, kHitsWithinAPlane},   {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},
     {24972, kMissesBetween},      {26357, kBeforeItsLayer},     {30742, kBeforeItsLayer},
     {33983, kBeforeItsLayer},     {34922, kBeforeItsLayer},     {53702, kBeforeItsLayer},
-    {47695, kTakenForBehind},     {58966, kTakenForBehind},
+    {32671, kComesOutByRounding}, {47695, kTakenForBehind},     {58966, kTakenForBehind},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
