@@ -22,8 +22,9 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
-// Of the distance to a facet, as a share of the largest inv_z: 16 ulp, the rounding of positions
-// along a ray and a few of the sums.
+// Of the distance to a facet, as a share of the ray's own inv_z: 16 ulp, the rounding of positions
+// along a ray and a few of the sums. Not of the largest in the source, which the error of a plane
+// may have raised.
 const float kRounding = 16.0 / 8388608.0;
 
 struct WalkStart {
@@ -167,7 +168,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         continue;
       }
       // Who comes out by less than rounding might meet the next facet as a step up.
-      in_front = front_to > (front_from > 0.0 ? 0.0 : kRounding * scene.inv_z_near);
+      in_front = front_to > (front_from > 0.0 ? 0.0 : kRounding * max(from.z, to.z));
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const bool cross_x = exit_t.x <= exit_t.y;

@@ -44,6 +44,9 @@ constexpr const char* kComesOutByRounding = "comes out from behind a facet by le
 // A plane whose error reaches before all facets was taken for what a ray began behind, or went on
 // behind, although it was in front of the facets.
 constexpr const char* kTakenForBehind = "is taken for behind by the error of a plane";
+// A ray that came out by more than its rounding, and less than that of the largest inv_z as a plane
+// of large error had raised it, went on as if behind.
+constexpr const char* kRoundsTooMuch = "comes out from behind a facet by more than rounding";
 
 constexpr OnceDiffered kSeeds[] = {
     {12495, kMovesAway},          {14247, kMovesAway},          {14721, kMovesAway},
@@ -53,7 +56,8 @@ constexpr OnceDiffered kSeeds[] = {
     {28710, kHitsWithinAPlane},   {13472, kComesOutOverTheSky}, {13827, kBesideItsOwnHit},
     {24972, kMissesBetween},      {26357, kBeforeItsLayer},     {30742, kBeforeItsLayer},
     {33983, kBeforeItsLayer},     {34922, kBeforeItsLayer},     {53702, kBeforeItsLayer},
-    {32671, kComesOutByRounding}, {47695, kTakenForBehind},     {58966, kTakenForBehind},
+    {32671, kComesOutByRounding}, {56144, kRoundsTooMuch},      {47695, kTakenForBehind},
+    {58966, kTakenForBehind},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
