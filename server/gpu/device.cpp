@@ -196,11 +196,6 @@ void Device::submit(const vk::SubmitInfo2& submission) const {
   queue_.submit2(submission);
 }
 
-void Device::waitIdle() const {
-  std::lock_guard lock(queue_mutex_);
-  device_.waitIdle();
-}
-
 void Device::setName(vk::ObjectType type, uint64_t handle, const char* name) const {
   if (!validation_) return;
   device_.setDebugUtilsObjectNameEXT(

@@ -62,8 +62,6 @@ class Device {
   uint32_t timestampValidBits() const { return timestamp_valid_bits_; }
 
   void submit(const vk::SubmitInfo2& submission) const;
-  // For shutdown only.
-  void waitIdle() const;
 
   // A name for the validation layers; nothing happens without them.
   void setName(vk::ObjectType type, uint64_t handle, const char* name) const;

@@ -55,7 +55,6 @@ struct StreamDirectory::State {
   mutable std::mutex mutex;  // guards what follows; never held while a callback runs
   std::map<std::string, KnownStream> streams;
   uint64_t next_claim_id = 1;
-  std::vector<std::function<void(const std::string&)>> on_appear;
   std::function<bool(const std::string&)> may_forget;
 
   template <typename Change>
@@ -109,7 +108,6 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
     const std::string& stream, const std::string& session_id, std::function<void()> on_takeover) {
   VIEWLOOM_RETURN_IF_ERROR(state_->makeRoomFor(stream));
   std::function<void()> on_old_takeover;
-  std::vector<std::function<void(const std::string&)>> on_appear;
   uint64_t claim_id = 0;
   {
     std::lock_guard lock(state_->mutex);
@@ -125,7 +123,6 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
           "stream \"", stream, "\" has a publisher; accepted is its session_id, or another name"));
     }
     if (is_live) on_old_takeover = std::move(known.on_takeover);
-    if (is_new) on_appear = state_->on_appear;
     claim_id = state_->next_claim_id++;
     known.entry.name = stream;
     known.entry.live = true;
@@ -135,7 +132,6 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
   }
   auto claim = std::make_unique<Claim>(state_, stream, claim_id);
   if (on_old_takeover) on_old_takeover();
-  for (const auto& callback : on_appear) callback(stream);
   return claim;
 }
 
@@ -153,11 +149,6 @@ std::vector<StreamEntry> StreamDirectory::list() const {
     entries.back().rate_hz = known.arrivals.rateHz(now_ns);
   }
   return entries;
-}
-
-void StreamDirectory::onAppear(std::function<void(const std::string& stream)> callback) {
-  std::lock_guard lock(state_->mutex);
-  state_->on_appear.push_back(std::move(callback));
 }
 
 void StreamDirectory::onRoomNeeded(std::function<bool(const std::string& stream)> may_forget) {

@@ -49,8 +49,6 @@ class StreamDirectory {
   bool exists(const std::string& stream) const;
   // Sorted by name.
   std::vector<StreamEntry> list() const;
-  // Called whenever a stream appears; for those who wait for it.
-  void onAppear(std::function<void(const std::string& stream)> callback);
 
   // Asked, when the directory is full, about streams without a publisher, the one longest without
   // it first. Whoever answers true lets go of what it keeps for the stream; its entry goes.

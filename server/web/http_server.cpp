@@ -130,11 +130,6 @@ std::string HttpServer::url() const {
   return absl::StrCat("http://", host, ":", port(), "/");
 }
 
-uint32_t HttpServer::connectionCount() const {
-  std::lock_guard lock(state_->mutex);
-  return static_cast<uint32_t>(state_->connections.size());
-}
-
 void HttpServer::drain() {
   State& state = *state_;
   state.context.draining = true;

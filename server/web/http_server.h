@@ -29,7 +29,6 @@ class HttpServer {
   uint16_t port() const;
   // "http://127.0.0.1:8080/"
   std::string url() const;
-  uint32_t connectionCount() const;
 
   // Takes no more connections, lets requests under way be answered and viewers leave (close code
   // 1001, going away), at most as long as options.drain_timeout; then ends what is left.

@@ -98,17 +98,6 @@ TEST_F(StreamDirectoryTest, neverForgetsALiveStream) {
   EXPECT_EQ(directory_.claim("c", "", {}).status().code(), absl::StatusCode::kResourceExhausted);
 }
 
-TEST_F(StreamDirectoryTest, tellsWhoWaitsWhenAStreamFirstAppears) {
-  std::vector<std::string> appeared;
-  directory_.onAppear([&](const std::string& stream) {
-    EXPECT_TRUE(directory_.exists(stream));
-    appeared.push_back(stream);
-  });
-  mustClaim("s").reset();
-  mustClaim("s").reset();
-  EXPECT_THAT(appeared, ElementsAre("s"));
-}
-
 TEST_F(StreamDirectoryTest, listsByNameWithCountsAndStats) {
   const auto b = mustClaim("b");
   const auto a = mustClaim("a");
