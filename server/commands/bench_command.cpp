@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 #include <vector>
 
@@ -132,7 +132,8 @@ int bench(const BenchArguments& arguments, const Config& config) {
                      {"display", kPreset},
                      {"cone_deg", arguments.cone_deg}};
     json["stages"] = stagesJson(stages);
-    json["structure"] = {{"nodes_per_px", stages.nodes_per_px},
+    json["structure"] = {{"stored_nodes_per_px", stages.stored_nodes_per_px},
+                         {"effective_nodes_per_px", stages.effective_nodes_per_px},
                          {"bytes_per_node", kNodeBytes},
                          {"bytes_per_px_and_layer", stages.structure_bytes_per_px}};
     json["visits_per_ray"] = visitsJson(device, *frame, *spec);

@@ -2,6 +2,7 @@
 #include "commands/stage_bench.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -9,8 +10,10 @@
 #include "base/byte_pool.h"
 #include "base/check.h"
 #include "base/clock.h"
+#include "commands/effective_nodes.h"
 #include "display/atlas_layout.h"
 #include "encode/band_encoder.h"
+#include "gpu/barrier.h"
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/timeline.h"
@@ -56,6 +59,7 @@ class StageBench {
         trace_timer_(device, 1),
         encoder_(pool_) {
     build();  // what the layout needs to know of the content
+    effective_node_count_ = effectiveNodeCount(nearestCells(device), structure_.layout());
     const Camera& camera = structure_.sourceCamera();
     const SizePx source_px = structure_.layout().size_px;
     const auto layout =
@@ -112,7 +116,8 @@ class StageBench {
                           .readback_ms = medianOf(samples_.at("readback")),
                           .encode_ms = medianOf(samples_.at("encode")),
                           .encoded_bytes = encoded_bytes_,
-                          .nodes_per_px = perPixel(nodeCount(layout), layout),
+                          .stored_nodes_per_px = perPixel(nodeCount(layout), layout),
+                          .effective_nodes_per_px = perPixel(effective_node_count_, layout),
                           .structure_bytes_per_px = perPixel(layout.layerBytes(), layout),
                           .structure_bytes = structureBytes(structure_.shape()),
                           .trace_slot_bytes = trace_slot_->sizeBytes()};
@@ -135,6 +140,22 @@ class StageBench {
     build_timer_.recordReset(commands);
     builder_.record(commands, structure_, &build_timer_);
     timeline_.wait(recorder_.submit(timeline_));
+  }
+
+  std::vector<abi::uvec2> nearestCells(const Device& device) {
+    const uint64_t size_bytes = structure_.layout().cellCount() * sizeof(abi::uvec2);
+    const Buffer readback(device, {.size_bytes = size_bytes,
+                                   .intent = MemoryIntent::kReadback,
+                                   .debug_name = "bench readback"});
+    const LayeredBuffer& arrays = structure_.structure();
+    const vk::CommandBuffer commands = recorder_.begin();
+    commands.copyBuffer(arrays.buffer(0).handle(), readback.handle(),
+                        vk::BufferCopy{.srcOffset = arrays.offsetBytes(0), .size = size_bytes});
+    recordTransferToHost(commands);
+    timeline_.wait(recorder_.submit(timeline_));
+    std::vector<abi::uvec2> cells(structure_.layout().cellCount());
+    std::memcpy(cells.data(), readback.mapped().data(), size_bytes);
+    return cells;
   }
 
   void trace(BandRows rows) {
@@ -175,6 +196,7 @@ class StageBench {
   TraceJob job_;
   std::unique_ptr<TraceSlot> trace_slot_;
 
+  uint64_t effective_node_count_ = 0;                        // of the nearest layer
   uint64_t ray_count_ = 0;                                   // of the last repetition
   uint64_t encoded_bytes_ = 0;                               // of the last repetition
   std::map<std::string, std::vector<double>> samples_;       // ms

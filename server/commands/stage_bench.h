@@ -23,7 +23,8 @@ struct StageReport {
   double readback_ms = 0;  // the rest of the trace's submissions: clearing, copying, waiting
   double encode_ms = 0;    // one thread
   uint64_t encoded_bytes = 0;
-  double nodes_per_px = 0;            // above the facets, of one layer
+  double stored_nodes_per_px = 0;     // above the facets, of one layer
+  double effective_nodes_per_px = 0;  // what a walk has a use for, of the nearest layer
   double structure_bytes_per_px = 0;  // of one layer: facets, nodes, entries, links
   uint64_t structure_bytes = 0;       // one slot, host and device
   uint64_t trace_slot_bytes = 0;

@@ -182,7 +182,9 @@ TEST(Bench, reportsEveryStageAsJson) {
     EXPECT_GT(report.at("stages").at(stage).at("ms").get<double>(), 0) << stage;
   }
   EXPECT_EQ(report.at("stages").at("rays"), 3360 * 3360);
-  EXPECT_GT(report.at("structure").at("nodes_per_px").get<double>(), 1.0 / 16) << "4x4 nodes";
+  const Json& structure = report.at("structure");
+  EXPECT_GT(structure.at("stored_nodes_per_px").get<double>(), 1.0 / 16) << "4x4 nodes";
+  EXPECT_GT(structure.at("effective_nodes_per_px").get<double>(), 1.0 / 4096) << "64x64 nodes";
   EXPECT_GE(report.at("visits_per_ray").at("mean").get<double>(), 1);
   EXPECT_GE(report.at("loopback").at("share_of_none_of_these").get<double>(), 0);
   EXPECT_GT(report.at("memory").at("process_peak_bytes").get<uint64_t>(), 0u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure on the device against the oracle and against its own lower levels.
+#include "commands/effective_nodes.h"
 #include "gpu/structure_checks.h"
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
@@ -44,9 +45,20 @@ TEST_F(StructureTest, isTheOraclesOverSeveralRoots) {
 TEST_F(StructureTest, aSmoothSceneTakesFewNodes) {
   const oracle::Scene scene = oracle::smoothScene(640, 480, 1);
   const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
-  const double nodes_per_pixel = effectiveNodesPerPixel(walk_.readBack(*slot));
+  const StructureImage image = walk_.readBack(*slot);
+  const double nodes_per_pixel = effectiveNodesPerPixel(image);
   RecordProperty("nodes_per_pixel", std::to_string(nodes_per_pixel));
   EXPECT_LE(nodes_per_pixel, 0.03);
+}
+
+TEST_F(StructureTest, theBenchCountsItsNodesAsReadHere) {
+  // Neither side a multiple of 4 px.
+  const oracle::Scene scene = oracle::randomScene(7, 333, 201, 1);
+  const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+  const StructureImage image = walk_.readBack(*slot);
+  const std::vector<abi::uvec2> cells = walk_.cells(*slot, 0);
+  EXPECT_DOUBLE_EQ(double(effectiveNodeCount(cells, slot->layout())) / (333 * 201),
+                   effectiveNodesPerPixel(image));
 }
 
 }  // namespace

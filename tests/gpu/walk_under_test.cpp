@@ -166,6 +166,10 @@ StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   return image;
 }
 
+std::vector<abi::uvec2> WalkUnderTest::cells(const StructureSlot& slot, uint32_t layer) {
+  return read<abi::uvec2>(slot.structure(), layer);
+}
+
 std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot,
                                              const std::vector<oracle::OutputView>& views,
                                              double tolerance_px) {

@@ -45,6 +45,8 @@ class WalkUnderTest {
   // Uploads and builds, and waits for it.
   std::unique_ptr<StructureSlot> build(const Frame& frame);
   StructureImage readBack(const StructureSlot& slot);
+  // Of one layer, as stored.
+  std::vector<abi::uvec2> cells(const StructureSlot& slot, uint32_t layer);
   // Views of one size.
   std::vector<TracedView> trace(const StructureSlot& slot,
                                 const std::vector<oracle::OutputView>& views, double tolerance_px);
