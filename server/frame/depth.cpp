@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <glm/gtc/packing.hpp>
@@ -146,18 +145,6 @@ DepthValue linearizeDepth(const DepthFormat& format, PlaneEncoding encoding, dou
       return fromInvZ(sample * format.scale + format.offset);
   }
   failCheck(__FILE__, __LINE__, "a DepthMeaning that is none");
-}
-
-double depthSample(std::span<const uint8_t> plane, PlaneEncoding encoding, size_t index) {
-  if (encoding == PlaneEncoding::kDepthF32) {
-    float sample = 0;
-    std::memcpy(&sample, plane.subspan(index * sizeof sample, sizeof sample).data(), sizeof sample);
-    return double{sample};
-  }
-  uint16_t bits = 0;
-  std::memcpy(&bits, plane.subspan(index * sizeof bits, sizeof bits).data(), sizeof bits);
-  return encoding == PlaneEncoding::kDepthF16 ? double{glm::unpackHalf1x16(bits)}
-                                              : static_cast<double>(bits);
 }
 
 DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding encoding) {

@@ -2,9 +2,7 @@
 // What depth samples mean: the one linearisation of every DepthFormat to 1/Z.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "base/status.h"
@@ -31,9 +29,6 @@ struct DepthValue {
 // matters for kRayDistance alone, where the ray is that of the sample's centre.
 DepthValue linearizeDepth(const DepthFormat& format, PlaneEncoding encoding, double sample,
                           glm::uvec2 pixel_px, const Intrinsics& intrinsics);
-
-// Sample `index` of a packed depth plane, as stored.
-double depthSample(std::span<const uint8_t> plane, PlaneEncoding encoding, size_t index);
 
 // Every meaning in one formula for kernels, plain enough to upload as it is:
 //   value = (sample - origin) * scale + offset        sample as stored, U16 as 0..65535

@@ -7,7 +7,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
@@ -146,19 +145,6 @@ TEST(LinearizeDepth, matchesTheInvalidValueAsTheSampleHoldsIt) {
   // 0.1 as binary16 is 0.0999755859375.
   EXPECT_EQ(decode(format, 0.0999755859375, PlaneEncoding::kDepthF16).kind, DepthClass::kNoSurface);
   EXPECT_EQ(decode(format, 0.1000, kF32).kind, DepthClass::kSurface);
-}
-
-TEST(DepthSample, readsEveryEncoding) {
-  const float f32 = 1.25F;
-  std::vector<uint8_t> plane(8);
-  std::memcpy(plane.data() + 4, &f32, sizeof f32);
-  EXPECT_EQ(depthSample(plane, kF32, 1), 1.25);
-  plane = {0x00, 0x3C, 0x00, 0xC5, 0x00, 0x7C, 0x01, 0x00};  // binary16: 1, -5, +inf, 2^-24
-  EXPECT_EQ(depthSample(plane, PlaneEncoding::kDepthF16, 0), 1);
-  EXPECT_EQ(depthSample(plane, PlaneEncoding::kDepthF16, 1), -5);
-  EXPECT_EQ(depthSample(plane, PlaneEncoding::kDepthF16, 2), kInf);
-  EXPECT_EQ(depthSample(plane, PlaneEncoding::kDepthF16, 3), std::ldexp(1.0, -24));
-  EXPECT_EQ(depthSample(plane, kU16, 1), 0xC500);
 }
 
 // What a kernel does with the coefficients, in its precision.
