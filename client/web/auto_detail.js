@@ -6,9 +6,10 @@ const kDetails = [1, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125];
 const kStart = 0.25;  // a slow server's first atlas comes soon; a fast one's next is full detail
 const kStepsDownMax = 2;  // at once: a judgement while a server starts is a bad one
 
-const kWanted_hz = 8;  // atlases shown; fewer is no motion
+// Atlases shown. Fewer than eight are no motion; the ninth keeps eight when the rate wavers.
+const kWanted_hz = 9;
 // More detail is taken when it promises this much: what is taken must not be given back.
-const kPromised_hz = 9;
+const kPromised_hz = 10;
 // Who shows four of five frames that were published is not slow, the publisher is.
 const kPublishedShare = 0.8;
 // A step down that saves less is not taken: the time goes elsewhere. Share of an atlas's time.
