@@ -32,7 +32,34 @@ double largestCross(const glm::dvec3& eye_m, const Intrinsics& intrinsics, SizeP
   return largest;
 }
 
+// Directions are linear over a tile, and so are both sides of each condition: corners decide.
+bool isPlainTile(const abi::ViewParams& tile, SizePx tile_px, float inv_z_near) {
+  const abi::vec3 near_eye = tile.eye * inv_z_near;
+  if (!(near_eye.z < 1)) return false;
+  for (const float x_px : {0.0F, float(tile_px.width)}) {
+    for (const float y_px : {0.0F, float(tile_px.height)}) {
+      const abi::vec3 direction =
+          tile.direction + x_px * tile.direction_dx + y_px * tile.direction_dy;
+      const float extent_max = abi::kPlainExtentMax_px * direction.z;
+      const bool is_plain =
+          direction.z > 0 &&
+          std::abs(direction.x * near_eye.z - near_eye.x * direction.z) < extent_max &&
+          std::abs(direction.y * near_eye.z - near_eye.y * direction.z) < extent_max;
+      if (!is_plain) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
+
+bool raysArePlain(const TraceJob& job, double inv_z_max) {
+  const float inv_z_near = std::max(float(inv_z_max), abi::kInvZNearMin) * abi::kInvZNearMargin;
+  const SizePx tile_px = job.layout->tile_size_px;
+  return std::all_of(job.tiles.begin(), job.tiles.end(), [&](const abi::ViewParams& tile) {
+    return tile.is_used == 0 || isPlainTile(tile, tile_px, inv_z_near);
+  });
+}
 
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera) {
   return spec.world_pose.value_or(source_camera.pose);

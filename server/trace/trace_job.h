@@ -23,6 +23,10 @@ struct TraceJob {
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, const Camera& source_camera, SizePx source_px);
 
+// Whether all rays of a job are plain (shaders/shared/trace_abi.h) for a source whose largest inv_z
+// is this, 1/m: then a cheaper kernel serves them.
+bool raysArePlain(const TraceJob& job, double inv_z_max);
+
 // Where the display of a spec stands: its own world pose, else the source's.
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera);
 

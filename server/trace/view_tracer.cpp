@@ -69,7 +69,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.color_format,
                                   variant.pixels_per_invocation,
                                   variant.lanes_are_views,
-                                  variant.color_is_scaled};
+                                  variant.color_is_scaled,
+                                  variant.rays_are_plain};
     made = std::make_unique<ComputePass>(
         *device_, ComputePassOptions{.spirv = walk_views_spirv,
                                      .push_bytes = sizeof(abi::TracePush),
@@ -158,7 +159,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
                                 : abi::kColorRgba16f,
             .pixels_per_invocation = pixels,
             .lanes_are_views = lanes_are_views,
-            .color_is_scaled = colorIsScaled(structure.shape())});
+            .color_is_scaled = colorIsScaled(structure.shape()),
+            .rays_are_plain = raysArePlain(job, structure.stats().inv_z_max)});
 
   if (timer) timer->recordBegin(commands, "trace");
   commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),

@@ -26,9 +26,9 @@ class ViewTracer {
   explicit ViewTracer(const Device& device);
 
   // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows
-  // and the tiles; the structure is built, earlier in this submission or before. `timer` was
-  // reset in this recording; nullptr = untimed. The first band of a new combination of outputs and
-  // color storage compiles its pipeline.
+  // and the tiles; the structure's build is done. `timer` was
+  // reset in this recording; nullptr = untimed. The first band of a new variant compiles its
+  // pipeline.
   void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
                   BandRows rows, TraceSlot& slot, GpuTimer* timer);
 
@@ -41,6 +41,7 @@ class ViewTracer {
     uint32_t pixels_per_invocation;
     uint32_t lanes_are_views;
     uint32_t color_is_scaled;
+    uint32_t rays_are_plain;
 
     auto operator<=>(const Variant&) const = default;
   };

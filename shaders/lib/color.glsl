@@ -11,11 +11,13 @@
 vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format,
                uint index) {
   uvec2 bits;
-  if (!kReadByAddress) bits = texelFetch(color_texels, int(layer * count + index)).xy;
+  if (!kReadByAddress)
+    bits = texelFetch(color_texels, int(layer * count + index)).xy;
   else if (color_format == kColorRgba8)
     bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
-  else bits = Uvec2Ref(pickAddress(color, layer)).at[index];
-  if (color_format == kColorRgba8) return vec4(linearFromSrgb(unpackUnorm4x8(bits.x).rgb), 1.0);
+  else
+    bits = Uvec2Ref(pickAddress(color, layer)).at[index];
+  if (color_format == kColorRgba8) return vec4(linearFromSrgb8(bits.x), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 
@@ -25,15 +27,15 @@ const float kSubtexelSteps = 256.0;
 
 // Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around
 // the point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a
-// branch would cost as much.
+// branch would cost as much. `links`: of the facet.
 vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
-                          Extent extent, uint color_format, uint layer, ivec2 cell, vec2 point) {
+                          Extent extent, uint color_format, uint layer, ivec2 cell, uint links,
+                          vec2 point) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const vec2 share = min(abs(offset), vec2(0.5));
   const ivec2 toward = ivec2(offset.x >= 0.0 ? 1 : -1, offset.y >= 0.0 ? 1 : -1);
   const uint edge_x = toward.x > 0 ? kEdgeRight : kEdgeLeft;
   const uint edge_y = toward.y > 0 ? kEdgeBottom : kEdgeTop;
-  const uint links = loadLinks(layers, layer, extent, cell);
   const uint link_x = linkOfEdge(links, edge_x);
   const uint link_y = linkOfEdge(links, edge_y);
   // The fourth is reached through either neighbour.
@@ -63,7 +65,7 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   for (int i = 0; i < 4; ++i) {
     sum += weights[i] * loadTexel(color, tap_layers[i], count, color_format, taps[i]);
   }
-  return sum / (weights.x + weights.y + weights.z + weights.w);
+  return sum * (1.0 / (weights.x + weights.y + weights.z + weights.w));
 }
 
 // The layer of a column that continues a facet there: the surface nearest to the facet's plane, if

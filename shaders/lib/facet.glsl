@@ -5,21 +5,15 @@
 
 #include "shared/structure_abi.h"
 
-// A slope keeps a sign, 6 bits of exponent and 9 of mantissa: 10 significant bits over 2^-39 ..
-// 2^24 (1/m per px), so no scene needs a scale of its own. 0.5 px away the rounding moves a surface
-// by less than 2^-12 of its slope.
-// 2^87: exponent 0 stands for 2^-40
-const float kSlopeExponentScale = 154742504910672534362390528.0;
+// A slope keeps the upper 16 bits of its binary32: 8 significant bits of any exponent, so no scene
+// needs a scale of its own, and two of them unpack in two operations. 0.5 px away the rounding
+// moves a surface by at most 2^-10 of its slope.
+// 2^-100: smaller ones are 0, so that no rounding meets a subnormal number.
+const float kSlopeMin = 7.888609052210118e-31;
 
 uint packSlope(float slope) {
-  const uint magnitude = floatBitsToUint(abs(slope) * (1.0 / kSlopeExponentScale));
-  const uint rounded = min((magnitude + 0x2000u) >> 14, 0x7fffu);  // half away from zero
-  return (rounded < 0x200u ? 0u : rounded) | (slope < 0.0 && rounded >= 0x200u ? 0x8000u : 0u);
-}
-
-float unpackSlope(uint bits) {
-  const float magnitude = uintBitsToFloat((bits & 0x7fffu) << 14) * kSlopeExponentScale;
-  return (bits & 0x8000u) != 0u ? -magnitude : magnitude;
+  const uint rounded = (floatBitsToUint(slope) + 0x8000u) >> 16;  // half away from zero
+  return abs(slope) < kSlopeMin ? 0u : rounded;
 }
 
 uint packSlopes(vec2 slope) {
@@ -27,8 +21,11 @@ uint packSlopes(vec2 slope) {
 }
 
 vec2 unpackSlopes(uint bits) {
-  return vec2(unpackSlope(bits & 0xffffu), unpackSlope(bits >> 16));
+  return vec2(uintBitsToFloat(bits << 16), uintBitsToFloat(bits & 0xffff0000u));
 }
+
+// The signs of both slopes, to mirror a plane with one operation.
+const uvec2 kSlopeSigns = uvec2(0x8000u, 0x80000000u);
 
 // The facet's plane, `offset` px from its sample; never below the sky.
 float facetAt(float inv_z, vec2 slope, vec2 offset) {

@@ -17,33 +17,33 @@
 struct Node {
   bool is_plane;
   uint level;
-  float inv_z;   // plane: at the block's centre
-  vec2 slope;    // plane
-  float error;   // plane: no facet of the block is further away anywhere, 1/m
-  vec2 box;      // box: least and largest inv_z
+  float inv_z;  // plane: at the block's centre
+  vec2 slope;   // plane
+  float error;  // plane: no facet of the block is further away anywhere, 1/m
+  vec2 box;     // box: least and largest inv_z
 };
 
-// Errors are kept in half octaves, rounded up: 2^-28 .. 2^3.5 1/m.
-const float kSqrtTwo = 1.41421356;
+// Errors keep 5 bits of exponent and one of mantissa of their binary32, rounded up: two steps an
+// octave, 2^-28 .. 1.5 * 2^3 1/m.
+const uint kErrorShift = 22u;
+const uint kErrorFirst = 99u << 1u;  // of 2^-28
 
-uint errorExponent(float error) {
+uint errorCode(float error) {
   const uint bits = floatBitsToUint(max(error, 1e-12));
-  const float mantissa = uintBitsToFloat((bits & 0x7fffffu) | 0x3f800000u);
-  const int half_octave = mantissa <= 1.0 ? 0 : mantissa <= kSqrtTwo ? 1 : 2;
-  return uint(clamp(2 * (int(bits >> 23) - 127 + 28) + half_octave, 0, 63));
+  const int code = int((bits + (1u << kErrorShift) - 1u) >> kErrorShift) - int(kErrorFirst);
+  return uint(clamp(code, 0, 63));
 }
 
-float errorOfExponent(uint exponent) {
-  const float octave = uintBitsToFloat(((exponent >> 1) + 99u) << 23);
-  return (exponent & 1u) != 0u ? octave * kSqrtTwo : octave;
+float errorOfCode(uint code) {
+  return uintBitsToFloat((code + kErrorFirst) << kErrorShift);
 }
 
 // Larger errors cannot be stated, so such a plane must not be made.
-const float kErrorMax = 8.0 * kSqrtTwo;
+const float kErrorMax = 12.0;
 
-uvec2 packPlane(uint level, float inv_z, vec2 slope, uint error_exponent) {
+uvec2 packPlane(uint level, float inv_z, vec2 slope, uint error_code) {
   const uint center = floatBitsToUint(inv_z) & 0x7ffffe00u;
-  return uvec2(0x80000000u | center | (error_exponent << 3) | level, packSlopes(slope));
+  return uvec2(0x80000000u | center | (error_code << 3) | level, packSlopes(slope));
 }
 
 uvec2 packBox(uint level, vec2 box) {
@@ -59,7 +59,7 @@ float planeCenter(uvec2 bits) {
 }
 
 float planeError(uvec2 bits) {
-  return errorOfExponent((bits.x >> 3) & 63u);
+  return errorOfCode((bits.x >> 3) & 63u);
 }
 
 Node unpackNode(uvec2 bits) {

@@ -12,6 +12,16 @@ vec3 linearFromSrgb(vec3 srgb) {
   return mix(curve, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
+// The same of 8-bit codes, 0..255, in the low three bytes.
+vec3 linearFromSrgb8(uint rgb) {
+  const vec3 code = vec3(rgb & 255u, (rgb >> 8) & 255u, (rgb >> 16) & 255u);
+  const vec3 curve =
+      (((-2.7623575e-11 * code + 3.1752994e-08) * code + 8.6179746e-06) * code + 0.00011137325) *
+          code +
+      0.001046527;
+  return mix(curve, code * (1.0 / (12.92 * 255.0)), lessThanEqual(code, vec3(0.04045 * 255.0)));
+}
+
 vec3 srgbFromLinear(vec3 light) {
   const vec3 clipped = clamp(light, 0.0, 1.0);
   const vec3 root = sqrt(clipped);
@@ -21,6 +31,20 @@ vec3 srgbFromLinear(vec3 light) {
           root -
       0.04010249;
   return mix(curve, clipped * 12.92, lessThanEqual(clipped, vec3(0.0031308)));
+}
+
+// To 8-bit codes, rounded, with alpha 255.
+uint srgb8FromLinear(vec3 light) {
+  const vec3 clipped = clamp(light, 0.0, 1.0);
+  const vec3 root = sqrt(clipped);
+  const vec3 curve =
+      ((((131.81537 * root - 413.74127) * root + 517.73502) * root - 357.54774) * root +
+       387.04785) *
+          root -
+      9.7261349;
+  const vec3 toe = clipped * (12.92 * 255.0) + 0.5;
+  const uvec3 code = uvec3(mix(curve, toe, lessThanEqual(clipped, vec3(0.0031308))));
+  return code.x | (code.y << 8) | (code.z << 16) | 0xff000000u;
 }
 
 #endif  // VIEWLOOM_LIB_SRGB_GLSL_

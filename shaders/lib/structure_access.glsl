@@ -26,6 +26,11 @@ bool isInside(Extent extent, ivec2 pixel) {
 }
 
 uint facetIndex(Extent extent, ivec2 pixel) {
+  return levelOffset(kLevelFacets, extent.padded_area) + uint(pixel.y) * extent.padded_width +
+         uint(pixel.x);
+}
+
+uint linkIndex(Extent extent, ivec2 pixel) {
   return uint(pixel.y) * extent.padded_width + uint(pixel.x);
 }
 
@@ -41,8 +46,10 @@ uvec2 loadWord(Address layers[kLayerCountMax], uint layer, Extent extent, uint i
 }
 
 void storeWord(Address layers[kLayerCountMax], uint layer, Extent extent, uint index, uvec2 word) {
-  if (kWriteByAddress) Uvec2Ref(pickAddress(layers, layer)).at[index] = word;
-  else structure_out[layer * extent.layer_words + index] = word;
+  if (kWriteByAddress)
+    Uvec2Ref(pickAddress(layers, layer)).at[index] = word;
+  else
+    structure_out[layer * extent.layer_words + index] = word;
 }
 
 uvec2 loadFacet(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
@@ -71,7 +78,7 @@ float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
 }
 
 uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
-  const uint index = facetIndex(extent, pixel);
+  const uint index = linkIndex(extent, pixel);
   const uvec2 four = loadWord(layers, layer, extent, cellCount(extent.padded_area) + index / 4u);
   const uint two = (index & 2u) != 0u ? four.y : four.x;
   return (index & 1u) != 0u ? two >> 16 : two & 0xffffu;
@@ -79,9 +86,11 @@ uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 
 
 void storeLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel,
                 uint links) {
-  const uint index = cellCount(extent.padded_area) * 4u + facetIndex(extent, pixel);
-  if (kWriteByAddress) Uint16Ref(pickAddress(layers, layer)).at[index] = uint16_t(links);
-  else links_out[layer * extent.layer_words * 4u + index] = uint16_t(links);
+  const uint index = cellCount(extent.padded_area) * 4u + linkIndex(extent, pixel);
+  if (kWriteByAddress)
+    Uint16Ref(pickAddress(layers, layer)).at[index] = uint16_t(links);
+  else
+    links_out[layer * extent.layer_words * 4u + index] = uint16_t(links);
 }
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.

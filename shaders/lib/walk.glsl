@@ -6,9 +6,12 @@
 // only where the ray first passed behind layer l, and followed only to the hit known so far. Cells
 // are integers and move only along the ray, so every walk ends; there is no limit of steps.
 //
-// Two loops: the inner one steps from cell to cell, one load a visit; what is rare (an edge that
-// may be linked, the end of a layer) stops it and is dealt with by the outer one. On devices that
-// mask instead of branching, rare code inside the inner loop would cost every visit.
+// Rays are mirrored so that they go up along x and y: cell c of the image is cell ~c = -1 - c of
+// the mirrored one, and whole blocks stay whole blocks. Only addresses and slopes need the mirror
+// undone.
+//
+// Two loops: the inner one steps from cell to cell, one load a visit and no branch; what is rare
+// (an edge that may be linked, the end of a layer) stops it and is dealt with by the outer one.
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
@@ -28,7 +31,8 @@ const uint kStateUnknown = 0xffu;
 const float kRounding = 16.0 / 8388608.0;
 
 struct WalkStart {
-  Place place;
+  float t;
+  ivec2 cell;
   uint behind_count;
 };
 
@@ -37,7 +41,7 @@ struct Walk {
   bool is_assumed;    // was behind known surface before the hit
   bool ends_behind;   // no hit, and behind known surface at the end
   bool leaves;        // the ray's end is not at inv_z = 0
-  float t;            // of the hit; 1 without
+  float t;            // of the hit; the ray's end without
   ivec2 cell;         // of the hit; the last column without
   uint layer;         // of the hit
   bool has_far_side;  // passed behind a silhouette: the column in front of it, and the layer there
@@ -47,204 +51,201 @@ struct Walk {
 };
 
 Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
-  const ivec2 direction = ivec2(ray.extent.x >= 0.0 ? 1 : -1, ray.extent.y >= 0.0 ? 1 : -1);
-  const ivec2 forward = max(direction, ivec2(0));
-  // Along an axis that the ray does not move on, edges are out of reach.
-  const vec2 inverse_extent = vec2(direction) / max(abs(ray.extent.xy), vec2(1e-30));
-  const uint area = scene.extent.padded_area;
+  const bvec2 goes_back = lessThan(ray.extent.xy, vec2(0.0));
+  const ivec2 flip = mix(ivec2(0), ivec2(-1), goes_back);
+  const uint slope_flip = (goes_back.x ? kSlopeSigns.x : 0u) | (goes_back.y ? kSlopeSigns.y : 0u);
+  const vec2 start_px = mix(ray.start.xy, -ray.start.xy, goes_back);
+  const vec2 extent_px = abs(ray.extent.xy);
+  const ivec2 last_cell = (scene.extent.size_px - 1) | flip;
+  const ivec2 direction = 1 | flip;
 
   Walk result;
   result.is_hit = false;
   result.ends_behind = false;
-  result.t = 1.0;
-  result.cell = start.place.cell;
+  result.leaves = !ray.is_endless;
+  result.t = ray.t_end;
+  result.cell = start.cell;
   result.layer = 0u;
   result.has_far_side = false;
-  result.far_cell = start.place.cell;
+  result.far_cell = start.cell;
   result.far_layer = 0u;
   result.visits = 0u;
 
   uint layer = 0u;
-  Place at = start.place;
-  bool state_unknown = start.behind_count == kStateUnknown;
-  bool in_front = start.behind_count == 0u;
   // The cell a walk restarts in: the surfaces that it starts behind stay behind it.
-  bool just_left = !state_unknown && start.behind_count > 0u;
+  bool just_left = start.behind_count != kStateUnknown && start.behind_count > 0u;
+  Place at = Place(start.t, start.cell ^ flip, kAxisNone);
+  // A ray in its first column counts as in front until it is seen not to be.
+  bool in_front = !just_left;
   uint level = just_left ? kLevelFacets : kLevelEntries;
-  bool from_forward_link = false;
   // Where the ray first passed behind this layer.
   bool has_passed = just_left;
-  bool passed_at_start = true;
-  Place passed = start.place;
-  float first_passed_t = just_left ? start.place.t : 2.0;
-  ivec2 hit_origin = ivec2(0);
-  int hit_size = 1;
-  float hit_t = 1.0;
+  Place passed = at;
+  bool passed_surface = false;  // and in front of it was a surface of the layer
+  float first_passed_t = just_left ? start.t : 2.0;
+  // Of the last visit: its level, where the ray left it, how far in front it was there and before.
+  uint own_level = 0u;
+  float end_t = 0.0;
+  float front_from = 0.0;
+  float front_to = 0.0;
 
   for (;;) {
-    uint event = from_forward_link ? kComesForward : kStepOn;
-    while (event == kStepOn) {
+    if (isNever(scene, 1u)) break;
+    uint event = kEnds;
+    for (;;) {
+      if (isNever(scene, 2u)) break;
       ++result.visits;
       const uint shift = level == kLevelEntries ? kLevelFirst : level;
-      const uvec2 block = uvec2(at.cell) >> shift;
-      const uint index =
-          levelOffset(level, area) + block.y * (scene.extent.padded_width >> shift) + block.x;
+      const uvec2 block = uvec2(at.cell ^ flip) >> shift;
+      const uint index = cellIndex(scene.extent, level, block);
       const uvec2 bits = loadWord(scene.layers, layer, scene.extent, index);
       const bool is_facet = level == kLevelFacets;
       const bool is_plane = is_facet ? bits.x != kNoFacet : isPlane(bits);
-      const uint own_level = is_facet ? 0u : bits.x & 7u;
+      own_level = is_facet ? 0u : bits.x & 7u;
 
       // The stretch of the ray inside.
       const int size_px = 1 << own_level;
-      const ivec2 origin = at.cell & ivec2(-size_px);
-      const vec2 exit_t = (vec2(origin + forward * size_px) - ray.start.xy) * inverse_extent;
-      const float exit_at = max(min(exit_t.x, exit_t.y), at.t);
+      const ivec2 end_cell = at.cell | (size_px - 1);
+      const vec2 edge = vec2(end_cell + 1);
+      const vec2 exit_t = (edge - start_px) * ray.pace;
+      const bool cross_x = exit_t.x <= exit_t.y;
+      const float exit_at = max(cross_x ? exit_t.x : exit_t.y, at.t);
       const bool is_last = exit_at >= result.t;
-      const float end_t = min(exit_at, result.t);
-      const vec3 from = ray.start + at.t * ray.extent;
-      const vec3 to = ray.start + end_t * ray.extent;
+      end_t = is_last ? result.t : exit_at;
+      const vec2 from = start_px + at.t * extent_px;
+      const vec2 to = start_px + end_t * extent_px;
+      const float from_inv_z = ray.start.z + at.t * ray.extent.z;
+      const float to_inv_z = ray.start.z + end_t * ray.extent.z;
 
       // How far in front of the plane, or of the box: only the signs count for a box.
-      vec2 center = vec2(origin) + 0.5 * float(size_px);
+      vec2 center = edge - 0.5 * float(size_px);
       if (hasFault(kFaultPlaneOff)) center.x += 1.0;
       const float inv_z = uintBitsToFloat(bits.x & (is_facet ? 0x7fffffffu : 0x7ffffe00u));
-      const vec2 slope = unpackSlopes(bits.y);
+      const vec2 slope = unpackSlopes(bits.y ^ slope_flip);
       const float error = is_facet ? 0.0 : planeError(bits);
       // Without the bound at the sky, so that the distance stays linear along the ray: above it
       // both have the same sign, and whoever arrives at the sky arrives at the surface.
-      const float plane_from = from.z - inv_z - dot(slope, from.xy - center);
-      const float above_to = to.z - inv_z - dot(slope, to.xy - center);
-      const float plane_to = to.z <= 0.0 ? min(above_to, 0.0) : above_to;
+      const float plane_from = from_inv_z - inv_z - dot(slope, from - center);
+      const float above_to = to_inv_z - inv_z - dot(slope, to - center);
+      const float plane_to = to_inv_z <= 0.0 && above_to > 0.0 ? 0.0 : above_to;
       // Where the picture shows the error largest, it also has to be within the tolerance.
-      const float nearness = min(abs(1.0 - from.z * eye_z), abs(1.0 - to.z * eye_z));
+      const float nearness = min(abs(1.0 - from_inv_z * eye_z), abs(1.0 - to_inv_z * eye_z));
       const bool is_accepted =
           hasFault(kFaultErrorIgnored) || error <= inv_z_tolerance * nearness * nearness;
       // Planes are solved for rays that come closer. Who moves away meets nothing but the roughness
       // that a plane leaves out, and comes out where the facets say so. They also say who is behind
       // one at its edge where its error leaves a doubt.
-      const bool is_decided =
-          in_front || plane_from <= -error || plane_from > (state_unknown ? 0.0 : error);
+      const bool knows_side = (in_front && at.axis != kAxisNone) || plane_from <= -error ||
+                              plane_from > (in_front ? 0.0 : error);
       const bool is_exact =
-          is_plane && is_accepted && (is_facet || (above_to <= plane_from && is_decided));
+          is_plane && is_accepted && (is_facet || (above_to <= plane_from && knows_side));
       const float box_low = is_facet ? 0.0 : uintBitsToFloat(bits.x & 0x7ffffff8u);
       const float box_high = is_facet ? kNoSurface : uintBitsToFloat(bits.y);
-      const bool all_front =
-          is_plane ? min(plane_from, plane_to) > error : min(from.z, to.z) > box_high;
-      const bool all_behind =
-          is_plane ? max(plane_from, plane_to) < -error : max(from.z, to.z) < box_low;
-      if (!(is_exact || all_front || all_behind)) {
-        // A box was reached from its entry, the largest plane there is; a plane has planes below
-        // it.
-        level = own_level <= kLevelFirst ? kLevelFacets : is_plane ? own_level - 1u : kLevelEntries;
-        continue;
-      }
-      float front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
-      const float front_to = is_exact ? plane_to : front_from;
+      const bool all_front = is_plane ? plane_from > error && plane_to > error
+                                      : from_inv_z > box_high && to_inv_z > box_high;
+      const bool all_behind = is_plane ? plane_from < -error && plane_to < -error
+                                       : from_inv_z < box_low && to_inv_z < box_low;
+      const bool is_decided = is_exact || all_front || all_behind;
+      front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
+      front_to = is_exact ? plane_to : front_from;
       // Out from behind a plane that falls below the sky before the ray ends there.
-      const bool comes_out_over_sky =
-          is_exact && !just_left && to.z <= 0.0 && above_to > error;
+      const bool comes_out_over_sky = is_exact && !just_left && to_inv_z <= 0.0 && above_to > error;
       front_from = just_left ? min(front_from, 0.0) : front_from;
-      if (hasFault(kFaultEntryInFront) && state_unknown) front_from = max(front_from, 1e-9);
+      just_left = just_left && !is_decided;
+      if (hasFault(kFaultEntryInFront) && at.axis == kAxisNone) front_from = max(front_from, 1e-9);
 
       // How far apart linked facets are is bounded at the middle of their edge only, so whoever
       // passes to behind must look at the links.
-      if (in_front && front_from <= 0.0) {
-        event = kMeetsEdge;
-        continue;
-      }
-      if (state_unknown && front_from <= 0.0) {
-        has_passed = true;
-        passed = at;
-      }
-      in_front = front_from > 0.0;
-      state_unknown = false;
-      just_left = false;
-      if ((in_front || comes_out_over_sky) && front_to <= 0.0) {
-        event = kHits;
-        const float share = in_front ? front_from / (front_from - front_to) : 1.0;
-        hit_t = at.t + (end_t - at.t) * share;
-        hit_origin = origin;
-        hit_size = size_px;
-        continue;
-      }
+      const bool meets_edge = is_decided && in_front && front_from <= 0.0;
+      const bool passes = is_decided && !meets_edge;
+      const bool hits = passes && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
       // Who comes out by less than rounding might meet the next facet as a step up.
-      in_front = front_to > (front_from > 0.0 ? 0.0 : kRounding * max(from.z, to.z));
+      const float least_front = front_from > 0.0 ? 0.0 : kRounding * max(from_inv_z, to_inv_z);
+      in_front = passes ? front_to > least_front : in_front;
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
-      const bool cross_x = exit_t.x <= exit_t.y;
-      ivec2 next = clamp(ivec2(floor(to.xy)), origin, origin + size_px - 1);
-      next = direction * max(direction * next, direction * at.cell);
-      const ivec2 beyond = origin + forward * (size_px + 1) - 1;
-      next = cross_x ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y);
-      if (is_last || !isInside(scene.extent, next)) {
-        event = kEnds;
-        continue;
-      }
+      const ivec2 inside = clamp(ivec2(floor(to)), at.cell, end_cell);
+      const ivec2 next = mix(inside, end_cell + 1, bvec2(cross_x, !cross_x));
+      const bool ends = is_last || any(greaterThan(next, last_cell));
+      const bool steps = passes && !hits && !ends;
+      const bool leads_forward =
+          is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
+      event = meets_edge      ? kMeetsEdge
+              : hits          ? kHits
+              : !passes       ? kStepOn
+              : ends          ? kEnds
+              : leads_forward ? kComesForward
+                              : kStepOn;
       const bool same_block = all(equal(at.cell >> int(kLevelFirst), next >> int(kLevelFirst)));
-      level = is_facet ? (same_block ? kLevelFacets : kLevelEntries)
-                       : (is_plane ? kLevelEntries : min(own_level + 1u, kLevelLast));
-      if (hasFault(kFaultNeverClimbs) && is_facet) level = kLevelFacets;
-      from_forward_link = is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
-      event = from_forward_link ? kComesForward : kStepOn;
-      at = Place(end_t, next, cross_x ? kAxisX : kAxisY);
+      const bool stays_low = hasFault(kFaultNeverClimbs) || same_block;
+      const uint up = is_facet   ? (stays_low ? kLevelFacets : kLevelEntries)
+                      : is_plane ? kLevelEntries
+                                 : min(own_level + 1u, kLevelLast);
+      // A box was reached from its entry, the largest plane there is; a plane has planes below it.
+      const uint down = own_level <= kLevelFirst ? kLevelFacets
+                        : is_plane               ? own_level - 1u
+                                                 : kLevelEntries;
+      level = is_decided ? (steps ? up : level) : down;
+      at.t = steps ? end_t : at.t;
+      at.cell = mix(at.cell, next, bvec2(steps));
+      at.axis = steps ? (cross_x ? kAxisX : kAxisY) : at.axis;
+      if (event != kStepOn) break;
     }
 
     // An edge: hit, or passed, and on from the same cell.
-    from_forward_link = false;
-    if (event == kMeetsEdge || event == kComesForward) {
-      const vec3 point = ray.start + at.t * ray.extent;
-      const float nearness = 1.0 - point.z * eye_z;
-      const float tolerance = inv_z_tolerance * nearness * nearness;
-      const uint edge_hit =
-          edgeHit(scene, event, layer, at, direction, point, ray.extent, tolerance);
-      if (edge_hit == 0u) {
-        if (event == kMeetsEdge) {
-          if (!has_passed) passed = at;
-          passed_at_start = has_passed && passed_at_start;
-          has_passed = true;
-          in_front = false;
-        }
-        continue;
+    const vec3 point = ray.start + at.t * ray.extent;
+    const float nearness = 1.0 - point.z * eye_z;
+    const Crossing crossing =
+        meetEdge(scene, event, layer, Place(at.t, at.cell ^ flip, at.axis), direction, point,
+                 ray.extent, inv_z_tolerance * nearness * nearness);
+    const bool hits_edge = crossing.hit_layer != kNoLayer;
+    bool goes_on = (event == kMeetsEdge || event == kComesForward) && !hits_edge;
+    if (event == kMeetsEdge && !hits_edge) {
+      if (!has_passed) {
+        passed = at;
+        passed_surface = crossing.is_silhouette;
       }
+      has_passed = true;
+      in_front = false;
+    }
+    if (event == kHits || hits_edge) {
+      const ivec2 end_cell = at.cell | int((1u << own_level) - 1u);
+      const float share = front_from > 0.0 ? front_from / (front_from - front_to) : 1.0;
+      const float hit_t = at.t + (end_t - at.t) * share;
+      const ivec2 cell = ivec2(floor(start_px + hit_t * extent_px));
+      const ivec2 inside = clamp(cell, at.cell, min(end_cell, last_cell));
       result.is_hit = true;
-      result.t = at.t;
-      result.cell = at.cell;
-      result.layer = edge_hit - 1u;
-    } else if (event == kHits) {
-      result.is_hit = true;
-      result.t = hit_t;
-      const ivec2 cell = ivec2(floor((ray.start + hit_t * ray.extent).xy));
-      result.cell =
-          min(clamp(cell, hit_origin, hit_origin + hit_size - 1), scene.extent.size_px - 1);
-      result.layer = layer;
-    } else if (layer == 0u) {
+      result.t = hits_edge ? at.t : hit_t;
+      result.cell = (hits_edge ? at.cell : inside) ^ flip;
+      result.layer = hits_edge ? crossing.hit_layer : layer;
+    }
+    if (event == kEnds && layer == 0u) {
       result.ends_behind = !in_front;
-      result.cell = at.cell;
+      result.cell = at.cell ^ flip;
     }
 
     // This layer is done; the next begins where the ray passed behind it.
-    if (layer == 0u && has_passed) first_passed_t = passed.t;
-    // The far side that lies furthest back is the best one, where there is a surface at all.
-    const ivec2 far_cell =
-        passed.cell - (has_passed ? stepOfAxis(passed.axis, direction) : ivec2(0));
-    const uvec2 far_facet = loadFacet(scene.layers, layer, scene.extent, far_cell);
-    if (has_passed && !passed_at_start && far_facet.x != kNoFacet) {
-      result.has_far_side = true;
-      result.far_cell = far_cell;
-      result.far_layer = layer;
+    if (!goes_on && has_passed) {
+      if (layer == 0u) first_passed_t = passed.t;
+      // The far side that lies furthest back is the best one, where there is a surface at all.
+      if (passed_surface) {
+        result.has_far_side = true;
+        result.far_cell = (passed.cell ^ flip) - stepOfAxis(passed.axis, direction);
+        result.far_layer = layer;
+      }
+      goes_on = layer + 1u < scene.layer_count && !hasFault(kFaultLayerDropped);
+      ++layer;
+      at = passed;
+      just_left = passed.axis == kAxisNone && start.behind_count != kStateUnknown &&
+                  layer < start.behind_count;
+      in_front = !just_left;
+      level = just_left ? kLevelFacets : kLevelEntries;
+      has_passed = just_left;
+      passed_surface = false;
     }
-    if (!has_passed || layer + 1u >= scene.layer_count || hasFault(kFaultLayerDropped)) break;
-    ++layer;
-    at = passed;
-    state_unknown = passed_at_start && start.behind_count == kStateUnknown;
-    just_left = passed_at_start && !state_unknown && layer < start.behind_count;
-    in_front = !state_unknown && !just_left;
-    level = just_left ? kLevelFacets : kLevelEntries;
-    has_passed = just_left;
-    passed_at_start = true;
+    if (!goes_on) break;
   }
   result.is_assumed = result.is_hit && first_passed_t < result.t;
-  result.leaves = !ray.is_endless;
   return result;
 }
 

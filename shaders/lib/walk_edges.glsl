@@ -12,9 +12,17 @@ struct Scene {
   Address layers[kLayerCountMax];
   uint layer_count;
   Extent extent;
-  float inv_z_near;  // nothing is nearer, 1/m
-  vec2 kappa;        // connection tolerance: absolute (1/m), relative
+  float inv_z_near;   // nothing is nearer, 1/m
+  vec2 kappa;         // connection tolerance: absolute (1/m), relative
+  vec3 background;    // linear light
+  bool fills_border;  // else what leaves the image takes the background
 };
+
+// False, which no compiler knows; differs by `loop`, so that none knows it from the loop around.
+// The head of every loop that lanes leave at its end one after the other: shaders/README.md, Loops.
+bool isNever(Scene scene, uint loop) {
+  return scene.layer_count == kLayerCountMax + 1u + loop;
+}
 
 const uint kAxisNone = 0u;  // in the ray's first column
 const uint kAxisX = 1u;
@@ -46,46 +54,51 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
-// How far the ray stands in front of a facet at a point of the facet's edge (x), and how far off
-// that may be in favour of a hit (y): who comes closer is undecided where the walk of that layer
-// may have taken a plane for the facet, by the error of the largest plane there or the tolerance.
-vec2 inFrontOfFacet(Scene scene, uint layer, ivec2 cell, vec3 point, vec3 extent,
-                    float tolerance) {
-  const uvec2 facet = loadFacet(scene.layers, layer, scene.extent, cell);
-  const float front = point.z - facetAtPoint(facet, cell, point.xy);
-  const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
-  const uvec2 entry =
-      loadCell(scene.layers, layer, scene.extent, kLevelEntries, uvec2(cell) >> kLevelFirst);
-  const bool is_undecided = comes_closer && isPlane(entry);
-  return vec2(front, is_undecided ? min(tolerance, planeError(entry)) : 0.0);
-}
+// What a ray meets on the edge it has just crossed.
+struct Crossing {
+  uint hit_layer;      // whose surface it hits; kNoLayer
+  bool is_silhouette;  // passes behind `layer` without a link, from over a surface of that layer
+};
 
-// 1 + the layer whose surface the ray meets on the edge it has just crossed; 0 = none.
+const uint kNoLayer = kLayerCountMax;
+
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface
 // it was in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind
-// what one of them is linked to. Whoever is undecided and comes closer hits. `tolerance`, 1/m: the
-// largest error of a plane that a walk takes here.
-uint edgeHit(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point,
-             vec3 extent, float tolerance) {
-  if (at.axis == kAxisNone || hasFault(kFaultLinks)) return 0u;
+// what one of them is linked to. Who comes closer is undecided where the walk of the other layer
+// may have taken a plane for the facet, by the error of the largest plane there or the `tolerance`,
+// 1/m, and hits.
+Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point,
+                  vec3 extent, float tolerance) {
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
   const bool leaving = event == kComesForward;
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
-  if (!leaving) {
-    if (hasFault(kFaultBehindIsHit)) return layer + 1u;
-    const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, at.cell), edge);
-    if (link == 0u) return 0u;
-    if (link - 1u >= layer) return layer + 1u;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, before, point, extent, tolerance);
-    return front.x > -front.y ? layer + 1u : 0u;
+  const ivec2 from_cell = leaving ? before : at.cell;
+  const ivec2 to_cell = leaving ? at.cell : before;
+  Crossing result = Crossing(kNoLayer, false);
+  uint from = layer;
+  for (;;) {
+    if (isNever(scene, 3u)) break;
+    const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, from_cell), edge);
+    const bool is_linked = link > 0u && !hasFault(kFaultLinks);
+    const bool leads_forward = is_linked && link - 1u < layer;
+    const uint to_layer = is_linked ? link - 1u : layer;
+    const uvec2 facet = loadFacet(scene.layers, to_layer, scene.extent, to_cell);
+    const float front = point.z - facetAtPoint(facet, to_cell, point.xy);
+    const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
+    const uvec2 entry = loadCell(scene.layers, to_layer, scene.extent, kLevelEntries,
+                                 uvec2(to_cell) >> kLevelFirst);
+    const float slack = comes_closer && isPlane(entry) ? min(tolerance, planeError(entry)) : 0.0;
+    if (leaving) {
+      if (leads_forward && front <= slack) result.hit_layer = to_layer;
+      ++from;
+    } else if (event == kMeetsEdge && at.axis != kAxisNone) {
+      const bool is_hit = is_linked && (!leads_forward || front > -slack);
+      if (is_hit || hasFault(kFaultBehindIsHit)) result.hit_layer = layer;
+      result.is_silhouette = !is_linked && facet.x != kNoFacet;
+    }
+    if (!leaving || result.hit_layer != kNoLayer || from == scene.layer_count) break;
   }
-  for (uint from = layer; from < scene.layer_count; ++from) {
-    const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, before), edge);
-    if (link == 0u || link - 1u >= layer) continue;
-    const vec2 front = inFrontOfFacet(scene, link - 1u, at.cell, point, extent, tolerance);
-    if (front.x <= front.y) return link;
-  }
-  return 0u;
+  return result;
 }
 
 #endif  // VIEWLOOM_LIB_WALK_EDGES_GLSL_

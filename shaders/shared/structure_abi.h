@@ -14,11 +14,10 @@ VIEWLOOM_ABI_BEGIN
 VIEWLOOM_ABI_CONST uint kLayerCountMax = 4u;
 
 // A layer of a structure is one array of cells (uvec2), level after level, then the links:
+//   nodes    levels 6..2: a node of level n covers 2^n x 2^n px
+//   entries  one per 4x4 px: where a walk enters it. They stand for level 1, which is not kept: a
+//            walk that cannot use a 4x4 node goes straight to the facets.
 //   facets   level 0, one per px
-//   entries  one per 4x4 px: where a walk enters it
-//   nodes    levels 2..6: a node of level n covers 2^n x 2^n px. Level 1 is not kept: a walk that
-//   cannot
-//            use a 4x4 node goes straight to the facets.
 //   links    uint16 per px, in the order of the facets
 // Both sides of the image are rounded up to whole nodes of the last level, so every level is
 // exactly a quarter of the one below it and no table of offsets is needed. What lies outside the
@@ -28,26 +27,26 @@ VIEWLOOM_ABI_CONST uint kLevelEntries = 1u;
 VIEWLOOM_ABI_CONST uint kLevelFirst = 2u;
 VIEWLOOM_ABI_CONST uint kLevelLast = 6u;
 
-// Where the cells of a level begin, for sides already rounded up; area = width * height.
-// Nodes of levels 3, 4, 5 come after 64, 16, 4 times the count of the last level: bytes of a
-// constant.
+// Where the cells of a level begin, for sides already rounded up; area = width * height. The last
+// level comes first. In units of its cell count n: levels 6, 5, 4, 3, 2 begin at 0, 1, 5, 21, 85,
+// which are the leading bits of 0b10101010101; the entries at 341 by the same rule; the facets at
+// 597.
 #ifdef __cplusplus
 inline constexpr
 #endif
-uint levelOffset(uint level, uint padded_area) {
-  if (level == kLevelFacets) return 0u;
-  if (level == kLevelEntries) return padded_area;
-  if (level == kLevelFirst) return padded_area + padded_area / 16u;
-  const uint before = (0x54504000u >> (8u * (level - 3u))) & 255u;
-  return padded_area + padded_area / 8u + before * (padded_area / 4096u);
+    uint
+    levelOffset(uint level, uint padded_area) {
+  const uint before = level == kLevelFacets ? 597u : 0x555u >> (2u * level);
+  return before * (padded_area / 4096u);
 }
 
 // Cells of all levels of a layer: the links begin behind them.
 #ifdef __cplusplus
 inline constexpr
 #endif
-uint cellCount(uint padded_area) {
-  return levelOffset(kLevelLast, padded_area) + padded_area / 4096u;
+    uint
+    cellCount(uint padded_area) {
+  return levelOffset(kLevelFacets, padded_area) + padded_area;
 }
 
 // 8-byte words of a layer: cells, then links. Layer k of an undivided structure begins at k times
@@ -55,7 +54,8 @@ uint cellCount(uint padded_area) {
 #ifdef __cplusplus
 inline constexpr
 #endif
-uint layerWords(uint padded_area) {
+    uint
+    layerWords(uint padded_area) {
   return cellCount(padded_area) + padded_area / 4u;
 }
 
@@ -69,10 +69,10 @@ VIEWLOOM_ABI_CONST uint kBindingInvZOut = 4u;       // storage, written: inv_z o
 VIEWLOOM_ABI_CONST uint kBindingStructureOut = 5u;  // storage, written: the cells of all layers
 // Storage, written: the same buffer as 16-bit words
 VIEWLOOM_ABI_CONST uint kBindingLinksOut = 6u;
-VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;      // uniform: MeasuredHead
-VIEWLOOM_ABI_CONST uint kBindingViews = 8u;         // storage, read: ViewParams per tile
-VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;        // uniform: TraceExtras
-VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint per px
+VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;  // uniform: MeasuredHead
+VIEWLOOM_ABI_CONST uint kBindingViews = 8u;     // storage, read: ViewParams per tile
+VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;    // uniform: TraceExtras
+VIEWLOOM_ABI_CONST uint kBindingBand = 10u;     // storage, written: uint per px
 
 // Specialisation constants that every kernel has, before its own.
 // 0: reads go by address: the structure is larger than a texel binding, and divided by layer.
@@ -95,6 +95,8 @@ VIEWLOOM_ABI_CONST uint kEdgeRight = 1u;
 VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
 VIEWLOOM_ABI_CONST uint kEdgeBottom = 3u;
 VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
+// Set in the link word of every facet that exists.
+VIEWLOOM_ABI_CONST uint kFacetExists = 0x1000u;
 
 // Group sizes of the build kernels: one invocation per px, and per node.
 VIEWLOOM_ABI_CONST uint kBuildGroupWidth = 32u;
@@ -158,8 +160,8 @@ struct MeasuredHead {
   float noise_sigma;    // 1/m
   float kappa_abs;      // 1/m
   float kappa_rel;
-  float inv_z_far;      // 2nd percentile of layer 0, 1/m
-  float inv_z_near;     // 98th percentile of layer 0, 1/m
+  float inv_z_far;   // 2nd percentile of layer 0, 1/m
+  float inv_z_near;  // 98th percentile of layer 0, 1/m
 };
 
 struct Measured {

@@ -23,6 +23,15 @@ struct ViewParams {
   uint is_used;  // 0: no view stands here
 };
 
+// Rays start a little in front of the largest inv_z of the source (of layer 0); never at 0, it is a
+// divisor.
+VIEWLOOM_ABI_CONST float kInvZNearMin = 1e-12f;  // 1/m
+VIEWLOOM_ABI_CONST float kInvZNearMargin = 1.0001f;
+
+// A plain ray runs from the near bound, in front of its eye, to infinity. It is no longer than this
+// in px, so that positions along it keep 1/256 px with a few roundings of binary32.
+VIEWLOOM_ABI_CONST float kPlainExtentMax_px = 16384.0f;
+
 // Values of the mask plane, as proto RayClass.
 VIEWLOOM_ABI_CONST uint kClassPadding = 0u;
 VIEWLOOM_ABI_CONST uint kClassHit = 1u;
@@ -34,7 +43,7 @@ VIEWLOOM_ABI_CONST uint kClassCount = 6u;
 
 // The full answer to a ray, for tests, statistics and the heat map.
 struct RayRecord {
-  float x_px;      // of the hit, in the source
+  float x_px;  // of the hit, in the source
   float y_px;
   float inv_z;     // of the hit, in the source; 1/m
   uint ray_class;  // kClass...
@@ -64,11 +73,11 @@ struct TracePush {
   uint source_size_px;             // width | height << 16
   uint layer_count;
   uint atlas_width_px;
-  uint first_row;                  // of the band, in the atlas
-  uint tile_size_px;               // width | height << 16
-  uint tile_grid;                  // columns | rows << 16
+  uint first_row;     // of the band, in the atlas
+  uint tile_size_px;  // width | height << 16
+  uint tile_grid;     // columns | rows << 16
   uint padding_top_px;
-  uint fill;                       // background 0xRRGGBB, and kFillBorder
+  uint fill;  // background 0xRRGGBB, and kFillBorder
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left

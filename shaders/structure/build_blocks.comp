@@ -9,7 +9,9 @@
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(push_constant, scalar) uniform Push { BuildPush push; };
+layout(push_constant, scalar) uniform Push {
+  BuildPush push;
+};
 
 const int kBlockSize = 4;
 
@@ -55,11 +57,11 @@ uvec2 planeOrBox(PlaneFit fit, vec2 box, float inv_z_min, ivec2 covered) {
   // A few roundings of the sums above, of numbers no larger than the box.
   error += box.y * (8.0 / 8388608.0);
   if (hasFault(kFaultErrorUnderstated)) error *= 0.25;
-  const uint exponent = errorExponent(error);
+  const uint code = errorCode(error);
   const float kappa =
       connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, inv_z_min);
-  if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
-    return packPlane(kLevelFirst, center, slope, exponent);
+  if (fitted_center >= 0.0 && error <= kErrorMax && errorOfCode(code) <= 0.5 * kappa) {
+    return packPlane(kLevelFirst, center, slope, code);
   }
   return packBox(kLevelFirst, box);
 }
@@ -109,7 +111,7 @@ void main() {
   }
 
   const bool may_be_plane = !has_hole && !has_forward_link;
-  const uvec2 node = may_be_plane ? planeOrBox(fit, box, inv_z_min, covered)
-                                  : packBox(kLevelFirst, box);
+  const uvec2 node =
+      may_be_plane ? planeOrBox(fit, box, inv_z_min, covered) : packBox(kLevelFirst, box);
   storeCell(push.layers, layer, extent, kLevelFirst, cell, node);
 }

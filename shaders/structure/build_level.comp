@@ -9,7 +9,9 @@
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(push_constant, scalar) uniform Push { BuildPush push; };
+layout(push_constant, scalar) uniform Push {
+  BuildPush push;
+};
 
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
@@ -54,11 +56,11 @@ void main() {
       error = max(error, children[i].error + apart + 0.5 * child_size * (lean.x + lean.y));
     }
     error += box.y * (8.0 / 8388608.0);
-    const uint exponent = errorExponent(error);
+    const uint code = errorCode(error);
     const float kappa =
         connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, box.x);
-    if (fitted_center >= 0.0 && error <= kErrorMax && errorOfExponent(exponent) <= 0.5 * kappa) {
-      node = packPlane(push.level, center, slope, exponent);
+    if (fitted_center >= 0.0 && error <= kErrorMax && errorOfCode(code) <= 0.5 * kappa) {
+      node = packPlane(push.level, center, slope, code);
     }
   }
   storeCell(push.layers, layer, extent, push.level, cell, node);

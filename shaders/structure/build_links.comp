@@ -8,7 +8,9 @@
 
 layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
 layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
-layout(push_constant, scalar) uniform Push { BuildPush push; };
+layout(push_constant, scalar) uniform Push {
+  BuildPush push;
+};
 
 const uint kNoLayer = kLayerCountMax;
 
@@ -106,7 +108,7 @@ void main() {
                words, forward);
   }
   for (uint i = 0u; i < kLayerCount; ++i) {
-    storeLinks(push.layers, i, extent, pixel, words[i]);
+    storeLinks(push.layers, i, extent, pixel, words[i] | (here.inv_z[i] < 0.0 ? 0u : kFacetExists));
     if (((forward >> i) & 1u) != 0u) {
       const uint flagged = floatBitsToUint(here.inv_z[i]) | kForwardLinkFlag;
       storeWord(push.layers, i, extent, facetIndex(extent, pixel),

@@ -12,13 +12,8 @@ uint32_t bitsOf(uint32_t word, int first, int last) {
   return (word << (31 - last)) >> (31 - last + first);
 }
 
-// Sign, 6 bits of exponent (1 stands for 2^-39), 9 of mantissa below the hidden one.
-float readSlope(uint32_t half) {
-  const int exponent = int(bitsOf(half, 9, 14));
-  if (exponent == 0) return 0;
-  const float magnitude = std::ldexp(1.0f + float(bitsOf(half, 0, 8)) / 512.0f, exponent - 40);
-  return bitsOf(half, 15, 15) != 0 ? -magnitude : magnitude;
-}
+// The upper half of a binary32.
+float readSlope(uint32_t half) { return std::bit_cast<float>(half << 16); }
 
 }  // namespace
 
@@ -39,10 +34,9 @@ PlainNode readNode(const PackedPair& bits) {
     node.inv_z = std::bit_cast<float>(bitsOf(bits.x, 9, 30) << 9);
     node.slope_x = readSlope(bitsOf(bits.y, 0, 15));
     node.slope_y = readSlope(bitsOf(bits.y, 16, 31));
-    // Half octaves from 2^-28.
-    const int half_octaves = int(bitsOf(bits.x, 3, 8));
-    const float octave = std::ldexp(1.0f, half_octaves / 2 - 28);
-    node.error = half_octaves % 2 == 0 ? octave : octave * 1.41421356f;
+    // 1 and 1.5 times the powers of two from 2^-28.
+    const int code = int(bitsOf(bits.x, 3, 8));
+    node.error = std::ldexp(code % 2 == 0 ? 1.0f : 1.5f, code / 2 - 28);
   } else {
     node.low = std::bit_cast<float>(bitsOf(bits.x, 3, 30) << 3);
     node.high = std::bit_cast<float>(bits.y);

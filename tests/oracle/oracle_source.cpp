@@ -9,8 +9,8 @@
 namespace viewloom::oracle {
 namespace {
 
-constexpr int kSlopeSignificantBits = 10;
-constexpr int kSmallestSlopeExponent = -39;
+constexpr int kSlopeSignificantBits = 8;
+constexpr int kSmallestSlopeExponent = -100;
 
 float minmod(float a, float b) {
   if (!((a > 0 && b > 0) || (a < 0 && b < 0))) return 0;
@@ -52,7 +52,7 @@ float roundSlope(float slope) {
   const float mantissa = std::frexp(slope, &exponent);  // [0.5, 1)
   const float scaled = std::round(std::ldexp(mantissa, kSlopeSignificantBits));
   const float rounded = std::ldexp(scaled, exponent - kSlopeSignificantBits);
-  return std::abs(rounded) < std::ldexp(1.0f, kSmallestSlopeExponent) ? 0.0f : rounded;
+  return std::abs(slope) < std::ldexp(1.0f, kSmallestSlopeExponent) ? 0.0f : rounded;
 }
 
 OracleSource::OracleSource(InvZPlanes canonical_planes, Pinhole pinhole, ConnectionTolerance kappa)

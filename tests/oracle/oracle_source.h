@@ -102,7 +102,7 @@ class OracleSource {
   std::vector<Facet> facets_;
 };
 
-// Rounds to 10 significant bits, half away from zero; what is below 2^-39 becomes 0.
+// Rounds to 8 significant bits, half away from zero; what is below 2^-100 becomes 0.
 float roundSlope(float slope);
 
 }  // namespace viewloom::oracle

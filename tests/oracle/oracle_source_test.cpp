@@ -31,13 +31,13 @@ TEST(CanonicalPlanes, sortsDropsDoublesAndClosesGaps) {
             (std::vector<float>{1.0f, 0.5f, kNoSurface, kNoSurface}));
 }
 
-TEST(RoundSlope, keepsTenSignificantBits) {
-  EXPECT_EQ(roundSlope(1023.0f), 1023.0f);
-  EXPECT_EQ(roundSlope(1024.0f + 1.0f), 1026.0f);  // a tie: away from zero
-  EXPECT_EQ(roundSlope(-1025.0f), -1026.0f);
-  EXPECT_EQ(roundSlope(1024.9f), 1024.0f);
-  EXPECT_EQ(roundSlope(std::ldexp(1.0f, -39)), std::ldexp(1.0f, -39));
-  EXPECT_EQ(roundSlope(std::ldexp(1.9f, -41)), 0.0f);
+TEST(RoundSlope, keepsEightSignificantBits) {
+  EXPECT_EQ(roundSlope(255.0f), 255.0f);
+  EXPECT_EQ(roundSlope(256.0f + 1.0f), 258.0f);  // a tie: away from zero
+  EXPECT_EQ(roundSlope(-257.0f), -258.0f);
+  EXPECT_EQ(roundSlope(256.9f), 256.0f);
+  EXPECT_EQ(roundSlope(std::ldexp(1.0f, -100)), std::ldexp(1.0f, -100));
+  EXPECT_EQ(roundSlope(std::ldexp(1.9f, -101)), 0.0f);
 }
 
 TEST(OracleSource, slopesAreTheSmallerOneSidedDifference) {
