@@ -2,12 +2,10 @@
 # Every entry point, in the order in which a frame passes them.
 set(VIEWLOOM_SHADERS
   structure/convert_color.comp
-  structure/linearise_depth.comp
-  structure/sort_columns.comp
+  structure/prepare_columns.comp
   structure/measure_depth.comp
   structure/settle_tolerance.comp
   structure/build_facets.comp
-  structure/build_links.comp
   structure/build_blocks.comp
   structure/build_level.comp
   structure/flatten_entries.comp

@@ -21,19 +21,12 @@ uint32_t sampleType(PlaneEncoding encoding) {
 
 }  // namespace
 
-abi::LinearisePush describeDepth(const PlaneFormat& depth, const Intrinsics& intrinsics) {
+abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes) {
   const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
-  return {.samples = {},
-          .inv_z = {},
-          .measured = {},
-          .layer = 0,
-          .width_px = depth.size_px.width,
-          .height_px = depth.size_px.height,
-          .focal_x_px = float(intrinsics.focal_px.x),
-          .focal_y_px = float(intrinsics.focal_px.y),
-          .principal_x_px = float(intrinsics.principal_px.x),
-          .principal_y_px = float(intrinsics.principal_px.y),
-          .sample_type = sampleType(depth.encoding),
+  const uint32_t type = sampleType(depth.encoding);
+  const uint32_t sample_bytes = type == abi::kDepthSampleF32 ? 4 : 2;
+  return {.first_sample = uint32_t(offset_bytes / sample_bytes),
+          .sample_type = type,
           .origin = coefficients.origin,
           .scale = coefficients.scale,
           .offset = coefficients.offset,

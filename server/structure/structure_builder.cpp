@@ -2,6 +2,7 @@
 #include "structure/structure_builder.h"
 
 #include <algorithm>
+#include <span>
 
 #include "gpu/barrier.h"
 
@@ -44,41 +45,59 @@ std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
           slot.invZ().asTexels(abi::kBindingInvZ),
           slot.invZ().asStorage(abi::kBindingInvZOut),
           slot.structure().asStorage(abi::kBindingStructureOut),
-          slot.structure().asStorage(abi::kBindingLinksOut)};
+          slot.depthPlanesDescriptor(),
+          slot.stagingDescriptor()};
+}
+
+StructureVariant variantOf(const StructureSlot& slot) {
+  return {.reads_by_address = slot.readsByAddress(),
+          .writes_by_address = slot.writesByAddress(),
+          .layer_count = slot.shape().layerCount()};
+}
+
+PrepareVariant preparationOf(const StructureSlot& slot) {
+  const std::span planes(slot.depthPlanes().planes, slot.shape().layerCount());
+  const uint32_t first_type = planes.front().sample_type;
+  const bool is_uniform = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
+    return plane.sample_type == first_type;
+  });
+  return {.structure = variantOf(slot),
+          .sample_type = is_uniform ? first_type : abi::kDepthSampleMixed,
+          .has_ray_distance = std::any_of(planes.begin(), planes.end(), [](const auto& plane) {
+            return plane.ray_distance != 0;
+          })};
 }
 
 // One build, stage after stage.
 class Recording {
  public:
-  Recording(vk::CommandBuffer commands, const StructureSlot& slot, const StructurePasses& passes)
-      : commands_(commands), slot_(slot), passes_(passes), bindings_(describeBindings(slot)) {}
+  Recording(vk::CommandBuffer commands, const StructureSlot& slot, const StructurePasses& passes,
+            const ComputePass& preparation)
+      : commands_(commands),
+        slot_(slot),
+        passes_(passes),
+        preparation_(preparation),
+        bindings_(describeBindings(slot)) {}
 
-  void linearise();
+  void prepare();
   void measure();
-  void buildFacets() { overPixels(passes_.build_facets); }
-  void buildLinks() { overPixels(passes_.build_links); }
-  void buildBlocks() { overNodes(passes_.build_blocks, abi::kLevelFirst); }
+  void buildFacets() { overNodes(passes_.build_facets, abi::kLevelFirst, 1); }
+  void buildBlocks() { overNodes(passes_.build_blocks, abi::kLevelFirst, 1); }
   void buildLevels();
 
  private:
   // Dispatches, with what the slot binds, and lets later passes see the result.
   void dispatch(const ComputePass& pass, const abi::BuildPush& push, uint32_t groups_x,
                 uint32_t groups_y, uint32_t groups_z);
-  void overPixels(const ComputePass& pass);
-  void overNodes(const ComputePass& pass, uint32_t level);
-  SizePx pixelGroups(uint32_t px_per_invocation) const;
+  // An invocation a node; kernels that take whole columns dispatch one layer.
+  void overNodes(const ComputePass& pass, uint32_t level, uint32_t layer_count);
 
   vk::CommandBuffer commands_;
   const StructureSlot& slot_;
   const StructurePasses& passes_;
+  const ComputePass& preparation_;
   std::vector<Descriptor> bindings_;
 };
-
-SizePx Recording::pixelGroups(uint32_t px_per_invocation) const {
-  const SizePx size = slot_.shape().depth_px;
-  return {groups(groups(size.width, px_per_invocation), abi::kBuildGroupWidth),
-          groups(groups(size.height, px_per_invocation), abi::kBuildGroupHeight)};
-}
 
 void Recording::dispatch(const ComputePass& pass, const abi::BuildPush& push, uint32_t groups_x,
                          uint32_t groups_y, uint32_t groups_z) {
@@ -87,51 +106,34 @@ void Recording::dispatch(const ComputePass& pass, const abi::BuildPush& push, ui
   recordComputeBarrier(commands_);
 }
 
-void Recording::overPixels(const ComputePass& pass) {
-  const SizePx group_count = pixelGroups(1);
-  dispatch(pass, slot_.buildPush(), group_count.width, group_count.height, 1);
-}
-
-void Recording::overNodes(const ComputePass& pass, uint32_t level) {
+void Recording::overNodes(const ComputePass& pass, uint32_t level, uint32_t layer_count) {
   const SizePx size = slot_.shape().depth_px;
   const uint32_t node_px = 1u << level;
   abi::BuildPush push = slot_.buildPush();
   push.level = level;
   dispatch(pass, push, groups(groups(size.width, node_px), abi::kNodeGroupSize),
-           groups(size.height, node_px), push.layer_count);
+           groups(size.height, node_px), layer_count);
 }
 
-void Recording::linearise() {
-  const SizePx group_count = pixelGroups(1);
-  for (const abi::LinearisePush& push : slot_.linearisePushes()) {
-    const ComputePass& pass = passes_.linearise_depth[push.sample_type];
-    std::vector<Descriptor> bindings = bindings_;
-    const StagedPlane& depth = slot_.staged()[push.layer].depth;
-    // Samples reached by address may be more than a binding holds: then one stands for them.
-    bindings.push_back({.binding = abi::kBindingSamples,
-                        .kind = DescriptorKind::kStorage,
-                        .buffer = slot_.staging().handle(),
-                        .offset_bytes = depth.offset,
-                        .size_bytes = slot_.readsByAddress() ? sizeof(float) : depth.size_bytes});
-    pass.recordDescriptors(commands_, bindings);
-    pass.record(commands_, push, group_count.width, group_count.height);
-  }
-  recordComputeBarrier(commands_);
-  // One layer is sorted as it is.
-  if (slot_.shape().layerCount() > 1) overPixels(passes_.sort_columns);
+// Also the guard around the image.
+void Recording::prepare() {
+  const SizePx size = slot_.shape().depth_px;
+  const uint32_t blocks_x = abi::invZPitch(size.width) / abi::kBlockPx;
+  dispatch(preparation_, slot_.buildPush(), groups(blocks_x, abi::kNodeGroupSize),
+           groups(size.height, abi::kBlockPx) + 2, 1);
 }
 
 void Recording::measure() {
-  const SizePx group_count = pixelGroups(4);
-  dispatch(passes_.measure_depth, slot_.buildPush(), group_count.width, group_count.height, 1);
+  overNodes(passes_.measure_depth, abi::kLevelFirst, 1);
   dispatch(passes_.settle_tolerance, slot_.buildPush(), 1, 1, 1);
 }
 
 void Recording::buildLevels() {
+  const uint32_t layer_count = slot_.shape().layerCount();
   for (uint32_t level = abi::kLevelFirst + 1; level <= abi::kLevelLast; ++level) {
-    overNodes(passes_.build_level, level);
+    overNodes(passes_.build_level, level, layer_count);
   }
-  overNodes(passes_.flatten_entries, abi::kLevelFirst);
+  overNodes(passes_.flatten_entries, abi::kLevelFirst, layer_count);
 }
 
 }  // namespace
@@ -139,19 +141,24 @@ void Recording::buildLevels() {
 StructureBuilder::StructureBuilder(const Device& device)
     : device_(&device), convert_color_(makeConvertColor(device)) {}
 
-const StructurePasses& StructureBuilder::passesFor(const StructureSlot& slot) const {
-  const StructureVariant variant{.reads_by_address = slot.readsByAddress(),
-                                 .writes_by_address = slot.writesByAddress(),
-                                 .layer_count = slot.shape().layerCount()};
+const StructurePasses& StructureBuilder::passesFor(const StructureVariant& variant) const {
   std::lock_guard lock(mutex_);
   std::unique_ptr<StructurePasses>& passes = passes_[variant];
   if (!passes) passes = std::make_unique<StructurePasses>(*device_, variant);
   return *passes;
 }
 
+const ComputePass& StructureBuilder::preparationFor(const PrepareVariant& variant) const {
+  std::lock_guard lock(mutex_);
+  std::unique_ptr<ComputePass>& pass = preparations_[variant];
+  if (!pass) pass = std::make_unique<ComputePass>(makePrepareColumns(*device_, variant));
+  return *pass;
+}
+
 void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& slot,
                               GpuTimer* timer) const {
-  Recording recording(commands, slot, passesFor(slot));
+  Recording recording(commands, slot, passesFor(variantOf(slot)),
+                      preparationFor(preparationOf(slot)));
   const auto stage = [&](const char* name, auto&& record) {
     const Timed timed(commands, timer, name);
     record();
@@ -161,10 +168,9 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
     recordColor(commands, slot);
     recordTransferToCompute(commands);
   });
-  stage("linearise", [&] { recording.linearise(); });
+  stage("columns", [&] { recording.prepare(); });
   stage("measure", [&] { recording.measure(); });
   stage("facets", [&] { recording.buildFacets(); });
-  stage("links", [&] { recording.buildLinks(); });
   stage("blocks", [&] { recording.buildBlocks(); });
   stage("levels", [&] { recording.buildLevels(); });
   recordComputeToTransfer(commands);

@@ -16,7 +16,7 @@ namespace viewloom {
 inline constexpr uint32_t kStructurePassCountMax = 16;
 
 // The device must outlive it. Thread-safety: record() may be called from any thread. The first
-// recording for a layer count makes its pipelines.
+// recording of a variant makes its pipelines.
 class StructureBuilder {
  public:
   explicit StructureBuilder(const Device& device);
@@ -27,13 +27,15 @@ class StructureBuilder {
   void record(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
 
  private:
-  const StructurePasses& passesFor(const StructureSlot& slot) const;
+  const StructurePasses& passesFor(const StructureVariant& variant) const;
+  const ComputePass& preparationFor(const PrepareVariant& variant) const;
   void recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const;
 
   const Device* device_;
   ComputePass convert_color_;
-  mutable std::mutex mutex_;  // guards passes_
+  mutable std::mutex mutex_;  // guards what follows
   mutable std::map<StructureVariant, std::unique_ptr<StructurePasses>> passes_;
+  mutable std::map<PrepareVariant, std::unique_ptr<ComputePass>> preparations_;
 };
 
 }  // namespace viewloom

@@ -24,7 +24,9 @@ struct StructureLayout {
     return abi::levelOffset(level, uint32_t(padded_px.area()));
   }
   uint64_t cellCount() const { return abi::cellCount(uint32_t(padded_px.area())); }
-  uint64_t invZBytes() const { return size_px.area() * 4; }
+  uint64_t invZBytes() const {
+    return uint64_t{abi::invZArea(size_px.width, size_px.height)} * sizeof(float);
+  }
   // Cells of 8 bytes, then links of 2.
   uint64_t layerBytes() const { return cellCount() * 8 + padded_px.area() * 2; }
 };

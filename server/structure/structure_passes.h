@@ -3,9 +3,9 @@
 #pragma once
 
 #include <compare>
-#include <vector>
 
 #include "gpu/compute_pass.h"
+#include "shared/structure_abi.h"
 
 namespace viewloom {
 
@@ -20,17 +20,24 @@ struct StructureVariant {
 struct StructurePasses {
   StructurePasses(const Device& device, const StructureVariant& variant);
 
-  std::vector<ComputePass> linearise_depth;  // [abi::kDepthSample...]
-  ComputePass sort_columns;
   ComputePass measure_depth;
   ComputePass settle_tolerance;
   ComputePass build_facets;
-  ComputePass build_links;
   ComputePass build_blocks;
   ComputePass build_level;
   ComputePass flatten_entries;
 };
 
+// The first pass also differs by what the depth samples are.
+struct PrepareVariant {
+  StructureVariant structure;
+  uint32_t sample_type = abi::kDepthSampleF32;  // kDepthSample..., of all layers
+  bool has_ray_distance = false;                // some layer states distances along rays
+
+  auto operator<=>(const PrepareVariant&) const = default;
+};
+
+ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant);
 ComputePass makeConvertColor(const Device& device);
 
 }  // namespace viewloom

@@ -48,7 +48,8 @@ bool mustDivide(const Device& device, const FrameShape& shape) {
   return LayeredBuffer::mustDivide(device, colorOptions(shape)) ||
          LayeredBuffer::mustDivide(device, invZOptions(shape)) ||
          LayeredBuffer::mustDivide(device, structureOptions(shape)) ||
-         invZOptions(shape).layer_bytes > device.info().limits.storage_bytes_max;
+         invZOptions(shape).layer_bytes > device.info().limits.storage_bytes_max ||
+         shape.staged_bytes / sizeof(uint32_t) > device.info().limits.texel_count_max;
 }
 
 LayeredBufferOptions divided(LayeredBufferOptions options, bool is_divided) {
@@ -67,6 +68,10 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
       staging_(device, {.size_bytes = shape.staged_bytes,
                         .intent = MemoryIntent::kUpload,
                         .debug_name = "staged planes"}),
+      staging_texels_(is_divided ? TexelView() : TexelView(device, staging_, vk::Format::eR32Uint)),
+      depth_planes_upload_(device, {.size_bytes = sizeof(abi::DepthPlanes),
+                                    .intent = MemoryIntent::kUpload,
+                                    .debug_name = "depth planes"}),
       measured_(device, {.size_bytes = sizeof(abi::Measured), .debug_name = "measured"}),
       measured_readback_(device, {.size_bytes = sizeof(abi::MeasuredHead),
                                   .intent = MemoryIntent::kReadback,
@@ -76,7 +81,6 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
       structure_(device, divided(structureOptions(shape), is_divided)),
       writes_by_address_(!inv_z_.fitsStorage(device) || !structure_.fitsStorage(device)) {
   staged_.reserve(shape.layerCount());
-  linearise_.reserve(shape.layerCount());
   conversions_.reserve(shape.layerCount());
 }
 
@@ -90,6 +94,20 @@ Descriptor StructureSlot::measuredDescriptor() const {
           .kind = DescriptorKind::kUniform,
           .buffer = measured_.handle(),
           .size_bytes = sizeof(abi::MeasuredHead)};
+}
+
+Descriptor StructureSlot::depthPlanesDescriptor() const {
+  return {.binding = abi::kBindingDepthPlanes,
+          .kind = DescriptorKind::kUniform,
+          .buffer = depth_planes_upload_.handle(),
+          .size_bytes = sizeof(abi::DepthPlanes)};
+}
+
+Descriptor StructureSlot::stagingDescriptor() const {
+  if (staging_texels_.isEmpty()) return structure_.asTexels(abi::kBindingSamples);
+  return {.binding = abi::kBindingSamples,
+          .kind = DescriptorKind::kTexels,
+          .texels = staging_texels_.handle()};
 }
 
 void StructureSlot::upload(const Frame& frame) {
@@ -106,25 +124,24 @@ void StructureSlot::upload(const Frame& frame) {
 
 void StructureSlot::describe(const Frame& frame) {
   const SourceFormat& source = frame.format.sources.front();
-  linearise_.clear();
+  const Intrinsics& intrinsics = source.camera.intrinsics;
+  depth_planes_ = {.samples = addressWords(staging_.address()),
+                   .focal_px = abi::vec2(intrinsics.focal_px),
+                   .principal_px = abi::vec2(intrinsics.principal_px),
+                   .planes = {}};
   conversions_.clear();
   for (size_t i = 0; i < staged_.size(); ++i) {
     const uint32_t layer = uint32_t(i);
-    abi::LinearisePush depth = describeDepth(source.layers[i].depth, source.camera.intrinsics);
-    depth.samples = addressWords(staging_.address() + staged_[i].depth.offset);
-    depth.inv_z = addressWords(inv_z_.address(layer));
-    depth.layer = layer;
-    depth.measured = addressWords(measured_.address());
-    linearise_.push_back(depth);
-    abi::ConvertColorPush color =
-        describeConversion(source.layers[i].color, frame.sources.front()[i].color_encoding,
-                           frame.format.exposure_ev);
+    depth_planes_.planes[i] = describeDepth(source.layers[i].depth, staged_[i].depth.offset);
+    abi::ConvertColorPush color = describeConversion(
+        source.layers[i].color, frame.sources.front()[i].color_encoding, frame.format.exposure_ev);
     color.from = addressWords(staging_.address() + staged_[i].color.offset);
     color.to = addressWords(color_.address(layer));
     conversions_.push_back(color);
     build_.inv_z[i] = addressWords(inv_z_.address(layer));
     build_.layers[i] = addressWords(structure_.address(layer));
   }
+  std::memcpy(depth_planes_upload_.mapped().data(), &depth_planes_, sizeof depth_planes_);
   build_.measured = addressWords(measured_.address());
   build_.width_px = shape_.depth_px.width;
   build_.height_px = shape_.depth_px.height;

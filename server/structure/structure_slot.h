@@ -39,15 +39,18 @@ class StructureSlot {
   const Buffer& staging() const { return staging_; }
   const std::vector<StagedLayer>& staged() const { return staged_; }
   const LayeredBuffer& color() const { return color_; }          // texels
-  uint32_t colorStride() const;  // texels from layer to layer
-  const LayeredBuffer& invZ() const { return inv_z_; }           // float[height][width]
+  uint32_t colorStride() const;                                  // texels from layer to layer
+  const LayeredBuffer& invZ() const { return inv_z_; }           // float, abi::invZIndex
   const LayeredBuffer& structure() const { return structure_; }  // cells, then links
   const Buffer& measured() const { return measured_; }
   const Buffer& measuredReadback() const { return measured_readback_; }
   Descriptor measuredDescriptor() const;
+  Descriptor depthPlanesDescriptor() const;
+  // The upload as words; as good as none where kernels read by address.
+  Descriptor stagingDescriptor() const;
 
   // What the build's passes are told of the uploaded frame.
-  const std::vector<abi::LinearisePush>& linearisePushes() const { return linearise_; }
+  const abi::DepthPlanes& depthPlanes() const { return depth_planes_; }
   const std::vector<abi::ConvertColorPush>& conversions() const { return conversions_; }
   const abi::BuildPush& buildPush() const { return build_; }
 
@@ -60,6 +63,8 @@ class StructureSlot {
   StructureLayout layout_;
   Camera source_camera_;
   Buffer staging_;
+  TexelView staging_texels_;
+  Buffer depth_planes_upload_;
   Buffer measured_;
   Buffer measured_readback_;
   LayeredBuffer color_;
@@ -67,7 +72,7 @@ class StructureSlot {
   LayeredBuffer structure_;
   bool writes_by_address_;
   std::vector<StagedLayer> staged_;
-  std::vector<abi::LinearisePush> linearise_;
+  abi::DepthPlanes depth_planes_{};
   std::vector<abi::ConvertColorPush> conversions_;
   abi::BuildPush build_{};
 };

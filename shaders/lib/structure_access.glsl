@@ -30,8 +30,9 @@ uint facetIndex(Extent extent, ivec2 pixel) {
          uint(pixel.x);
 }
 
-uint linkIndex(Extent extent, ivec2 pixel) {
-  return uint(pixel.y) * extent.padded_width + uint(pixel.x);
+// The word with the links of four px of a row, of which `pixel` is one.
+uint linkWordIndex(Extent extent, ivec2 pixel) {
+  return cellCount(extent.padded_area) + (uint(pixel.y) * extent.padded_width + uint(pixel.x)) / 4u;
 }
 
 // `cell` in units of the level's own cells.
@@ -78,19 +79,9 @@ float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
 }
 
 uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
-  const uint index = linkIndex(extent, pixel);
-  const uvec2 four = loadWord(layers, layer, extent, cellCount(extent.padded_area) + index / 4u);
-  const uint two = (index & 2u) != 0u ? four.y : four.x;
-  return (index & 1u) != 0u ? two >> 16 : two & 0xffffu;
-}
-
-void storeLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel,
-                uint links) {
-  const uint index = cellCount(extent.padded_area) * 4u + linkIndex(extent, pixel);
-  if (kWriteByAddress)
-    Uint16Ref(pickAddress(layers, layer)).at[index] = uint16_t(links);
-  else
-    links_out[layer * extent.layer_words * 4u + index] = uint16_t(links);
+  const uvec2 four = loadWord(layers, layer, extent, linkWordIndex(extent, pixel));
+  const uint two = (pixel.x & 2) != 0 ? four.y : four.x;
+  return (pixel.x & 1) != 0 ? two >> 16 : two & 0xffffu;
 }
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.

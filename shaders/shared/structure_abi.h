@@ -64,15 +64,14 @@ inline constexpr
 VIEWLOOM_ABI_CONST uint kBindingStructure = 0u;
 VIEWLOOM_ABI_CONST uint kBindingColor = 1u;         // texels of one or two uints: all layers
 VIEWLOOM_ABI_CONST uint kBindingInvZ = 2u;          // texels of one float: all layers
-VIEWLOOM_ABI_CONST uint kBindingSamples = 3u;       // storage, read: depth samples of one layer
+VIEWLOOM_ABI_CONST uint kBindingSamples = 3u;       // texels of one uint: the upload
 VIEWLOOM_ABI_CONST uint kBindingInvZOut = 4u;       // storage, written: inv_z of all layers
 VIEWLOOM_ABI_CONST uint kBindingStructureOut = 5u;  // storage, written: the cells of all layers
-// Storage, written: the same buffer as 16-bit words
-VIEWLOOM_ABI_CONST uint kBindingLinksOut = 6u;
-VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;  // uniform: MeasuredHead
-VIEWLOOM_ABI_CONST uint kBindingViews = 8u;     // storage, read: ViewParams per tile
-VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;    // uniform: TraceExtras
-VIEWLOOM_ABI_CONST uint kBindingBand = 10u;     // storage, written: uint per px
+VIEWLOOM_ABI_CONST uint kBindingDepthPlanes = 6u;   // uniform: DepthPlanes
+VIEWLOOM_ABI_CONST uint kBindingMeasured = 7u;      // uniform: MeasuredHead
+VIEWLOOM_ABI_CONST uint kBindingViews = 8u;         // storage, read: ViewParams per tile
+VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;        // uniform: TraceExtras
+VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint per px
 
 // Specialisation constants that every kernel has, before its own.
 // 0: reads go by address: the structure is larger than a texel binding, and divided by layer.
@@ -98,29 +97,48 @@ VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
 // Set in the link word of every facet that exists.
 VIEWLOOM_ABI_CONST uint kFacetExists = 0x1000u;
 
-// Group sizes of the build kernels: one invocation per px, and per node.
-VIEWLOOM_ABI_CONST uint kBuildGroupWidth = 32u;
-VIEWLOOM_ABI_CONST uint kBuildGroupHeight = 4u;
+// Build kernels take blocks of px, an invocation each, in groups of one dimension.
+VIEWLOOM_ABI_CONST int kBlockPx = 4;
 VIEWLOOM_ABI_CONST uint kNodeGroupSize = 64u;
+
+// inv_z of a layer lies in rows of a pitch of its own, with a guard of no surface around the image:
+// whole blocks above and below, at least two px to the right of each row, which are also those to
+// the left of the next.
+#ifdef __cplusplus
+inline constexpr
+#endif
+    uint
+    invZPitch(uint width_px) {
+  return (width_px + 5u) & ~3u;
+}
+
+#ifdef __cplusplus
+inline constexpr
+#endif
+    uint
+    invZArea(uint width_px, uint height_px) {
+  return invZPitch(width_px) * (((height_px + 3u) & ~3u) + 8u);
+}
+
+#ifdef __cplusplus
+inline constexpr
+#endif
+    uint
+    invZIndex(uint pitch, uint x, int y) {
+  return uint(y + kBlockPx) * pitch + x;
+}
 
 // How a depth sample is stored.
 VIEWLOOM_ABI_CONST uint kDepthSampleF32 = 0u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF16 = 1u;
 VIEWLOOM_ABI_CONST uint kDepthSampleU16 = 2u;
+// Of a kernel: layers differ.
+VIEWLOOM_ABI_CONST uint kDepthSampleMixed = 3u;
 
-// One depth plane to inv_z. The coefficients are those of frame/depth.h DepthCoefficients.
-struct LinearisePush {
-  Address samples;   // packed, top row first
-  Address inv_z;     // float[height][width] of this layer
-  Address measured;  // Measured
-  uint layer;
-  uint width_px;
-  uint height_px;
-  float focal_x_px;
-  float focal_y_px;
-  float principal_x_px;
-  float principal_y_px;
-  uint sample_type;  // kDepthSample...
+// How one depth plane becomes inv_z. The coefficients are those of frame/depth.h DepthCoefficients.
+struct DepthPlane {
+  uint first_sample;  // in the upload, in samples of its size
+  uint sample_type;   // kDepthSample...
   float origin;
   float scale;
   float offset;
@@ -132,9 +150,16 @@ struct LinearisePush {
   uint invalid_is_far;
 };
 
-// Push constants of the other build kernels.
+struct DepthPlanes {
+  Address samples;  // the upload
+  vec2 focal_px;
+  vec2 principal_px;
+  DepthPlane planes[kLayerCountMax];
+};
+
+// Push constants of the build kernels.
 struct BuildPush {
-  Address inv_z[kLayerCountMax];   // float[height][width]
+  Address inv_z[kLayerCountMax];   // float[], see invZIndex
   Address layers[kLayerCountMax];  // cells and links, see above
   Address measured;                // Measured
   uint width_px;
@@ -194,7 +219,7 @@ struct ConvertColorPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LinearisePush) == 92);
+static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 104);
 static_assert(offsetof(Measured, noise_histogram) == 44 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 40);

@@ -7,23 +7,26 @@
 #include "lib/histogram.glsl"
 #include "lib/memory.glsl"
 
-layout(local_size_x = kBuildGroupWidth, local_size_y = kBuildGroupHeight) in;
-layout(push_constant, scalar) uniform Push { BuildPush push; };
+layout(local_size_x = kNodeGroupSize) in;
+layout(push_constant, scalar) uniform Push {
+  BuildPush push;
+};
 
 // Differences of a few roundings are none: 8 ulp.
 const float kRoundingShare = 8.0 / 8388608.0;
 
 float nearestInvZ(ivec2 pixel) {
-  const uint area = push.width_px * push.height_px;
-  return loadInvZ(push.inv_z, 0u, area, uint(pixel.y) * push.width_px + uint(pixel.x));
+  const uint area = invZArea(push.width_px, push.height_px);
+  const uint pitch = invZPitch(push.width_px);
+  return loadInvZ(push.inv_z, 0u, area, invZIndex(pitch, uint(pixel.x), pixel.y));
 }
 
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const ivec2 size = ivec2(push.width_px, push.height_px);
-  const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(block * 4, size))) return;
-  const ivec2 pixel = min(block * 4 + 2, size - 1);
+  const ivec2 block = ivec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  if (block.x * kBlockPx >= size.x) return;
+  const ivec2 pixel = min(block * kBlockPx + 2, size - 1);
 
   const float inv_z = nearestInvZ(pixel);
   if (inv_z < 0.0) return;

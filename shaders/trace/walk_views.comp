@@ -37,9 +37,6 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
   RayRecord at[];
 };
-layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Vec4Ref {
-  vec4 at[];
-};
 layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref {
   uint8_t at[];
 };

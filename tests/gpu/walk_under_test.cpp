@@ -70,6 +70,17 @@ NodeGrid gridOf(const StructureLayout& layout, const std::vector<PackedPair>& ce
   return grid;
 }
 
+// Without the guard around the image.
+std::vector<float> inImage(SizePx size_px, const std::vector<float>& guarded) {
+  std::vector<float> inv_z;
+  for (uint32_t row = 0; row < size_px.height; ++row) {
+    const uint32_t pitch = abi::invZPitch(size_px.width);
+    const auto first = guarded.begin() + ptrdiff_t{abi::invZIndex(pitch, 0, int32_t(row))};
+    inv_z.insert(inv_z.end(), first, first + size_px.width);
+  }
+  return inv_z;
+}
+
 AtlasLayout rowOfViews(const std::vector<oracle::OutputView>& views) {
   AtlasLayout layout;
   layout.columns = uint32_t(views.size());
@@ -150,7 +161,7 @@ StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   for (uint32_t index = 0; index < slot.shape().layerCount(); ++index) {
     const std::vector<PackedPair> cells = read<PackedPair>(slot.structure(), index);
     LayerImage& layer = image.layers.emplace_back();
-    layer.inv_z = read<float>(slot.invZ(), index);
+    layer.inv_z = inImage(layout.size_px, read<float>(slot.invZ(), index));
     layer.facets = gridOf(layout, cells, abi::kLevelFacets);
     layer.entries = gridOf(layout, cells, abi::kLevelEntries);
     for (uint32_t level = abi::kLevelFirst; level <= abi::kLevelLast; ++level) {
