@@ -44,8 +44,10 @@ struct Walk {
   float t;            // of the hit; the ray's end without
   ivec2 cell;         // of the hit; the last column without
   uint layer;         // of the hit
-  bool has_far_side;  // passed behind a silhouette: the column in front of it, and the layer there
-  ivec2 far_cell;     // whose surface the ray was in front of
+  // Passed behind a silhouette: the column before the last one, and the layer there, whose surface
+  // the ray was in front of. Behind that layer from the beginning: the first column.
+  bool has_far_side;
+  ivec2 far_cell;
   uint far_layer;
   uint visits;
 };
@@ -81,7 +83,6 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   // Where the ray first passed behind this layer.
   bool has_passed = just_left;
   Place passed = at;
-  bool passed_surface = false;  // and in front of it was a surface of the layer
   float first_passed_t = just_left ? start.t : 2.0;
   // Of the last visit: its level, where the ray left it, how far in front it was there and before.
   uint own_level = 0u;
@@ -201,9 +202,12 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     const bool hits_edge = crossing.hit_layer != kNoLayer;
     bool goes_on = (event == kMeetsEdge || event == kComesForward) && !hits_edge;
     if (event == kMeetsEdge && !hits_edge) {
-      if (!has_passed) {
-        passed = at;
-        passed_surface = crossing.is_silhouette;
+      if (!has_passed) passed = at;
+      // The last one that it passes is the one that it ends behind, and the deepest layer the best.
+      if (crossing.has_far_side) {
+        result.has_far_side = true;
+        result.far_cell = (at.cell ^ flip) - stepOfAxis(at.axis, direction);
+        result.far_layer = layer;
       }
       has_passed = true;
       in_front = false;
@@ -227,12 +231,6 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     // This layer is done; the next begins where the ray passed behind it.
     if (!goes_on && has_passed) {
       if (layer == 0u) first_passed_t = passed.t;
-      // The far side that lies furthest back is the best one, where there is a surface at all.
-      if (passed_surface) {
-        result.has_far_side = true;
-        result.far_cell = (passed.cell ^ flip) - stepOfAxis(passed.axis, direction);
-        result.far_layer = layer;
-      }
       goes_on = layer + 1u < scene.layer_count && !hasFault(kFaultLayerDropped);
       ++layer;
       at = passed;
@@ -241,7 +239,6 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       in_front = !just_left;
       level = just_left ? kLevelFacets : kLevelEntries;
       has_passed = just_left;
-      passed_surface = false;
     }
     if (!goes_on) break;
   }

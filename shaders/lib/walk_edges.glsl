@@ -56,8 +56,8 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
 
 // What a ray meets on the edge it has just crossed.
 struct Crossing {
-  uint hit_layer;      // whose surface it hits; kNoLayer
-  bool is_silhouette;  // passes behind `layer` without a link, from over a surface of that layer
+  uint hit_layer;     // whose surface it hits; kNoLayer
+  bool has_far_side;  // passes behind `layer`, from over a surface of it or from the beginning
 };
 
 const uint kNoLayer = kLayerCountMax;
@@ -71,6 +71,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
                   vec3 extent, float tolerance) {
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
   const bool leaving = event == kComesForward;
+  const bool crosses = at.axis != kAxisNone;
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   const ivec2 from_cell = leaving ? before : at.cell;
   const ivec2 to_cell = leaving ? at.cell : before;
@@ -79,7 +80,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
   for (;;) {
     if (isNever(scene, 3u)) break;
     const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, from_cell), edge);
-    const bool is_linked = link > 0u && !hasFault(kFaultLinks);
+    const bool is_linked = link > 0u && crosses && !hasFault(kFaultLinks);
     const bool leads_forward = is_linked && link - 1u < layer;
     const uint to_layer = is_linked ? link - 1u : layer;
     const uvec2 facet = loadFacet(scene.layers, to_layer, scene.extent, to_cell);
@@ -91,10 +92,10 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
     if (leaving) {
       if (leads_forward && front <= slack) result.hit_layer = to_layer;
       ++from;
-    } else if (event == kMeetsEdge && at.axis != kAxisNone) {
+    } else if (event == kMeetsEdge) {
       const bool is_hit = is_linked && (!leads_forward || front > -slack);
-      if (is_hit || hasFault(kFaultBehindIsHit)) result.hit_layer = layer;
-      result.is_silhouette = !is_linked && facet.x != kNoFacet;
+      if (is_hit || (crosses && hasFault(kFaultBehindIsHit))) result.hit_layer = layer;
+      result.has_far_side = !is_linked && facet.x != kNoFacet;
     }
     if (!leaving || result.hit_layer != kNoLayer || from == scene.layer_count) break;
   }

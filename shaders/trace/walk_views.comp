@@ -107,18 +107,49 @@ Walk walkBeside(WalkStart start) {
 }
 
 // Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
-// passed behind, or the image's border, goes on; else there is nothing.
+// passed behind, or the image's border, goes on; else there is nothing. A sample next to a
+// silhouette may hold some of the other side: half a px back along the ray it counts half.
 vec3 opaqueLight(Scene scene, Ray ray, Walk walk) {
   const vec3 point = ray.start + walk.t * ray.extent;
   const bool is_far_side = walk.ends_behind && walk.has_far_side;
   const bool is_border = walk.leaves && scene.fills_border;
   const uint layer = walk.is_hit ? walk.layer : is_far_side ? walk.far_layer : 0u;
   const ivec2 cell = !walk.is_hit && is_far_side ? walk.far_cell : walk.cell;
-  const vec2 at = walk.is_hit ? point.xy : vec2(cell) + 0.5;
+  const float half_px = is_far_side ? 0.5 * min(ray.pace.x, ray.pace.y) : 0.0;
+  const vec2 at = walk.is_hit ? point.xy : vec2(cell) + 0.5 - half_px * ray.extent.xy;
   const uint links = loadLinks(scene.layers, layer, scene.extent, cell);
   const bool is_known = walk.is_hit || walk.ends_behind || is_border;
   const vec4 color = surfaceColor(scene, layer, cell, links, at);
   return is_known && (links & kFacetExists) != 0u ? color.rgb : scene.background;
+}
+
+// A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
+// furthest surface at distances that double, both ways along the ray: soft edges may be wide.
+const uint kFarSideProbes = 8u;  // up to 128 px away
+
+void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
+  const bool has_none = !walk.is_hit && walk.ends_behind && !walk.has_far_side;
+  const bool is_sought = has_none && behind.behind_count > 0u;
+  const uint layer = is_sought ? behind.behind_count - 1u : 0u;
+  const vec2 along = ray.extent.xy * min(ray.pace.x, ray.pace.y);
+  const vec2 from = vec2(behind.cell) + 0.5;
+  float furthest = scene.inv_z_near;
+  uint probe = 0u;
+  for (;;) {
+    if (isNever(scene, 6u)) break;
+    for (int side = -1; side <= 1; side += 2) {
+      const ivec2 cell = ivec2(floor(from + float(side * (1 << int(probe))) * along));
+      const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
+      const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
+      const bool is_further = is_sought && inv_z >= 0.0 && inv_z < furthest;
+      walk.far_cell = is_further ? inside : walk.far_cell;
+      walk.far_layer = is_further ? layer : walk.far_layer;
+      walk.has_far_side = is_further || walk.has_far_side;
+      furthest = is_further ? inv_z : furthest;
+    }
+    ++probe;
+    if (!is_sought || probe == kFarSideProbes) break;
+  }
 }
 
 // Semitransparent ones are composited front to back: each surface is walked on from, behind it.
@@ -126,7 +157,9 @@ vec3 layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   vec3 light = vec3(0.0);
   float transmittance = 1.0;
   Walk walk = first;
+  WalkStart behind = WalkStart(0.0, first.cell, 0u);
   for (;;) {
+    findFarSide(scene, ray, behind, walk);
     const vec3 point = ray.start + walk.t * ray.extent;
     const uint links = loadLinks(scene.layers, walk.layer, scene.extent, walk.cell);
     const vec4 color = walk.is_hit ? surfaceColor(scene, walk.layer, walk.cell, links, point.xy)
@@ -134,7 +167,7 @@ vec3 layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
     light += transmittance * color.rgb;
     transmittance *= 1.0 - color.a;
     if (!walk.is_hit || transmittance <= kTransmittanceMin) return light;
-    const WalkStart behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
+    behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
     walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
   }
 }

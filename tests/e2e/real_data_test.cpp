@@ -101,27 +101,32 @@ std::vector<float> floatsOf(const files::PlaneImage& image) {
   return values;
 }
 
-TEST_F(RealDataTest, rendersTheBeachBallsLeftEyeFromItsRight) {
-  const fs::path file = data_ / "beachball-stereo" / "singlepart.0001.exr";
-  if (!fs::exists(file)) GTEST_SKIP() << "there is no " << file;
+// The right eye and the left one.
+Pair beachBall(const fs::path& file, const std::vector<std::string>& color_channels) {
   // Parallel cameras with focal length x baseline = 333.32 px m; Z = 0 is the black background.
   constexpr double kFocal_px = 2048;
   constexpr double kFocalBaseline_px_m = 333.32;
   const Intrinsics intrinsics = {{kFocal_px, kFocal_px}, {1024, 778}};
-  const Pair pair = {
-      .size_px = {2048, 1556},
-      .source = intrinsics,
-      .view = {{.position_m = {-kFocalBaseline_px_m / kFocal_px, 0, 0}}, intrinsics},
-      .color_file = {{"file", file.string()}, {"channels", {"R", "G", "B"}}},
-      .depth_file =
-          {{"file", file.string()},
-           {"channels", {"Z"}},
-           {"depth",
-            {{"meaning", "DEPTH_MEANING_PLANAR"}, {"invalidValue", 0}, {"invalidIsFar", true}}}},
-      .truth_file = {{"file", file.string()}, {"channels", {"left.R", "left.G", "left.B"}}},
-      // What moves two neighbours apart by less than a pixel of this pair is one surface: the ball
-      // is a single object, steep towards its limb.
-      .connection_tolerance = 1 / kFocalBaseline_px_m};
+  return {.size_px = {2048, 1556},
+          .source = intrinsics,
+          .view = {{.position_m = {-kFocalBaseline_px_m / kFocal_px, 0, 0}}, intrinsics},
+          .color_file = {{"file", file.string()}, {"channels", color_channels}},
+          .depth_file = {{"file", file.string()},
+                         {"channels", {"Z"}},
+                         {"depth",
+                          {{"meaning", "DEPTH_MEANING_PLANAR"},
+                           {"invalidValue", 0},
+                           {"invalidIsFar", true}}}},
+          .truth_file = {{"file", file.string()}, {"channels", {"left.R", "left.G", "left.B"}}},
+          // What moves two neighbours apart by less than a pixel of this pair is one surface: the
+          // ball is a single object, steep towards its limb.
+          .connection_tolerance = 1 / kFocalBaseline_px_m};
+}
+
+TEST_F(RealDataTest, rendersTheBeachBallsLeftEyeFromItsRight) {
+  const fs::path file = data_ / "beachball-stereo" / "singlepart.0001.exr";
+  if (!fs::exists(file)) GTEST_SKIP() << "there is no " << file;
+  const Pair pair = beachBall(file, {"R", "G", "B"});
   const auto depth = files::readExrDepth(file, std::vector<std::string>{"Z"});
   ASSERT_TRUE(depth.ok()) << depth.status();
   InvZImage source = {.size_px = pair.size_px, .inv_z = floatsOf(*depth)};
@@ -133,6 +138,16 @@ TEST_F(RealDataTest, rendersTheBeachBallsLeftEyeFromItsRight) {
   EXPECT_EQ(score["by_renderer"]["all"], score["by_mask"]["all"]);
   EXPECT_NEAR(score["by_mask"]["covered"]["share"].get<double>(),
               score["by_renderer"]["covered"]["share"].get<double>(), 0.01);
+}
+
+// The ball's limb is soft: what shows through it is the background, not the ball once more.
+TEST_F(RealDataTest, rendersTheBeachBallWithItsAlpha) {
+  const fs::path file = data_ / "beachball-stereo" / "singlepart.0001.exr";
+  if (!fs::exists(file)) GTEST_SKIP() << "there is no " << file;
+  const Pair pair = beachBall(file, {"R", "G", "B", "A"});
+  const std::vector<uint8_t> all_covered(pair.size_px.area(), 255);
+  const Json score = render(pair, all_covered, "--transfer gamma2.2");
+  EXPECT_GE(score["by_renderer"]["all"]["psnr_db"].get<double>(), 51.5) << score.dump(1);
 }
 
 TEST_F(RealDataTest, rendersAntinousFourViewsToTheRight) {

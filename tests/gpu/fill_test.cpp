@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rays show that end behind a surface: the far side of the silhouette they passed last.
+#include <cmath>
+#include <functional>
+
+#include <glm/gtc/packing.hpp>
+
+#include "gpu/test_device.h"
+#include "gpu/walk_under_test.h"
+#include "oracle/analytic_scenes.h"
+
+namespace viewloom {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+constexpr double kFocal_px = 1.25 * kWidth;  // of the analytic scenes
+constexpr double kTolerance_px = 0.05;
+// sRGB-encoded; binary16 and the fits of the sRGB curve: half an 8-bit step.
+constexpr float kColorTolerance = 0.5f / 255;
+
+using ColorOf = std::function<LinearColor(int column, int row)>;  // premultiplied linear light
+
+constexpr LinearColor kRed = {1, 0, 0, 1};
+constexpr LinearColor kGreen = {0, 1, 0, 1};
+constexpr LinearColor kBlue = {0, 0, 1, 1};
+
+float srgbFrom(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+bool isAlike(const LinearColor& srgb, const LinearColor& linear) {
+  for (size_t i = 0; i < 3; ++i) {
+    if (std::abs(srgb[i] - srgbFrom(linear[i])) > kColorTolerance) return false;
+  }
+  return true;
+}
+
+// Opaque: 8-bit samples, else binary16.
+Frame painted(const oracle::Scene& scene, const ColorOf& color_of, bool is_opaque) {
+  Frame frame = is_opaque ? *frameOf(scene) : *frameOf(scene, {LinearColor{}});
+  auto bytes = std::make_shared<std::vector<uint8_t>>();
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    for (const float channel : color_of(i % kWidth, i / kWidth)) {
+      const uint16_t half = glm::packHalf1x16(channel);
+      if (is_opaque) {
+        bytes->push_back(uint8_t(std::lround(255 * srgbFrom(channel))));
+      } else {
+        bytes->insert(bytes->end(), {uint8_t(half), uint8_t(half >> 8)});
+      }
+    }
+  }
+  frame.sources[0][0].color = bytes;
+  return frame;
+}
+
+class FillTest : public GpuTest {
+ protected:
+  FillTest() : walk_(device()) {}
+
+  TracedView trace(const oracle::Scene& scene, const ColorOf& color_of, double eye_x_m,
+                   bool is_opaque = true) {
+    oracle::OutputView view = oracle::ownView(scene);
+    view.position_m.x = eye_x_m;
+    return walk_.trace(*walk_.build(painted(scene, color_of, is_opaque)), {view}, kTolerance_px)
+        .front();
+  }
+
+  WalkUnderTest walk_;
+};
+
+// Visits the hidden px of a view.
+void forEachHidden(const TracedView& view,
+                   const std::function<void(int column, const LinearColor& srgb)>& visit) {
+  int hidden_count = 0;
+  for (size_t i = 0; i < view.records.size(); ++i) {
+    if (view.records[i].ray_class != abi::kClassHidden) continue;
+    visit(int(i % kWidth), view.srgb[i]);
+    ++hidden_count;
+  }
+  EXPECT_GE(hidden_count, kHeight);
+}
+
+// A wall of three colours that change behind the middles of two poles.
+constexpr double kWall = 0.25;
+constexpr int kFirstPole = 27;
+constexpr int kSecondPole = 34;
+constexpr int kPoleWidth = 3;
+
+bool isPole(int column) {
+  return (column >= kFirstPole && column < kFirstPole + kPoleWidth) ||
+         (column >= kSecondPole && column < kSecondPole + kPoleWidth);
+}
+
+oracle::Scene polesBeforeWall() {
+  oracle::Scene scene = oracle::planeScene({0, 0, kWall}, kWidth, kHeight);
+  for (int row = 0; row < kHeight; ++row) {
+    for (int column = 0; column < kWidth; ++column) {
+      if (isPole(column)) scene.planes.at(0, column, row) = 1;
+    }
+  }
+  return scene;
+}
+
+LinearColor colorOfPolesAndWall(int column, int) {
+  if (isPole(column)) return {1, 1, 1, 1};
+  return column < kFirstPole ? kRed : column < kSecondPole ? kGreen : kBlue;
+}
+
+TEST_F(FillTest, behindEachPoleTheWallGoesOnFromTheSideTheRayCameFrom) {
+  // Far enough that rays pass behind one pole and come out again before they end behind the other.
+  for (const double eye_x_m : {0.3, -0.3}) {
+    const TracedView view = trace(polesBeforeWall(), colorOfPolesAndWall, eye_x_m);
+    forEachHidden(view, [&](int column, const LinearColor& srgb) {
+      const double wall_x_px = column + 0.5 + kFocal_px * eye_x_m * kWall;
+      const bool is_first = wall_x_px < kFirstPole + kPoleWidth;
+      const LinearColor& from_left = is_first ? kRed : kGreen;
+      const LinearColor& from_right = is_first ? kGreen : kBlue;
+      EXPECT_TRUE(isAlike(srgb, eye_x_m > 0 ? from_right : from_left))
+          << "eye " << eye_x_m << " m, column " << column << ", behind "
+          << (is_first ? "the first" : "the second");
+    });
+  }
+}
+
+TEST_F(FillTest, aMixedSampleBesideASilhouetteCountsHalf) {
+  const auto with_mixed_edges = [](int column, int) -> LinearColor {
+    const bool is_beside = isPole(column - 1) || isPole(column + 1);
+    return isPole(column) ? LinearColor{1, 1, 1, 1} : is_beside ? LinearColor{1, 1, 0, 1} : kGreen;
+  };
+  constexpr double kEye_x_m = 0.1;
+  const TracedView view = trace(polesBeforeWall(), with_mixed_edges, kEye_x_m);
+  forEachHidden(view, [&](int column, const LinearColor& srgb) {
+    const bool enters_behind = column + 0.5 + kFocal_px * kEye_x_m * kWall > kWidth;
+    if (enters_behind) return;
+    EXPECT_TRUE(isAlike(srgb, {0.5f, 1, 0, 1})) << "column " << column << ": red " << srgb[0];
+  });
+}
+
+TEST_F(FillTest, whoEntersTheImageBehindTheGroundSeesTheGroundAtItsBorder) {
+  const oracle::Scene ground = oracle::planeScene({0, 1.0 / 128, 0.125}, kWidth, kHeight);
+  constexpr int kBorder_px = 2;
+  const TracedView view = trace(
+      ground, [](int column, int) { return column < kWidth - kBorder_px ? kRed : kBlue; }, 0.5);
+  forEachHidden(view, [&](int column, const LinearColor& srgb) {
+    EXPECT_TRUE(isAlike(srgb, kBlue)) << "column " << column;
+  });
+}
+
+TEST_F(FillTest, behindASoftEdgeIsTheFarSideAndNotTheSurfaceItself) {
+  constexpr int kEdge = 20;
+  constexpr int kSoft_px = 32;
+  const oracle::Scene scene =
+      oracle::stepScene({0, 0, 1.0}, {0, 0, 0}, kEdge, false, kWidth, kHeight);
+  const auto light_at = [](double x_px) {
+    return float(std::clamp((x_px - kEdge) / kSoft_px, 0.0, 1.0));
+  };
+  const auto soft = [&](int column, int) -> LinearColor {
+    const float light = light_at(column + 0.5);
+    return {light, light, light, column < kEdge ? 1 : light};
+  };
+  const TracedView view = trace(scene, soft, -0.1, false);
+  int compared_count = 0;
+  for (size_t i = 0; i < view.records.size(); ++i) {
+    const abi::RayRecord& record = view.records[i];
+    if (record.ray_class != abi::kClassHit || record.inv_z < 0.5f) continue;
+    if (record.x_px < kEdge + 1 || record.x_px > kEdge + kSoft_px - 1) continue;
+    const float light = light_at(double{record.x_px});
+    EXPECT_TRUE(isAlike(view.srgb[i], {light, light, light, 1})) << record.x_px << " px";
+    ++compared_count;
+  }
+  EXPECT_GE(compared_count, kHeight);
+}
+
+}  // namespace
+}  // namespace viewloom
