@@ -5,12 +5,14 @@
 #include <array>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs FILE
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <jpeglib.h>
 
 #include "base/str_cat.h"
+#include "jpeg/jpeg_memory.h"
 
 namespace viewloom {
 namespace {
@@ -43,6 +45,7 @@ void jumpOutOnCorruption(j_common_ptr decoder, int level) {
 struct JpegDecoder::Reader {
   jpeg_decompress_struct decoder{};
   Fault fault{};
+  std::optional<JpegMemory> memory;
 
   bool create() {
     decoder.err = jpeg_std_error(&fault.manager);
@@ -106,6 +109,7 @@ absl::Status JpegDecoder::Reader::validateHeader(SizePx size_px) const {
 
 JpegDecoder::JpegDecoder() : reader_(std::make_unique<Reader>()) {
   if (!reader_->create()) throw std::runtime_error(reader_->fault.message.data());
+  reader_->memory.emplace(reinterpret_cast<j_common_ptr>(&reader_->decoder));
 }
 
 JpegDecoder::~JpegDecoder() {

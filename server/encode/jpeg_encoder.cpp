@@ -63,7 +63,7 @@ JpegEncoder::JpegEncoder(BytePool& pool) : pool_(pool), stream_(kFirstStream_byt
   compressor_.err = jpeg_std_error(&errors_);
   errors_.error_exit = failOnJpegError;
   jpeg_create_compress(&compressor_);
-  memory_ = std::make_unique<JpegMemory>(compressor_);
+  memory_ = std::make_unique<JpegMemory>(reinterpret_cast<j_common_ptr>(&compressor_));
   destination_.stream = &stream_;
   destination_.init_destination = [](j_compress_ptr compressor) {
     auto& to = *static_cast<Destination*>(compressor->dest);

@@ -8,7 +8,7 @@
 
 #include "base/byte_pool.h"
 #include "encode/band_pixels.h"
-#include "encode/jpeg_memory.h"
+#include "jpeg/jpeg_memory.h"
 
 namespace viewloom {
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/large_allocations.h"
 #include "unit/decode/jpeg_samples.h"
 
 namespace viewloom {
@@ -94,6 +95,18 @@ TEST_F(JpegPlane, refusesEveryTruncation) {
     ASSERT_FALSE(decoder_.decode(part, size_px, out_).ok()) << count << " of " << whole.size();
   }
   EXPECT_TRUE(decoder_.decode(whole, size_px, out_).ok()) << "after so many failures";
+}
+
+TEST_F(JpegPlane, makesNoLargeAllocationOnceWarm) {
+  if (!test::countsLargeAllocations()) GTEST_SKIP() << "a sanitizer owns the heap";
+  const SizePx size_px{8192, 64};
+  const std::vector<uint8_t> jpeg = sampleJpeg(size_px, JpegSort::kBaseline);
+  const uint64_t before_warm_up = test::largeAllocationCount();
+  ASSERT_TRUE(decoder_.decode(jpeg, size_px, out_).ok());
+  const uint64_t before = test::largeAllocationCount();
+  EXPECT_GT(before, before_warm_up) << "nothing is counted";
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(decoder_.decode(jpeg, size_px, out_).ok());
+  EXPECT_EQ(test::largeAllocationCount(), before);
 }
 
 TEST_F(JpegPlane, refusesWhatIsNoJpeg) {

@@ -13,13 +13,14 @@
 namespace viewloom {
 
 // libjpeg allocates a few sample rows of full image width for each image and frees them after it:
-// for bands that is an allocation above 64 KiB per band. This takes over the image pool of one
-// compressor and serves it from blocks that are only rewound. Thread-safety: that of the
-// compressor.
+// above 64 KiB for every band, and for every frame wider than about 3200 px. This takes over the
+// image pool of one compressor or decompressor and serves it from blocks that are only rewound.
+// Thread-safety: that of the libjpeg object.
 class JpegMemory {
  public:
-  // Call after jpeg_create_compress; must live until after jpeg_destroy_compress. Uses client_data.
-  explicit JpegMemory(jpeg_compress_struct& compressor);
+  // Takes a compress or decompress struct after jpeg_create_...; must live until after
+  // jpeg_destroy_... . Uses client_data.
+  explicit JpegMemory(j_common_ptr object);
   JpegMemory(const JpegMemory&) = delete;
   JpegMemory& operator=(const JpegMemory&) = delete;
 
@@ -29,11 +30,11 @@ class JpegMemory {
     size_t size_bytes;
   };
 
-  static JpegMemory& of(j_common_ptr compressor);
-  static void* allocate(j_common_ptr compressor, int pool, size_t size_bytes);
-  static JSAMPARRAY allocateRows(j_common_ptr compressor, int pool, JDIMENSION samples_per_row,
+  static JpegMemory& of(j_common_ptr object);
+  static void* allocate(j_common_ptr object, int pool, size_t size_bytes);
+  static JSAMPARRAY allocateRows(j_common_ptr object, int pool, JDIMENSION samples_per_row,
                                  JDIMENSION row_count);
-  static void freePool(j_common_ptr compressor, int pool);
+  static void freePool(j_common_ptr object, int pool);
 
   void* take(size_t size_bytes);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encode/jpeg_memory.h"
+#include "jpeg/jpeg_memory.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace viewloom {
 namespace {
@@ -17,29 +18,29 @@ size_t roundedUp(size_t size_bytes) {
 
 }  // namespace
 
-JpegMemory::JpegMemory(jpeg_compress_struct& compressor) : original_(*compressor.mem) {
-  compressor.client_data = this;
-  compressor.mem->alloc_small = allocate;
-  compressor.mem->alloc_large = allocate;
-  compressor.mem->alloc_sarray = allocateRows;
-  compressor.mem->free_pool = freePool;
+JpegMemory::JpegMemory(j_common_ptr object) : original_(*object->mem) {
+  object->client_data = this;
+  object->mem->alloc_small = allocate;
+  object->mem->alloc_large = allocate;
+  object->mem->alloc_sarray = allocateRows;
+  object->mem->free_pool = freePool;
 }
 
-JpegMemory& JpegMemory::of(j_common_ptr compressor) {
-  return *static_cast<JpegMemory*>(compressor->client_data);
+JpegMemory& JpegMemory::of(j_common_ptr object) {
+  return *static_cast<JpegMemory*>(object->client_data);
 }
 
-void* JpegMemory::allocate(j_common_ptr compressor, int pool, size_t size_bytes) {
-  JpegMemory& memory = of(compressor);
+void* JpegMemory::allocate(j_common_ptr object, int pool, size_t size_bytes) {
+  JpegMemory& memory = of(object);
   if (pool == JPOOL_IMAGE) return memory.take(size_bytes);
-  return memory.original_.alloc_small(compressor, pool, size_bytes);
+  return memory.original_.alloc_small(object, pool, size_bytes);
 }
 
-JSAMPARRAY JpegMemory::allocateRows(j_common_ptr compressor, int pool, JDIMENSION samples_per_row,
+JSAMPARRAY JpegMemory::allocateRows(j_common_ptr object, int pool, JDIMENSION samples_per_row,
                                     JDIMENSION row_count) {
-  JpegMemory& memory = of(compressor);
+  JpegMemory& memory = of(object);
   if (pool != JPOOL_IMAGE) {
-    return memory.original_.alloc_sarray(compressor, pool, samples_per_row, row_count);
+    return memory.original_.alloc_sarray(object, pool, samples_per_row, row_count);
   }
   auto* rows = static_cast<JSAMPARRAY>(memory.take(row_count * sizeof(JSAMPROW)));
   // A pair of vectors may start in the last sample of a row.
@@ -49,9 +50,9 @@ JSAMPARRAY JpegMemory::allocateRows(j_common_ptr compressor, int pool, JDIMENSIO
   return rows;
 }
 
-void JpegMemory::freePool(j_common_ptr compressor, int pool) {
-  JpegMemory& memory = of(compressor);
-  memory.original_.free_pool(compressor, pool);
+void JpegMemory::freePool(j_common_ptr object, int pool) {
+  JpegMemory& memory = of(object);
+  memory.original_.free_pool(object, pool);
   if (pool != JPOOL_IMAGE) return;
   memory.block_index_ = 0;
   memory.used_bytes_ = 0;
@@ -65,7 +66,8 @@ void* JpegMemory::take(size_t size_bytes) {
     used_bytes_ = 0;
   }
   if (block_index_ == blocks_.size()) {
-    const size_t block_bytes = std::max(kBlock_bytes, wanted_bytes);
+    // A power of two, so that images of slightly different widths share their blocks.
+    const size_t block_bytes = std::max(kBlock_bytes, std::bit_ceil(wanted_bytes));
     blocks_.push_back({std::make_unique<uint8_t[]>(block_bytes + kAlignment_bytes), block_bytes});
   }
   uint8_t* start = blocks_[block_index_].bytes.get();
