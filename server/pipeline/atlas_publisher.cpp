@@ -60,6 +60,12 @@ void AtlasPublisher::complete(const AtlasRun& run) {
   if (runs.empty()) pending_.erase(of_picture);
 }
 
+void AtlasPublisher::dropAll() {
+  decltype(pending_) dropped;  // let go after the lock: its tickets may report
+  std::lock_guard lock(mutex_);
+  dropped.swap(pending_);
+}
+
 void AtlasPublisher::publish(AtlasRun& run) {
   const StageTimes times = stageTimes(run, links_.clock.nowNs());
   const Coverage coverage = run.coverage();

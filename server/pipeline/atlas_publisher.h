@@ -22,6 +22,8 @@ class AtlasPublisher {
   void begin(AtlasRunPtr run);
   // Every strip of the run is packed.
   void complete(const AtlasRun& run);
+  // Forgets the runs that will not be completed.
+  void dropAll();
 
  private:
   struct Pending {

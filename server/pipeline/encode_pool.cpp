@@ -73,6 +73,8 @@ void EncodePool::stop() {
   for (std::jthread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
+  while (strips_.pop()) {  // what threads that failed have left
+  }
 }
 
 void EncodePool::run() {

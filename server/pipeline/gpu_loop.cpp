@@ -70,8 +70,14 @@ bool GpuLoop::submitBuild() {
     builds_.pop_front();
   }
   StructureBuild& build = *request->build;
-  builder_.record(build.recorder.begin(), build.slot, nullptr);
-  request->timeline_value.set_value(build.recorder.submit(timeline_));
+  try {
+    builder_.record(build.recorder.begin(), build.slot, nullptr);
+    request->timeline_value.set_value(build.recorder.submit(timeline_));
+  } catch (const std::exception&) {
+    // Who waits may be the first to tell of it: let it be told what happened.
+    request->timeline_value.set_exception(std::current_exception());
+    throw;
+  }
   return true;
 }
 

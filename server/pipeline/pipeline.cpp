@@ -141,7 +141,8 @@ void Pipeline::drain() {
   loops_->structures.stop();
   loops_->gpu.stop();
   loops_->encoders.stop();
-  loops_->traces.dropWaiting();
+  loops_->traces.dropAll();
+  loops_->publisher.dropAll();
   loops_->streams.clear();
 }
 

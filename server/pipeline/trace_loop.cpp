@@ -31,7 +31,8 @@ void TraceLoop::offer(AtlasJob job) {
   if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
 }
 
-void TraceLoop::dropWaiting() {
+void TraceLoop::dropAll() {
+  begun_.clear();
   std::vector<AtlasJob> dropped;  // let go after the lock
   std::lock_guard lock(mutex_);
   dropped = jobs_.clear();

@@ -21,7 +21,7 @@ namespace viewloom {
 // Slots are kept apart by the planes they trace: without and with depth, without and with mask.
 inline constexpr uint32_t kSlotRingCount = 4;
 
-// Thread-safety: offer() and dropWaiting() from any thread; the rest is the GPU loop's.
+// Thread-safety: offer() from any thread; the rest is the GPU loop's, and after its end anyone's.
 class TraceLoop {
  public:
   TraceLoop(const PipelineLinks& links, Timeline& timeline, EncodePool& encoders,
@@ -30,8 +30,8 @@ class TraceLoop {
 
   // Replaces a job of the same picture and an older structure that has not begun.
   void offer(AtlasJob job);
-  // Forgets the jobs that have not begun.
-  void dropWaiting();
+  // Forgets the jobs that have not begun and, after a failure, those that will not be finished.
+  void dropAll();
 
   // Records and submits the strip that is due soonest. Between two strips an atlas with a sooner
   // deadline may begin, if may_begin. False when there is nothing to do or no free slot.

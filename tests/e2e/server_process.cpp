@@ -27,9 +27,18 @@ std::string valueOf(const std::string& line, const std::string& key) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
+// As exec takes them: ended by a null pointer, the first of two of a name wins.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace
 
-ServerProcess::ServerProcess(const std::vector<std::string>& arguments) {
+ServerProcess::ServerProcess(const std::vector<std::string>& arguments,
+                             std::vector<std::string> environment) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   output_ = ends[0];
@@ -39,10 +48,11 @@ ServerProcess::ServerProcess(const std::vector<std::string>& arguments) {
 
   std::vector<std::string> words{VIEWLOOMD_PATH};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const int error = posix_spawn(&pid_, VIEWLOOMD_PATH, &actions, nullptr, argv.data(), environ);
+  for (char** inherited = environ; *inherited != nullptr; ++inherited) {
+    environment.emplace_back(*inherited);
+  }
+  const int error = posix_spawn(&pid_, VIEWLOOMD_PATH, &actions, nullptr, pointersTo(words).data(),
+                                pointersTo(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   if (error != 0) throw std::runtime_error("cannot start " VIEWLOOMD_PATH);

@@ -12,8 +12,9 @@ namespace viewloom::test {
 // Killed, if it still runs, with its owner. Thread-safety: none.
 class ServerProcess {
  public:
-  // Waits until it listens or has ended.
-  explicit ServerProcess(const std::vector<std::string>& arguments);
+  // Waits until it listens or has ended. `environment`: "NAME=value" beside what is inherited.
+  explicit ServerProcess(const std::vector<std::string>& arguments,
+                         std::vector<std::string> environment = {});
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;

@@ -2,9 +2,11 @@
 // How viewloomd starts and ends as a process.
 #include <gmock/gmock.h>
 
-#include <atomic>
+#include <chrono>
 #include <csignal>
-#include <thread>
+#include <future>
+#include <string>
+#include <vector>
 
 #include "e2e/server_process.h"
 #include "e2e/wire_frames.h"
@@ -20,6 +22,8 @@ namespace {
 const std::vector<std::string> kAnyPorts{"--grpc.address", "127.0.0.1:0", "--http.address",
                                          "127.0.0.1:0"};
 constexpr SizePx kFramePx{160, 90};
+// Longer than a report that was sent needs to arrive.
+constexpr std::chrono::seconds kReportTime{10};
 
 using ViewloomdProcess = DeviceNeededTest;
 
@@ -100,6 +104,47 @@ TEST_F(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
   }
   EXPECT_FALSE(call->Finish().ok());
 }
+
+// The number of the submission at which the device is lost: the build of the first frame, the first
+// strip of its atlas, the next.
+class ViewloomdOnALostDevice : public DeviceNeededTest, public testing::WithParamInterface<int> {};
+
+TEST_P(ViewloomdOnALostDevice, saysWhyEndsItsCallsAndExitsWithThree) {
+  testing::internal::CaptureStderr();
+  ServerProcess server(kAnyPorts, {"VK_LAYER_PATH=" VIEWLOOM_LAYER_FOLDER,
+                                   "VK_INSTANCE_LAYERS=VK_LAYER_VIEWLOOM_lost_device",
+                                   "VIEWLOOM_TEST_LOST_SUBMISSION=" + std::to_string(GetParam())});
+  const auto stub = v1::DisplayService::NewStub(makeChannel(server.grpcAddress()));
+  grpc::ClientContext context;
+  const auto call = stub->StreamAtlases(&context);
+  v1::StreamAtlasesRequest request;
+  *request.mutable_open() = openQuilt("scene", {400, 300});
+  request.mutable_open()->set_wait_for_stream(true);
+  EXPECT_TRUE(call->Write(request));
+  call->WritesDone();
+
+  std::promise<v1::FrameReport> report;
+  Publisher publisher(makeChannel(server.grpcAddress()),
+                      {.stream = "scene", .session_id = "", .backoff = {}},
+                      {.on_accepted = {},
+                       .on_report = [&](const v1::FrameReport& first) { report.set_value(first); },
+                       .on_wanted = {},
+                       .on_connection = {}});
+  publisher.offer(syntheticWireFrame(kFramePx, 2, 0));
+  v1::StreamAtlasesResponse message;
+  while (call->Read(&message)) EXPECT_FALSE(message.has_band());
+  const grpc::Status end = call->Finish();
+  EXPECT_TRUE(end.ok()) << end.error_code() << " " << end.error_message();
+  const int exit_code = server.waitForExit();
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(exit_code, 3) << log;
+  EXPECT_THAT(log, testing::HasSubstr("ErrorDeviceLost"));
+  std::future<v1::FrameReport> arrived = report.get_future();
+  ASSERT_EQ(arrived.wait_for(kReportTime), std::future_status::ready);
+  EXPECT_NE(arrived.get().outcome(), v1::FRAME_OUTCOME_TRACED);
+}
+
+INSTANTIATE_TEST_SUITE_P(Submissions, ViewloomdOnALostDevice, testing::Values(1, 2, 3));
 
 TEST_F(ViewloomdProcess, exitsWithTwoOnASettingThatDoesNotExist) {
   ServerProcess server({"--no.such.setting", "1"});
