@@ -2,11 +2,15 @@
 #include "fuzz/fuzz_decode.h"
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/bounded_queue.h"
 #include "base/check.h"
 #include "decode/frame_decoder.h"
+#include "decode/frame_intake.h"
 #include "decode/jpeg_plane.h"
 #include "decode/zstd_plane.h"
 #include "frame/limits.h"
@@ -100,6 +104,38 @@ void checkPlanes(const Frame& frame) {
   }
 }
 
+// The intake's threads, one frame at a time.
+class IntakeUnderTest : public FrameSink {
+ public:
+  // The decoded frame; null when it is refused.
+  FramePtr decode(CollectedFrame frame) {
+    intake_.offer("s", std::move(frame), {}, [this](const FrameReport& report) {
+      VIEWLOOM_CHECK(report.outcome == FrameOutcome::kRefused && !report.reason.empty());
+      arrived_.push(nullptr);
+    });
+    return *arrived_.pop();
+  }
+
+  void offerFrame(const std::string&, FramePtr frame, ReportFrame) override {
+    arrived_.push(std::move(frame));
+  }
+  void forgetStream(const std::string&) override {}
+
+ private:
+  SteadyClock clock_;
+  BytePool pool_{8};
+  BoundedQueue<FramePtr> arrived_{1};
+  FrameIntake intake_{*this, clock_, pool_, {}};  // last: its threads use what is above
+};
+
+// Threads or none, a frame is the same.
+void checkEqual(const Frame& a, const Frame& b) {
+  for (size_t l = 0; l < a.format.sources.at(0).layers.size(); ++l) {
+    VIEWLOOM_CHECK(*a.sources.at(0).at(l).color == *b.sources.at(0).at(l).color);
+    VIEWLOOM_CHECK(*a.sources.at(0).at(l).depth == *b.sources.at(0).at(l).depth);
+  }
+}
+
 }  // namespace
 
 bool fuzzJpeg(std::span<const uint8_t> bytes) {
@@ -131,15 +167,21 @@ bool fuzzZstd(std::span<const uint8_t> bytes) {
 bool fuzzFrame(std::span<const uint8_t> bytes) {
   static BytePool pool(8);
   static FrameDecoder decoder(pool);
+  static IntakeUnderTest intake;
   constexpr FrameLimits kLimits{.plane_side_px_max = 64, .frame_bytes_max = 1 << 16};
   Script script(bytes);
   const FrameFormat format = takeFormat(script);
   if (!validateFrame(format, kLimits).ok()) return false;
   FrameAssembly assembly(format, pool);
   if (!collect(script, format, assembly)) return false;
-  const absl::StatusOr<std::unique_ptr<Frame>> frame = decoder.decode(assembly.take());
-  if (frame.ok()) checkPlanes(**frame);
-  return frame.ok();
+  const CollectedFrame collected = assembly.take();
+  const absl::StatusOr<std::unique_ptr<Frame>> frame = decoder.decode(collected);
+  const FramePtr by_threads = intake.decode(collected);
+  VIEWLOOM_CHECK(frame.ok() == (by_threads != nullptr));
+  if (!frame.ok()) return false;
+  checkPlanes(**frame);
+  checkEqual(**frame, *by_threads);
+  return true;
 }
 
 }  // namespace viewloom
