@@ -8,7 +8,9 @@ target_compile_options(viewloom_options INTERFACE
 
 set(VIEWLOOM_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
 if(VIEWLOOM_SANITIZE)
-  add_compile_options(-fsanitize=${VIEWLOOM_SANITIZE} -fno-omit-frame-pointer)
+  # Undefined behaviour ends the program, as a bad address does: a mere message fails no test.
+  add_compile_options(-fsanitize=${VIEWLOOM_SANITIZE} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VIEWLOOM_SANITIZE})
 endif()
 if(VIEWLOOM_FUZZ)
