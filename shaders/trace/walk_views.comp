@@ -65,12 +65,16 @@ vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point) {
                               links, point);
 }
 
+// The column at an image point, or the one nearest to it: points may lie beyond all integers.
+ivec2 columnAt(Scene scene, vec2 point) {
+  return ivec2(clamp(point, vec2(0.0), vec2(scene.extent.size_px - 1)));
+}
+
 // The largest inv_z in the cells that neighbouring rays pass, from corner to corner of their
 // rectangle.
 float startBound(Scene scene, vec2 low_px, vec2 high_px) {
-  const ivec2 last_cell = (scene.extent.size_px - 1) >> int(kStartLevel);
-  const ivec2 first = clamp(ivec2(floor(low_px)) >> int(kStartLevel), ivec2(0), last_cell);
-  const ivec2 last = clamp(ivec2(floor(high_px)) >> int(kStartLevel), ivec2(0), last_cell);
+  const ivec2 first = columnAt(scene, low_px) >> int(kStartLevel);
+  const ivec2 last = columnAt(scene, high_px) >> int(kStartLevel);
   const ivec2 count = last - first + 1;
   if (count.x * count.y > kStartCellsMax) return scene.inv_z_near;
   float bound = 0.0;
@@ -91,8 +95,7 @@ WalkStart startOf(Scene scene, Ray ray, float bound) {
   const bool goes_away = kRaysArePlain || (ray.extent.z < 0.0 && ray.start.z > bound);
   const float t_bound = goes_away ? (bound - ray.start.z) / ray.extent.z : 0.0;
   const float t = ray.t_begin < ray.t_end ? min(max(t_bound, ray.t_begin), ray.t_end) : 1.0;
-  const ivec2 cell = ivec2(floor(ray.start.xy + t * ray.extent.xy));
-  return WalkStart(t, clamp(cell, ivec2(0), scene.extent.size_px - 1), kStateUnknown);
+  return WalkStart(t, columnAt(scene, ray.start.xy + t * ray.extent.xy), kStateUnknown);
 }
 
 uint classOf(Walk walk) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The walk on the device against the oracle.
+#include <glm/gtc/constants.hpp>
+
 #include "gpu/judge_views.h"
 #include "gpu/test_device.h"
+#include "oracle/analytic_scenes.h"
 
 namespace viewloom {
 namespace {
@@ -60,6 +63,27 @@ TEST_F(TraceTest, fromItsOwnPoseASourceSeesItself) {
         EXPECT_NEAR(record.x_px, column + 0.5, 1e-3);
         EXPECT_NEAR(record.y_px, row + 0.5, 1e-3);
       }
+    }
+  }
+}
+
+TEST_F(TraceTest, raysAlongTheSourcesPlaneEnd) {
+  // Wider than a cell in which rays look for their start.
+  const oracle::Scene scene = oracle::planeScene({.at_origin = 0.25}, 130, 40);
+  oracle::OutputView view = oracle::ownView(scene);
+  view.width = 3;
+  view.height = 2;
+  view.pinhole = {{512, 512}, {2.5, 1}};
+  view.position_m.x = 0.01;
+  // The last column looks so little to the front that its vanishing point, px, is no integer.
+  const double angle_rad = glm::half_pi<double>() - 0x1p-31;
+  view.orientation = glm::angleAxis(-angle_rad, glm::dvec3(0, 1, 0));
+  // So many views that an invocation takes several px, which look for their start together.
+  const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
+  const std::vector<oracle::OutputView> views(5, view);
+  for (const TracedView& traced : walk_.trace(*slot, views, 0.25)) {
+    for (const abi::RayRecord& record : traced.records) {
+      EXPECT_EQ(record.ray_class, abi::kClassOutside);
     }
   }
 }
