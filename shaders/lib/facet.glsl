@@ -32,17 +32,4 @@ float facetAt(float inv_z, vec2 slope, vec2 offset) {
   return max(0.0, inv_z + slope.x * offset.x + slope.y * offset.y);
 }
 
-// Of the largest inv_z of a facet: see facetBox.
-const float kFacetBoxMargin = 1.1920928955078125e-7;
-
-// The smallest and largest inv_z of a facet over its footprint. Three roundings, each of at most
-// half an ulp of the largest value: outward by one to two ulp of that.
-vec2 facetBox(float inv_z, vec2 slope) {
-  precise const float half_range = 0.5 * (abs(slope.x) + abs(slope.y));
-  precise const float margin = (inv_z + half_range) * kFacetBoxMargin;
-  precise const float low = (inv_z - half_range) - margin;
-  precise const float high = (inv_z + half_range) + margin;
-  return vec2(max(0.0, low), high);
-}
-
 #endif  // VIEWLOOM_LIB_FACET_GLSL_

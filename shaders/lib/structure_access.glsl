@@ -21,10 +21,6 @@ Extent makeExtent(ivec2 size_px) {
   return Extent(size_px, padded.x, area, layerWords(area));
 }
 
-bool isInside(Extent extent, ivec2 pixel) {
-  return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, extent.size_px));
-}
-
 uint facetIndex(Extent extent, ivec2 pixel) {
   return levelOffset(kLevelFacets, extent.padded_area) + uint(pixel.y) * extent.padded_width +
          uint(pixel.x);

@@ -13,20 +13,10 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+#include "lib/facet_row.glsl"
 #include "lib/links.glsl"
 #include "lib/node.glsl"
 #include "lib/plane_fit.glsl"
-
-// Four facets of a layer side by side.
-struct Facets {
-  vec4 inv_z;
-  vec4 slope_x;
-  vec4 slope_y;
-};
-
-struct FacetRow {
-  Facets layer[kLayerCountMax];
-};
 
 // Links of a row, and what they do to its facets.
 struct RowLinks {
@@ -42,60 +32,6 @@ struct Block {
   bool has_hole;
   uint flagged;  // facets with a link forward, a bit each
 };
-
-void loadInto(inout Facets facets, int k, Extent extent, uint layer, ivec2 pixel, bool exists) {
-  const uvec2 facet = loadFacet(push.layers, layer, extent, pixel);
-  const vec2 slope = unpackSlopes(facet.y);
-  facets.inv_z[k] = exists ? facetInvZ(facet) : kNoSurface;
-  facets.slope_x[k] = slope.x;
-  facets.slope_y[k] = slope.y;
-}
-
-FacetRow loadRow(Extent extent, ivec2 pixel, bool exists) {
-  FacetRow row;
-  for (uint i = 0u; i < kLayerCount; ++i) {
-    for (int k = 0; k < 4; ++k) loadInto(row.layer[i], k, extent, i, pixel + ivec2(k, 0), exists);
-  }
-  return row;
-}
-
-// One facet of each layer in the first component, and no surface beside it.
-FacetRow loadOne(Extent extent, ivec2 pixel, bool exists) {
-  FacetRow one;
-  for (uint i = 0u; i < kLayerCount; ++i) {
-    one.layer[i] = Facets(vec4(kNoSurface), vec4(0.0), vec4(0.0));
-    loadInto(one.layer[i], 0, extent, i, pixel, exists);
-  }
-  return one;
-}
-
-// facetBox of four facets; no surface: kNoSurface.
-vec4 highOf(Facets facets) {
-  precise const vec4 half_range = 0.5 * (abs(facets.slope_x) + abs(facets.slope_y));
-  precise const vec4 margin = (facets.inv_z + half_range) * kFacetBoxMargin;
-  precise const vec4 high = (facets.inv_z + half_range) + margin;
-  return mix(high, vec4(kNoSurface), lessThan(facets.inv_z, vec4(0.0)));
-}
-
-vec4 lowOf(Facets facets) {
-  precise const vec4 half_range = 0.5 * (abs(facets.slope_x) + abs(facets.slope_y));
-  precise const vec4 margin = (facets.inv_z + half_range) * kFacetBoxMargin;
-  precise const vec4 low = (facets.inv_z - half_range) - margin;
-  return max(low, vec4(0.0));
-}
-
-// The side of the edges half a px along x or y from the samples.
-EdgeSide sideOf(FacetRow row, vec2 to_edge) {
-  EdgeSide side;
-  for (uint i = 0u; i < kLayerCount; ++i) {
-    const Facets facets = row.layer[i];
-    const vec4 at_edge =
-        max(facets.inv_z + (to_edge.x * facets.slope_x + to_edge.y * facets.slope_y), vec4(0.0));
-    side.at[i] = mix(at_edge, vec4(kNoSurface), lessThan(facets.inv_z, vec4(0.0)));
-    side.facet_high[i] = highOf(facets);
-  }
-  return side;
-}
 
 void addLinks(inout RowLinks links, uint edge, EdgeLinks across) {
   for (uint i = 0u; i < kLayerCount; ++i) {
@@ -171,7 +107,7 @@ uvec2 planeOrBox(Extent extent, uint layer, ivec2 origin, PlaneFit fit, vec2 box
   do {
     Facets facets;
     for (int k = 0; k < 4; ++k) {
-      loadInto(facets, k, extent, layer, origin + ivec2(k, row), true);
+      loadInto(facets, k, push.layers, extent, layer, origin + ivec2(k, row), true);
     }
     const vec4 plane = center + (slope.x * kPositions + slope.y * (float(row) - 1.5));
     const vec4 lean = abs(facets.slope_x - slope.x) + abs(facets.slope_y - slope.y);
@@ -262,12 +198,12 @@ void main() {
     links_above.word[i] = uvec4(0u);
     links_above.forward_high[i] = vec4(kNoSurface);
   }
-  FacetRow above = loadRow(extent, origin - ivec2(0, 1), origin.y > 0);
+  FacetRow above = loadRow(push.layers, extent, origin - ivec2(0, 1), origin.y > 0);
   int row = 0;
   do {
     const ivec2 pixel = origin + ivec2(0, row);
     const bool exists = pixel.y < extent.size_px.y;
-    const FacetRow here = loadRow(extent, pixel, exists);
+    const FacetRow here = loadRow(push.layers, extent, pixel, exists);
     EdgeLinks to_below;
     EdgeLinks to_above;
     linkAcross(sideOf(above, vec2(0.0, 0.5)), sideOf(here, vec2(0.0, -0.5)), kappa, to_below,
@@ -284,8 +220,9 @@ void main() {
       addFacets(block[i], here.layer[i], float(row) - 1.5, in_block);
     }
     addLinks(links_above, kEdgeTop, to_above);
-    const FacetRow left = loadOne(extent, pixel - ivec2(1, 0), exists && origin.x > 0);
-    const FacetRow right = loadOne(extent, pixel + ivec2(kBlockPx, 0), exists && has_right);
+    const FacetRow left = loadOne(push.layers, extent, pixel - ivec2(1, 0), exists && origin.x > 0);
+    const FacetRow right =
+        loadOne(push.layers, extent, pixel + ivec2(kBlockPx, 0), exists && has_right);
     linkColumns(links_above, here, left, right, kappa);
     above = here;
     ++row;

@@ -42,6 +42,28 @@ TEST_F(StructureTest, isTheOraclesOverSeveralRoots) {
   }
 }
 
+// One column and one row of the last blocks lie in the image.
+TEST_F(StructureTest, isTheSameWhateverItsMemoryHeld) {
+  constexpr uint32_t kNan = 0xffffffff;
+  for (const SizePx& size_px : {SizePx{1, 1}, SizePx{5, 1}, SizePx{1, 5}, SizePx{65, 69}}) {
+    const oracle::Scene scene =
+        oracle::smoothScene(int(size_px.width), int(size_px.height), abi::kLayerCountMax);
+    const FramePtr frame = frameOf(scene);
+    const StructureImage image = walk_.readBack(*walk_.build(*frame, 0));
+    const StructureImage other = walk_.readBack(*walk_.build(*frame, kNan));
+    for (size_t i = 0; i < image.layers.size(); ++i) {
+      const LayerImage& layer = image.layers[i];
+      EXPECT_EQ(layer.facets.nodes, other.layers[i].facets.nodes);
+      EXPECT_EQ(layer.links, other.layers[i].links);
+      EXPECT_EQ(layer.entries.nodes, other.layers[i].entries.nodes);
+      for (size_t level = 0; level < layer.levels.size(); ++level) {
+        EXPECT_TRUE(layer.levels[level].nodes == other.layers[i].levels[level].nodes)
+            << size_px.width << "x" << size_px.height << " level " << level;
+      }
+    }
+  }
+}
+
 TEST_F(StructureTest, aSmoothSceneTakesFewNodes) {
   const oracle::Scene scene = oracle::smoothScene(640, 480, 1);
   const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));

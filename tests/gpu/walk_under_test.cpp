@@ -129,10 +129,18 @@ oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& s
 WalkUnderTest::WalkUnderTest(const Device& device)
     : device_(device), builder_(device), tracer_(device), recorder_(device), timeline_(device) {}
 
-std::unique_ptr<StructureSlot> WalkUnderTest::build(const Frame& frame) {
+std::unique_ptr<StructureSlot> WalkUnderTest::build(const Frame& frame,
+                                                    std::optional<uint32_t> old_word) {
   auto slot = std::make_unique<StructureSlot>(device_, shapeOf(frame));
   slot->upload(frame);
-  builder_.record(recorder_.begin(), *slot, nullptr);
+  const vk::CommandBuffer commands = recorder_.begin();
+  for (uint32_t layer = 0; old_word && layer < slot->shape().layerCount(); ++layer) {
+    for (const LayeredBuffer* arrays : {&slot->invZ(), &slot->structure()}) {
+      commands.fillBuffer(arrays->buffer(layer).handle(), arrays->offsetBytes(layer),
+                          arrays->layerBytes(), *old_word);
+    }
+  }
+  builder_.record(commands, *slot, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
   return slot;
 }

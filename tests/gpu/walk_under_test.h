@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -42,8 +43,9 @@ class WalkUnderTest {
  public:
   explicit WalkUnderTest(const Device& device);
 
-  // Uploads and builds, and waits for it.
-  std::unique_ptr<StructureSlot> build(const Frame& frame);
+  // Uploads and builds, and waits for it; over memory that held this word everywhere, if one is
+  // given.
+  std::unique_ptr<StructureSlot> build(const Frame& frame, std::optional<uint32_t> old_word = {});
   StructureImage readBack(const StructureSlot& slot);
   // Of one layer, as stored.
   std::vector<abi::uvec2> cells(const StructureSlot& slot, uint32_t layer);
