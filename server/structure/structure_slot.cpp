@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include <glm/common.hpp>
+
 #include "structure/describe_planes.h"
 
 namespace viewloom {
@@ -147,7 +149,10 @@ void StructureSlot::describe(const Frame& frame) {
   build_.height_px = shape_.depth_px.height;
   build_.layer_count = shape_.layerCount();
   build_.given_kappa = float(source.connection_tolerance);
-  build_.format_step = formatStep(source.layers.front().depth);
+  build_.format_step = {};
+  for (const LayerFormat& layer : source.layers) {
+    build_.format_step = glm::max(build_.format_step, formatStep(layer.depth));
+  }
 }
 
 SourceStats StructureSlot::stats() const {

@@ -2,7 +2,7 @@
 // The structure of one frame as it lies in device memory, and what its kernels are told.
 //
 // What every px needs comes by push constants and bindings: on software devices a load through an
-// address costs five times one through a storage binding, and ten times a texel fetch
+// address costs five times one through a storage binding, and thirteen times a texel fetch
 // (shaders/README.md, Measured). Addresses serve what is larger than the device's bindings.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
@@ -167,7 +167,8 @@ struct BuildPush {
   uint layer_count;
   uint level;         // build_level.comp
   float given_kappa;  // 1/m; 0 = measured
-  // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m.
+  // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m. Of the
+  // coarsest layer in each term.
   vec3 format_step;
 };
 
