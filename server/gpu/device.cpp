@@ -171,6 +171,9 @@ Device::Device(const DeviceOptions& options)
   const uint32_t chosen = choose(infos, options.select);
   physical_device_ = devices[chosen];
   info_ = infos[chosen];
+  DeviceLimits& limits = info_.limits;
+  limits.storage_bytes_max = std::min(limits.storage_bytes_max, options.storage_bytes_max);
+  limits.texel_count_max = std::min(limits.texel_count_max, options.texel_count_max);
   queue_family_ = computeFamily(physical_device_);
   const auto family = physical_device_.getQueueFamilyProperties()[queue_family_];
   timestamp_valid_bits_ = family.timestampValidBits;

@@ -19,6 +19,9 @@ struct DeviceOptions {
   bool validation = false;  // core and synchronization validation; needs the Khronos layer
   // For tests of the tests: the mistake that every shader makes which knows it. 0 = none.
   uint32_t planted_fault = 0;
+  // For tests: act like a device whose bindings are no larger, so that small arrays do not fit.
+  uint64_t storage_bytes_max = UINT64_MAX;
+  uint64_t texel_count_max = UINT64_MAX;
 };
 
 struct DeviceLimits {

@@ -50,7 +50,6 @@ bool mustDivide(const Device& device, const FrameShape& shape) {
   return LayeredBuffer::mustDivide(device, colorOptions(shape)) ||
          LayeredBuffer::mustDivide(device, invZOptions(shape)) ||
          LayeredBuffer::mustDivide(device, structureOptions(shape)) ||
-         invZOptions(shape).layer_bytes > device.info().limits.storage_bytes_max ||
          shape.staged_bytes / sizeof(uint32_t) > device.info().limits.texel_count_max;
 }
 
