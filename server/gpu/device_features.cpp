@@ -17,22 +17,11 @@ vk::Bool32& field(FeatureChain& chain) {
   return chain.get<Struct>().*Member;
 }
 
-vk::Bool32& shaderInt64(FeatureChain& chain) {
-  return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64;
-}
-
-vk::Bool32& int16(FeatureChain& chain) {
-  return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt16;
-}
-
 using Features11 = vk::PhysicalDeviceVulkan11Features;
 using Features12 = vk::PhysicalDeviceVulkan12Features;
 using Features13 = vk::PhysicalDeviceVulkan13Features;
 
 constexpr RequiredFeature kRequired[] = {
-    {"shaderInt64", shaderInt64},
-    {"shaderInt16", int16},
-    {"storageBuffer16BitAccess", field<&Features11::storageBuffer16BitAccess, Features11>},
     {"storageBuffer8BitAccess", field<&Features12::storageBuffer8BitAccess, Features12>},
     {"shaderInt8", field<&Features12::shaderInt8, Features12>},
     {"scalarBlockLayout", field<&Features12::scalarBlockLayout, Features12>},
