@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GPU buffer with its own memory; shaders reach it by its 64-bit address, never by a descriptor.
+// A GPU buffer with its own memory; shaders reach it by a descriptor, or by its 64-bit address.
 #pragma once
 
 #include <cstddef>

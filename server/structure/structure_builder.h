@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records the build of a structure: linearise, measure, facets, links, pyramid.
+// Records the build of a structure: colour, columns, tolerance, facets, links, pyramid.
 #pragma once
 
 #include <map>

@@ -12,7 +12,7 @@ namespace viewloom {
 namespace {
 
 // With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring px instead of
-// neighbouring views, and an invocation then takes one px: measured in shaders/README.md.
+// neighbouring views, and an invocation then takes one px.
 constexpr uint32_t kColumnsForViewLanes = 5;
 constexpr uint32_t kPixelsWithViewLanes = 8;
 constexpr uint32_t kPixelsWithPixelLanes = 1;

@@ -25,9 +25,9 @@ class ViewTracer {
  public:
   explicit ViewTracer(const Device& device);
 
-  // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows
-  // and the tiles; the structure's build is done. `timer` was
-  // reset in this recording; nullptr = untimed. The first band of a new variant compiles its
+  // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows and the
+  // tiles. The structure's build is done, not only recorded: its stats choose the kernel. `timer`
+  // was reset in this recording; nullptr = untimed. The first band of a new variant compiles its
   // pipeline.
   void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
                   BandRows rows, TraceSlot& slot, GpuTimer* timer);
