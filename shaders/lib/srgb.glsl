@@ -12,7 +12,8 @@ vec3 linearFromSrgb(vec3 srgb) {
   return mix(curve, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-// The same of 8-bit codes, 0..255, in the low three bytes.
+// The same fit for 8-bit codes, 0..255, in the low three bytes: coefficient k over 255^k, which
+// saves the walk a division for each of its twelve channels.
 vec3 linearFromSrgb8(uint rgb) {
   const vec3 code = vec3(rgb & 255u, (rgb >> 8) & 255u, (rgb >> 16) & 255u);
   const vec3 curve =
@@ -33,7 +34,7 @@ vec3 srgbFromLinear(vec3 light) {
   return mix(curve, clipped * 12.92, lessThanEqual(clipped, vec3(0.0031308)));
 }
 
-// To 8-bit codes, rounded, with alpha 255.
+// To 8-bit codes, rounded, with alpha 255: the same fit times 255, and a half to round.
 uint srgb8FromLinear(vec3 light) {
   const vec3 clipped = clamp(light, 0.0, 1.0);
   const vec3 root = sqrt(clipped);
