@@ -124,7 +124,11 @@ void Recording::prepare() {
 }
 
 void Recording::measure() {
-  overNodes(passes_.measure_depth, abi::kLevelFirst, 1);
+  const SizePx size = slot_.shape().depth_px;
+  constexpr uint32_t kStripPx = abi::kMeasuredBlocks * abi::kBlockPx;
+  dispatch(passes_.measure_depth, slot_.buildPush(),
+           groups(groups(size.width, kStripPx), abi::kNodeGroupSize),
+           groups(size.height, abi::kBlockPx), 1);
   dispatch(passes_.settle_tolerance, slot_.buildPush(), 1, 1, 1);
 }
 

@@ -100,6 +100,7 @@ VIEWLOOM_ABI_CONST uint kFacetExists = 0x1000u;
 // Build kernels take blocks of px, an invocation each, in groups of one dimension.
 VIEWLOOM_ABI_CONST int kBlockPx = 4;
 VIEWLOOM_ABI_CONST uint kNodeGroupSize = 64u;
+VIEWLOOM_ABI_CONST int kMeasuredBlocks = 8;  // side by side, an invocation of measure_depth.comp
 
 // inv_z of a layer lies in rows of a pitch of its own, with a guard of no surface around the image:
 // whole blocks above and below, at least two px to the right of each row, which are also those to
@@ -179,7 +180,6 @@ VIEWLOOM_ABI_CONST uint kNoiseHistogramBinCount = 1024u;  // 16 bins an octave
 struct MeasuredHead {
   uint bad_samples_count;
   uint unsorted_columns_count;
-  uint surface_count;   // of layer 0, of the px that were looked at
   uint inv_z_max_bits;  // float bits, over all layers
   uint inv_z_min_bits;  // float bits, over surfaces of all layers
   float depth_step;     // 1/m
@@ -222,7 +222,7 @@ struct ConvertColorPush {
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 104);
-static_assert(offsetof(Measured, noise_histogram) == 44 + 4 * kDepthHistogramBinCount);
+static_assert(offsetof(Measured, noise_histogram) == 40 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 40);
 #endif
 

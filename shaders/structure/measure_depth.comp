@@ -21,26 +21,56 @@ float nearestInvZ(ivec2 pixel) {
   return loadInvZ(push.inv_z, 0u, area, invZIndex(pitch, uint(pixel.x), pixel.y));
 }
 
+// Samples of one bin in a row, added with one atomic when another bin comes: neighbours mostly
+// share a bin, and atomics on the few bins of a flat scene would wait for each other.
+struct Tally {
+  uint bin;
+  uint count;
+};
+
+void addToDepths(MeasuredRef measured, Tally tally) {
+  if (tally.count > 0u) atomicAdd(measured.value.depth_histogram[tally.bin], tally.count);
+}
+
+void addToNoise(MeasuredRef measured, Tally tally) {
+  if (tally.count > 0u) atomicAdd(measured.value.noise_histogram[tally.bin], tally.count);
+}
+
+Tally withSample(Tally tally, uint bin) {
+  return Tally(bin, bin == tally.bin ? tally.count + 1u : 1u);
+}
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const ivec2 size = ivec2(push.width_px, push.height_px);
-  const ivec2 block = ivec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
-  if (block.x * kBlockPx >= size.x) return;
-  const ivec2 pixel = min(block * kBlockPx + 2, size - 1);
-
-  const float inv_z = nearestInvZ(pixel);
-  if (inv_z < 0.0) return;
-  atomicAdd(measured.value.head.surface_count, 1u);
-  atomicAdd(measured.value.depth_histogram[depthBin(inv_z)], 1u);
-
-  const ivec2 along = ((block.x + block.y) & 1) == 0 ? ivec2(1, 0) : ivec2(0, 1);
-  const ivec2 before = pixel - along;
-  const ivec2 after = pixel + along;
-  if (any(lessThan(before, ivec2(0))) || any(greaterThanEqual(after, size))) return;
-  const float inv_z_before = nearestInvZ(before);
-  const float inv_z_after = nearestInvZ(after);
-  if (inv_z_before < 0.0 || inv_z_after < 0.0) return;
-  const float difference = abs((inv_z_after - inv_z) - (inv_z - inv_z_before));
-  const float seen = difference <= inv_z * kRoundingShare ? 0.0 : difference;
-  atomicAdd(measured.value.noise_histogram[noiseBin(seen)], 1u);
+  const int y = min(int(gl_WorkGroupID.y) * kBlockPx + 2, size.y - 1);
+  const int first_x = int(gl_GlobalInvocationID.x) * kMeasuredBlocks;
+  Tally depths = Tally(0u, 0u);
+  Tally noise = Tally(0u, 0u);
+  int block = 0;
+  do {
+    const int block_x = first_x + block;
+    const bool is_in_image = block_x * kBlockPx < size.x;
+    const ivec2 pixel = ivec2(min(block_x * kBlockPx + 2, size.x - 1), y);
+    const bool is_along_x = ((block_x + int(gl_WorkGroupID.y)) & 1) == 0;
+    const ivec2 along = is_along_x ? ivec2(1, 0) : ivec2(0, 1);
+    // Around the image lies the guard of no surface.
+    const float before = nearestInvZ(pixel - along);
+    const float inv_z = nearestInvZ(pixel);
+    const float after = nearestInvZ(pixel + along);
+    if (is_in_image && inv_z >= 0.0) {
+      const uint bin = depthBin(inv_z);
+      if (bin != depths.bin) addToDepths(measured, depths);
+      depths = withSample(depths, bin);
+    }
+    if (is_in_image && min(inv_z, min(before, after)) >= 0.0) {
+      const float difference = abs((after - inv_z) - (inv_z - before));
+      const uint bin = noiseBin(difference <= inv_z * kRoundingShare ? 0.0 : difference);
+      if (bin != noise.bin) addToNoise(measured, noise);
+      noise = withSample(noise, bin);
+    }
+    ++block;
+  } while (block < kMeasuredBlocks);
+  addToDepths(measured, depths);
+  addToNoise(measured, noise);
 }

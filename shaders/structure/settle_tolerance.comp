@@ -19,8 +19,8 @@ const float kMedianPerSigma = 0.6745 * 2.44949;
 // Among differences that are not zero, a quantised source has none below its step.
 const float kStepQuantile = 0.01;
 
-float depthQuantile(MeasuredRef measured, float share) {
-  const float wanted = share * float(measured.value.head.surface_count);
+float depthQuantile(MeasuredRef measured, float count, float share) {
+  const float wanted = share * count;
   float below = 0.0;
   for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
     const float here = float(measured.value.depth_histogram[bin]);
@@ -48,16 +48,25 @@ float noiseQuantile(MeasuredRef measured, uint first, float share) {
   return 0.0;
 }
 
+float surfaceCount(MeasuredRef measured) {
+  uint count = 0u;
+  for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
+    count += measured.value.depth_histogram[bin];
+  }
+  return float(count);
+}
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const float depth_step = noiseQuantile(measured, 1u, kStepQuantile);
   const float noise_sigma = noiseQuantile(measured, 0u, 0.5) / kMedianPerSigma;
+  const float surface_count = surfaceCount(measured);
   const float given = push.given_kappa;
   measured.value.head.depth_step = depth_step;
   measured.value.head.noise_sigma = noise_sigma;
   measured.value.head.kappa_abs =
       given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  measured.value.head.inv_z_far = depthQuantile(measured, 0.02);
-  measured.value.head.inv_z_near = depthQuantile(measured, 0.98);
+  measured.value.head.inv_z_far = depthQuantile(measured, surface_count, 0.02);
+  measured.value.head.inv_z_near = depthQuantile(measured, surface_count, 0.98);
 }
