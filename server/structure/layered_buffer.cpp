@@ -24,13 +24,15 @@ LayeredBuffer::LayeredBuffer(const Device& device, const LayeredBufferOptions& o
   }
   const Buffer& read = is_divided_ ? placeholder_ : buffers_.front();
   texels_ = TexelView(device, read, options.texel_format);
+  if (options.has_half_texels) half_texels_ = TexelView(device, read, vk::Format::eR32Uint);
 }
 
 bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions& options) {
   const DeviceLimits& limits = device.info().limits;
   const uint64_t total_bytes = options.layer_bytes * options.layer_count;
+  const uint32_t least_texel_bytes = options.texel_bytes / (options.has_half_texels ? 2 : 1);
   return total_bytes > limits.allocation_bytes_max ||
-         total_bytes / options.texel_bytes > limits.texel_count_max;
+         total_bytes / least_texel_bytes > limits.texel_count_max;
 }
 
 vk::DeviceAddress LayeredBuffer::address(uint32_t layer) const {
@@ -39,6 +41,10 @@ vk::DeviceAddress LayeredBuffer::address(uint32_t layer) const {
 
 Descriptor LayeredBuffer::asTexels(uint32_t binding) const {
   return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = texels_.handle()};
+}
+
+Descriptor LayeredBuffer::asHalfTexels(uint32_t binding) const {
+  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = half_texels_.handle()};
 }
 
 Descriptor LayeredBuffer::asStorage(uint32_t binding) const {

@@ -15,6 +15,7 @@ struct LayeredBufferOptions {
   uint32_t layer_count = 1;
   vk::Format texel_format = vk::Format::eR32Uint;
   uint32_t texel_bytes = 4;
+  bool has_half_texels = false;  // also read as texels of one uint; texels have two
   // Whether all layers must be divided because another array of the same structure is.
   bool is_divided = false;
   const char* debug_name = "";
@@ -37,6 +38,7 @@ class LayeredBuffer {
   // Descriptors of all layers. What stands there for arrays that are reached by address is valid,
   // as Vulkan asks of every binding, and never used.
   Descriptor asTexels(uint32_t binding) const;
+  Descriptor asHalfTexels(uint32_t binding) const;  // with options.has_half_texels
   Descriptor asStorage(uint32_t binding) const;
   bool isDivided() const { return is_divided_; }
   bool fitsStorage(const Device& device) const;
@@ -48,6 +50,7 @@ class LayeredBuffer {
   std::vector<Buffer> buffers_;
   Buffer placeholder_;  // of divided arrays
   TexelView texels_;
+  TexelView half_texels_;
 };
 
 }  // namespace viewloom

@@ -43,6 +43,7 @@ LayeredBufferOptions structureOptions(const FrameShape& shape) {
           .layer_count = shape.layerCount(),
           .texel_format = vk::Format::eR32G32Uint,
           .texel_bytes = 8,
+          .has_half_texels = true,
           .debug_name = "structure"};
 }
 

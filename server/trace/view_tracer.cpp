@@ -20,6 +20,7 @@ constexpr uint32_t kPixelsWithPixelLanes = 1;
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
 constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
                                      {abi::kBindingColor, DescriptorKind::kTexels},
                                      {abi::kBindingMeasured, DescriptorKind::kUniform},
                                      {abi::kBindingViews, DescriptorKind::kStorage},
@@ -113,6 +114,7 @@ std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& struct
        .buffer = slot.color_.target().handle(),
        .size_bytes = slot.color_.target().sizeBytes()},
       structure.structure().asTexels(abi::kBindingStructure),
+      structure.structure().asHalfTexels(abi::kBindingStructureHalves),
       structure.color().asTexels(abi::kBindingColor)};
 }
 

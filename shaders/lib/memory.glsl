@@ -9,6 +9,7 @@ layout(constant_id = 0) const bool kReadByAddress = false;
 layout(constant_id = 1) const bool kWriteByAddress = false;
 
 layout(set = 0, binding = kBindingStructure) uniform usamplerBuffer structure_texels;
+layout(set = 0, binding = kBindingStructureHalves) uniform usamplerBuffer structure_halves;
 layout(set = 0, binding = kBindingColor) uniform usamplerBuffer color_texels;
 layout(set = 0, binding = kBindingInvZ) uniform samplerBuffer inv_z_texels;
 layout(set = 0, binding = kBindingInvZOut, scalar) writeonly buffer InvZOut {

@@ -74,10 +74,15 @@ float facetAtPoint(uvec2 facet, ivec2 pixel, vec2 point) {
                      : facetAt(inv_z, unpackSlopes(facet.y), point - vec2(pixel) - 0.5);
 }
 
+// The links of a facet in the low 16 bits, whatever is above them.
 uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 pixel) {
-  const uvec2 four = loadWord(layers, layer, extent, linkWordIndex(extent, pixel));
-  const uint two = (pixel.x & 2) != 0 ? four.y : four.x;
-  return (pixel.x & 1) != 0 ? two >> 16 : two & 0xffffu;
+  const uint place = uint(pixel.y) * extent.padded_width + uint(pixel.x);
+  const uint index = 2u * cellCount(extent.padded_area) + place / 2u;
+  const uint two =
+      kReadByAddress
+          ? UintRef(pickAddress(layers, layer)).at[index]
+          : texelFetch(structure_halves, int(2u * layer * extent.layer_words + index)).x;
+  return two >> (16u * (place & 1u));
 }
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.
