@@ -86,9 +86,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
     const uvec2 facet = loadFacet(scene.layers, to_layer, scene.extent, to_cell);
     const float front = point.z - facetAtPoint(facet, to_cell, point.xy);
     const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
-    const uvec2 entry = loadCell(scene.layers, to_layer, scene.extent, kLevelEntries,
-                                 uvec2(to_cell) >> kLevelFirst);
-    const float slack = comes_closer && isPlane(entry) ? min(tolerance, planeError(entry)) : 0.0;
+    const float slack = comes_closer ? tolerance : 0.0;
     if (leaving) {
       if (leads_forward && front <= slack) result.hit_layer = to_layer;
       ++from;
