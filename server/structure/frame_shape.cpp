@@ -35,21 +35,21 @@ FrameShape shapeOf(const Frame& frame) {
   }
   shape.color_storage = all_plain ? ColorStorage::kRgba8Srgb : ColorStorage::kRgba16fLinear;
   const std::vector<StagedLayer> staged = stagedLayers(frame);
+  shape.staged_depth_bytes = alignedEnd(staged.back().depth.offset, staged.back().depth.size_bytes);
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
   return shape;
 }
 
 std::vector<StagedLayer> stagedLayers(const Frame& frame) {
-  std::vector<StagedLayer> staged;
+  const std::vector<LayerPlanes>& layers = frame.sources.front();
+  std::vector<StagedLayer> staged(layers.size());
   uint64_t offset = 0;
-  for (const LayerPlanes& planes : frame.sources.front()) {
-    StagedLayer layer;
-    layer.depth = {offset, planes.depth->size()};
-    offset = alignedEnd(offset, layer.depth.size_bytes);
-    layer.color = {offset, planes.color->size()};
-    offset = alignedEnd(offset, layer.color.size_bytes);
-    staged.push_back(layer);
-  }
+  const auto stage = [&](StagedPlane& plane, uint64_t size_bytes) {
+    plane = {offset, size_bytes};
+    offset = alignedEnd(offset, size_bytes);
+  };
+  for (size_t i = 0; i < layers.size(); ++i) stage(staged[i].depth, layers[i].depth->size());
+  for (size_t i = 0; i < layers.size(); ++i) stage(staged[i].color, layers[i].color->size());
   return staged;
 }
 

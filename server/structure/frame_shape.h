@@ -19,7 +19,9 @@ struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
   ColorStorage color_storage = ColorStorage::kRgba8Srgb;
-  uint64_t staged_bytes = 0;  // decoded planes of all layers, each aligned for upload
+  // Decoded planes of all layers in the upload, each aligned: depth, and colour after it.
+  uint64_t staged_depth_bytes = 0;
+  uint64_t staged_bytes = 0;
 
   uint32_t layerCount() const { return uint32_t(color_px.size()); }
   bool operator==(const FrameShape&) const = default;
@@ -27,11 +29,11 @@ struct FrameShape {
 
 FrameShape shapeOf(const Frame& frame);
 
-// Device and host memory one slot of this shape takes, bytes; to check before anything is
+// Device and host memory one slot of this shape takes at most, bytes; to check before anything is
 // allocated.
 uint64_t structureBytes(const FrameShape& shape);
 
-// Where each plane of the frame lies in the upload buffer, bytes.
+// Where each plane of the frame lies in the upload, bytes.
 struct StagedPlane {
   uint64_t offset = 0;
   uint64_t size_bytes = 0;

@@ -15,8 +15,9 @@ LayeredBuffer::LayeredBuffer(const Device& device, const LayeredBufferOptions& o
   const uint32_t buffer_count = options.is_divided ? options.layer_count : 1;
   const uint64_t buffer_bytes = layer_bytes_ * (options.is_divided ? 1 : options.layer_count);
   for (uint32_t i = 0; i < buffer_count; ++i) {
-    buffers_.emplace_back(
-        device, BufferOptions{.size_bytes = buffer_bytes, .debug_name = options.debug_name});
+    buffers_.emplace_back(device, BufferOptions{.size_bytes = buffer_bytes,
+                                                .intent = options.intent,
+                                                .debug_name = options.debug_name});
   }
   storage_bytes_ = std::min(buffer_bytes, device.info().limits.storage_bytes_max);
   if (is_divided_) {
@@ -37,6 +38,10 @@ bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions&
 
 vk::DeviceAddress LayeredBuffer::address(uint32_t layer) const {
   return buffer(layer).address() + offsetBytes(layer);
+}
+
+std::span<std::byte> LayeredBuffer::mapped(uint32_t layer) const {
+  return buffer(layer).mapped().subspan(offsetBytes(layer), layer_bytes_);
 }
 
 Descriptor LayeredBuffer::asTexels(uint32_t binding) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gpu/descriptor.h"
@@ -18,6 +19,7 @@ struct LayeredBufferOptions {
   bool has_half_texels = false;  // also read as texels of one uint; texels have two
   // Whether all layers must be divided because another array of the same structure is.
   bool is_divided = false;
+  MemoryIntent intent = MemoryIntent::kDeviceOnly;
   const char* debug_name = "";
 };
 
@@ -34,6 +36,8 @@ class LayeredBuffer {
   const Buffer& buffer(uint32_t layer) const { return buffers_[is_divided_ ? layer : 0]; }
   uint64_t offsetBytes(uint32_t layer) const { return is_divided_ ? 0 : layer * layer_bytes_; }
   uint64_t layerBytes() const { return layer_bytes_; }
+  // A layer's bytes, unless the intent is kDeviceOnly.
+  std::span<std::byte> mapped(uint32_t layer) const;
 
   // Descriptors of all layers. What stands there for arrays that are reached by address is valid,
   // as Vulkan asks of every binding, and never used.

@@ -184,6 +184,7 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
 }
 
 void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const {
+  if (slot.colorIsInPlace()) return;
   for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
     if (slot.shape().color_storage == ColorStorage::kRgba8Srgb) {
       commands.copyBuffer(slot.staging().handle(), slot.color().buffer(i).handle(),

@@ -21,12 +21,19 @@ uint64_t colorLayerBytes(const FrameShape& shape) {
   return largest_bytes;
 }
 
-LayeredBufferOptions colorOptions(const FrameShape& shape) {
+// Where the device's memory is the CPU's, colour that stays as it came is written in its place.
+bool writesColorInPlace(const Device& device, const FrameShape& shape) {
+  return device.info().is_software && shape.color_storage == ColorStorage::kRgba8Srgb;
+}
+
+LayeredBufferOptions colorOptions(const Device& device, const FrameShape& shape) {
   const bool is_plain = shape.color_storage == ColorStorage::kRgba8Srgb;
   return {.layer_bytes = colorLayerBytes(shape),
           .layer_count = shape.layerCount(),
           .texel_format = is_plain ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
           .texel_bytes = is_plain ? 4u : 8u,
+          .intent =
+              writesColorInPlace(device, shape) ? MemoryIntent::kUpload : MemoryIntent::kDeviceOnly,
           .debug_name = "color"};
 }
 
@@ -48,7 +55,7 @@ LayeredBufferOptions structureOptions(const FrameShape& shape) {
 }
 
 bool mustDivide(const Device& device, const FrameShape& shape) {
-  return LayeredBuffer::mustDivide(device, colorOptions(shape)) ||
+  return LayeredBuffer::mustDivide(device, colorOptions(device, shape)) ||
          LayeredBuffer::mustDivide(device, invZOptions(shape)) ||
          LayeredBuffer::mustDivide(device, structureOptions(shape)) ||
          shape.staged_bytes / sizeof(uint32_t) > device.info().limits.texel_count_max;
@@ -67,9 +74,11 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
 StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool is_divided)
     : shape_(shape),
       layout_(structureLayout(shape.depth_px)),
-      staging_(device, {.size_bytes = shape.staged_bytes,
-                        .intent = MemoryIntent::kUpload,
-                        .debug_name = "staged planes"}),
+      color_is_in_place_(writesColorInPlace(device, shape)),
+      staging_(device,
+               {.size_bytes = color_is_in_place_ ? shape.staged_depth_bytes : shape.staged_bytes,
+                .intent = MemoryIntent::kUpload,
+                .debug_name = "staged planes"}),
       staging_texels_(is_divided ? TexelView() : TexelView(device, staging_, vk::Format::eR32Uint)),
       depth_planes_upload_(device, {.size_bytes = sizeof(abi::DepthPlanes),
                                     .intent = MemoryIntent::kUpload,
@@ -78,7 +87,7 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
       measured_readback_(device, {.size_bytes = sizeof(abi::MeasuredHead),
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "measured readback"}),
-      color_(device, divided(colorOptions(shape), is_divided)),
+      color_(device, divided(colorOptions(device, shape), is_divided)),
       inv_z_(device, divided(invZOptions(shape), is_divided)),
       structure_(device, divided(structureOptions(shape), is_divided)),
       writes_by_address_(!inv_z_.fitsStorage(device) || !structure_.fitsStorage(device)) {
@@ -115,11 +124,13 @@ Descriptor StructureSlot::stagingDescriptor() const {
 void StructureSlot::upload(const Frame& frame) {
   staged_ = stagedLayers(frame);
   source_camera_ = frame.format.sources.front().camera;
-  std::byte* const to = staging_.mapped().data();
-  for (size_t i = 0; i < staged_.size(); ++i) {
+  std::byte* const staging = staging_.mapped().data();
+  for (uint32_t i = 0; i < staged_.size(); ++i) {
     const LayerPlanes& planes = frame.sources.front()[i];
-    std::memcpy(to + staged_[i].depth.offset, planes.depth->data(), planes.depth->size());
-    std::memcpy(to + staged_[i].color.offset, planes.color->data(), planes.color->size());
+    std::byte* const color =
+        color_is_in_place_ ? color_.mapped(i).data() : staging + staged_[i].color.offset;
+    std::memcpy(staging + staged_[i].depth.offset, planes.depth->data(), planes.depth->size());
+    std::memcpy(color, planes.color->data(), planes.color->size());
   }
   describe(frame);
 }

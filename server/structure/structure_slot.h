@@ -36,6 +36,9 @@ class StructureSlot {
   bool readsByAddress() const { return structure_.isDivided(); }
   bool writesByAddress() const { return writes_by_address_; }
 
+  // Colour needs no pass: it was uploaded to where it is read.
+  bool colorIsInPlace() const { return color_is_in_place_; }
+
   const Buffer& staging() const { return staging_; }
   const std::vector<StagedLayer>& staged() const { return staged_; }
   const LayeredBuffer& color() const { return color_; }          // texels
@@ -62,6 +65,7 @@ class StructureSlot {
   FrameShape shape_;
   StructureLayout layout_;
   Camera source_camera_;
+  bool color_is_in_place_;
   Buffer staging_;
   TexelView staging_texels_;
   Buffer depth_planes_upload_;

@@ -4,7 +4,6 @@
 #define VIEWLOOM_LIB_WALK_EDGES_GLSL_
 
 #include "lib/fault.glsl"
-#include "lib/node.glsl"
 #include "lib/structure_access.glsl"
 
 // What is walked through.
@@ -64,9 +63,8 @@ const uint kNoLayer = kLayerCountMax;
 
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface
 // it was in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind
-// what one of them is linked to. Who comes closer is undecided where the walk of the other layer
-// may have taken a plane for the facet, by the error of the largest plane there or the `tolerance`,
-// 1/m, and hits.
+// what one of them is linked to. Who comes closer is undecided within the `tolerance`, 1/m, where
+// the walk of the other layer may have taken a plane for the facet, and hits.
 Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point,
                   vec3 extent, float tolerance) {
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
