@@ -53,6 +53,15 @@ bool isPlainTile(const abi::ViewParams& tile, SizePx tile_px, float inv_z_near) 
 
 }  // namespace
 
+bool eyesAreInPlane(const TraceJob& job, double inv_z_max) {
+  // Poses that ought to cancel leave a few roundings. An eye so close to the plane, in units of the
+  // nearest depth, moves no ray by more than 2^-16 px, kPlainExtentMax_px times as much.
+  constexpr double kInPlaneMax = 0x1p-30;
+  return std::all_of(job.tiles.begin(), job.tiles.end(), [&](const abi::ViewParams& tile) {
+    return tile.is_used == 0 || std::abs(tile.eye.z * inv_z_max) <= kInPlaneMax;
+  });
+}
+
 bool raysArePlain(const TraceJob& job, double inv_z_max) {
   const float inv_z_near = std::max(float(inv_z_max), abi::kInvZNearMin) * abi::kInvZNearMargin;
   const SizePx tile_px = job.layout->tile_size_px;

@@ -26,6 +26,9 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
 // Whether all rays of a job are plain (shaders/shared/trace_abi.h) for a source whose largest inv_z
 // is this, 1/m: then a cheaper kernel serves them.
 bool raysArePlain(const TraceJob& job, double inv_z_max);
+// Whether all its eyes are in the source's plane, as are those of a display that stands in the
+// place of its source's camera: then a cheaper kernel serves them.
+bool eyesAreInPlane(const TraceJob& job, double inv_z_max);
 
 // Where the display of a spec stands: its own world pose, else the source's.
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera);

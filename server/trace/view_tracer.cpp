@@ -71,7 +71,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.pixels_per_invocation,
                                   variant.lanes_are_views,
                                   variant.color_is_scaled,
-                                  variant.rays_are_plain};
+                                  variant.rays_are_plain,
+                                  variant.eyes_in_plane};
     made = std::make_unique<ComputePass>(
         *device_, ComputePassOptions{.spirv = walk_views_spirv,
                                      .push_bytes = sizeof(abi::TracePush),
@@ -162,7 +163,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
             .pixels_per_invocation = pixels,
             .lanes_are_views = lanes_are_views,
             .color_is_scaled = colorIsScaled(structure.shape()),
-            .rays_are_plain = raysArePlain(job, structure.stats().inv_z_max)});
+            .rays_are_plain = raysArePlain(job, structure.stats().inv_z_max),
+            .eyes_in_plane = eyesAreInPlane(job, structure.stats().inv_z_max)});
 
   if (timer) timer->recordBegin(commands, "trace");
   commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),

@@ -42,6 +42,7 @@ class ViewTracer {
     uint32_t lanes_are_views;
     uint32_t color_is_scaled;
     uint32_t rays_are_plain;
+    uint32_t eyes_in_plane;
 
     auto operator<=>(const Variant&) const = default;
   };

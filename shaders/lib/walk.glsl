@@ -12,6 +12,7 @@
 //
 // Two loops: the inner one steps from cell to cell, one load a visit and no branch; what is rare
 // (an edge that may be linked, the end of a layer) stops it and is dealt with by the outer one.
+// The includer has kSeesThrough: whether walks begin at surfaces that were seen through.
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
@@ -75,7 +76,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
 
   uint layer = 0u;
   // The cell a walk restarts in: the surfaces that it starts behind stay behind it.
-  bool just_left = start.behind_count != kStateUnknown && start.behind_count > 0u;
+  bool just_left =
+      kSeesThrough && start.behind_count != kStateUnknown && start.behind_count > 0u;
   Place at = Place(start.t, start.cell ^ flip, kAxisNone);
   // A ray in its first column counts as in front until it is seen not to be.
   bool in_front = !just_left;
@@ -150,9 +152,11 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
       front_to = is_exact ? plane_to : front_from;
       // Out from behind a plane that falls below the sky before the ray ends there.
-      const bool comes_out_over_sky = is_exact && !just_left && to_inv_z <= 0.0 && above_to > error;
-      front_from = just_left ? min(front_from, 0.0) : front_from;
-      just_left = just_left && !is_decided;
+      const bool still_behind = kSeesThrough && just_left;
+      const bool comes_out_over_sky =
+          is_exact && !still_behind && to_inv_z <= 0.0 && above_to > error;
+      front_from = still_behind ? min(front_from, 0.0) : front_from;
+      just_left = still_behind && !is_decided;
       if (hasFault(kFaultEntryInFront) && at.axis == kAxisNone) front_from = max(front_from, 1e-9);
 
       // How far apart linked facets are is bounded at the middle of their edge only, so whoever
@@ -234,8 +238,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       goes_on = layer + 1u < scene.layer_count && !hasFault(kFaultLayerDropped);
       ++layer;
       at = passed;
-      just_left = passed.axis == kAxisNone && start.behind_count != kStateUnknown &&
-                  layer < start.behind_count;
+      just_left = kSeesThrough && passed.axis == kAxisNone &&
+                  start.behind_count != kStateUnknown && layer < start.behind_count;
       in_front = !just_left;
       level = just_left ? kLevelFacets : kLevelEntries;
       has_passed = just_left;

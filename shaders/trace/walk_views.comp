@@ -8,8 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "lib/color.glsl"
-#include "lib/walk.glsl"
+#include "lib/memory.glsl"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -21,6 +20,9 @@ layout(constant_id = kOwnConstants + 3u) const bool kLanesAreViews = true;
 layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
 // Rays of the whole atlas as makePlainRay takes them; else as makeAnyRay does.
 layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
+// All eyes are in the source's plane, or as good as that (server/trace/trace_job.h).
+layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
+const bool kSeesThrough = kColorFormat != kColorRgba8;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -40,6 +42,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Re
 layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref {
   uint8_t at[];
 };
+
+#include "lib/class_counts.glsl"
+#include "lib/color.glsl"
+#include "lib/walk.glsl"
 
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
@@ -193,20 +199,6 @@ void store(uint index, vec3 light, Walk walk, Ray ray, vec3 eye, vec3 direction)
   }
 }
 
-// Rays by class, three to a word: a subgroup has fewer than 128 lanes of 8 rays each.
-const uint kCountBits = 10u;
-
-void count(inout uvec2 counts, uint ray_class) {
-  const uint place = ray_class - kClassHit;
-  const uint one = 1u << (kCountBits * (place % 3u));
-  counts += place < 3u ? uvec2(one, 0u) : uvec2(0u, one);
-}
-
-uint countOf(uvec2 counts, uint ray_class) {
-  const uint place = ray_class - kClassHit;
-  return (counts[place / 3u] >> (kCountBits * (place % 3u))) & ((1u << kCountBits) - 1u);
-}
-
 // A run of px of one row of one view, and where it lies in the band.
 struct Run {
   uint first_x;
@@ -268,9 +260,10 @@ void main() {
       row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
   const bool exists = run_in_tile < runs && column < tile_grid.x && tile_row < tile_grid.y;
   const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
-  const ViewParams view = views[tile];
+  ViewParams view = views[tile];
 
   uvec2 counts = uvec2(0u);
+  if (kEyesInPlane) view.eye.z = 0.0;
   if (exists && view.is_used != 0u) {
     Scene scene;
     scene.layers = push.layers;

@@ -21,16 +21,17 @@ JudgedSeed judgeSeed(WalkUnderTest& walk, uint64_t seed) {
   StructureImage image = walk.readBack(*slot);
   image.kappa_rel = scene.kappa.relative;
 
+  const double tolerance_px = kTolerances_px[seed % 3];
   oracle::Random random(seed);
-  std::vector<oracle::OutputView> views;
-  for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
-    views.push_back(oracle::randomView(random, kind, 13, 10));
+  JudgedViews judged;
+  for (const int kind_count : {oracle::kViewKindCount, oracle::kInPlaneKindCount}) {
+    const auto views = oracle::randomViews(random, kind_count, 13, 10);
+    judged.add(judgeViews(walk, *slot, source, views, tolerance_px, "soak"));
   }
   std::ostringstream name;
   name << "seed " << seed << " " << scene.name << source.width() << "x" << source.height() << "x"
        << source.layerCount();
-  return {name.str(), checkStructure(image, source),
-          judgeViews(walk, *slot, source, views, kTolerances_px[seed % 3], "soak")};
+  return {name.str(), checkStructure(image, source), judged};
 }
 
 }  // namespace viewloom

@@ -31,10 +31,7 @@ void lookAtScene(WalkUnderTest& walk, uint64_t seed, Findings& findings) {
   image.kappa_rel = scene.kappa.relative;
   findings.complaints.add(checkStructure(image, source));
   oracle::Random random(seed);
-  std::vector<oracle::OutputView> views;
-  for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
-    views.push_back(oracle::randomView(random, kind, 13, 10));
-  }
+  const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
   findings.verdict.add(
       judgeViews(walk, *slot, source, views, kTolerance_px, "seed " + std::to_string(seed))
           .verdict);

@@ -32,16 +32,25 @@ TEST_F(TraceTest, agreesWithTheOracleFromAllSides) {
   JudgedViews sum;
   for (uint64_t seed = 0; seed < 112; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed);
-    std::vector<oracle::OutputView> views;
-    for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
-      views.push_back(oracle::randomView(random, kind, 13, 10));
-    }
+    const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
     sum.add(judge(scene, views, kTolerances_px[seed % 3],
                   "seed " + std::to_string(seed) + " " + scene.name));
   }
   EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();
   EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
   std::cout << sum.summary() << "\n";
+}
+
+TEST_F(TraceTest, agreesWithTheOracleInTheSourcesPlane) {
+  oracle::Random random(12);
+  JudgedViews sum;
+  for (uint64_t seed = 0; seed < 112; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    const auto views = oracle::randomViews(random, oracle::kInPlaneKindCount, 24, 18);
+    sum.add(judge(scene, views, 0.05, "seed " + std::to_string(seed) + " " + scene.name));
+  }
+  EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();
+  EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
 }
 
 TEST_F(TraceTest, fromItsOwnPoseASourceSeesItself) {

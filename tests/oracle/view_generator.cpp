@@ -101,4 +101,12 @@ OutputView randomView(Random& random, int kind, int width, int height) {
   return view;
 }
 
+std::vector<OutputView> randomViews(Random& random, int kind_count, int width, int height) {
+  std::vector<OutputView> views;
+  for (int kind = 0; kind < kind_count; ++kind) {
+    views.push_back(randomView(random, kind, width, height));
+  }
+  return views;
+}
+
 }  // namespace viewloom::oracle

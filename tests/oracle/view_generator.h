@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -40,8 +41,15 @@ OutputView ownView(const Scene& scene);
 
 constexpr int kViewKindCount = 10;
 
+// Kinds below this neither leave the source's plane nor turn: an atlas of them alone is what most
+// displays ask for, and has a kernel of its own.
+constexpr int kInPlaneKindCount = 3;
+
 // Beside, above, before, behind, turned, looking sideways and backwards, inside the volume, across:
 // kind in [0, kViewKindCount).
 OutputView randomView(Random& random, int kind, int width, int height);
+
+// A view of each kind below `kind_count`.
+std::vector<OutputView> randomViews(Random& random, int kind_count, int width, int height);
 
 }  // namespace viewloom::oracle
