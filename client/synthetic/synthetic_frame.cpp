@@ -34,6 +34,8 @@ class SrgbTable {
 
   uint8_t encode(float linear) const {
     const float last = static_cast<float>(table_.size() - 1);
+    // It is never negative, and lround would be a call per px.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return table_[static_cast<size_t>(std::clamp(linear, 0.0F, 1.0F) * last + 0.5F)];
   }
 
