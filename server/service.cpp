@@ -135,14 +135,14 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {
-  ServerDescription description{.version = VIEWLOOM_VERSION,
-                                .device = device.info().name,
-                                .driver = device.info().driver,
-                                .frame_limits = frameLimits(config.limits),
-                                .atlas_limits = atlasLimits(config.limits),
-                                .stream_count_max = config.limits.streams_max,
-                                .broadcaster_limits = broadcasterLimits(config.limits),
-                                .http_address = http ? http->url() : ""};
+  const ServerDescription description{.version = VIEWLOOM_VERSION,
+                                      .device = device.info().name,
+                                      .driver = device.info().driver,
+                                      .frame_limits = frameLimits(config.limits),
+                                      .atlas_limits = atlasLimits(config.limits),
+                                      .stream_count_max = config.limits.streams_max,
+                                      .broadcaster_limits = broadcasterLimits(config.limits),
+                                      .http_address = http ? http->url() : ""};
   rpc.emplace(RpcServerOptions{.address = config.grpc.address},
               RpcParts{.intake = intake,
                        .pool = planes,
@@ -150,7 +150,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
                        .broadcaster = broadcaster,
                        .clock = clock,
                        .metrics = metrics},
-              std::move(description));
+              description);
   grpc_address = listeningAddress(config.grpc.address, rpc->port());
   open_rpc = &*rpc;
 }

@@ -116,9 +116,10 @@ absl::StatusOr<LoopbackReport> measureLoopback(const Config& config, const v1::D
   std::atomic<bool> has_failed = false;
   Service service(loopbackConfig(config), clock, [&](const std::exception&) { has_failed = true; });
   AtlasTally tally;
-  Watcher watcher(
-      makeChannel(service.grpcAddress()), openDisplay(display),
-      {.on_layout = {}, .on_atlas = [&](Atlas atlas) { tally.add(atlas); }, .on_connection = {}});
+  Watcher watcher(makeChannel(service.grpcAddress()), openDisplay(display),
+                  {.on_layout = {},
+                   .on_atlas = [&](const Atlas& atlas) { tally.add(atlas); },
+                   .on_connection = {}});
   Publisher publisher(makeChannel(service.grpcAddress()), {.stream = kStream}, {});
   std::jthread feeder([&](const std::stop_token& stop) { feed(stop, publisher, frames); });
 

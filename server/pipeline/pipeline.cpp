@@ -54,13 +54,13 @@ struct Pipeline::Loops {
         streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
         gpu(links, timeline, traces, gpu_wake_up),
         structures(links, streams, gpu, structure_wake_up,
-                   [this](const PipelineStream& stream, FrameTicketPtr ticket) {
-                     serve(stream, std::move(ticket));
+                   [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
+                     serve(stream, ticket);
                    }) {}
 
   // A job for each picture of the stream. The ticket is of the resident structure's frame, if that
   // has not been reported.
-  void serve(const PipelineStream& stream, FrameTicketPtr ticket);
+  void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
   void fail(const std::exception& error);
 
   const OnFailure on_failure;
@@ -85,7 +85,7 @@ void Pipeline::Loops::fail(const std::exception& error) {
   on_failure(error);
 }
 
-void Pipeline::Loops::serve(const PipelineStream& stream, FrameTicketPtr ticket) {
+void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& ticket) {
   const ResidentPtr resident = stream.resident();
   if (!resident) return;
   const std::vector<ActiveDisplayPtr> displays = links.broadcaster.displays(stream.name);

@@ -216,7 +216,7 @@ std::shared_ptr<const AtlasLayout> Broadcaster::layout(uint64_t display_id) cons
   return found == state_->displays.end() ? nullptr : found->second.layout;
 }
 
-void Broadcaster::publish(AtlasPtr atlas) {
+void Broadcaster::publish(const AtlasPtr& atlas) {
   std::vector<MemberPtr> members;
   AtlasPtr previous;  // freed after the lock
   {

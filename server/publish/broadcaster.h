@@ -64,7 +64,7 @@ class Broadcaster {
 
   // A finished atlas. Its sequence must grow. Atlases of a display that nobody watches any more are
   // dropped.
-  void publish(AtlasPtr atlas);
+  void publish(const AtlasPtr& atlas);
   // The display cannot be served: its subscribers end with this status.
   void refuse(uint64_t display_id, const absl::Status& status);
   // The newest complete atlas of a display; nullptr = none yet.

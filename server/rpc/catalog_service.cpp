@@ -84,7 +84,7 @@ grpc::ServerUnaryReactor* finish(grpc::CallbackServerContext* context, const grp
 }  // namespace
 
 CatalogService::CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                               ServerDescription description)
+                               const ServerDescription& description)
     : directory_(directory),
       broadcaster_(broadcaster),
       info_(infoToProto(description)),

@@ -28,7 +28,7 @@ struct ServerDescription {
 class CatalogService final : public v1::CatalogService::CallbackService {
  public:
   CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                 ServerDescription description);
+                 const ServerDescription& description);
 
  private:
   grpc::ServerUnaryReactor* ListStreams(grpc::CallbackServerContext* context,

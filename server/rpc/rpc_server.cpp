@@ -2,7 +2,6 @@
 #include "rpc/rpc_server.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -52,7 +51,7 @@ void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
 }  // namespace
 
 RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
-                     ServerDescription description)
+                     const ServerDescription& description)
     : drain_time_(options.drain_time),
       ingest_({.intake = parts.intake,
                .pool = parts.pool,
@@ -65,7 +64,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                 .broadcaster = parts.broadcaster,
                 .metrics = parts.metrics,
                 .limits = description.atlas_limits}),
-      catalog_(parts.directory, parts.broadcaster, std::move(description)) {
+      catalog_(parts.directory, parts.broadcaster, description) {
   addLibraryServices();
   grpc::ServerBuilder builder;
   setLimits(builder, options);

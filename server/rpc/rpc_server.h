@@ -35,7 +35,8 @@ struct RpcServerOptions {
 class RpcServer {
  public:
   // Listens. Throws std::runtime_error when the address cannot be had.
-  RpcServer(const RpcServerOptions& options, const RpcParts& parts, ServerDescription description);
+  RpcServer(const RpcServerOptions& options, const RpcParts& parts,
+            const ServerDescription& description);
   // Drains and shuts down.
   ~RpcServer();
 
