@@ -9,7 +9,7 @@
 namespace viewloom::cli {
 
 std::string explain(const absl::Status& status, const CommonOptions& common) {
-  const std::string message(status.message());
+  std::string message(status.message());
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
       return strCat("no server at ", common.server, " (", message,

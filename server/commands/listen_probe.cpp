@@ -21,7 +21,7 @@ std::string whyNotBind(const addrinfo& candidate) {
   setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   const bool is_free =
       bind(probe, candidate.ai_addr, candidate.ai_addrlen) == 0 && listen(probe, 1) == 0;
-  const std::string refusal = is_free ? "" : std::strerror(errno);
+  std::string refusal = is_free ? "" : std::strerror(errno);
   close(probe);
   return refusal;
 }

@@ -167,7 +167,8 @@ void PublishCall::release() {
 
 std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
   if (!replies_.empty()) {
-    grpc::ByteBuffer reply = std::move(replies_.front());
+    grpc::ByteBuffer reply;
+    reply.Swap(&replies_.front());
     replies_.pop_front();
     return reply;
   }
