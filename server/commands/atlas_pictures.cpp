@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 void appendRgb(uint32_t color, Bytes& rgb) {
-  for (const uint32_t shift : {0, 8, 16}) rgb.push_back(static_cast<uint8_t>(color >> shift));
+  for (const uint32_t shift : {0U, 8U, 16U}) rgb.push_back(static_cast<uint8_t>(color >> shift));
 }
 
 // A rectangle of the atlas as RGB8.

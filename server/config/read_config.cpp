@@ -54,9 +54,8 @@ class ConfigReader {
   void readEnvironment(const std::map<std::string, std::string>& environment) const {
     for (const auto& [name, text] : environment) {
       if (!name.starts_with(kEnvironmentPrefix)) continue;
-      const auto named = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) {
-        return environmentName(s.key) == name;
-      });
+      const auto named = std::ranges::find(
+          settings_, name, [](const Setting& setting) { return environmentName(setting.key); });
       if (named != settings_.end()) {
         set(*named, text, true, "environment", name);
       } else if (isOfSection(name)) {

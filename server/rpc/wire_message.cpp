@@ -32,7 +32,8 @@ absl::Status mergeMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite
 uint32_t firstFieldNumber(grpc::ByteBuffer& bytes) {
   grpc::ProtoBufferReader reader(&bytes);
   google::protobuf::io::CodedInputStream input(&reader);
-  return google::protobuf::internal::WireFormatLite::GetTagFieldNumber(input.ReadTag());
+  return static_cast<uint32_t>(
+      google::protobuf::internal::WireFormatLite::GetTagFieldNumber(input.ReadTag()));
 }
 
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {
