@@ -43,7 +43,7 @@ absl::StatusOr<PfmHeader> parseHeader(const std::string& file, const std::vector
   if (absl::Status size = checkPlaneSize(file, header.width_px, header.height_px); !size.ok()) {
     return size;
   }
-  const size_t wanted = header.samples_offset_bytes + 4 * header.channels *
+  const size_t wanted = header.samples_offset_bytes + size_t{4} * header.channels *
                                                           static_cast<size_t>(header.width_px) *
                                                           static_cast<size_t>(header.height_px);
   if (bytes.size() != wanted) {

@@ -92,7 +92,7 @@ double groundDepth(const RowRays& rays, const glm::dvec3& direction) {
 
 void castRidges(const Scene& scene, const RowRays& rays, uint32_t layer_count,
                 std::span<HitColumn> columns) {
-  for (uint8_t i = 0; i < scene.ridges.size(); ++i) {
+  for (size_t i = 0; i < scene.ridges.size(); ++i) {
     const Ridge& ridge = scene.ridges[i];
     for (size_t x = 0; x < columns.size(); ++x) {
       const glm::dvec3 direction = rays.direction(x);
@@ -101,7 +101,7 @@ void castRidges(const Scene& scene, const RowRays& rays, uint32_t layer_count,
       if (depth_m <= 0) continue;
       const glm::dvec3 point_m = rays.eye_m + depth_m * direction;
       if (!ridge.covers(point_m.x, point_m.y)) continue;
-      insertHit(columns[x], {depth_m, SurfaceKind::kRidge, i}, layer_count);
+      insertHit(columns[x], {depth_m, SurfaceKind::kRidge, static_cast<uint8_t>(i)}, layer_count);
     }
   }
 }
@@ -143,22 +143,22 @@ void castRow(const Scene& scene, const RowRays& rays, uint32_t layer_count,
   for (HitColumn& column : columns) column.count = 0;
   castRidges(scene, rays, layer_count, columns);
   castPanel(scene.panel, rays, layer_count, columns);
-  for (uint8_t i = 0; i < scene.spheres.size(); ++i) {
+  for (size_t i = 0; i < scene.spheres.size(); ++i) {
     const Sphere& sphere = scene.spheres[i];
     const RoundSurface surface(rays.first, rays.step, rays.eye_m - sphere.center_m,
                                sphere.radius_m);
     forEachEntry(surface, columns.size(), [&](size_t x, double depth_m) {
-      insertHit(columns[x], {depth_m, SurfaceKind::kSphere, i}, layer_count);
+      insertHit(columns[x], {depth_m, SurfaceKind::kSphere, static_cast<uint8_t>(i)}, layer_count);
     });
   }
-  for (uint8_t i = 0; i < scene.poles.size(); ++i) {
+  for (size_t i = 0; i < scene.poles.size(); ++i) {
     const Pole& pole = scene.poles[i];
     const glm::dvec3 offset{rays.eye_m.x - pole.center_xz_m.x, 0.0,
                             rays.eye_m.z - pole.center_xz_m.y};
     const RoundSurface surface(withoutY(rays.first), withoutY(rays.step), offset, pole.radius_m);
     forEachEntry(surface, columns.size(), [&](size_t x, double depth_m) {
       if (rays.eye_m.y + depth_m * rays.direction(x).y > pole.top_y_m) return;
-      insertHit(columns[x], {depth_m, SurfaceKind::kPole, i}, layer_count);
+      insertHit(columns[x], {depth_m, SurfaceKind::kPole, static_cast<uint8_t>(i)}, layer_count);
     });
   }
   endRays(rays, layer_count, columns);

@@ -79,8 +79,9 @@ std::vector<Finding> checkPort(const std::string& address, const std::string& se
 }  // namespace
 
 std::vector<Finding> checkDevices(const Config& config) {
-  std::vector<Finding> findings;
   const std::vector<DeviceInfo> devices = Device::listDevices();
+  std::vector<Finding> findings;
+  findings.reserve(devices.size() + 1);
   for (const DeviceInfo& info : devices) findings.push_back(judge(info));
   if (devices.empty()) {
     return {{Verdict::kProblem, "device", "there is no Vulkan device",

@@ -89,6 +89,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, uint32_t index) {
 
 std::vector<DeviceInfo> describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
   std::vector<DeviceInfo> infos;
+  infos.reserve(devices.size());
   for (const vk::raii::PhysicalDevice& device : devices) {
     infos.push_back(describe(device, static_cast<uint32_t>(infos.size())));
   }

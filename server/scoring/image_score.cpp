@@ -20,9 +20,9 @@ using Plane = std::vector<double>;  // [pixel]
 
 std::array<double, 2 * kWindowRadius_px + 1> windowWeights() {
   std::array<double, 2 * kWindowRadius_px + 1> weights{};
+  double* const weight_at = &weights[kWindowRadius_px];
   for (int i = -kWindowRadius_px; i <= kWindowRadius_px; ++i) {
-    weights[size_t(i + kWindowRadius_px)] =
-        std::exp(-i * i / (2 * kWindowSigma_px * kWindowSigma_px));
+    weight_at[i] = std::exp(-i * i / (2 * kWindowSigma_px * kWindowSigma_px));
   }
   return weights;
 }
@@ -30,12 +30,13 @@ std::array<double, 2 * kWindowRadius_px + 1> windowWeights() {
 // The weighted mean of the samples `step` apart around each of `count` samples.
 void blurLine(const double* from, double* to, int count, size_t step) {
   static const auto weights = windowWeights();
+  const double* const weight_at = &weights[kWindowRadius_px];  // [distance, negative too]
   for (int i = 0; i < count; ++i) {
     double sum = 0;
     double weight_sum = 0;
     const int last = std::min(i + kWindowRadius_px, count - 1);
     for (int j = std::max(i - kWindowRadius_px, 0); j <= last; ++j) {
-      const double weight = weights[size_t(j - i + kWindowRadius_px)];
+      const double weight = weight_at[j - i];
       sum += weight * from[size_t(j) * step];
       weight_sum += weight;
     }
