@@ -63,8 +63,9 @@ const uint kNoLayer = kLayerCountMax;
 
 // kMeetsEdge: in front of the layers >= `layer` before, behind `layer` after: a link to any surface
 // it was in front of is hit. kComesForward: in front of the layers >= `layer` before; hit if behind
-// what one of them is linked to. Who comes closer is undecided within the `tolerance`, 1/m, where
-// the walk of the other layer may have taken a plane for the facet, and hits.
+// what one of them is linked to. Who comes closer is undecided within the largest error of a plane
+// that the walk of the other layer may have taken for the facet, and hits: half of kappa, or the
+// `tolerance`, 1/m, if that is less.
 Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction, vec3 point,
                   vec3 extent, float tolerance) {
   const ivec2 before = at.cell - stepOfAxis(at.axis, direction);
@@ -84,7 +85,9 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
     const uvec2 facet = loadFacet(scene.layers, to_layer, scene.extent, to_cell);
     const float front = point.z - facetAtPoint(facet, to_cell, point.xy);
     const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
-    const float slack = comes_closer ? tolerance : 0.0;
+    const float error_max =
+        0.5 * connectionTolerance(scene.kappa.x, scene.kappa.y, facetInvZ(facet));
+    const float slack = comes_closer ? min(tolerance, error_max) : 0.0;
     if (leaving) {
       if (leads_forward && front <= slack) result.hit_layer = to_layer;
       ++from;

@@ -6,7 +6,10 @@
 #include <limits>
 #include <sstream>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "oracle/answer_text.h"
 
 namespace viewloom::oracle {
 namespace {
@@ -22,6 +25,9 @@ constexpr double kOctagonRadius = 1.0824;
 
 // Of the tolerance, by which rays are moved; an octave apart, since what is met changes by scales.
 constexpr double kMovedShares[] = {1, 0.5, 0.25, 0.125};
+
+// Where a ray is compared with a surface on its way.
+constexpr double kStepsPerPx = 4;
 
 bool isHit(RayClass ray_class) {
   return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
@@ -47,36 +53,6 @@ FacetAt followLinks(const OracleSource& source, FacetAt from, int column, int ro
     from = found;
   }
   return from;
-}
-
-std::string describe(const OracleAnswer& answer) {
-  std::ostringstream text;
-  text << nameOf(answer.ray_class);
-  if (!answer.hits.empty()) {
-    const OracleHit& hit = answer.hits.front();
-    text << " layer " << hit.facet.layer << " at (" << hit.x_px << ", " << hit.y_px << ", "
-         << hit.inv_z << ")";
-  }
-  return text.str();
-}
-
-std::string describe(const TestedAnswer& answer) {
-  std::ostringstream text;
-  text << nameOf(answer.ray_class);
-  if (isHit(answer.ray_class)) {
-    text << " layer " << answer.layer << " at (" << answer.x_px << ", " << answer.y_px << ", "
-         << answer.inv_z << ")";
-  }
-  return text.str();
-}
-
-std::string describe(const Ray& ray) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "ray from (" << ray.origin_m.x << ", " << ray.origin_m.y << ", " << ray.origin_m.z
-       << ") along (" << ray.direction.x << ", " << ray.direction.y << ", " << ray.direction.z
-       << ")";
-  return text.str();
 }
 
 struct Range {
@@ -132,7 +108,7 @@ void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::
     ++verdict_.exact;
     return;
   }
-  if (besideHitOf(own, ray, tested)) {
+  if (skims(own, ray, tested)) {
     ++verdict_.within;
     return;
   }
@@ -219,59 +195,72 @@ double Judge::invZTolerance(const ViewRay& ray, const TestedAnswer& tested) cons
   return turn > 0 ? tolerance_.output_px * px / turn : infinity;
 }
 
-// The facet that an answer names; layer -1 where nothing stands.
-FacetAt Judge::facetOf(const TestedAnswer& tested) const {
-  if (tested.layer < 0 || tested.layer >= source_.layerCount()) return {};
-  const FacetAt at{tested.layer, std::clamp(int(tested.x_px), 0, source_.width() - 1),
-                   std::clamp(int(tested.y_px), 0, source_.height() - 1)};
-  return source_.exists(at) ? at : FacetAt{};
+// Whether the layer that an answer names has its surface where the answer lies: where two layers
+// meet within the tolerance, either may be named; and at an edge, the facet on either side.
+bool Judge::standsThere(const TestedAnswer& tested, double inv_z_tolerance) const {
+  if (tested.layer < 0 || tested.layer >= source_.layerCount()) return false;
+  const auto column = [&](double x_px) { return std::clamp(int(x_px), 0, source_.width() - 1); };
+  const auto row = [&](double y_px) { return std::clamp(int(y_px), 0, source_.height() - 1); };
+  for (const double x_px :
+       {tested.x_px - tolerance_.source_px, tested.x_px + tolerance_.source_px}) {
+    for (const double y_px :
+         {tested.y_px - tolerance_.source_px, tested.y_px + tolerance_.source_px}) {
+      const FacetAt at{tested.layer, column(x_px), row(y_px)};
+      if (source_.exists(at) && std::abs(source_.planeInvZ(at, tested.x_px, tested.y_px) -
+                                         tested.inv_z) <= inv_z_tolerance) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
-// Whether the layer that an answer names has its surface where the answer lies: where two layers
-// meet within the tolerance, either may be named.
-bool Judge::standsThere(const TestedAnswer& tested, double inv_z_tolerance) const {
-  const FacetAt at = facetOf(tested);
-  return at.layer >= 0 && std::abs(source_.planeInvZ(at, tested.x_px, tested.y_px) -
-                                   tested.inv_z) <= inv_z_tolerance;
+// Two points of the seen part, (x, y, 1/Z). Its ends may lie at the camera's plane; what lies
+// between is finite.
+std::array<glm::dvec3, 2> Judge::pointsOf(const ProjectedRay& ray) const {
+  const SeenPart seen = seenPart(source_, ray);
+  const auto at = [&](double share) {
+    const HomogeneousPoint p = ray.at(glm::mix(seen.begin, seen.end, share));
+    return glm::dvec3(p.u / p.z, p.v / p.z, p.h / p.z);
+  };
+  return {at(0.25), at(0.75)};
 }
 
 // Whether a position lies on a ray, up to rounding: its distance from the straight line in
 // (x, y, 1/Z), in units of the rounding along each axis.
 bool Judge::liesOn(const ProjectedRay& ray, const glm::dvec3& position) const {
-  const SeenPart seen = seenPart(source_, ray);
-  const auto scaled = [&](const glm::dvec3& p) {
-    return p / glm::dvec3(tolerance_.source_px, tolerance_.source_px, tolerance_.inv_z);
-  };
-  const auto at = [&](double s) {
-    const HomogeneousPoint p = ray.at(s);
-    return scaled({p.u / p.z, p.v / p.z, p.h / p.z});
-  };
-  // The ends may lie at the camera's plane; what lies between is finite.
-  const glm::dvec3 one = at(0.75 * seen.begin + 0.25 * seen.end);
-  const glm::dvec3 other = at(0.25 * seen.begin + 0.75 * seen.end);
-  const glm::dvec3 along = other - one;
-  const glm::dvec3 beside = glm::cross(scaled(position) - one, along);
+  const glm::dvec3 unit(tolerance_.source_px, tolerance_.source_px, tolerance_.inv_z);
+  const auto [one, other] = pointsOf(ray);
+  const glm::dvec3 along = (other - one) / unit;
+  const glm::dvec3 beside = glm::cross((position - one) / unit, along);
   return glm::length(beside) <= std::sqrt(3.0) * glm::length(along);
 }
 
-// Whether the answer is the ray's own hit on a surface that is off by no more than the tolerance:
-// it lies on the ray, and both facets, the same or linked, pass both points within the tolerance.
-// Their distance from the ray is linear along it, so between the points they do as well. Moved rays
-// cannot tell, where all that would lie around it hit elsewhere.
-bool Judge::besideHitOf(const OracleAnswer& own, const ViewRay& ray,
-                        const TestedAnswer& tested) const {
+// Whether the answer is the ray's own hit on a surface that is off by no more than the tolerance,
+// however far from where the ray hits the true one: where a ray skims a rough surface, tips that
+// are lower or higher move the hit by many px, which no moved ray shows. The answer lies on the ray
+// and on a surface within the tolerance; beyond the true hit, so does all the way there.
+bool Judge::skims(const OracleAnswer& own, const ViewRay& ray, const TestedAnswer& tested) const {
   if (!isHit(own.ray_class) || own.ray_class != tested.ray_class) return false;
-  const OracleHit& hit = own.hits.front();
-  const FacetAt at = facetOf(tested);
-  if (at.layer < 0 || !(at == hit.facet || source_.linked(at, hit.facet))) return false;
+  const ProjectedRay projected = projectRay(source_.pinhole(), ray.ray);
   const double inv_z_tolerance = tolerance_.inv_z + invZTolerance(ray, tested);
-  const auto passes = [&](const FacetAt& facet, double x_px, double y_px, double inv_z) {
-    return std::abs(source_.planeInvZ(facet, x_px, y_px) - inv_z) <= inv_z_tolerance;
-  };
-  return passes(at, tested.x_px, tested.y_px, tested.inv_z) &&
-         passes(hit.facet, tested.x_px, tested.y_px, tested.inv_z) &&
-         passes(at, hit.x_px, hit.y_px, hit.inv_z) &&
-         liesOn(projectRay(source_.pinhole(), ray.ray), {tested.x_px, tested.y_px, tested.inv_z});
+  const glm::dvec3 answer(tested.x_px, tested.y_px, tested.inv_z);
+  if (!standsThere(tested, inv_z_tolerance) || !liesOn(projected, answer)) return false;
+  const OracleHit& hit = own.hits.front();
+  const glm::dvec3 beyond = answer - glm::dvec3(hit.x_px, hit.y_px, hit.inv_z);
+  const auto [one, other] = pointsOf(projected);
+  if (glm::dot(beyond, other - one) <= 0) return true;
+  const int step_count = 1 + int(kStepsPerPx * glm::length(glm::dvec2(beyond)));
+  for (int step = 0; step < step_count; ++step) {
+    const glm::dvec3 point = answer - beyond * (double(step) / step_count);
+    bool is_near = false;
+    for (int layer = 0; layer < source_.layerCount(); ++layer) {
+      const TestedAnswer there{tested.ray_class, layer, point.x, point.y, point.z};
+      is_near = is_near || standsThere(there, inv_z_tolerance);
+    }
+    if (!is_near) return false;
+  }
+  return true;
 }
 
 // Whether the tested answer lies among those of the moved rays, which agree with each other.

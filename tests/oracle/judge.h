@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,9 +60,9 @@ class Judge {
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
   double invZTolerance(const ViewRay& ray, const TestedAnswer& tested) const;
-  FacetAt facetOf(const TestedAnswer& tested) const;
+  std::array<glm::dvec3, 2> pointsOf(const ProjectedRay& ray) const;
   bool liesOn(const ProjectedRay& ray, const glm::dvec3& position) const;
-  bool besideHitOf(const OracleAnswer& own, const ViewRay& ray, const TestedAnswer& tested) const;
+  bool skims(const OracleAnswer& own, const ViewRay& ray, const TestedAnswer& tested) const;
   bool standsThere(const TestedAnswer& tested, double inv_z_tolerance) const;
   bool amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& ray,
                  const TestedAnswer& tested) const;
