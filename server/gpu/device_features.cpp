@@ -31,6 +31,15 @@ constexpr RequiredFeature kRequired[] = {
     {"maintenance4", field<&Features13::maintenance4, Features13>},
 };
 
+// Compute kernels add up over subgroups; Vulkan has a property for that, not a feature.
+bool hasSubgroupSums(const vk::raii::PhysicalDevice& device) {
+  using Properties11 = vk::PhysicalDeviceVulkan11Properties;
+  const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, Properties11>();
+  const Properties11& offered = chain.get<Properties11>();
+  return (offered.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute) &&
+         (offered.subgroupSupportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic);
+}
+
 }  // namespace
 
 FeatureChain requiredFeatures() {
@@ -54,6 +63,7 @@ std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& device)
   for (const RequiredFeature& feature : kRequired) {
     if (feature.in(offered) != VK_TRUE) missing.emplace_back(feature.name);
   }
+  if (!hasSubgroupSums(device)) missing.emplace_back("subgroup arithmetic in compute shaders");
   return missing;
 }
 
