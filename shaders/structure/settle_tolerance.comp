@@ -13,7 +13,9 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 // kappa of a source that does not state its own (see shaders/README.md, Links).
 const float kKappaSteps = 1.5;
 const float kKappaSigmas = 8.0;
-const float kKappaRelative = 0.005;
+// A surface is one up to where neighbours differ by a fiftieth of their depth: at a focal length of
+// 1000 px, up to 87 degrees from the image plane. Limbs of smooth bodies are as steep as that.
+const float kKappaRelative = 0.02;
 // |second difference| of independent noise: sigma sqrt(1 + 4 + 1), and a median of 0.6745 of that.
 const float kMedianPerSigma = 0.6745 * 2.44949;
 // Among differences that are not zero, a quantised source has none below its step.

@@ -32,7 +32,6 @@ struct Pair {
   Json color_file;
   Json depth_file;
   Json truth_file;
-  double connection_tolerance = 0;
 };
 
 Json cameraJson(const Camera& camera) {
@@ -61,8 +60,7 @@ class RealDataTest : public testing::Test {
   // The report of a successful `viewloomd render` of the pair.
   Json render(const Pair& pair, const std::vector<uint8_t>& covered, const std::string& flags) {
     const Json source = {{"camera", cameraJson({.intrinsics = pair.source})},
-                         {"layers", {{{"color", pair.color_file}, {"depth", pair.depth_file}}}},
-                         {"connectionTolerance", pair.connection_tolerance}};
+                         {"layers", {{{"color", pair.color_file}, {"depth", pair.depth_file}}}}};
     write("frame.json", {{"sources", {source}}});
     write("display.json",
           {{"cameras",
@@ -117,10 +115,7 @@ Pair beachBall(const fs::path& file, const std::vector<std::string>& color_chann
                           {{"meaning", "DEPTH_MEANING_PLANAR"},
                            {"invalidValue", 0},
                            {"invalidIsFar", true}}}},
-          .truth_file = {{"file", file.string()}, {"channels", {"left.R", "left.G", "left.B"}}},
-          // What moves two neighbours apart by less than a pixel of this pair is one surface: the
-          // ball is a single object, steep towards its limb.
-          .connection_tolerance = 1 / kFocalBaseline_px_m};
+          .truth_file = {{"file", file.string()}, {"channels", {"left.R", "left.G", "left.B"}}}};
 }
 
 TEST_F(RealDataTest, rendersTheBeachBallsLeftEyeFromItsRight) {
