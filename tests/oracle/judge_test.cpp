@@ -101,6 +101,25 @@ TEST(Judge, acceptsASurfaceWithinTheToleranceWhereAllRaysBesideHitElsewhere) {
   EXPECT_EQ(judgeBesideANearSurface(-2 * tolerance).differing, 1u);
 }
 
+// A wide block on a floor, all of it linked: a ray that hits the block, and a tracer that lets it
+// through to the floor beyond.
+TEST(Judge, rejectsAHitOnTheSameSurfaceBehindWhatTheRayHits) {
+  Scene scene = planeScene({0, 0, 0.3}, 64, 4);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 20; column < 31; ++column) scene.planes.at(0, column, row) = 0.6f;
+  }
+  scene.kappa = {0.6f, 0};
+  const OracleSource source(scene.planes, scene.pinhole, scene.kappa);
+  const double parallax_px = 40, eye_x_m = -parallax_px / scene.pinhole.focal_px.x;
+  const double x_px = 25 + parallax_px * 0.6;
+  const ViewRay ray = rayOf(besideView(scene, eye_x_m), x_px, 2.5);
+  Judge judge(source, toleranceOf(source, kTolerance_px));
+  judge.consider(ray, {RayClass::kHit, 0, 25, 2.5, 0.6f}, "block");
+  EXPECT_EQ(judge.verdict().exact, 1u) << judge.verdict().summary();
+  judge.consider(ray, {RayClass::kHit, 0, x_px - parallax_px * 0.3f, 2.5, 0.3f}, "floor");
+  EXPECT_EQ(judge.verdict().differing, 1u) << judge.verdict().summary();
+}
+
 TEST(Judge, rejectsAForgottenLayer) {
   Scene scene = layeredScene();
   scene.planes.inv_z.resize(scene.planes.inv_z.size() / 2);
