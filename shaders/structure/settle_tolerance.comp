@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the histograms: depth percentiles, quantisation step, noise, and the connection tolerance
-// kappa. One invocation: three passes over a few thousand counters.
+// kappa. One invocation: a few passes over a few thousand counters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
