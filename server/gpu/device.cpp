@@ -76,6 +76,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, uint32_t index) {
   info.index = index;
   info.name = properties.deviceName.data();
   info.is_software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+  info.shares_memory = info.is_software;
   info.missing_features = missingFeatures(device);
   if (properties.apiVersion >= VK_API_VERSION_1_3) {
     const auto driver =
@@ -172,6 +173,7 @@ Device::Device(const DeviceOptions& options)
   const uint32_t chosen = choose(infos, options.select);
   physical_device_ = devices[chosen];
   info_ = infos[chosen];
+  if (options.has_own_memory) info_.shares_memory = false;
   DeviceLimits& limits = info_.limits;
   limits.storage_bytes_max = std::min(limits.storage_bytes_max, options.storage_bytes_max);
   limits.texel_count_max = std::min(limits.texel_count_max, options.texel_count_max);

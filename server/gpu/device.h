@@ -22,6 +22,8 @@ struct DeviceOptions {
   // For tests: act like a device whose bindings are no larger, so that small arrays do not fit.
   uint64_t storage_bytes_max = UINT64_MAX;
   uint64_t texel_count_max = UINT64_MAX;
+  // For tests: act like a device with memory of its own, into which planes are copied.
+  bool has_own_memory = false;
 };
 
 struct DeviceLimits {
@@ -39,6 +41,7 @@ struct DeviceInfo {
   std::string name;
   std::string driver;  // name, version
   bool is_software = false;
+  bool shares_memory = false;  // its memory is the CPU's: nothing need be copied to it or back
   DeviceLimits limits;
   std::vector<std::string> missing_features;  // empty = viewloom runs on it
 };

@@ -23,7 +23,7 @@ uint64_t colorLayerBytes(const FrameShape& shape) {
 
 // Where the device's memory is the CPU's, colour that stays as it came is written in its place.
 bool writesColorInPlace(const Device& device, const FrameShape& shape) {
-  return device.info().is_software && shape.color_storage == ColorStorage::kRgba8Srgb;
+  return device.info().shares_memory && shape.color_storage == ColorStorage::kRgba8Srgb;
 }
 
 LayeredBufferOptions colorOptions(const Device& device, const FrameShape& shape) {

@@ -26,7 +26,7 @@ ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const ch
     : readback_(device, {.size_bytes = size_bytes,
                          .intent = MemoryIntent::kReadback,
                          .debug_name = name}),
-      is_direct_(device.info().is_software) {
+      is_direct_(device.info().shares_memory) {
   if (!is_direct_) device_only_ = Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
 }
 

@@ -27,10 +27,7 @@ class SmallBindingsTest : public DeviceNeededTest {
       image.kappa_rel = scene.kappa.relative;
       const Complaints complaints = checkStructure(image, source);
       EXPECT_TRUE(complaints.empty()) << scene.name << "\n" << complaints.text();
-      std::vector<oracle::OutputView> views;
-      for (int kind = 0; kind < oracle::kViewKindCount; ++kind) {
-        views.push_back(oracle::randomView(random, kind, 13, 10));
-      }
+      const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
       const JudgedViews judged = judgeViews(walk, *slot, source, views, kTolerance_px, scene.name);
       EXPECT_EQ(judged.verdict.differing, 0u) << judged.summary();
     }
