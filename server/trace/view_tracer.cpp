@@ -46,6 +46,11 @@ bool hasUnusedPixels(const TraceJob& job) {
 // Sides of up to 16384 px, and counts of tiles, in 16 bits each.
 uint32_t packSize(SizePx size) { return size.width | size.height << 16; }
 
+// 0xRRGGBB as the band has it.
+uint32_t redFirst(uint32_t rgb) {
+  return (rgb >> 16 & 0xff) | (rgb & 0xff00) | (rgb & 0xff) << 16;
+}
+
 abi::Address addressOf(const ReadablePlane& plane) {
   return plane.isEmpty() ? abi::Address{0, 0} : addressWords(plane.target().address());
 }
@@ -132,7 +137,7 @@ abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const Tr
                       .tile_size_px = packSize(layout.tile_size_px),
                       .tile_grid = packSize({layout.columns, layout.rows}),
                       .padding_top_px = layout.padding_top_px,
-                      .fill = (job.background_rgb & 0xffffff) | border};
+                      .fill = redFirst(job.background_rgb) | border};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     push.color[i] = addressWords(structure.color().address(i));

@@ -17,7 +17,7 @@ vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color
     bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
   else
     bits = Uvec2Ref(pickAddress(color, layer)).at[index];
-  if (color_format == kColorRgba8) return vec4(linearFromSrgb8(bits.x), 1.0);
+  if (color_format == kColorRgba8) return vec4(lightFromCodes(bits.x), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 

@@ -12,40 +12,41 @@ vec3 linearFromSrgb(vec3 srgb) {
   return mix(curve, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-// The same fit for 8-bit codes, 0..255, in the low three bytes: coefficient k over 255^k, which
-// saves the walk a division for each of its twelve channels.
-vec3 linearFromSrgb8(uint rgb) {
+// Opaque 8-bit colour is blended in light that is nearly linear: a cubic of the code without the
+// curve's toe, whose inverse is a cubic of its root. That takes half the operations of the fits
+// above, for each of twelve channels a ray. Codes survive unchanged (the inverse is within 0.14 of
+// one), and a blend of any two differs from that in linear light by less than two codes, by 0.3 in
+// the mean over all pairs. Light is 0..1.
+
+// `rgb`: codes 0..255 in the low three bytes.
+vec3 lightFromCodes(uint rgb) {
   const vec3 code = vec3(rgb & 255u, (rgb >> 8) & 255u, (rgb >> 16) & 255u);
-  const vec3 curve =
-      (((-2.7623575e-11 * code + 3.1752994e-08) * code + 8.6179746e-06) * code + 0.00011137325) *
-          code +
-      0.001046527;
-  return mix(curve, code * (1.0 / (12.92 * 255.0)), lessThanEqual(code, vec3(0.04045 * 255.0)));
+  return ((2.4726537e-08 * code + 8.366013e-06) * code + 1.8039216e-04) * code;
 }
 
-vec3 srgbFromLinear(vec3 light) {
-  const vec3 clipped = clamp(light, 0.0, 1.0);
-  const vec3 root = sqrt(clipped);
-  const vec3 curve =
-      ((((0.5169230 * root - 1.6225148) * root + 2.0303334) * root - 1.4021480) * root +
-       1.5178347) *
-          root -
-      0.04010249;
-  return mix(curve, clipped * 12.92, lessThanEqual(clipped, vec3(0.0031308)));
+vec3 codesFromLight(vec3 light) {
+  const vec3 root = sqrt(light + 0.00078);
+  return ((33.135467 * root - 111.46330) * root + 342.96448) * root - 9.6227989;
 }
 
-// To 8-bit codes, rounded, with alpha 255: the same fit times 255, and a half to round.
-uint srgb8FromLinear(vec3 light) {
+// Codes 0..255 before they are rounded.
+vec3 codesFromLinear(vec3 light) {
   const vec3 clipped = clamp(light, 0.0, 1.0);
   const vec3 root = sqrt(clipped);
   const vec3 curve =
       ((((131.81537 * root - 413.74127) * root + 517.73502) * root - 357.54774) * root +
        387.04785) *
           root -
-      9.7261349;
-  const vec3 toe = clipped * (12.92 * 255.0) + 0.5;
-  const uvec3 code = uvec3(mix(curve, toe, lessThanEqual(clipped, vec3(0.0031308))));
-  return code.x | (code.y << 8) | (code.z << 16) | 0xff000000u;
+      10.2261349;
+  return mix(curve, clipped * (12.92 * 255.0), lessThanEqual(clipped, vec3(0.0031308)));
+}
+
+const uint kOpaqueCode = 0xff000000u;  // alpha 255
+
+// Red in the low byte.
+uint packCodes(vec3 codes) {
+  const uvec3 code = uvec3(codes + 0.5);
+  return code.x | (code.y << 8) | (code.z << 16) | kOpaqueCode;
 }
 
 #endif  // VIEWLOOM_LIB_SRGB_GLSL_

@@ -13,7 +13,6 @@ struct Scene {
   Extent extent;
   float inv_z_near;   // nothing is nearer, 1/m
   vec2 kappa;         // connection tolerance: absolute (1/m), relative
-  vec3 background;    // linear light
   bool fills_border;  // else what leaves the image takes the background
 };
 

@@ -77,7 +77,7 @@ struct TracePush {
   uint tile_size_px;  // width | height << 16
   uint tile_grid;     // columns | rows << 16
   uint padding_top_px;
-  uint fill;  // background 0xRRGGBB, and kFillBorder
+  uint fill;  // background, red in the low byte, and kFillBorder
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left

@@ -45,18 +45,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
+#include "lib/ray_start.glsl"
 #include "lib/walk.glsl"
 
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
-// Cells of this level share a start bound; rays over more of them start at the bound of the whole
-// source.
-const uint kStartLevel = 5u;
-const int kStartCellsMax = 16;
-// Distance a start keeps from the bound, as a share of the largest inv_z: 16 ulp, more than the
-// rounding of positions along a ray.
-const float kStartMargin = 16.0 / 8388608.0;
-
 uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
@@ -71,39 +64,6 @@ vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point) {
                               links, point);
 }
 
-// The column at an image point, or the one nearest to it: points may lie beyond all integers.
-ivec2 columnAt(Scene scene, vec2 point) {
-  return ivec2(clamp(point, vec2(0.0), vec2(scene.extent.size_px - 1)));
-}
-
-// The largest inv_z in the cells that neighbouring rays pass, from corner to corner of their
-// rectangle.
-float startBound(Scene scene, vec2 low_px, vec2 high_px) {
-  const ivec2 first = columnAt(scene, low_px) >> int(kStartLevel);
-  const ivec2 last = columnAt(scene, high_px) >> int(kStartLevel);
-  const ivec2 count = last - first + 1;
-  if (count.x * count.y > kStartCellsMax) return scene.inv_z_near;
-  float bound = 0.0;
-  ivec2 cell = first;
-  for (;;) {
-    if (isNever(scene, 4u)) break;
-    const uvec2 bits = loadCell(scene.layers, 0u, scene.extent, kStartLevel, uvec2(cell));
-    bound = max(bound, nodeBox(unpackNode(bits)).y);
-    cell = cell.x == last.x ? ivec2(first.x, cell.y + 1) : ivec2(cell.x + 1, cell.y);
-    if (cell.y > last.y) break;
-  }
-  return min(bound + kStartMargin * scene.inv_z_near, scene.inv_z_near);
-}
-
-// The start of a ray: as far along as nothing can be, then the column it is in; the border next to
-// where it goes when it never sees the image.
-WalkStart startOf(Scene scene, Ray ray, float bound) {
-  const bool goes_away = kRaysArePlain || (ray.extent.z < 0.0 && ray.start.z > bound);
-  const float t_bound = goes_away ? (bound - ray.start.z) / ray.extent.z : 0.0;
-  const float t = ray.t_begin < ray.t_end ? min(max(t_bound, ray.t_begin), ray.t_end) : 1.0;
-  return WalkStart(t, columnAt(scene, ray.start.xy + t * ray.extent.xy), kStateUnknown);
-}
-
 uint classOf(Walk walk) {
   const uint hit = walk.is_assumed ? kClassHitAssumed : kClassHit;
   const uint no_hit = walk.ends_behind ? kClassHidden : walk.leaves ? kClassOutside : kClassEmpty;
@@ -115,10 +75,16 @@ Walk walkBeside(WalkStart start) {
   return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0u);
 }
 
+// What a px shows; if nothing is known, the background.
+struct Light {
+  vec3 rgb;
+  bool is_known;
+};
+
 // Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
 // passed behind, or the image's border, goes on; else there is nothing. A sample next to a
 // silhouette may hold some of the other side: half a px back along the ray it counts half.
-vec3 opaqueLight(Scene scene, Ray ray, Walk walk) {
+Light opaqueLight(Scene scene, Ray ray, Walk walk) {
   const vec3 point = ray.start + walk.t * ray.extent;
   const bool is_far_side = walk.ends_behind && walk.has_far_side;
   const bool is_border = walk.leaves && scene.fills_border;
@@ -129,7 +95,7 @@ vec3 opaqueLight(Scene scene, Ray ray, Walk walk) {
   const uint links = loadLinks(scene.layers, layer, scene.extent, cell);
   const bool is_known = walk.is_hit || walk.ends_behind || is_border;
   const vec4 color = surfaceColor(scene, layer, cell, links, at);
-  return is_known && (links & kFacetExists) != 0u ? color.rgb : scene.background;
+  return Light(color.rgb, is_known && (links & kFacetExists) != 0u);
 }
 
 // A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
@@ -162,8 +128,9 @@ void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
 }
 
 // Semitransparent ones are composited front to back: each surface is walked on from, behind it.
-vec3 layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
+Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   vec3 light = vec3(0.0);
+  const vec3 background = linearFromSrgb(unpackUnorm4x8(push.fill).rgb);
   float transmittance = 1.0;
   Walk walk = first;
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
@@ -171,18 +138,20 @@ vec3 layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
     findFarSide(scene, ray, behind, walk);
     const vec3 point = ray.start + walk.t * ray.extent;
     const uint links = loadLinks(scene.layers, walk.layer, scene.extent, walk.cell);
+    const Light last = opaqueLight(scene, ray, walk);
     const vec4 color = walk.is_hit ? surfaceColor(scene, walk.layer, walk.cell, links, point.xy)
-                                   : vec4(opaqueLight(scene, ray, walk), 1.0);
+                                   : vec4(last.is_known ? last.rgb : background, 1.0);
     light += transmittance * color.rgb;
     transmittance *= 1.0 - color.a;
-    if (!walk.is_hit || transmittance <= kTransmittanceMin) return light;
+    if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(light, true);
     behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
     walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
   }
 }
 
-void store(uint index, vec3 light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
-  band[index] = srgb8FromLinear(light);
+void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
+  const vec3 codes = kSeesThrough ? codesFromLinear(light.rgb) : codesFromLight(light.rgb);
+  band[index] = light.is_known ? packCodes(codes) : push.fill | kOpaqueCode;
   if (kWanted == 0u) return;
   const vec3 point = ray.start + walk.t * ray.extent;
   const uint ray_class = classOf(walk);
@@ -191,7 +160,8 @@ void store(uint index, vec3 light, Walk walk, Ray ray, vec3 eye, vec3 direction)
   }
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
   if ((kWanted & kWantLinear) != 0u) {
-    Vec4Ref(extras.linear).at[index] = vec4(srgbFromLinear(light), 1.0);
+    const vec3 srgb = light.is_known ? codes / 255.0 : unpackUnorm4x8(push.fill).rgb;
+    Vec4Ref(extras.linear).at[index] = vec4(srgb, 1.0);
   }
   if ((kWanted & kWantRecords) != 0u) {
     RecordsRef(extras.records).at[index] =
@@ -239,8 +209,8 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec2 counts) {
     Walk walk = walkBeside(start);
     if (ray.t_begin < ray.t_end)
       walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
-    const vec3 light = kColorFormat == kColorRgba8 ? opaqueLight(scene, ray, walk)
-                                                   : layeredLight(scene, view, ray, walk);
+    const Light light =
+        kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
     store(run.first_index + i, light, walk, ray, view.eye, direction);
     count(counts, classOf(walk));
     ++i;
@@ -273,7 +243,6 @@ void main() {
     scene.inv_z_near =
         max(uintBitsToFloat(measured_head.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
     scene.fills_border = (push.fill & kFillBorder) != 0u;
-    scene.background = linearFromSrgb8(push.fill).bgr;
     scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
     Run run;
     run.first_x = run_in_tile * kPixelsPerInvocation;
