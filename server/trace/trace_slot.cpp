@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/trace_slot.h"
 
+#include <array>
+
 #include "gpu/barrier.h"
 
 namespace viewloom {
@@ -45,7 +47,7 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   linear_ = planeIf(shape.outputs.linear, device, area_px * 4 * sizeof(float), "band linear");
   records_ =
       planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
-  counters_ = ReadablePlane(device, abi::kClassCount * sizeof(uint32_t), "band counters");
+  counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
   const uint64_t params_bytes =
       kTilesOffset_bytes + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);
   upload_ = Buffer(device, {.size_bytes = params_bytes,
@@ -83,7 +85,11 @@ std::span<const abi::RayRecord> TraceSlot::records() const {
 }
 
 Coverage TraceSlot::coverage() const {
-  const auto counts = readAs<uint32_t>(counters_, abi::kClassCount);
+  const auto sets = readAs<uint32_t>(counters_, kCounterCount);
+  std::array<uint32_t, abi::kClassCount> counts{};
+  for (size_t i = 0; i < sets.size(); i += abi::kCounterStride) {
+    for (size_t k = 0; k < counts.size(); ++k) counts[k] += sets[i + k];
+  }
   return {.hit = counts[abi::kClassHit],
           .hit_assumed = counts[abi::kClassHitAssumed],
           .hidden = counts[abi::kClassHidden],

@@ -51,6 +51,9 @@ class ReadablePlane {
   bool is_direct_ = true;
 };
 
+// Of rays by class, in sets (shaders/shared/trace_abi.h).
+inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCounterStride;
+
 // Where the tiles begin in a slot's parameters: aligned for any device's storage descriptors.
 inline constexpr uint64_t kTilesOffset_bytes = 256;
 

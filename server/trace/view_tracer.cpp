@@ -194,7 +194,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   slot.mask_.recordReadback(commands, slot.area_px_);
   slot.linear_.recordReadback(commands, slot.area_px_ * 4 * sizeof(float));
   slot.records_.recordReadback(commands, slot.area_px_ * sizeof(abi::RayRecord));
-  slot.counters_.recordReadback(commands, abi::kClassCount * sizeof(uint32_t));
+  slot.counters_.recordReadback(commands, kCounterCount * sizeof(uint32_t));
   recordTransferToHost(commands);
   recordComputeToHost(commands);
 }

@@ -41,6 +41,11 @@ VIEWLOOM_ABI_CONST uint kClassOutside = 4u;
 VIEWLOOM_ABI_CONST uint kClassEmpty = 5u;
 VIEWLOOM_ABI_CONST uint kClassCount = 6u;
 
+// Rows of a band share kCounterSets sets of counters, from the top: cores that work on rows far
+// apart do not wait for each other's cache line.
+VIEWLOOM_ABI_CONST uint kCounterSets = 16u;
+VIEWLOOM_ABI_CONST uint kCounterStride = 16u;  // of 4 bytes: a cache line
+
 // The full answer to a ray, for tests, statistics and the heat map.
 struct RayRecord {
   float x_px;  // of the hit, in the source
@@ -58,7 +63,8 @@ struct TraceExtras {
   Address mask;      // uint8[rows][width]: kClass...
   Address linear;    // vec4[rows][width]: colour before rounding, sRGB-encoded floats
   Address records;   // RayRecord[rows][width]
-  Address counters;  // uint[kClassCount]: rays by class, added to
+  // uint[kCounterSets][kCounterStride]: rays by class, added to; the sum over the sets counts
+  Address counters;
   // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels
   // from layer to layer.
   uint color_size_px[kLayerCountMax];

@@ -253,10 +253,12 @@ void main() {
   }
   // One atomic instruction for all classes, a lane each.
   const uvec2 sums = subgroupAdd(counts);
+  const uint counter_set = gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y;
   uint ray_class = kClassHit + gl_SubgroupInvocationID;
   do {
     const uint sum = ray_class < kClassCount ? countOf(sums, ray_class) : 0u;
-    if (sum > 0u) atomicAdd(UintRef(extras.counters).at[ray_class], sum);
+    const uint counter = counter_set * kCounterStride + ray_class;
+    if (sum > 0u) atomicAdd(UintRef(extras.counters).at[counter], sum);
     ray_class += gl_SubgroupSize;
   } while (ray_class < kClassCount);
 }
