@@ -64,7 +64,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   const Camera& source_camera = structure_->sourceCamera();
   const SizePx source_px = structure_->layout().size_px;
   absl::StatusOr<AtlasLayout> layout =
-      makeAtlasLayout(spec, {.source_camera = source_camera,
+      makeAtlasLayout(spec, {.source_intrinsics = source_camera.intrinsics,
                              .source_size_px = source_px,
                              .focal_distance_m = contentFocalDistance(structure_->stats())});
   if (!layout.ok()) return layout.status();

@@ -63,7 +63,7 @@ class StageBench {
     const Camera& camera = structure_.sourceCamera();
     const SizePx source_px = structure_.layout().size_px;
     const auto layout =
-        makeAtlasLayout(spec, {.source_camera = camera,
+        makeAtlasLayout(spec, {.source_intrinsics = camera.intrinsics,
                                .source_size_px = source_px,
                                .focal_distance_m = contentFocalDistance(structure_.stats())});
     VIEWLOOM_CHECK(layout.ok());

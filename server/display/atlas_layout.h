@@ -45,7 +45,7 @@ struct AtlasLayout {
 
 // What a stream gives a display that leaves it open.
 struct StreamDefaults {
-  Camera source_camera;
+  Intrinsics source_intrinsics;
   SizePx source_size_px;
   double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, first frame
 

@@ -22,7 +22,7 @@ FocalWindow focalWindow(double distance_m, double fov_y_rad, double aspect,
             .distance_m = distance_m};
   }
   // Image point u lies at x = (u - principal) / focal * distance on the plane; rows run downwards.
-  const Intrinsics& source = defaults.source_camera.intrinsics;
+  const Intrinsics& source = defaults.source_intrinsics;
   const glm::dvec2 size_px(defaults.source_size_px.width, defaults.source_size_px.height);
   const glm::dvec2 middle = (size_px / 2.0 - source.principal_px) / source.focal_px * distance_m;
   const glm::dvec2 half_m = size_px / 2.0 / source.focal_px * distance_m;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views of each picture as the tracer takes them, as long as neither display nor camera moves.
+// The views of each picture as the tracer takes them. Layouts stay as long as a display and its
+// stream ask for nothing else; views are aimed anew when a camera moves, in memory that is there.
 #pragma once
 
 #include <map>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "display/atlas_layout.h"
+#include "pipeline/resident_structure.h"
 #include "publish/broadcaster.h"
 #include "trace/trace_job.h"
 
@@ -15,21 +17,26 @@ namespace viewloom {
 
 using PicturePtr = std::shared_ptr<const TraceJob>;
 
-// Thread-safety: none; the GPU loop's.
+// Thread-safety: none; the GPU loop's. Pictures may be let go on any thread.
 class PictureCache {
  public:
   explicit PictureCache(AtlasLimits limits) : limits_(limits) {}
 
   // Fails when the display does not fit the stream or the limits; errors name the field.
-  absl::StatusOr<PicturePtr> get(const ActiveDisplay& display, const StreamDefaults& defaults);
+  absl::StatusOr<PicturePtr> get(const ActiveDisplay& display, const ResidentStructure& source);
   // Forgets the pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);
 
  private:
   struct Entry {
     StreamDefaults defaults;
-    PicturePtr picture;
+    std::vector<std::shared_ptr<TraceJob>> jobs;  // of these defaults; the last aimed is in front
+    Camera source_camera;                         // that it is aimed at
   };
+
+  absl::StatusOr<std::shared_ptr<TraceJob>> makeJob(const ActiveDisplay& display,
+                                                    const ResidentStructure& source,
+                                                    const Entry& entry) const;
 
   const AtlasLimits limits_;
   std::map<std::string, Entry> entries_;  // by picture_key

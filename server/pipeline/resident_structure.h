@@ -21,6 +21,7 @@ struct ResidentStructure {
   uint64_t serial = 0;  // counts the structures of the server, from 1
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;  // the publisher's clock
+  Camera source_camera;
   StreamDefaults defaults;
   SourceStats stats;
   FrameTimes times;

@@ -15,7 +15,8 @@ ResidentStructure describe(const Frame& frame) {
   structure.frame_number = frame.format.number;
   structure.capture_time_ns = frame.format.capture_time_ns;
   structure.times = frame.times;
-  structure.defaults.source_camera = source.camera;
+  structure.source_camera = source.camera;
+  structure.defaults.source_intrinsics = source.camera.intrinsics;
   structure.defaults.source_size_px = source.layers.front().depth.size_px;
   return structure;
 }

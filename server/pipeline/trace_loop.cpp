@@ -99,7 +99,7 @@ std::vector<ActiveDisplayPtr> TraceLoop::takeUnserved(const AtlasJob& job) {
 bool TraceLoop::begin(AtlasJob& job) {
   std::vector<ActiveDisplayPtr> displays = takeUnserved(job);
   if (displays.empty()) return false;
-  const auto picture = pictures_.get(*displays.front(), job.structure->defaults);
+  const auto picture = pictures_.get(*displays.front(), *job.structure);
   if (!picture.ok()) {
     for (const ActiveDisplayPtr& display : displays) {
       links_.broadcaster.refuse(display->id, picture.status());

@@ -40,7 +40,7 @@ AtlasLayout layoutOfPreset(const Preset& preset) {
   constexpr SizePx kAnySize{.width = 1, .height = 1};
   StreamDefaults any_source;
   any_source.source_size_px = kAnySize;
-  any_source.source_camera.intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};
+  any_source.source_intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(*completed, any_source);
   VIEWLOOM_CHECK(layout.ok());
   layout->focal_distance_m = 0;  // from the stream

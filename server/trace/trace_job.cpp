@@ -99,19 +99,28 @@ abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, const Camera& source_camera, SizePx source_px) {
   TraceJob job;
+  job.layout = std::move(layout);
+  job.tolerance_px = spec.tolerance_px;
   job.outside_fill = spec.outside_fill;
   job.background_rgb = spec.background_rgb;
-  for (uint32_t row = 0; row < layout->rows; ++row) {
-    for (uint32_t column = 0; column < layout->columns; ++column) {
-      const uint32_t view = layout->viewAt(column, row);
-      job.tiles.push_back(view < layout->views.size()
-                              ? makeViewParams(layout->views[view], display_pose, source_camera,
-                                               source_px, spec.tolerance_px)
+  aimTraceJob(job, display_pose, source_camera, source_px);
+  return job;
+}
+
+void aimTraceJob(TraceJob& job, const Pose& display_pose, const Camera& source_camera,
+                 SizePx source_px) {
+  const AtlasLayout& layout = *job.layout;
+  job.tiles.clear();
+  job.tiles.reserve(size_t{layout.columns} * layout.rows);
+  for (uint32_t row = 0; row < layout.rows; ++row) {
+    for (uint32_t column = 0; column < layout.columns; ++column) {
+      const uint32_t view = layout.viewAt(column, row);
+      job.tiles.push_back(view < layout.views.size()
+                              ? makeViewParams(layout.views[view], display_pose, source_camera,
+                                               source_px, job.tolerance_px)
                               : abi::ViewParams{});
     }
   }
-  job.layout = std::move(layout);
-  return job;
 }
 
 }  // namespace viewloom

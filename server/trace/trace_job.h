@@ -13,15 +13,19 @@ namespace viewloom {
 
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
+  double tolerance_px = 0;
   // Row-major from the top left; is_used = 0 where no view stands
   std::vector<abi::ViewParams> tiles;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
 };
 
-// `display_pose`: where the display stands in the world; the views' poses are relative to it.
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, const Camera& source_camera, SizePx source_px);
+// Sees a source from elsewhere, in the memory that the job has. `display_pose`: where the display
+// stands in the world; the views' poses are relative to it.
+void aimTraceJob(TraceJob& job, const Pose& display_pose, const Camera& source_camera,
+                 SizePx source_px);
 
 // Whether all rays of a job are plain (shaders/shared/trace_abi.h) for a source whose largest inv_z
 // is this, 1/m: then a cheaper kernel serves them.

@@ -152,7 +152,7 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
 
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display) {
   // The suffix does not depend on the stream: any camera serves.
-  const StreamDefaults any_stream{.source_camera = {}, .source_size_px = {1, 1}};
+  const StreamDefaults any_stream{.source_intrinsics = {}, .source_size_px = {1, 1}};
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(display, any_stream);
   VIEWLOOM_RETURN_IF_ERROR(layout.status());
   return layout->suffix;

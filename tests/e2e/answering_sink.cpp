@@ -88,7 +88,7 @@ FrameReport AnsweringSink::answer(const std::string& stream, const FramePtr& fra
 DisplayReport AnsweringSink::publishAtlas(const ActiveDisplay& display, const Frame& frame) {
   const SourceFormat& source = frame.format.sources.front();
   const absl::StatusOr<AtlasLayout> layout =
-      makeAtlasLayout(display.spec, {.source_camera = source.camera,
+      makeAtlasLayout(display.spec, {.source_intrinsics = source.camera.intrinsics,
                                      .source_size_px = source.layers.front().depth.size_px,
                                      .focal_distance_m = 1});
   if (!layout.ok()) {

@@ -72,10 +72,9 @@ TEST(CatalogService, tellsTheLayoutOfADisplayThatWaitsForItsFirstAtlas) {
   EXPECT_FALSE(displays.displays(0).has_layout());
 
   const ActiveDisplayPtr display = server.broadcaster().displays("scene").front();
-  const absl::StatusOr<AtlasLayout> layout =
-      makeAtlasLayout(display->spec, {.source_camera = {.intrinsics = {.focal_px = {4, 4}}},
-                                      .source_size_px = {4, 4},
-                                      .focal_distance_m = 1});
+  const absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
+      display->spec,
+      {.source_intrinsics = {.focal_px = {4, 4}}, .source_size_px = {4, 4}, .focal_distance_m = 1});
   ASSERT_TRUE(layout.ok()) << layout.status();
   server.broadcaster().noteLayout(display->id, std::make_shared<const AtlasLayout>(*layout));
   displays = list();

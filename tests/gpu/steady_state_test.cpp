@@ -62,21 +62,34 @@ CollectedFrame makeFrame(uint64_t number) {
   add(back.depth, zstdFrame(depth, ZstdSize::kStated));
   SourceFormat source;
   source.camera.intrinsics = intrinsicsFromFov({-0.5, 0.5, 0.3, -0.3}, kFramePx);
+  source.camera.pose.position_m.x = 0.01 * static_cast<double>(number);
   source.layers = {front, back};
   frame.format = {.number = number, .sources = {source}};
   return frame;
 }
 
-DisplaySpec quilt() {
+DisplaySpec quilt(uint32_t columns, uint32_t rows, SizePx size_px) {
   QuiltSpec spec;
-  spec.columns = 4;
-  spec.rows = 2;
-  spec.size_px = {512, 512};
+  spec.columns = columns;
+  spec.rows = rows;
+  spec.size_px = size_px;
   spec.view_cone_rad = 0.5;
   spec.focal_distance_m = 3;
   absl::StatusOr<DisplaySpec> complete = completeDisplaySpec({.kind = spec, .world_pose = {}});
   EXPECT_EQ(complete.status(), absl::OkStatus());
   return *std::move(complete);
+}
+
+DisplaySpec smallQuilt() {
+  return quilt(4, 2, {512, 512});
+}
+
+// The most views that a display may have. It stands still while the source's camera moves, so that
+// every frame shows each of its views anew.
+DisplaySpec fixedQuiltOfManyViews() {
+  DisplaySpec spec = quilt(50, 50, {400, 400});
+  spec.world_pose = Pose{};
+  return spec;
 }
 
 // Keeps the newest atlas, as a client's mailbox does.
@@ -140,9 +153,9 @@ class SteadyState : public GpuTest {
     GpuTest::TearDown();
   }
 
-  void watch(const EncodingSpec& encoding) {
+  void watch(const DisplaySpec& display, const EncodingSpec& encoding) {
     subscriptions_.push_back(
-        *broadcaster_.subscribe("s", quilt(), encoding, std::make_shared<NewestAtlas>()));
+        *broadcaster_.subscribe("s", display, encoding, std::make_shared<NewestAtlas>()));
   }
 
   SteadyClock clock_;
@@ -159,9 +172,10 @@ class SteadyState : public GpuTest {
 
 TEST_F(SteadyState, allocatesNothingLargeFromWireToAtlas) {
   if (!test::countsLargeAllocations()) GTEST_SKIP() << "a sanitizer owns the heap";
-  watch({});
-  watch({.chroma = Chroma::k444, .with_depth = true, .with_mask = true});
-  watch({.color = BandEncoding::kRaw});
+  watch(smallQuilt(), {});
+  watch(smallQuilt(), {.chroma = Chroma::k444, .with_depth = true, .with_mask = true});
+  watch(smallQuilt(), {.color = BandEncoding::kRaw});
+  watch(fixedQuiltOfManyViews(), {});
   uint64_t number = 0;
   for (int round = 0; round < kRoundsMax; ++round) {
     std::vector<CollectedFrame> frames;

@@ -144,9 +144,9 @@ void PaintedStream::run(const std::stop_token& stop) {
 void PaintedStream::paint(const ActiveDisplay& display) {
   const Camera camera{.pose = {},
                       .intrinsics = {.focal_px = {1000, 1000}, .principal_px = {640, 360}}};
-  auto layout = makeAtlasLayout(
-      display.spec,
-      {.source_camera = camera, .source_size_px = kSourceSize, .focal_distance_m = 2});
+  auto layout = makeAtlasLayout(display.spec, {.source_intrinsics = camera.intrinsics,
+                                               .source_size_px = kSourceSize,
+                                               .focal_distance_m = 2});
   if (!layout.ok()) {
     broadcaster_.refuse(display.id, layout.status());
     return;

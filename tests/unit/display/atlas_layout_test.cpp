@@ -11,7 +11,7 @@ namespace {
 
 StreamDefaults someStream() {
   StreamDefaults stream;
-  stream.source_camera.intrinsics = {.focal_px = {1000, 1000}, .principal_px = {960, 540}};
+  stream.source_intrinsics = {.focal_px = {1000, 1000}, .principal_px = {960, 540}};
   stream.source_size_px = {1920, 1080};
   return stream;
 }

@@ -25,7 +25,7 @@ glm::dvec2 project(const View& view, const glm::dvec3& point_m) {
 // A source whose axis does not pass through the middle of its image.
 StreamDefaults offAxisStream() {
   StreamDefaults stream;
-  stream.source_camera.intrinsics = {.focal_px = {900, 1000}, .principal_px = {700, 500}};
+  stream.source_intrinsics = {.focal_px = {900, 1000}, .principal_px = {700, 500}};
   stream.source_size_px = {1280, 720};
   stream.focal_distance_m = 2.5;
   return stream;
@@ -95,7 +95,7 @@ TEST(QuiltViews, cropTheSourceToTheirAspectAroundItsMiddle) {
   const AtlasLayout layout = layoutOf({.kind = quilt}, stream);
   // One view stands in the source: its tile corners are image points of the source.
   const Intrinsics& view = layout.views[0].camera.intrinsics;
-  const Intrinsics& source = stream.source_camera.intrinsics;
+  const Intrinsics& source = stream.source_intrinsics;
   const auto inSource = [&](glm::dvec2 tile_px) {
     return (tile_px - view.principal_px) / view.focal_px * source.focal_px + source.principal_px;
   };
@@ -110,7 +110,7 @@ TEST(QuiltViews, cropTheSourceToTheirAspectAroundItsMiddle) {
 
 TEST(QuiltViews, returnTheSourceCameraForASingleTileOfItsSize) {
   StreamDefaults stream = offAxisStream();
-  stream.source_camera.intrinsics.focal_px = {1000, 1000};
+  stream.source_intrinsics.focal_px = {1000, 1000};
   const AtlasLayout layout =
       layoutOf({.kind = QuiltSpec{.columns = 1, .rows = 1, .size_px = {1280, 720}}}, stream);
   const Camera& camera = layout.views[0].camera;

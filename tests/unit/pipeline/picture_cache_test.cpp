@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/picture_cache.h"
+
+#include <gtest/gtest.h>
+
+namespace viewloom {
+namespace {
+
+// Stands still in the world, so that a camera that moves sees it from elsewhere.
+ActiveDisplay someDisplay() {
+  QuiltSpec quilt;
+  quilt.columns = 2;
+  quilt.rows = 2;
+  quilt.size_px = {64, 64};
+  quilt.view_cone_rad = 0.5;
+  ActiveDisplay display;
+  display.spec = *completeDisplaySpec({.kind = quilt, .world_pose = Pose{}});
+  display.picture_key = "quilt";
+  return display;
+}
+
+ResidentStructure seenFrom(double x_m) {
+  ResidentStructure structure;
+  structure.source_camera = {.pose = {.position_m = {x_m, 0, 0}},
+                             .intrinsics = {.focal_px = {50, 50}, .principal_px = {32, 32}}};
+  structure.defaults = {.source_intrinsics = structure.source_camera.intrinsics,
+                        .source_size_px = {64, 64},
+                        .focal_distance_m = 2};
+  return structure;
+}
+
+class PictureCacheTest : public ::testing::Test {
+ protected:
+  PicturePtr get(const ResidentStructure& source) {
+    absl::StatusOr<PicturePtr> picture = cache_.get(display_, source);
+    EXPECT_TRUE(picture.ok()) << picture.status();
+    return picture.value_or(nullptr);
+  }
+
+  const ActiveDisplay display_ = someDisplay();
+  PictureCache cache_{{}};
+};
+
+TEST_F(PictureCacheTest, aCameraThatStandsStillKeepsItsPicture) {
+  EXPECT_EQ(get(seenFrom(0)), get(seenFrom(0)));
+}
+
+TEST_F(PictureCacheTest, aCameraThatMovesKeepsTheLayoutAndAimsTheViewsAnew) {
+  const PicturePtr before = get(seenFrom(0));
+  const float eye_before = before->tiles.front().eye.x;
+  const PicturePtr after = get(seenFrom(0.25));
+  EXPECT_EQ(before->layout, after->layout);
+  // 0.25 m to the right, the views move to the left by as much: focal length times that, px * m.
+  EXPECT_NEAR(after->tiles.front().eye.x - eye_before, -50 * 0.25, 1e-4);
+}
+
+TEST_F(PictureCacheTest, aPictureInUseStaysAsItIs) {
+  const PicturePtr held = get(seenFrom(0));
+  const abi::ViewParams view = held->tiles.front();
+  get(seenFrom(0.25));
+  get(seenFrom(0.5));
+  EXPECT_EQ(held->tiles.front().eye, view.eye);
+  EXPECT_EQ(get(seenFrom(0))->tiles.front().eye, view.eye);
+}
+
+TEST_F(PictureCacheTest, aPictureThatWasLetGoIsUsedAgain) {
+  const TraceJob* first = get(seenFrom(0)).get();
+  EXPECT_EQ(get(seenFrom(0.25)).get(), first);
+}
+
+TEST_F(PictureCacheTest, anotherLensMakesAnotherLayout) {
+  const PicturePtr before = get(seenFrom(0));
+  ResidentStructure zoomed = seenFrom(0);
+  zoomed.source_camera.intrinsics.focal_px = {80, 80};
+  zoomed.defaults.source_intrinsics = zoomed.source_camera.intrinsics;
+  const PicturePtr after = get(zoomed);
+  EXPECT_NE(before->layout, after->layout);
+  EXPECT_NE(before->layout->views.front().camera.intrinsics,
+            after->layout->views.front().camera.intrinsics);
+}
+
+TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {
+  const PicturePtr before = get(seenFrom(0));
+  cache_.keepOnly({});
+  EXPECT_NE(get(seenFrom(0)), before);
+}
+
+}  // namespace
+}  // namespace viewloom
