@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame/depth.h"
 
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include <glm/gtc/packing.hpp>
 
-#include "base/check.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -46,24 +43,6 @@ WindowLine windowLine(const DepthFormat& format) {
   return {.origin = reversed ? min_depth : max_depth,
           .slope = (inv_far - inv_near) / (max_depth - min_depth),
           .inv_z_at_origin = reversed ? inv_near : inv_far};
-}
-
-// |ray| of the sample's centre where the ray's z is 1: distance = Z * this.
-double rayLength(glm::uvec2 pixel_px, const Intrinsics& intrinsics) {
-  const glm::dvec2 ray =
-      (glm::dvec2(pixel_px) + 0.5 - intrinsics.principal_px) / intrinsics.focal_px;
-  return std::sqrt(1 + glm::dot(ray, ray));
-}
-
-DepthValue fromInvZ(double inv_z) {
-  if (!(inv_z >= 0 && inv_z <= double{kInvZMax})) return {.kind = DepthClass::kBad};
-  return {.kind = DepthClass::kSurface, .inv_z = inv_z};
-}
-
-DepthValue fromMetric(double metric_m, double ray_length) {
-  if (metric_m == 0) return {.kind = DepthClass::kNoSurface};
-  if (!(metric_m > 0)) return {.kind = DepthClass::kBad};
-  return fromInvZ(ray_length / metric_m);
 }
 
 absl::Status validateWindow(const DepthFormat& format, std::string_view field) {
@@ -124,28 +103,6 @@ absl::Status validateInvalidValue(const DepthFormat& format, PlaneEncoding encod
 }
 
 }  // namespace
-
-DepthValue linearizeDepth(const DepthFormat& format, PlaneEncoding encoding, double sample,
-                          glm::uvec2 pixel_px, const Intrinsics& intrinsics) {
-  if (format.invalid_value &&
-      sample == double{storedInvalidValue(*format.invalid_value, encoding)}) {
-    return {.kind = format.invalid_is_far ? DepthClass::kSurface : DepthClass::kNoSurface};
-  }
-  switch (format.meaning) {
-    case DepthMeaning::kPlanar:
-      return fromMetric(sample * format.scale + format.offset, 1);
-    case DepthMeaning::kRayDistance:
-      return fromMetric(sample * format.scale + format.offset, rayLength(pixel_px, intrinsics));
-    case DepthMeaning::kWindow: {
-      const WindowLine line = windowLine(format);
-      const double depth = encoding == PlaneEncoding::kDepthU16 ? sample / kU16Max : sample;
-      return fromInvZ((depth - line.origin) * line.slope + line.inv_z_at_origin);
-    }
-    case DepthMeaning::kDisparity:
-      return fromInvZ(sample * format.scale + format.offset);
-  }
-  failCheck(__FILE__, __LINE__, "a DepthMeaning that is none");
-}
 
 DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding encoding) {
   DepthCoefficients coefficients;

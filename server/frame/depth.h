@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What depth samples mean: the one linearisation of every DepthFormat to 1/Z.
+// What depth samples mean: every DepthFormat as coefficients that kernels turn to 1/Z.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,6 @@ namespace viewloom {
 
 // 1/m. What is nearer than a nanometre is no surface: so squares of 1/Z stay finite in binary32.
 inline constexpr float kInvZMax = 1e9F;
-
-enum class DepthClass : uint8_t {
-  kSurface,    // inv_z is valid; 0 is the sky
-  kNoSurface,  // metric 0, or the declared invalid value
-  kBad,        // NaN, negative or nearer than 1 / kInvZMax: no surface, and counted
-};
-
-struct DepthValue {
-  DepthClass kind = DepthClass::kNoSurface;
-  double inv_z = 0;  // 1/m
-};
-
-// The reference: one sample, as stored (U16: 0..65535), to 1/Z. Pixel counts from the top left and
-// matters for kRayDistance alone, where the ray is that of the sample's centre.
-DepthValue linearizeDepth(const DepthFormat& format, PlaneEncoding encoding, double sample,
-                          glm::uvec2 pixel_px, const Intrinsics& intrinsics);
 
 // Every meaning in one formula for kernels, plain enough to upload as it is:
 //   value = (sample - origin) * scale + offset        sample as stored, U16 as 0..65535

@@ -6,9 +6,9 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "frame/depth.h"
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
+#include "support/depth_reference.h"
 
 namespace viewloom {
 namespace {

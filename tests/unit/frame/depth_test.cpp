@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include "support/depth_reference.h"
+
 namespace viewloom {
 namespace {
 
