@@ -126,11 +126,10 @@ int bench(const BenchArguments& arguments, const Config& config) {
     json["device"] = device.info().name;
     json["driver"] = device.info().driver;
     json["cores"] = std::thread::hardware_concurrency();
-    json["scene"] = {{"width_px", kSource_px.width},
-                     {"height_px", kSource_px.height},
-                     {"layers", kLayerCount},
-                     {"display", kPreset},
-                     {"cone_deg", arguments.cone_deg}};
+    json["scene"] = {
+        {"width_px", kSource_px.width},   {"height_px", kSource_px.height},
+        {"layers", kLayerCount},          {"display", kPreset},
+        {"cone_deg", arguments.cone_deg}, {"disparity_span_px", stages.disparity_span_px}};
     json["stages"] = stagesJson(stages);
     json["structure"] = {{"stored_nodes_per_px", stages.stored_nodes_per_px},
                          {"effective_nodes_per_px", stages.effective_nodes_per_px},

@@ -2,6 +2,7 @@
 #include "commands/stage_bench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -109,6 +110,7 @@ class StageBench {
     const StructureLayout& layout = structure_.layout();
     StageReport report = {.source_px = layout.size_px.area() * structure_.shape().layerCount(),
                           .ray_count = ray_count_,
+                          .disparity_span_px = disparitySpanPx(),
                           .upload_ms = medianOf(samples_.at("upload")),
                           .build_ms = medianOf(samples_.at("build")),
                           .build_pass_ms = {},
@@ -126,6 +128,15 @@ class StageBench {
   }
 
  private:
+  // For eyes in the source's plane, as those of a quilt in its place are.
+  double disparitySpanPx() const {
+    double moved_px_m = 0;
+    for (const abi::ViewParams& tile : job_.tiles) {
+      moved_px_m = std::max(moved_px_m, std::hypot(double{tile.eye.x}, double{tile.eye.y}));
+    }
+    return moved_px_m * structure_.stats().inv_z_max;
+  }
+
   template <typename Work>
   double timed(Work work) const {
     const int64_t started_ns = clock_.nowNs();

@@ -16,6 +16,9 @@ namespace viewloom {
 struct StageReport {
   uint64_t source_px = 0;  // of all layers
   uint64_t ray_count = 0;
+  // Distance, px of the source, at which the outermost view sees the nearest surface from where it
+  // would see it infinitely far away.
+  double disparity_span_px = 0;
   double upload_ms = 0;
   double build_ms = 0;                          // submitted until done
   std::map<std::string, double> build_pass_ms;  // on the device, by pass; empty without timestamps

@@ -175,13 +175,18 @@ TEST(Doctor, namesADeviceThatDoesNotExist) {
 }
 
 TEST(Bench, reportsEveryStageAsJson) {
-  const FinishedRun run = runViewloomd("bench --repeat 1 --seconds 0.5");
+  const FinishedRun run = runViewloomd("bench --repeat 1 --seconds 0.5 --cone 2");
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   const Json report = Json::parse(run.output);
   for (const char* stage : {"upload", "build", "trace", "encode_one_thread"}) {
     EXPECT_GT(report.at("stages").at(stage).at("ms").get<double>(), 0) << stage;
   }
   EXPECT_EQ(report.at("stages").at("rays"), 3360 * 3360);
+  // 540 / tan(18 deg) px of focal length, an eye 1 deg aside of a focus 2..4 m away, and a ball at
+  // 1.1..1.7 m in front.
+  const double span_px = report.at("scene").at("disparity_span_px");
+  EXPECT_GT(span_px, 1662 * 2 * std::tan(0.01745) / 1.7);
+  EXPECT_LT(span_px, 1662 * 4 * std::tan(0.01746) / 1.1);
   const Json& structure = report.at("structure");
   EXPECT_GT(structure.at("stored_nodes_per_px").get<double>(), 1.0 / 16) << "4x4 nodes";
   EXPECT_GT(structure.at("effective_nodes_per_px").get<double>(), 1.0 / 4096) << "64x64 nodes";
