@@ -16,8 +16,8 @@ namespace viewloom {
 struct StageReport {
   uint64_t source_px = 0;  // of all layers
   uint64_t ray_count = 0;
-  // Distance, px of the source, at which the outermost view sees the nearest surface from where it
-  // would see it infinitely far away.
+  // How far apart, px of the source, the outermost view sees the nearest surface and the sky behind
+  // it, compared with the source's own camera.
   double disparity_span_px = 0;
   double upload_ms = 0;
   double build_ms = 0;                          // submitted until done

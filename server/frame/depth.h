@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "base/status.h"
-#include "frame/camera.h"
 #include "frame/frame.h"
 
 namespace viewloom {

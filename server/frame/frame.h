@@ -30,7 +30,7 @@ enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
 enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };
 enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity };
 
-// How depth samples become 1/Z; frame/depth.h holds the only function that does it.
+// How depth samples become 1/Z; frame/depth.h makes of it what kernels compute with.
 struct DepthFormat {
   DepthMeaning meaning = DepthMeaning::kPlanar;
   double scale = 1;    // metre or 1/m per unit of the sample

@@ -24,9 +24,9 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                                              const ResidentStructure& source) {
   Entry& entry = entries_[display.picture_key];
   if (entry.defaults != source.defaults) entry.jobs.clear();
-  if (!entry.jobs.empty() && entry.source_camera == source.source_camera) {
-    return entry.jobs.front();
-  }
+  // Who stands in the source's place sees the same wherever that is.
+  const bool is_aimed = !display.spec.world_pose || entry.source_camera == source.source_camera;
+  if (!entry.jobs.empty() && is_aimed) return entry.jobs.front();
   if (std::shared_ptr<TraceJob>* free = findFree(entry.jobs)) {
     aimTraceJob(**free, displayPose(display.spec, source.source_camera), source.source_camera,
                 source.defaults.source_size_px);

@@ -13,10 +13,10 @@ vec3 linearFromSrgb(vec3 srgb) {
 }
 
 // Opaque 8-bit colour is blended in light that is nearly linear: a cubic of the code without the
-// curve's toe, whose inverse is a cubic of its root. That takes half the operations of the fits
-// above, for each of twelve channels a ray. Codes survive unchanged (the inverse is within 0.14 of
-// one), and a blend of any two differs from that in linear light by less than two codes, by 0.3 in
-// the mean over all pairs. Light is 0..1.
+// curve's toe, whose inverse is a cubic of its root. That takes half the operations of the sRGB
+// fits, for each of twelve channels a ray. Codes survive unchanged (the inverse is within 0.14 of
+// one), and a blend, before it is rounded, differs from that in linear light by less than two
+// codes, by 0.33 in the mean over all pairs and weights. Light is 0..1.
 
 // `rgb`: codes 0..255 in the low three bytes.
 vec3 lightFromCodes(uint rgb) {

@@ -50,6 +50,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
+
 uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
@@ -75,9 +76,9 @@ Walk walkBeside(WalkStart start) {
   return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0u);
 }
 
-// What a px shows; if nothing is known, the background.
+// What a px shows; if nothing is known, the background. Light as the surfaces' (lib/color.glsl).
 struct Light {
-  vec3 rgb;
+  vec4 color;  // premultiplied
   bool is_known;
 };
 
@@ -95,7 +96,7 @@ Light opaqueLight(Scene scene, Ray ray, Walk walk) {
   const uint links = loadLinks(scene.layers, layer, scene.extent, cell);
   const bool is_known = walk.is_hit || walk.ends_behind || is_border;
   const vec4 color = surfaceColor(scene, layer, cell, links, at);
-  return Light(color.rgb, is_known && (links & kFacetExists) != 0u);
+  return Light(color, is_known && (links & kFacetExists) != 0u);
 }
 
 // A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
@@ -136,21 +137,20 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
   for (;;) {
     findFarSide(scene, ray, behind, walk);
-    const vec3 point = ray.start + walk.t * ray.extent;
-    const uint links = loadLinks(scene.layers, walk.layer, scene.extent, walk.cell);
-    const Light last = opaqueLight(scene, ray, walk);
-    const vec4 color = walk.is_hit ? surfaceColor(scene, walk.layer, walk.cell, links, point.xy)
-                                   : vec4(last.is_known ? last.rgb : background, 1.0);
+    const Light seen = opaqueLight(scene, ray, walk);
+    const vec4 last = vec4(seen.is_known ? seen.color.rgb : background, 1.0);
+    const vec4 color = walk.is_hit ? seen.color : last;
     light += transmittance * color.rgb;
     transmittance *= 1.0 - color.a;
-    if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(light, true);
+    if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(vec4(light, 1.0), true);
     behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
     walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
   }
 }
 
 void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
-  const vec3 codes = kSeesThrough ? codesFromLinear(light.rgb) : codesFromLight(light.rgb);
+  const vec3 rgb = light.color.rgb;
+  const vec3 codes = kSeesThrough ? codesFromLinear(rgb) : codesFromLight(rgb);
   band[index] = light.is_known ? packCodes(codes) : push.fill | kOpaqueCode;
   if (kWanted == 0u) return;
   const vec3 point = ray.start + walk.t * ray.extent;
@@ -161,7 +161,7 @@ void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
   if ((kWanted & kWantLinear) != 0u) {
     const vec3 srgb = light.is_known ? codes / 255.0 : unpackUnorm4x8(push.fill).rgb;
-    Vec4Ref(extras.linear).at[index] = vec4(srgb, 1.0);
+    Vec4Ref(extras.linear).at[index] = vec4(clamp(srgb, 0.0, 1.0), 1.0);
   }
   if ((kWanted & kWantRecords) != 0u) {
     RecordsRef(extras.records).at[index] =

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -48,11 +49,7 @@ class RenderTest : public testing::Test {
     pfm << "Pf\n" << kWidth << " " << kHeight << "\n-1\n";
     pfm.write(reinterpret_cast<const char*>(depth_m.data()),
               std::streamsize(depth_m.size() * sizeof(float)));
-    write("frame.json",
-          R"({"sources":[{"camera":{"intrinsics":)" + kIntrinsics +
-              R"(},"layers":[{)"
-              R"("color":{"file":"color.png"},)"
-              R"("depth":{"file":"depth.pfm","depth":{"meaning":"DEPTH_MEANING_PLANAR"}}}]}]})");
+    write("frame.json", frameJson("color.png"));
     write("display.json",
           R"({"cameras":{"columns":2,"tileSize":{"width":48,"height":32},"cameras":[)"
           R"({"intrinsics":)" +
@@ -64,6 +61,11 @@ class RenderTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
+  std::string frameJson(const std::string& color_file) const {
+    return R"({"sources":[{"camera":{"intrinsics":)" + kIntrinsics +
+           R"(},"layers":[{"color":{"file":")" + color_file +
+           R"("},"depth":{"file":"depth.pfm","depth":{"meaning":"DEPTH_MEANING_PLANAR"}}}]}]})";
+  }
   void write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
   }
@@ -113,6 +115,52 @@ TEST_F(RenderTest, returnsTheSourceFromItsOwnPlaceAndScoresByTheGivenMask) {
     EXPECT_GT(fs::file_size(folder_ / "out" / name.get<std::string>()), 0u);
   }
   EXPECT_EQ(report.at("files").size(), 5u);
+}
+
+// The darkest and the lightest codes included, which no transfer may turn into something else.
+TEST_F(RenderTest, scoresItselfUnderEveryTransfer) {
+  for (const char* transfer : {"srgb", "gamma2.2"}) {
+    const FinishedRun run =
+        render("frame.json", "display.json",
+               "--compare " + folder_.string() + "/truth.json --transfer " + transfer);
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json score = Json::parse(run.output).at("views").at(0).at("by_renderer").at("all");
+    ASSERT_TRUE(score.at("psnr_db").is_number()) << transfer;
+    EXPECT_GT(score.at("psnr_db").get<double>(), 20 * std::log10(510)) << transfer;
+  }
+}
+
+// Looking back, nothing of the source is in view: opaque and semitransparent sources alike.
+TEST_F(RenderTest, whatIsOutsideTakesTheBackground) {
+  constexpr std::array<uint8_t, 3> kBackground{0xff, 0x80, 0x01};
+  std::vector<uint8_t> background;
+  std::vector<uint8_t> glass;
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    background.insert(background.end(), kBackground.begin(), kBackground.end());
+    glass.insert(glass.end(), {10, 200, 30, 128});
+  }
+  writePng("background.png", background, 3);
+  writePng("glass.png", glass, 4);
+  write("truth.json", R"({"views":[{"viewIndex":0,"color":{"file":"background.png"}}]})");
+  write("back.json",
+        R"({"outsideFill":"OUTSIDE_FILL_BACKGROUND","backgroundRgb":16744449,"cameras":{)"
+        R"("columns":1,"tileSize":{"width":48,"height":32},"cameras":[)"
+        R"({"pose":{"orientation":{"y":1}},"intrinsics":)" +
+            kIntrinsics + "}]}}");
+  for (const char* color : {"color.png", "glass.png"}) {
+    write("frame.json", frameJson(color));
+    const FinishedRun run =
+        render("frame.json", "back.json", "--compare " + folder_.string() + "/truth.json");
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const auto rendered = files::readPngColor(folder_ / "out" / "view_000.png", false);
+    ASSERT_TRUE(rendered.ok()) << rendered.status();
+    EXPECT_EQ(rendered->bytes, background) << color;
+    const Json score = Json::parse(run.output).at("views").at(0).at("by_renderer").at("outside");
+    EXPECT_EQ(score.at("share"), 1) << color;
+    // Before rounding, too.
+    const Json& psnr_db = score.at("psnr_db");
+    EXPECT_TRUE(psnr_db == "inf" || psnr_db.get<double>() > 20 * std::log10(510)) << color;
+  }
 }
 
 TEST_F(RenderTest, refusesBadInputByFileAndField) {
@@ -182,11 +230,10 @@ TEST(Bench, reportsEveryStageAsJson) {
     EXPECT_GT(report.at("stages").at(stage).at("ms").get<double>(), 0) << stage;
   }
   EXPECT_EQ(report.at("stages").at("rays"), 3360 * 3360);
-  // 540 / tan(18 deg) px of focal length, an eye 1 deg aside of a focus 2..4 m away, and a ball at
-  // 1.1..1.7 m in front.
+  // 540 / tan(18 deg) px of focal length; the outermost of 48 views, 47/48 of a degree aside of a
+  // focus 4.16 m away; a ball 2.01 m away. The last two to a percent: they are read off the depth.
   const double span_px = report.at("scene").at("disparity_span_px");
-  EXPECT_GT(span_px, 1662 * 2 * std::tan(0.01745) / 1.7);
-  EXPECT_LT(span_px, 1662 * 4 * std::tan(0.01746) / 1.1);
+  EXPECT_NEAR(span_px, 1662 * 4.16 * std::tan(47.0 / 48 * 0.0174533) / 2.01, 0.02 * span_px);
   const Json& structure = report.at("structure");
   EXPECT_GT(structure.at("stored_nodes_per_px").get<double>(), 1.0 / 16) << "4x4 nodes";
   EXPECT_GT(structure.at("effective_nodes_per_px").get<double>(), 1.0 / 4096) << "64x64 nodes";

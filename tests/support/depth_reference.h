@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one depth sample means, in double precision and straight from proto DepthFormat: the
-// reference for what kernels compute.
+// What one depth sample means, in double precision, as proto DepthFormat says it: the reference for
+// what kernels compute.
 #pragma once
 
 #include <cstdint>
