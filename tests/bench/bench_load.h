@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all contestants of the benchmark are given: one frame, and the views that are asked of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "trace/trace_job.h"
+
+namespace viewloom::bench {
+
+// The frame as plain arrays, [layer][row][column]. Layers lie nearest first.
+struct LoadSource {
+  SizePx size_px;
+  std::vector<std::vector<float>> inv_z;    // 1/m; kNoSurface where there is none; 0 is the sky
+  std::vector<std::vector<uint32_t>> rgba;  // sRGB, red in the low byte
+  // Two neighbours are one surface when they are no further apart than
+  // max(kappa_abs, kappa_rel * the nearer): what viewloom's build settled on, 1/m.
+  float kappa_abs = 0;
+  float kappa_rel = 0;
+  float inv_z_max = 0;  // of all layers
+};
+
+inline constexpr float kNoSurface = -1;  // as shaders/shared/structure_abi.h
+
+struct BenchLoad {
+  std::string name;
+  FramePtr frame;     // as viewloom takes it
+  LoadSource source;  // the same
+  // The views, row-major from the top left of the atlas; every tile is used. A ray through tile px
+  // (x, y) (centres at + 0.5) is that of abi::ViewParams.
+  TraceJob job;
+  double disparity_span_px = 0;  // of the outermost view
+  // All eyes lie beside the source's, with its axes: no ray leaves its row of the source.
+  bool is_one_axis = false;
+};
+
+}  // namespace viewloom::bench
