@@ -9,6 +9,12 @@ namespace viewloom::bench {
 
 inline constexpr uint32_t kOpaqueCode = 0xff000000U;
 
+// By value, unlike std::clamp: a reference keeps a loop from vectors.
+inline float clampTo(float value, float least, float most) {
+  const float above = value < least ? least : value;
+  return above > most ? most : above;
+}
+
 // As viewloom blends opaque colour (shaders/lib/srgb.glsl): a cubic of the code, and a cubic of the
 // root of light. Codes survive unchanged, and a blend is less than two codes off that in linear
 // light.
@@ -21,15 +27,16 @@ inline uint32_t codeFromLight(float light) {
   return uint32_t(int(((33.135467F * root - 111.46330F) * root + 342.96448F) * root - 9.1227989F));
 }
 
+// Of the channel at `shift`.
+inline uint32_t blendChannel(uint32_t a, uint32_t b, float weight, uint32_t shift) {
+  const float light_a = lightFromCode((a >> shift) & 255U);
+  const float light_b = lightFromCode((b >> shift) & 255U);
+  return codeFromLight(light_a + weight * (light_b - light_a)) << shift;
+}
 // `weight` of b, the rest of a; red in the low byte.
 inline uint32_t blendCodes(uint32_t a, uint32_t b, float weight) {
-  uint32_t blend = kOpaqueCode;
-  for (const uint32_t shift : {0U, 8U, 16U}) {
-    const float light_a = lightFromCode((a >> shift) & 255U);
-    const float light_b = lightFromCode((b >> shift) & 255U);
-    blend |= codeFromLight(light_a + weight * (light_b - light_a)) << shift;
-  }
-  return blend;
+  return kOpaqueCode | blendChannel(a, b, weight, 0) | blendChannel(a, b, weight, 8) |
+         blendChannel(a, b, weight, 16);
 }
 
 // 0xRRGGBB, as a display's background is given, with red in the low byte.

@@ -146,23 +146,24 @@ void PlanarRuns::Scratch::project(const RowView& view, uint32_t width_px) {
   const float start = view.start_px;
   const float step = view.step_px;
   const float last = float(width_px);
-  const float* __restrict from_px = runs->begin_px.data();
-  const float* __restrict to_px = runs->end_px.data();
-  const float* __restrict line = runs->inv_z.data();
-  const float* __restrict line_slope = runs->slope.data();
-  int* __restrict first = begin.data();
-  int* __restrict past = end.data();
-  float* __restrict seen = inv_z.data();
-  float* __restrict seen_slope = slope.data();
+  const float* const from_px = runs->begin_px.data();
+  const float* const to_px = runs->end_px.data();
+  const float* const line = runs->inv_z.data();
+  const float* const line_slope = runs->slope.data();
+  int* const first = begin.data();
+  int* const past = end.data();
+  float* const seen = inv_z.data();
+  float* const seen_slope = slope.data();
   const int count = int(runs->slope.size());
+#pragma omp simd
   for (int k = 0; k < count; ++k) {
     // x = start + step p + eye w and w = line + slope x
     const float b = line_slope[k];
     const float forward = 1 - eye * b;
     const float from = (from_px[k] * forward - eye * line[k] - start) * scale;
     const float to = (to_px[k] * forward - eye * line[k] - start) * scale;
-    first[k] = int(std::ceil(std::min(std::max(from, 0.0F), last)));
-    past[k] = int(std::ceil(std::min(std::max(to, 0.0F), last)));
+    first[k] = int(std::ceil(clampTo(from, 0, last)));
+    past[k] = int(std::ceil(clampTo(to, 0, last)));
     seen[k] = (line[k] + b * start) / forward;
     seen_slope[k] = b * step / forward;
   }
@@ -177,12 +178,16 @@ void PlanarRuns::Scratch::draw() {
     const int from = runs->is_linked[k] != 0 ? std::min(begin[k], end_before) : begin[k];
     const int to = end_before = end[k];
     const int tag = runs->layer_tag[k];
+    const float line = inv_z[k];
+    const float line_slope = slope[k];
     for (int p = from; p < to; p += kLanes) {
       int* const block = depth.data() + p;
+#pragma omp simd
       for (int lane = 0; lane < kLanes; ++lane) {
-        const float w = std::max(inv_z[k] + slope[k] * float(p + lane), 0.0F);
-        const int key = (std::bit_cast<int>(w) & ~kLayerBits) | tag;
-        block[lane] = std::max(block[lane], p + lane < to ? key : kNothing);
+        const float w = line + line_slope * float(p + lane);
+        const int bits = std::bit_cast<int>(w < 0 ? 0 : w) & ~kLayerBits;
+        const int key = p + lane < to ? bits | tag : kNothing;
+        block[lane] = block[lane] < key ? key : block[lane];
       }
     }
   }
@@ -193,16 +198,18 @@ void PlanarRuns::Scratch::resolve(const RowView& view, const RowOutput& output, 
                                   uint32_t background) const {
   const RowView ray = view;
   const int width_px = int(output.width_px);
-  const int* __restrict keys = depth.data();
-  const uint32_t* __restrict colors = rgba.data();
-  uint32_t* __restrict out = output.rgba;
+  const float last = float(source_width_px - 1);
+  const int* const keys = depth.data();
+  const uint32_t* const colors = rgba.data();
+  uint32_t* const out = output.rgba;
+#pragma omp simd
   for (int p = 0; p < width_px; ++p) {
     const int key = keys[p];
     const bool is_hit = key >= 0;
     const float w = is_hit ? std::bit_cast<float>(key & ~kLayerBits) : 0.0F;
     const int layer = is_hit ? kLayerBits - (key & kLayerBits) : 0;
     const float x = ray.start_px + ray.step_px * float(p) + ray.eye_px_m * w;
-    const float inside = std::min(std::max(x, 0.0F), float(source_width_px - 1));
+    const float inside = clampTo(x, 0, last);
     const uint32_t color = colors[layer * source_width_px + int(inside)];
     out[p] = is_hit ? color | kOpaqueCode : background;
     if constexpr (kWantsInvZ) output.inv_z[p] = is_hit ? w : kNoSurface;

@@ -103,29 +103,42 @@ void SampleRows::Scratch::findSegments(const RowView& view, uint32_t width_px) {
   const float eye = -view.eye_px_m * scale;
   const float start = -view.start_px * scale;
   const float last = float(width_px);
-  for (uint32_t k = 0; k < count; ++k) {
-    const float at = x_px[k] * scale + (inv_z[k] * eye + start);
-    column[k] = int16_t(int(std::ceil(std::min(std::max(at, 0.0F), last))));
+  const float* const x = x_px.data();
+  const float* const w = inv_z.data();
+  const int16_t* const linked = is_linked.data();
+  int16_t* const columns = column.data();
+  uint8_t* const drawn = is_drawn.data();
+  const int vertex_count = int(count);
+#pragma omp simd
+  for (int k = 0; k < vertex_count; ++k) {
+    const float at = x[k] * scale + (w[k] * eye + start);
+    columns[k] = int16_t(int(std::ceil(clampTo(at, 0, last))));
   }
-  for (uint32_t k = 0; k < count; ++k) {
-    is_drawn[k] = uint8_t(column[k + 1] > column[k] ? is_linked[k] : 0);
+#pragma omp simd
+  for (int k = 0; k < vertex_count; ++k) {
+    drawn[k] = uint8_t(linked[k] & int16_t(columns[k + 1] > columns[k]));
   }
 }
 
 template <bool kIsForward, bool kIsFirst>
 void SampleRows::Scratch::drawLayer(uint32_t begin, uint32_t end) {
+  const int16_t* const columns = column.data();
+  const uint8_t* const drawn = is_drawn.data();
+  const float* const w = inv_z.data();
   int32_t* const seen = segment.data();
   for (uint32_t at = begin; at < end; at += kWord) {
     const uint32_t first = kIsForward ? at : begin + end - kWord - at;
     uint64_t word = 0;
-    std::memcpy(&word, is_drawn.data() + first, sizeof(word));
+    std::memcpy(&word, drawn + first, sizeof(word));
     while (word != 0) {
       const int bit = kIsForward ? std::countr_zero(word) : 63 - std::countl_zero(word);
       word ^= uint64_t{1} << bit;
       const uint32_t k = first + uint32_t(bit) / 8;
-      for (int p = column[k]; p < column[k + 1]; ++p) {
-        if (kIsFirst || seen[p] < 0 || inv_z[k] > inv_z[size_t(seen[p])]) seen[p] = int32_t(k);
-      }
+      int p = columns[k];
+      const int end_column = columns[k + 1];
+      do {
+        if (kIsFirst || seen[p] < 0 || w[k] > w[seen[p]]) seen[p] = int32_t(k);
+      } while (++p < end_column);
     }
   }
 }
@@ -141,14 +154,16 @@ void SampleRows::Scratch::resolve(const RowView& view, const RowOutput& output,
   uint32_t* const out = output.rgba;
   const RowView ray = view;
   const int width_px = int(output.width_px);
+#pragma omp simd
   for (int p = 0; p < width_px; ++p) {
-    const int k = std::max(seen[p], 0);
+    const int found = seen[p];
+    const int k = found < 0 ? 0 : found;
     // x + t = start + step p + eye (w + slope t)
     const float ahead = ray.start_px + ray.step_px * float(p) - x[k] + ray.eye_px_m * w[k];
-    const float t = std::min(std::max(ahead / (1 - ray.eye_px_m * slopes[k]), 0.0F), 1.0F);
+    const float t = clampTo(ahead / (1 - ray.eye_px_m * slopes[k]), 0, 1);
     const uint32_t color = blendCodes(colors[k], colors[k + 1], t);
-    out[p] = seen[p] < 0 ? background : color;
-    if constexpr (kWantsInvZ) output.inv_z[p] = seen[p] < 0 ? kNoSurface : w[k] + slopes[k] * t;
+    out[p] = found < 0 ? background : color;
+    if constexpr (kWantsInvZ) output.inv_z[p] = found < 0 ? kNoSurface : w[k] + slopes[k] * t;
   }
 }
 
