@@ -30,7 +30,7 @@ build_packages=(
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev vulkan-validationlayers
   chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf
-  clang clang-tidy
+  clang clang-tidy libembree-dev
 )
 
 case "${1:-}" in
