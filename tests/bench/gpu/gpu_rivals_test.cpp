@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rivals answer as their definition says; else beating them would be worth nothing.
+#include "bench/gpu/gpu_rivals.h"
+
+#include <cmath>
+
+#include "bench/gpu/test_loads.h"
+#include "gpu/test_device.h"
+#include "oracle/analytic_scenes.h"
+
+namespace viewloom::bench {
+namespace {
+
+constexpr int kWidth = 72;
+constexpr int kHeight = 24;
+
+Picture pictureOf(Contestant& contestant, const BenchLoad& load) {
+  EXPECT_TRUE(contestant.takes(load));
+  contestant.prepare(load);
+  contestant.build();
+  contestant.trace();
+  return contestant.picture();
+}
+
+// Of px (x, y) of a view of a load of views side by side.
+size_t indexOf(const BenchLoad& load, size_t view, int x, int y) {
+  const AtlasLayout& layout = *load.job.layout;
+  return size_t(y) * layout.size_px.width + view * layout.tile_size_px.width + size_t(x);
+}
+
+// Walks that state what they hit.
+class GpuWalkTest : public GpuTest {
+ protected:
+  static std::vector<std::unique_ptr<Contestant>> walks() {
+    std::vector<std::unique_ptr<Contestant>> made;
+    made.push_back(makeDda(device()));
+    return made;
+  }
+};
+
+// A sample is constant over its px, and a ray may be bridged from one to the next: so the ray's
+// inv_z is up to 1.5 steps of the plane away from it, along the steepest ray twice as much.
+double toleranceOf(const oracle::ImagePlane& plane) {
+  return 3 * (std::abs(plane.along_x) + std::abs(plane.along_y));
+}
+
+TEST_F(GpuWalkTest, meetsASlantedPlaneWhereItIs) {
+  const oracle::ImagePlane plane{0x1p-9, -0x1p-10, 0.5};
+  oracle::Scene scene = oracle::planeScene(plane, kWidth, kHeight);
+  scene.kappa = {0.02F, 0};
+  for (const int view_count : {6, 3}) {  // lanes are views, lanes are px
+    const auto views = viewsBeside(scene, view_count, -0.2, 0.08);
+    const BenchLoad load = loadOf(scene, views);
+    for (const auto& walk : walks()) {
+      const Picture picture = pictureOf(*walk, load);
+      int checked_count = 0;
+      for (size_t view = 0; view < views.size(); ++view) {
+        for (int i = 0; i < kWidth * kHeight; ++i) {
+          const int x = i % kWidth, y = i / kWidth;
+          const auto point =
+              oracle::meet(plane, scene.pinhole, rayOf(views[view], x + 0.5, y + 0.5).ray);
+          if (!point) continue;
+          const glm::dvec3 expected = oracle::imageOf(scene.pinhole, *point);
+          if (expected.x < 2 || expected.x > kWidth - 2) continue;
+          ++checked_count;
+          EXPECT_NEAR(picture.inv_z[indexOf(load, view, x, y)], expected.z, toleranceOf(plane))
+              << walk->name() << " view " << view << " px " << x << ", " << y;
+        }
+      }
+      EXPECT_GT(checked_count, view_count * kWidth * kHeight / 2);
+    }
+  }
+}
+
+// Near the left end a rectangle, behind it and beside it a far plane.
+TEST_F(GpuWalkTest, seesALayerBehindANearOneAndBesideIt) {
+  constexpr int kFirstNear = 30;
+  constexpr double kMargin_px = 2;  // from silhouettes
+  const oracle::ImagePlane near{0, 0, 1}, far{0, 0, 0.25};
+  oracle::Scene scene = oracle::stepScene(near, far, kFirstNear, true, kWidth, kHeight);
+  scene.kappa = {0.004F, 0};
+  const auto views = viewsBeside(scene, 6, -0.2, 0.08);
+  const BenchLoad load = loadOf(scene, views);
+  for (const auto& walk : walks()) {
+    const Picture picture = pictureOf(*walk, load);
+    int near_count = 0, behind_count = 0, beside_count = 0;
+    for (size_t view = 0; view < views.size(); ++view) {
+      for (int i = 0; i < kWidth * kHeight; ++i) {
+        const int x = i % kWidth, y = i / kWidth;
+        const oracle::Ray ray = rayOf(views[view], x + 0.5, y + 0.5).ray;
+        const double near_x = oracle::imageOf(scene.pinhole, *meet(near, scene.pinhole, ray)).x;
+        const double far_x = oracle::imageOf(scene.pinhole, *meet(far, scene.pinhole, ray)).x;
+        const auto is_inside = [](double x_px) { return x_px > 1 && x_px < kWidth - 1; };
+        if (std::abs(near_x - kFirstNear) < kMargin_px || !is_inside(near_x) || !is_inside(far_x)) {
+          continue;
+        }
+        const bool is_near = near_x > kFirstNear;
+        near_count += is_near;
+        behind_count += !is_near && far_x > kFirstNear;
+        beside_count += !is_near && far_x < kFirstNear;
+        EXPECT_NEAR(picture.inv_z[indexOf(load, view, x, y)], is_near ? 1 : 0.25, 1e-5)
+            << walk->name() << " view " << view << " px " << x << ", " << y;
+      }
+    }
+    EXPECT_GT(near_count, 1000);
+    EXPECT_GT(behind_count, 50);
+    EXPECT_GT(beside_count, 1000);
+  }
+}
+
+TEST_F(GpuWalkTest, returnsTheSourceFromItsOwnPose) {
+  const oracle::Scene scene = oracle::randomScene(11, kWidth, kHeight, 2);
+  const BenchLoad load = loadOf(scene, {oracle::ownView(scene)});
+  for (const auto& walk : walks()) {
+    const Picture picture = pictureOf(*walk, load);
+    for (size_t i = 0; i < picture.rgba.size(); ++i) {
+      if (load.source.inv_z[0][i] < 0) continue;
+      EXPECT_EQ(picture.rgba[i], load.source.rgba[0][i]) << walk->name() << " px " << i;
+      EXPECT_NEAR(picture.inv_z[i], load.source.inv_z[0][i], load.source.inv_z_max * 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viewloom::bench

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rivals' kernels are told.
+#ifndef VIEWLOOM_BENCH_GPU_SHADERS_RIVAL_ABI_H_
+#define VIEWLOOM_BENCH_GPU_SHADERS_RIVAL_ABI_H_
+
+#include "shared/trace_abi.h"
+
+VIEWLOOM_ABI_BEGIN
+
+// Bindings beside those of shared/structure_abi.h, of which the rivals have kBindingColor,
+// kBindingInvZ, kBindingViews and kBindingBand.
+VIEWLOOM_ABI_CONST uint kBindingBoxes = 16u;     // texels of two floats: the min/max pyramid
+VIEWLOOM_ABI_CONST uint kBindingBoxesOut = 17u;  // storage, written: a layer of it
+VIEWLOOM_ABI_CONST uint kBindingHits = 18u;      // texels of two uints: what rays hit
+VIEWLOOM_ABI_CONST uint kBindingFrom = 19u;      // texels of four uints: copied
+VIEWLOOM_ABI_CONST uint kBindingTo = 20u;        // storage, written: the copies
+
+// Of a dispatch that traces rows of an atlas.
+struct RivalPush {
+  uint source_size_px;  // width | height << 16
+  uint layer_count;
+  uint atlas_width_px;
+  uint first_row;     // of the dispatch, in the atlas
+  uint tile_size_px;  // width | height << 16
+  uint tile_grid;     // columns | rows << 16
+  uint padding_top_px;
+  uint fill;         // as TracePush
+  float inv_z_near;  // a little in front of everything, > 0
+  float kappa_abs;   // 1/m
+  float kappa_rel;
+  uint box_stride;  // texels from layer to layer of the pyramid
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(RivalPush) == 48);
+#endif
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_BENCH_GPU_SHADERS_RIVAL_ABI_H_
