@@ -100,7 +100,8 @@ ComputePass AtlasPass::makePass(std::span<const uint32_t> spirv,
   const AtlasLayout& layout = *load_->job.layout;
   const bool has_fours =
       pixels_ % 4 == 0 && layout.tile_size_px.width % 4 == 0 && layout.size_px.width % 4 == 0;
-  const uint32_t constants[] = {writes_inv_z, pixels_, lanes_are_views_, has_fours};
+  static_assert(abi::kOwnConstants == 2);
+  const uint32_t constants[] = {0, 0, writes_inv_z, pixels_, lanes_are_views_, has_fours};
   return ComputePass(*device_, {.spirv = spirv,
                                 .push_bytes = sizeof(abi::RivalPush),
                                 .specialization = constants,

@@ -6,6 +6,8 @@ namespace viewloom::bench {
 std::vector<std::unique_ptr<Contestant>> makeGpuRivals(const Device& device) {
   std::vector<std::unique_ptr<Contestant>> rivals;
   rivals.push_back(makeDda(device));
+  rivals.push_back(makeHiZ(device));
+  rivals.push_back(makeFloor(device));
   return rivals;
 }
 

@@ -20,6 +20,8 @@ namespace viewloom::bench {
 
 // The device must outlive them.
 std::unique_ptr<Contestant> makeDda(const Device& device);
+std::unique_ptr<Contestant> makeHiZ(const Device& device);
+std::unique_ptr<Contestant> makeFloor(const Device& device);
 std::vector<std::unique_ptr<Contestant>> makeGpuRivals(const Device& device);
 
 }  // namespace viewloom::bench

@@ -6,6 +6,7 @@
 
 #include "bench/gpu/test_loads.h"
 #include "gpu/test_device.h"
+#include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
 
 namespace viewloom::bench {
@@ -34,6 +35,7 @@ class GpuWalkTest : public GpuTest {
   static std::vector<std::unique_ptr<Contestant>> walks() {
     std::vector<std::unique_ptr<Contestant>> made;
     made.push_back(makeDda(device()));
+    made.push_back(makeHiZ(device()));
     return made;
   }
 };
@@ -119,6 +121,55 @@ TEST_F(GpuWalkTest, returnsTheSourceFromItsOwnPose) {
       EXPECT_NEAR(picture.inv_z[i], load.source.inv_z[0][i], load.source.inv_z_max * 1e-6);
     }
   }
+}
+
+double sharePct(size_t count, size_t total) {
+  return 100.0 * double(count) / double(total);
+}
+
+TEST_F(GpuWalkTest, findsTheSameByStepsAndByBoxes) {
+  size_t ray_count = 0, hit_count = 0, equal_count = 0;
+  oracle::Random random(3);
+  for (uint64_t seed = 20; seed < 28; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed, 150, 90, 1 + int(seed % 4));
+    const auto views = oracle::randomViews(random, oracle::kInPlaneKindCount, 40, 30);
+    const BenchLoad load = loadOf(scene, views);
+    const Picture by_steps = pictureOf(*makeDda(device()), load);
+    const Picture by_boxes = pictureOf(*makeHiZ(device()), load);
+    const float rounding = load.source.inv_z_max * 1e-5F;
+    for (size_t i = 0; i < by_steps.inv_z.size(); ++i) {
+      ++ray_count;
+      hit_count += by_steps.inv_z[i] != kNoSurface;
+      equal_count += std::abs(by_steps.inv_z[i] - by_boxes.inv_z[i]) <= rounding;
+    }
+  }
+  EXPECT_GE(sharePct(equal_count, ray_count), 99.9);
+  EXPECT_GE(sharePct(hit_count, ray_count), 40);
+}
+
+class FloorTest : public GpuTest {};
+
+// Hits on an edge are taken by the px on one of its sides, which may be the other one; a blend
+// there may then be rounded otherwise.
+TEST_F(FloorTest, showsWhatViewloomShows) {
+  const oracle::Scene scene = oracle::randomScene(5, 150, 90, 2);
+  const BenchLoad load = loadOf(scene, viewsBeside(scene, 6, -0.05, 0.02));
+  const Picture picture = pictureOf(*makeFloor(device()), load);
+
+  WalkUnderTest walk(device());
+  const auto structure = walk.build(*load.frame);
+  const SizePx atlas_px = load.job.layout->size_px;
+  TraceSlot traced(device(), {.width_px = atlas_px.width,
+                              .row_count_max = atlas_px.height,
+                              .tile_count_max = uint32_t(load.job.tiles.size())});
+  Timeline timeline(device());
+  CommandRecorder recorder(device());
+  ViewTracer tracer(device());
+  tracer.recordBand(recorder.begin(), *structure, load.job, {0, atlas_px.height}, traced, nullptr);
+  timeline.wait(recorder.submit(timeline));
+  size_t equal_count = 0;
+  for (size_t i = 0; i < atlas_px.area(); ++i) equal_count += picture.rgba[i] == traced.color()[i];
+  EXPECT_GE(sharePct(equal_count, atlas_px.area()), 99.9);
 }
 
 }  // namespace

@@ -5,9 +5,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "rival_abi.h"
+
 #include "rival_light.glsl"
-#include "rival_run.glsl"
 
 // Layer l + 1 lies behind layer l: it is walked only from where the ray first was behind that one.
 Found findHit(Ray ray) {
@@ -50,23 +49,10 @@ Found findHit(Ray ray) {
       enter_inv_z = is_done ? enter_inv_z : exit_inv_z;
       if (is_done) break;
     }
-    if (meets) {
-      found.is_hit = true;
-      found.t = max(enter_t, (inv_z - ray.start.z) / ray.extent.z);
-      found.middle_t = 0.5 * (enter_t + exit_t);
-      found.layer = layer;
-      stop_t = found.t;
-    }
-    const bool has_passed = passed_t < kNotPassed;
-    if (!found.is_hit && has_passed) {
-      found.is_hidden = true;
-      found.t = passed_t - 0.5 * min(ray.pace.x, ray.pace.y);
-      found.middle_t = found.t;
-      found.layer = layer;
-    }
+    finishLayer(ray, layer, meets, inv_z, enter_t, exit_t, passed_t, found, stop_t);
     begin_t = passed_t;
     ++layer;
-    if (!has_passed || layer >= push.layer_count) break;
+    if (passed_t == kNotPassed || layer >= push.layer_count) break;
   }
   return found;
 }

@@ -31,8 +31,27 @@ struct RivalPush {
   uint box_stride;  // texels from layer to layer of the pyramid
 };
 
+// A known hit: its px, x | y << 16; then its layer and where in the px it lies, 0..256 of 256 from
+// the top left. Without kHitExists: the px's colour.
+VIEWLOOM_ABI_CONST uint kHitExists = 0x80000000u;
+VIEWLOOM_ABI_CONST uint kHitOffsetXShift = 2u;
+VIEWLOOM_ABI_CONST uint kHitOffsetYShift = 11u;
+
+VIEWLOOM_ABI_CONST uint kBoxLevelLast = 6u;
+
+// Of a pass that makes levels of a layer's pyramid.
+struct BoxesPush {
+  uint source_size_px;  // width | height << 16
+  uint layer;
+  uint level;       // the highest that is there; 0: none
+  uint box_stride;  // as RivalPush
+  float kappa_abs;  // 1/m
+  float kappa_rel;
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(RivalPush) == 48);
+static_assert(sizeof(BoxesPush) == 24);
 #endif
 
 VIEWLOOM_ABI_END

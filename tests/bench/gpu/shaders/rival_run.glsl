@@ -3,12 +3,19 @@
 #ifndef VIEWLOOM_BENCH_RIVAL_RUN_GLSL_
 #define VIEWLOOM_BENCH_RIVAL_RUN_GLSL_
 
-layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = 0) const bool kWritesInvZ = false;  // of the hits, instead of colour
-layout(constant_id = 1) const uint kPixelsPerInvocation = 8u;
-layout(constant_id = 2) const bool kLanesAreViews = true;
-layout(constant_id = 3) const bool kStoresFours = true;  // tiles are whole fours of px wide
+#include "rival_abi.h"
 
+layout(local_size_x = kTraceGroupSize) in;
+layout(constant_id = kOwnConstants + 0u) const
+    bool kWritesInvZ = false;  // of the hits, instead of colour
+layout(constant_id = kOwnConstants + 1u) const uint kPixelsPerInvocation = 8u;
+layout(constant_id = kOwnConstants + 2u) const bool kLanesAreViews = true;
+layout(constant_id = kOwnConstants + 3u) const
+    bool kStoresFours = true;  // tiles are whole fours of px wide
+
+layout(push_constant, scalar) uniform Push {
+  RivalPush push;
+};
 // A run of px of one row of one view, and where it lies in the output.
 struct Run {
   uint first_x;
@@ -16,5 +23,14 @@ struct Run {
   float tile_y;
   uint first_index;
 };
+
+// False, which no compiler knows: shaders/README.md, Loops.
+bool isNever(uint loop) {
+  return push.layer_count == kLayerCountMax + 1u + loop;
+}
+
+uvec2 unpackSize(uint size_px) {
+  return uvec2(size_px & 0xffffu, size_px >> 16);
+}
 
 #endif  // VIEWLOOM_BENCH_RIVAL_RUN_GLSL_

@@ -6,6 +6,8 @@
 #ifndef VIEWLOOM_BENCH_RIVAL_VIEWS_GLSL_
 #define VIEWLOOM_BENCH_RIVAL_VIEWS_GLSL_
 
+#include "rival_run.glsl"
+
 layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
   ViewParams views[];
 };
