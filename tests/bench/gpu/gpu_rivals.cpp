@@ -8,6 +8,7 @@ std::vector<std::unique_ptr<Contestant>> makeGpuRivals(const Device& device) {
   rivals.push_back(makeDda(device));
   rivals.push_back(makeHiZ(device));
   rivals.push_back(makeFloor(device));
+  rivals.push_back(makeCopy(device));
   return rivals;
 }
 

@@ -22,6 +22,7 @@ namespace viewloom::bench {
 std::unique_ptr<Contestant> makeDda(const Device& device);
 std::unique_ptr<Contestant> makeHiZ(const Device& device);
 std::unique_ptr<Contestant> makeFloor(const Device& device);
+std::unique_ptr<Contestant> makeCopy(const Device& device);
 std::vector<std::unique_ptr<Contestant>> makeGpuRivals(const Device& device);
 
 }  // namespace viewloom::bench

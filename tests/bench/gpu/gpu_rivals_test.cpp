@@ -2,12 +2,18 @@
 // The rivals answer as their definition says; else beating them would be worth nothing.
 #include "bench/gpu/gpu_rivals.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
+#include "bench/gpu/copy_contestant.h"
 #include "bench/gpu/test_loads.h"
+#include "gpu/barrier.h"
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "structure/structure_layout.h"
 
 namespace viewloom::bench {
 namespace {
@@ -170,6 +176,45 @@ TEST_F(FloorTest, showsWhatViewloomShows) {
   size_t equal_count = 0;
   for (size_t i = 0; i < atlas_px.area(); ++i) equal_count += picture.rgba[i] == traced.color()[i];
   EXPECT_GE(sharePct(equal_count, atlas_px.area()), 99.9);
+}
+
+class CopyTest : public GpuTest {
+ protected:
+  static std::vector<std::array<uint32_t, 4>> read(const Buffer& buffer) {
+    const Buffer readback(device(), {.size_bytes = buffer.sizeBytes(),
+                                     .intent = MemoryIntent::kReadback,
+                                     .debug_name = "copy readback"});
+    Timeline timeline(device());
+    CommandRecorder recorder(device());
+    const vk::CommandBuffer commands = recorder.begin();
+    recordComputeToTransfer(commands);
+    commands.copyBuffer(buffer.handle(), readback.handle(),
+                        vk::BufferCopy{.size = buffer.sizeBytes()});
+    recordTransferToHost(commands);
+    timeline.wait(recorder.submit(timeline));
+    std::vector<std::array<uint32_t, 4>> units(buffer.sizeBytes() / 16);
+    std::memcpy(units.data(), readback.mapped().data(), units.size() * 16);
+    return units;
+  }
+};
+
+TEST_F(CopyTest, fillsItsOutputWithItsInput) {
+  const oracle::Scene scene = oracle::randomScene(5, 150, 90, 2);
+  const BenchLoad load = loadOf(scene, {oracle::ownView(scene)});
+  CopyContestant copy(device());
+  copy.prepare(load);
+  copy.build();
+  const auto from = read(copy.from());
+  const auto to = read(copy.to());
+  const CopyShape& shape = copy.shape();
+  ASSERT_EQ(from.size(), shape.read_count);
+  ASSERT_EQ(to.size(), size_t{shape.part_count} * shape.part_written_count);
+  EXPECT_GE(to.size() * 16, structureLayout(load.source.size_px).layerBytes() * 2);
+  for (size_t i = 0; i < to.size(); ++i) {
+    const size_t first = i / shape.part_written_count * shape.part_read_count;
+    const size_t count = std::min<size_t>(shape.part_read_count, from.size() - first);
+    ASSERT_EQ(to[i], from[first + i % shape.part_written_count % count]) << i;
+  }
 }
 
 }  // namespace

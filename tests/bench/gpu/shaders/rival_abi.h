@@ -49,8 +49,17 @@ struct BoxesPush {
   float kappa_rel;
 };
 
+// Of a copy, in units of 16 bytes.
+struct CopyPush {
+  uint from_first;
+  uint from_count;
+  uint to_count;   // >= from_count
+  uint row_count;  // invocations along x
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(RivalPush) == 48);
+static_assert(sizeof(CopyPush) == 16);
 static_assert(sizeof(BoxesPush) == 24);
 #endif
 
