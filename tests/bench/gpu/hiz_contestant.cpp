@@ -58,7 +58,7 @@ class HiZ final : public Contestant {
     const uint64_t boxes = boxStride(load.source.size_px);
     return fitsAtlasPass(device_, load) &&
            boxes * kBoxBytes <= device_.info().limits.storage_bytes_max &&
-           boxes * load.source.inv_z.size() <= device_.info().limits.texel_count_max;
+           2 * boxes * load.source.inv_z.size() <= device_.info().limits.texel_count_max;
   }
   void prepare(const BenchLoad& load) override;
   void build() override;
@@ -86,7 +86,7 @@ void HiZ::prepare(const BenchLoad& load) {
   const uint64_t stride = boxStride(load.source.size_px);
   boxes_ = Buffer(device_, {.size_bytes = stride * load.source.inv_z.size() * kBoxBytes,
                             .debug_name = "boxes"});
-  box_texels_ = TexelView(device_, boxes_, vk::Format::eR32G32Sfloat);
+  box_texels_ = TexelView(device_, boxes_, vk::Format::eR32Sfloat);
   atlas_.emplace(device_, load, hiz_views_spirv, kWalkSlots, "hiz");
   std::vector<Descriptor> descriptors = source_->colorAndInvZ();
   descriptors.push_back({.binding = abi::kBindingBoxes,

@@ -23,4 +23,10 @@ uint boxIndex(uvec2 padded_px, uint level, uvec2 cell) {
   return begin + cell.y * (padded_px.x >> level) + cell.x;
 }
 
+// Texels of one float: lavapipe gathers those with one instruction, and pairs lane by lane.
+vec2 loadBox(uint index) {
+  const int at = 2 * int(index);
+  return vec2(texelFetch(box_texels, at).x, texelFetch(box_texels, at + 1).x);
+}
+
 #endif  // VIEWLOOM_BENCH_BOXES_GLSL_

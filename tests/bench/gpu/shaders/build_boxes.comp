@@ -41,10 +41,10 @@ BoxRow rowOfSamples(ivec2 size_px, ivec2 pixel) {
 }
 
 BoxRow rowOfBoxes(uvec2 padded_px, uvec2 cell) {
-  const int at = int(push.layer * push.box_stride + boxIndex(padded_px, push.level, cell));
+  const uint at = push.layer * push.box_stride + boxIndex(padded_px, push.level, cell);
   BoxRow row;
-  for (int k = 0; k < 4; ++k) {
-    const vec2 box = texelFetch(box_texels, at + k).xy;
+  for (uint k = 0u; k < 4u; ++k) {
+    const vec2 box = loadBox(at + k);
     row.low[k] = box.x;
     row.high[k] = box.y;
   }

@@ -40,8 +40,7 @@ Found findHit(Ray ray, float bound) {
     for (;;) {
       if (isNever(2u)) break;
       const uvec2 block = uvec2(cell ^ flip) >> level;
-      box = texelFetch(box_texels, int(layer * push.box_stride + boxIndex(padded_px, level, block)))
-                .xy;
+      box = loadBox(layer * push.box_stride + boxIndex(padded_px, level, block));
       const ivec2 end_cell = cell | ((1 << level) - 1);
       const vec2 edge_t = (vec2(end_cell + 1) - start_px) * ray.pace;
       const bool cross_x = edge_t.x <= edge_t.y;
@@ -58,9 +57,9 @@ Found findHit(Ray ray, float bound) {
       ++step_count;
       const bool ends = skips && (exit_t >= stop_t || any(greaterThan(next, last_cell)));
       const bool is_done = meets || ends || step_count == kStepsMax;
-      const bool same_parent = all(equal(cell >> int(level + 1u), next >> int(level + 1u)));
-      const uint up = same_parent ? level : min(level + 1u, kBoxLevelLast);
-      const uint down = level == 0u ? 0u : level - 1u;
+      const bool same_parent = all(equal(cell >> int(level + 2u), next >> int(level + 2u)));
+      const uint up = same_parent ? level : min(level + 2u, kBoxLevelLast);
+      const uint down = level == 0u ? 0u : level - 2u;
       level = skips ? up : down;
       cell = mix(cell, next, bvec2(skips));
       enter_t = skips && !is_done ? exit_t : enter_t;
@@ -97,7 +96,7 @@ float boundOfRun(ViewParams view, Run run) {
   ivec2 cell = first_cell;
   for (;;) {
     if (isNever(3u)) break;
-    bound = max(bound, texelFetch(box_texels, int(boxIndex(padded_px, kBoundLevel, cell))).y);
+    bound = max(bound, loadBox(boxIndex(padded_px, kBoundLevel, cell)).y);
     cell = cell.x == last_cell.x ? ivec2(first_cell.x, cell.y + 1) : ivec2(cell.x + 1, cell.y);
     if (cell.y > last_cell.y) break;
   }
