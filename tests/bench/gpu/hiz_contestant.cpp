@@ -19,7 +19,7 @@ constexpr DescriptorSlot kBuildSlots[] = {{abi::kBindingInvZ, DescriptorKind::kT
                                           {abi::kBindingBoxes, DescriptorKind::kTexels},
                                           {abi::kBindingBoxesOut, DescriptorKind::kStorage}};
 
-constexpr uint64_t kBoxBytes = 8;
+constexpr uint64_t kBoxBytes = 4;
 // Levels that a pass adds to the highest one.
 constexpr uint32_t kLevelsPerPass = 2;
 static_assert(abi::kBoxLevelLast % kLevelsPerPass == 0);
@@ -33,7 +33,7 @@ SizePx paddedSize(SizePx size_px) {
 uint64_t boxStride(SizePx size_px) {
   const uint64_t last_count = paddedSize(size_px).area() >> (2 * abi::kBoxLevelLast);
   const uint64_t all_levels = last_count * ((uint64_t{4} << (2 * abi::kBoxLevelLast)) - 1) / 3;
-  return (all_levels + 31) / 32 * 32;
+  return (all_levels + 63) / 64 * 64;
 }
 
 ComputePass makeBuild(const Device& device, uint32_t from_inv_z) {
@@ -58,7 +58,7 @@ class HiZ final : public Contestant {
     const uint64_t boxes = boxStride(load.source.size_px);
     return fitsAtlasPass(device_, load) &&
            boxes * kBoxBytes <= device_.info().limits.storage_bytes_max &&
-           2 * boxes * load.source.inv_z.size() <= device_.info().limits.texel_count_max;
+           boxes * load.source.inv_z.size() <= device_.info().limits.texel_count_max;
   }
   void prepare(const BenchLoad& load) override;
   void build() override;
@@ -86,7 +86,7 @@ void HiZ::prepare(const BenchLoad& load) {
   const uint64_t stride = boxStride(load.source.size_px);
   boxes_ = Buffer(device_, {.size_bytes = stride * load.source.inv_z.size() * kBoxBytes,
                             .debug_name = "boxes"});
-  box_texels_ = TexelView(device_, boxes_, vk::Format::eR32Sfloat);
+  box_texels_ = TexelView(device_, boxes_, vk::Format::eR32Uint);
   atlas_.emplace(device_, load, hiz_views_spirv, kWalkSlots, "hiz");
   std::vector<Descriptor> descriptors = source_->colorAndInvZ();
   descriptors.push_back({.binding = abi::kBindingBoxes,

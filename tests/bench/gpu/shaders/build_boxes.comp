@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levels of a layer's min/max pyramid, three at a time: from inv_z levels 0, 1 and 2; from level n
-// the two above it. An invocation takes 4x4 cells.
+// Levels of a layer's min/max pyramid: from inv_z levels 0 and 2; from level n the two above it. An
+// invocation takes 4x4 cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -13,12 +13,11 @@ layout(push_constant, scalar) uniform Push {
   BoxesPush push;
 };
 layout(set = 0, binding = kBindingInvZ) uniform samplerBuffer inv_z_texels;
-// Two cells side by side at a time, or one.
-layout(set = 0, binding = kBindingBoxesOut, scalar) writeonly buffer BoxPairs {
-  vec4 pairs_out[];
+layout(set = 0, binding = kBindingBoxesOut, scalar) writeonly buffer InvZOut {
+  vec4 inv_z_out[];
 };
 layout(set = 0, binding = kBindingBoxesOut, scalar) writeonly buffer Boxes {
-  vec2 boxes_out[];
+  uint boxes_out[];
 };
 
 // Four cells of a row.
@@ -44,16 +43,12 @@ BoxRow rowOfBoxes(uvec2 padded_px, uvec2 cell) {
   const uint at = push.layer * push.box_stride + boxIndex(padded_px, push.level, cell);
   BoxRow row;
   for (uint k = 0u; k < 4u; ++k) {
-    const vec2 box = loadBox(at + k);
+    const uint word = texelFetch(box_texels, int(at + k)).x;
+    const vec2 box = boxOfWord(word, push.level, vec2(0.0));
     row.low[k] = box.x;
     row.high[k] = box.y;
   }
   return row;
-}
-
-// `cell`: of two, the left one.
-void storePair(uvec2 padded_px, uint level, uvec2 cell, vec4 pair) {
-  pairs_out[boxIndex(padded_px, level, cell) / 2u] = pair;
 }
 
 void main() {
@@ -67,21 +62,21 @@ void main() {
   for (uint y = 0u; y < 4u; ++y) {
     const uvec2 cell = first + uvec2(0u, y);
     const BoxRow row = kFromInvZ ? rowOfSamples(size_px, ivec2(cell)) : rowOfBoxes(padded_px, cell);
-    if (kFromInvZ) {
-      storePair(padded_px, 0u, cell, vec4(row.low.x, row.high.x, row.low.y, row.high.y));
-      storePair(padded_px, 0u, cell + uvec2(2u, 0u),
-                vec4(row.low.z, row.high.z, row.low.w, row.high.w));
-    }
+    if (kFromInvZ) inv_z_out[boxIndex(padded_px, 0u, cell) / 4u] = row.high;
     const vec2 low = min(row.low.xz, row.low.yw);
     const vec2 high = max(row.high.xz, row.high.yw);
     const vec4 pair = vec4(low.x, high.x, low.y, high.y);
     if ((y & 1u) == 1u) {
       const vec4 both = vec4(min(above.x, pair.x), max(above.y, pair.y), min(above.z, pair.z),
                              max(above.w, pair.w));
-      storePair(padded_px, push.level + 1u, cell / 2u, both);
+      if (!kFromInvZ) {
+        const uint at = boxIndex(padded_px, push.level + 1u, cell / 2u);
+        boxes_out[at] = packBox(both.xy);
+        boxes_out[at + 1u] = packBox(both.zw);
+      }
       whole = vec2(min(whole.x, min(both.x, both.z)), max(whole.y, max(both.y, both.w)));
     }
     above = pair;
   }
-  boxes_out[boxIndex(padded_px, push.level + 2u, block)] = whole;
+  boxes_out[boxIndex(padded_px, push.level + 2u, block)] = packBox(whole);
 }

@@ -2,6 +2,11 @@
 // Hi-Z (Uludag, "Hi-Z Screen-Space Cone-Traced Reflections", GPU Pro 5; AMD's SSSR): a walk of a
 // min/max pyramid that goes up where a box is passed and down where it is met, over one layer after
 // the other. A px is hit as in dda_views.comp. A ray that runs out of steps is a miss.
+//
+// Measured, CPU ns a ray of the synthetic quilt with a cone of 2 | 7 degrees on lavapipe, before
+// boxes were packed: as it is 18.0 | 27.6; one level at a time 19.4 | 28.8; up whatever the parent
+// 19.5 | 32.0; from the largest inv_z of the source instead of that around a run 27.8 | 39.0. Two
+// texels a box 18.2 | 26.6, one 18.9 | 26.6, whose build takes 12 ms instead of 15.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -22,6 +27,7 @@ Found findHit(Ray ray, float bound) {
   const vec2 start_px = mix(ray.start.xy, -ray.start.xy, goes_back);
   const vec2 extent_px = abs(ray.extent.xy);
   const ivec2 last_cell = (size_px - 1) | flip;
+  const vec2 kappa = vec2(push.kappa_abs, push.kappa_rel);
   float stop_t = ray.t_end;
   float begin_t = clamp((bound - ray.start.z) / ray.extent.z, ray.t_begin, ray.t_end);
   Found found = Found(false, false, ray.t_end, ray.t_end, 0u);
@@ -40,7 +46,8 @@ Found findHit(Ray ray, float bound) {
     for (;;) {
       if (isNever(2u)) break;
       const uvec2 block = uvec2(cell ^ flip) >> level;
-      box = loadBox(layer * push.box_stride + boxIndex(padded_px, level, block));
+      const uint at = layer * push.box_stride + boxIndex(padded_px, level, block);
+      box = boxOfWord(texelFetch(box_texels, int(at)).x, level, kappa);
       const ivec2 end_cell = cell | ((1 << level) - 1);
       const vec2 edge_t = (vec2(end_cell + 1) - start_px) * ray.pace;
       const bool cross_x = edge_t.x <= edge_t.y;
@@ -96,7 +103,8 @@ float boundOfRun(ViewParams view, Run run) {
   ivec2 cell = first_cell;
   for (;;) {
     if (isNever(3u)) break;
-    bound = max(bound, loadBox(boxIndex(padded_px, kBoundLevel, cell)).y);
+    const uint word = texelFetch(box_texels, int(boxIndex(padded_px, kBoundLevel, cell))).x;
+    bound = max(bound, boxOfWord(word, kBoundLevel, vec2(0.0)).y);
     cell = cell.x == last_cell.x ? ivec2(first_cell.x, cell.y + 1) : ivec2(cell.x + 1, cell.y);
     if (cell.y > last_cell.y) break;
   }

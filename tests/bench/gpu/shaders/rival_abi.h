@@ -9,7 +9,7 @@ VIEWLOOM_ABI_BEGIN
 
 // Bindings beside those of shared/structure_abi.h, of which the rivals have kBindingColor,
 // kBindingInvZ, kBindingViews and kBindingBand.
-VIEWLOOM_ABI_CONST uint kBindingBoxes = 16u;     // texels of one float: the min/max pyramid, two each
+VIEWLOOM_ABI_CONST uint kBindingBoxes = 16u;     // texels of one uint: the min/max pyramid
 VIEWLOOM_ABI_CONST uint kBindingBoxesOut = 17u;  // storage, written: a layer of it
 VIEWLOOM_ABI_CONST uint kBindingHits = 18u;      // texels of two uints: what rays hit
 VIEWLOOM_ABI_CONST uint kBindingFrom = 19u;      // texels of four uints: copied
