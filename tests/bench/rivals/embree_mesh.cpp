@@ -2,7 +2,6 @@
 #include "bench/rivals/embree_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -15,7 +14,7 @@
 namespace viewloom::bench {
 namespace {
 
-constexpr uint32_t kStripRows = 64;
+constexpr uint32_t kStripRows = 24;
 constexpr uint32_t kRowsPerChunk = 2;
 
 RTCGeometry attachQuads(RTCDevice device, RTCScene scene) {
@@ -134,6 +133,7 @@ void EmbreeMesh::Scene::traceRow(uint32_t first_view, uint32_t row, float* inv_z
   PacketColors colors;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRayHit16 hits;
   for (uint32_t column = 0; column < rays.width_px; column += rays.column_count) {
     rays.aim(column);
