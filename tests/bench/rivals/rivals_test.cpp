@@ -138,8 +138,8 @@ double depthInImage(const glm::dvec2& at) {
 
 // w = a + b x + c y over the whole image.
 void expectPlane(const BenchLoad& load, const Picture& picture, double a, double b, double c) {
-  size_t hit_count = 0;
-  size_t miss_count = 0;
+  size_t stray_count = 0;
+  size_t false_hit_count = 0;
   forRays(load, [&](const Ray& ray) {
     const double along =
         b * (ray.eye.x - ray.eye.z * ray.far.x) + c * (ray.eye.y - ray.eye.z * ray.far.y);
@@ -147,13 +147,13 @@ void expectPlane(const BenchLoad& load, const Picture& picture, double a, double
     const double inside_px = depthInImage(ray.at(inv_z));
     const float got = picture.inv_z[ray.offset_px];
     if (inside_px > kSilhouette_px) {
-      hit_count += std::abs(double{got} - inv_z) <= kInvZTolerance ? 0 : 1;
+      stray_count += std::abs(double{got} - inv_z) <= kInvZTolerance ? 0 : 1;
     } else if (inside_px < -kSilhouette_px) {
-      miss_count += got == kNoSurface && picture.rgba[ray.offset_px] == kBackground ? 0 : 1;
+      false_hit_count += got == kNoSurface && picture.rgba[ray.offset_px] == kBackground ? 0 : 1;
     }
   });
-  EXPECT_EQ(hit_count, 0U) << "rays that do not hit where they should";
-  EXPECT_EQ(miss_count, 0U) << "rays beside the plane that hit";
+  EXPECT_EQ(stray_count, 0U) << "rays that do not hit where they should";
+  EXPECT_EQ(false_hit_count, 0U) << "rays beside the plane that hit";
 }
 
 TEST(CpuRivals, hitASlantedPlaneWhereItIs) {
