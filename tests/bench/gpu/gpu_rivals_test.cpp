@@ -181,12 +181,12 @@ TEST_F(FloorTest, showsWhatViewloomShows) {
 
 class CopyTest : public GpuTest {
  protected:
-  static std::vector<std::array<uint32_t, 4>> read(const Buffer& buffer) {
-    const Buffer readback(device(), {.size_bytes = buffer.sizeBytes(),
-                                     .intent = MemoryIntent::kReadback,
-                                     .debug_name = "copy readback"});
-    Timeline timeline(device());
-    CommandRecorder recorder(device());
+  static std::vector<std::array<uint32_t, 4>> read(const Device& device, const Buffer& buffer) {
+    const Buffer readback(device, {.size_bytes = buffer.sizeBytes(),
+                                   .intent = MemoryIntent::kReadback,
+                                   .debug_name = "copy readback"});
+    Timeline timeline(device);
+    CommandRecorder recorder(device);
     const vk::CommandBuffer commands = recorder.begin();
     recordComputeToTransfer(commands);
     commands.copyBuffer(buffer.handle(), readback.handle(),
@@ -202,20 +202,25 @@ class CopyTest : public GpuTest {
 TEST_F(CopyTest, fillsItsOutputWithItsInput) {
   const oracle::Scene scene = oracle::randomScene(5, 150, 90, 2);
   const BenchLoad load = loadOf(scene, {oracle::ownView(scene)});
-  CopyContestant copy(device());
-  copy.prepare(load);
-  copy.build();
-  const auto from = read(copy.from());
-  const auto to = read(copy.to());
-  const CopyShape& shape = copy.shape();
-  ASSERT_EQ(from.size(), shape.read_count);
-  ASSERT_EQ(to.size(), size_t{shape.part_count} * shape.part_written_count);
-  EXPECT_GE(to.size() * 16, structureLayout(load.source.size_px).layerBytes() * 2);
-  for (size_t i = 0; i < to.size(); ++i) {
-    const size_t first = i / shape.part_written_count * shape.part_read_count;
-    const size_t count = std::min<size_t>(shape.part_read_count, from.size() - first);
-    ASSERT_EQ(to[i], from[first + i % shape.part_written_count % count]) << i;
+  const Device small_bindings({.validation = true, .storage_bytes_max = 1u << 17});
+  for (const Device* on : {&device(), &small_bindings}) {
+    CopyContestant copy(*on);
+    copy.prepare(load);
+    copy.build();
+    const auto from = read(*on, copy.from());
+    const auto to = read(*on, copy.to());
+    const CopyShape& shape = copy.shape();
+    EXPECT_EQ(shape.part_count > 1, on == &small_bindings);
+    ASSERT_EQ(from.size(), shape.read_count);
+    ASSERT_EQ(to.size(), size_t{shape.part_count} * shape.part_written_count);
+    EXPECT_GE(to.size() * 16, structureLayout(load.source.size_px).layerBytes() * 2);
+    for (size_t i = 0; i < to.size(); ++i) {
+      const size_t first = i / shape.part_written_count * shape.part_read_count;
+      const size_t count = std::min<size_t>(shape.part_read_count, from.size() - first);
+      ASSERT_EQ(to[i], from[first + i % shape.part_written_count % count]) << i;
+    }
   }
+  EXPECT_EQ(small_bindings.validationLog().messageCount(), 0u);
 }
 
 }  // namespace
