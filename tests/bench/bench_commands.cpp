@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_commands.h"
+
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/log.h"
+#include "bench/gpu/gpu_rivals.h"
+#include "bench/load_list.h"
+#include "bench/report.h"
+#include "bench/rivals/cpu_rivals.h"
+#include "bench/side_by_side.h"
+#include "bench/viewloom_contestant.h"
+
+namespace viewloom::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string device;
+  bool is_full = false;
+  bool prints_json = false;
+  int round_count = 5;
+  std::string only;
+  std::vector<std::filesystem::path> manifests;
+};
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[sizeof "2000-01-01"];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+  return text;
+}
+
+std::vector<NamedLoad> chosenLoads(const Arguments& arguments, Work work) {
+  std::vector<NamedLoad> loads = work == Work::kBuild ? buildLoads()
+                                 : arguments.is_full  ? fullLoads()
+                                                      : quickLoads();
+  for (const auto& path : arguments.manifests) loads.push_back(manifestLoad(path));
+  std::vector<NamedLoad> chosen;
+  std::string names;
+  for (const NamedLoad& load : loads) {
+    if (load.name.find(arguments.only) != std::string::npos) chosen.push_back(load);
+    names += "\n  " + load.name;
+  }
+  if (chosen.empty()) {
+    throw std::runtime_error("--only: no load has \"" + arguments.only + "\" in its name:" + names);
+  }
+  return chosen;
+}
+
+Json measure(const Device& device, const BenchLoad& load, Work work, int round_count) {
+  // Anew for each load: what one needed is not there for the next.
+  std::vector<std::unique_ptr<Contestant>> contestants;
+  auto own = std::make_unique<ViewloomContestant>(device);
+  ViewloomContestant& viewloom = *own;
+  contestants.push_back(std::move(own));
+  for (auto& rival : makeGpuRivals(device)) contestants.push_back(std::move(rival));
+  for (auto& rival : makeCpuRivals()) contestants.push_back(std::move(rival));
+  const LoadReport report = runSideBySide(load, contestants, work, round_count, "dda");
+  return work == Work::kBuild ? buildJson(report) : traceJson(report, viewloom.visits());
+}
+
+void measureAll(const Arguments& arguments, Work work) {
+  setLogLevel(LogLevel::kWarning);
+  const Device device({.select = arguments.device});
+  const LoadMaker maker(device);
+  Json json{{"device", device.info().name}, {"date", today()}, {"loads", Json::array()}};
+  const std::vector<NamedLoad> loads = chosenLoads(arguments, work);
+  for (size_t i = 0; i < loads.size(); ++i) {
+    std::cerr << "load " << i + 1 << " of " << loads.size() << ": " << loads[i].name << "\n";
+    json["loads"].push_back(measure(device, loads[i].make(maker), work, arguments.round_count));
+    if (!arguments.prints_json) std::cout << asTable(json["loads"].back()) << std::endl;
+  }
+  if (arguments.prints_json) std::cout << json.dump(2) << "\n";
+}
+
+void addCommand(CLI::App& app, const char* name, const char* description, Work work) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = app.add_subcommand(name, description);
+  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
+  command->add_option("--rounds", arguments->round_count, "Rounds of each load, for the medians")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--only", arguments->only, "Loads whose name has this in it");
+  command->add_option("--frame", arguments->manifests, "FrameManifest to add as a load; repeatable")
+      ->check(CLI::ExistingFile);
+  if (work == Work::kBuildAndTrace) {
+    command->add_flag("--full,!--quick", arguments->is_full,
+                      "Every scene with every display; default: about a dozen loads");
+  }
+  command->callback([arguments, work] { measureAll(*arguments, work); });
+}
+
+}  // namespace
+
+int runBench(int argc, char** argv) {
+  CLI::App app("Times viewloom beside its rivals on the same frames");
+  app.require_subcommand(1);
+  addCommand(app, "trace", "Build and trace whole atlases", Work::kBuildAndTrace);
+  addCommand(app, "build", "Build structures alone", Work::kBuild);
+  CLI11_PARSE(app, argc, argv);
+  return 0;
+}
+
+}  // namespace viewloom::bench

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of viewloom-bench: `trace` and `build`.
+#pragma once
+
+namespace viewloom::bench {
+
+// The exit status of the process. Throws what cannot be measured.
+int runBench(int argc, char** argv);
+
+}  // namespace viewloom::bench

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/report.h"
+
+#include <iomanip>
+#include <sstream>
+
+namespace viewloom::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "-" where a contestant has no such figure.
+std::string cell(const Json& load, const char* figure, const std::string& contestant,
+                 double factor) {
+  const auto of_all = load.find(figure);
+  if (of_all == load.end() || !of_all->contains(contestant)) return "-";
+  std::ostringstream text;
+  text << std::setprecision(4) << of_all->at(contestant).get<double>() * factor;
+  return text.str();
+}
+
+}  // namespace
+
+Json buildJson(const LoadReport& report) {
+  Json json{{"name", report.load}};
+  for (const auto& [name, measured] : report.by_contestant) {
+    json["build_ms"][name] = measured.build_ms;
+  }
+  return json;
+}
+
+Json traceJson(const LoadReport& report, const Visits& visits) {
+  Json json{{"name", report.load},
+            {"rays", report.ray_count},
+            {"disparity_span_px", report.disparity_span_px},
+            {"method", "walk"}};
+  const auto rays = static_cast<double>(report.ray_count);
+  for (const auto& [name, measured] : report.by_contestant) {
+    json["build_ms"][name] = measured.build_ms;
+    json["ns_per_ray"][name] = measured.trace_ms * 1e6 / rays;
+    json["total_ms"][name] = measured.total_ms;
+    if (measured.differ_share) json["differ_share"][name] = *measured.differ_share;
+  }
+  json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
+  return json;
+}
+
+std::string asTable(const Json& load) {
+  std::ostringstream text;
+  text << load.at("name").get<std::string>() << "\n"
+       << std::left << std::setw(12) << "" << std::right << std::setw(12) << "build ms"
+       << std::setw(12) << "ns/ray" << std::setw(12) << "total ms" << std::setw(12) << "differ %"
+       << "\n";
+  for (const auto& [name, unused] : load.at("build_ms").items()) {
+    text << "  " << std::left << std::setw(10) << name << std::right << std::setw(12)
+         << cell(load, "build_ms", name, 1) << std::setw(12) << cell(load, "ns_per_ray", name, 1)
+         << std::setw(12) << cell(load, "total_ms", name, 1) << std::setw(12)
+         << cell(load, "differ_share", name, 100) << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace viewloom::bench

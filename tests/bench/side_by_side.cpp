@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/side_by_side.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace viewloom::bench {
+namespace {
+
+constexpr double kSamePx = 0.5;  // of disparity in the outermost view
+
+template <typename Function>
+double timedMs(const Function& function) {
+  const auto begin = std::chrono::steady_clock::now();
+  function();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Samples {
+  std::vector<double> build_ms;
+  std::vector<double> trace_ms;
+  std::vector<double> total_ms;
+};
+
+double differShare(const BenchLoad& load, const std::vector<float>& inv_z,
+                   const std::vector<float>& reference) {
+  const double same = kSamePx * double{load.source.inv_z_max} / load.disparity_span_px;
+  size_t differ_count = 0;
+  for (size_t i = 0; i < reference.size(); ++i) {
+    const bool hits = inv_z[i] >= 0;
+    const bool should_hit = reference[i] >= 0;
+    const bool is_apart = std::abs(double{inv_z[i]} - double{reference[i]}) > same;
+    differ_count += hits != should_hit || (hits && is_apart);
+  }
+  return double(differ_count) / double(reference.size());
+}
+
+}  // namespace
+
+LoadReport runSideBySide(const BenchLoad& load,
+                         const std::vector<std::unique_ptr<Contestant>>& contestants, Work work,
+                         int round_count, std::string_view reference) {
+  std::vector<Contestant*> taking;
+  for (const auto& contestant : contestants) {
+    if (contestant->takes(load)) taking.push_back(contestant.get());
+  }
+  for (Contestant* contestant : taking) contestant->prepare(load);
+
+  std::map<std::string, Samples> samples;
+  for (int round = 0; round < round_count; ++round) {
+    for (Contestant* contestant : taking) {
+      Samples& of = samples[std::string(contestant->name())];
+      of.build_ms.push_back(timedMs([&] { contestant->build(); }));
+      of.trace_ms.push_back(work == Work::kBuild ? 0 : timedMs([&] { contestant->trace(); }));
+      of.total_ms.push_back(of.build_ms.back() + of.trace_ms.back());
+    }
+  }
+
+  LoadReport report{.load = load.name,
+                    .ray_count = load.job.layout->size_px.area(),
+                    .disparity_span_px = load.disparity_span_px,
+                    .by_contestant = {}};
+  std::vector<float> truth;
+  for (Contestant* contestant : taking) {
+    if (work == Work::kBuildAndTrace && contestant->name() == reference) {
+      truth = contestant->picture().inv_z;
+    }
+  }
+  for (Contestant* contestant : taking) {
+    const std::string name(contestant->name());
+    Measured measured{.build_ms = medianOf(samples[name].build_ms),
+                      .trace_ms = medianOf(samples[name].trace_ms),
+                      .total_ms = medianOf(samples[name].total_ms),
+                      .differ_share = {}};
+    const Picture picture = truth.empty() ? Picture{} : contestant->picture();
+    if (!truth.empty() && picture.inv_z.size() == truth.size()) {
+      measured.differ_share = differShare(load, picture.inv_z, truth);
+    }
+    report.by_contestant[name] = measured;
+  }
+  return report;
+}
+
+}  // namespace viewloom::bench
