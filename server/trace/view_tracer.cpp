@@ -14,8 +14,12 @@ namespace {
 // With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring px instead of
 // neighbouring views, and an invocation then takes one px.
 constexpr uint32_t kColumnsForViewLanes = 5;
-constexpr uint32_t kPixelsWithViewLanes = 8;
 constexpr uint32_t kPixelsWithPixelLanes = 1;
+constexpr uint32_t kPixelsWithViewLanes = 8;
+// A software device pays more for an invocation than for a ray, and has few lanes to fill; as long
+// as the px still share a bound where they start, which is found in a few nodes of 32 px.
+constexpr uint32_t kPixelsOnSoftware = 32;
+constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
@@ -37,6 +41,15 @@ bool colorIsScaled(const FrameShape& shape) {
                      [&](const SizePx& color_px) { return color_px != shape.depth_px; });
 }
 
+// Of one view, neighbours in a row. Views see about what the source sees.
+uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
+                     const AtlasLayout& layout) {
+  const uint64_t run_width_px =
+      uint64_t{kPixelsOnSoftware} * structure.shape().depth_px.width / layout.tile_size_px.width;
+  return device.is_software && run_width_px <= kRunWidthMax_px ? kPixelsOnSoftware
+                                                               : kPixelsWithViewLanes;
+}
+
 bool hasUnusedPixels(const TraceJob& job) {
   const AtlasLayout& layout = *job.layout;
   return layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
@@ -44,7 +57,9 @@ bool hasUnusedPixels(const TraceJob& job) {
 }
 
 // Sides of up to 16384 px, and counts of tiles, in 16 bits each.
-uint32_t packSize(SizePx size) { return size.width | size.height << 16; }
+uint32_t packSize(SizePx size) {
+  return size.width | size.height << 16;
+}
 
 // 0xRRGGBB as the band has it.
 uint32_t redFirst(uint32_t rgb) {
@@ -78,12 +93,12 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.color_is_scaled,
                                   variant.rays_are_plain,
                                   variant.eyes_in_plane};
-    made = std::make_unique<ComputePass>(
-        *device_, ComputePassOptions{.spirv = walk_views_spirv,
-                                     .push_bytes = sizeof(abi::TracePush),
-                                     .specialization = constants,
-                                     .descriptors = kSlots,
-                                     .debug_name = "walk views"});
+    made = std::make_unique<ComputePass>(*device_,
+                                         ComputePassOptions{.spirv = walk_views_spirv,
+                                                            .push_bytes = sizeof(abi::TracePush),
+                                                            .specialization = constants,
+                                                            .descriptors = kSlots,
+                                                            .debug_name = "walk views"});
   }
   return *made;
 }
@@ -104,24 +119,23 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
 
 std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& structure,
                                                      const TraceSlot& slot, uint64_t tiles_bytes) {
-  return {
-      structure.measuredDescriptor(),
-      {.binding = abi::kBindingViews,
-       .kind = DescriptorKind::kStorage,
-       .buffer = slot.params_.handle(),
-       .offset_bytes = kTilesOffset_bytes,
-       .size_bytes = tiles_bytes},
-      {.binding = abi::kBindingExtras,
-       .kind = DescriptorKind::kUniform,
-       .buffer = slot.params_.handle(),
-       .size_bytes = sizeof(abi::TraceExtras)},
-      {.binding = abi::kBindingBand,
-       .kind = DescriptorKind::kStorage,
-       .buffer = slot.color_.target().handle(),
-       .size_bytes = slot.color_.target().sizeBytes()},
-      structure.structure().asTexels(abi::kBindingStructure),
-      structure.structure().asHalfTexels(abi::kBindingStructureHalves),
-      structure.color().asTexels(abi::kBindingColor)};
+  return {structure.measuredDescriptor(),
+          {.binding = abi::kBindingViews,
+           .kind = DescriptorKind::kStorage,
+           .buffer = slot.params_.handle(),
+           .offset_bytes = kTilesOffset_bytes,
+           .size_bytes = tiles_bytes},
+          {.binding = abi::kBindingExtras,
+           .kind = DescriptorKind::kUniform,
+           .buffer = slot.params_.handle(),
+           .size_bytes = sizeof(abi::TraceExtras)},
+          {.binding = abi::kBindingBand,
+           .kind = DescriptorKind::kStorage,
+           .buffer = slot.color_.target().handle(),
+           .size_bytes = slot.color_.target().sizeBytes()},
+          structure.structure().asTexels(abi::kBindingStructure),
+          structure.structure().asHalfTexels(abi::kBindingStructureHalves),
+          structure.color().asTexels(abi::kBindingColor)};
 }
 
 abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const TraceJob& job,
@@ -158,7 +172,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   std::memcpy(slot.upload_.mapped().data() + kTilesOffset_bytes, job.tiles.data(), tiles_bytes);
 
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
-  const uint32_t pixels = lanes_are_views ? kPixelsWithViewLanes : kPixelsWithPixelLanes;
+  const uint32_t pixels =
+      lanes_are_views ? pixelsOfRun(device_->info(), structure, layout) : kPixelsWithPixelLanes;
   const ComputePass& walk =
       pass({.reads_by_address = structure.readsByAddress(),
             .wanted = wantedFlags(slot.shape_.outputs),

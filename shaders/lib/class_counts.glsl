@@ -5,18 +5,18 @@
 
 #include "shared/trace_abi.h"
 
-// Three to a word: a subgroup has fewer than 128 lanes of 8 rays each.
-const uint kCountBits = 10u;
+// Two to a word: a subgroup has at most 128 lanes of 32 rays each.
+const uint kCountBits = 16u;
 
-void count(inout uvec2 counts, uint ray_class) {
+void count(inout uvec3 counts, uint ray_class) {
   const uint place = ray_class - kClassHit;
-  const uint one = 1u << (kCountBits * (place % 3u));
-  counts += place < 3u ? uvec2(one, 0u) : uvec2(0u, one);
+  const uint one = 1u << (kCountBits * (place % 2u));
+  counts += uvec3(place < 2u ? one : 0u, (place & ~1u) == 2u ? one : 0u, place >= 4u ? one : 0u);
 }
 
-uint countOf(uvec2 counts, uint ray_class) {
+uint countOf(uvec3 counts, uint ray_class) {
   const uint place = ray_class - kClassHit;
-  return (counts[place / 3u] >> (kCountBits * (place % 3u))) & ((1u << kCountBits) - 1u);
+  return (counts[place / 2u] >> (kCountBits * (place % 2u))) & ((1u << kCountBits) - 1u);
 }
 
 #endif  // VIEWLOOM_LIB_CLASS_COUNTS_GLSL_

@@ -195,7 +195,7 @@ float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
   return startBound(scene, low_px, high_px);
 }
 
-void traceRun(Scene scene, ViewParams view, Run run, inout uvec2 counts) {
+void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   const vec3 near_eye = view.eye * scene.inv_z_near;
   const float bound = boundOfRun(scene, view, near_eye, run);
   uint i = 0u;
@@ -232,7 +232,7 @@ void main() {
   const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
   ViewParams view = views[tile];
 
-  uvec2 counts = uvec2(0u);
+  uvec3 counts = uvec3(0u);
   if (kEyesInPlane) view.eye.z = 0.0;
   if (exists && view.is_used != 0u) {
     Scene scene;
@@ -252,7 +252,7 @@ void main() {
     traceRun(scene, view, run, counts);
   }
   // One atomic instruction for all classes, a lane each.
-  const uvec2 sums = subgroupAdd(counts);
+  const uvec3 sums = subgroupAdd(counts);
   const uint counter_set = gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y;
   uint ray_class = kClassHit + gl_SubgroupInvocationID;
   do {

@@ -53,6 +53,27 @@ TEST_F(TraceTest, agreesWithTheOracleInTheSourcesPlane) {
   EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
 }
 
+// Tiles much coarser than the source, and tiles of several runs of px with a rest.
+TEST_F(TraceTest, agreesWithTheOracleHoweverManyPixelsAnInvocationTakes) {
+  struct Widths {
+    int source_px, view_px;
+  };
+  oracle::Random random(13);
+  JudgedViews sum;
+  for (const Widths& widths : {Widths{240, 13}, Widths{64, 75}, Widths{100, 33}}) {
+    for (const int kind_count : {oracle::kViewKindCount, oracle::kInPlaneKindCount}) {
+      for (uint64_t seed = 0; seed < 8; ++seed) {
+        const oracle::Scene scene =
+            oracle::randomScene(seed, widths.source_px, 19, 1 + int(seed % 4));
+        const auto views = oracle::randomViews(random, kind_count, widths.view_px, 6);
+        sum.add(judge(scene, views, 0.05, "seed " + std::to_string(seed) + " " + scene.name));
+      }
+    }
+  }
+  EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();
+  EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
+}
+
 TEST_F(TraceTest, fromItsOwnPoseASourceSeesItself) {
   for (uint64_t seed = 0; seed < 56; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed);
