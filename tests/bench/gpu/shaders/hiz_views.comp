@@ -3,10 +3,11 @@
 // min/max pyramid that goes up where a box is passed and down where it is met, over one layer after
 // the other. A px is hit as in dda_views.comp. A ray that runs out of steps is a miss.
 //
-// Measured, CPU ns a ray of the synthetic quilt with a cone of 2 | 7 degrees on lavapipe, before
-// boxes were packed: as it is 18.0 | 27.6; one level at a time 19.4 | 28.8; up whatever the parent
-// 19.5 | 32.0; from the largest inv_z of the source instead of that around a run 27.8 | 39.0. Two
-// texels a box 18.2 | 26.6, one 18.9 | 26.6, whose build takes 12 ms instead of 15.
+// Tried with 8 px an invocation, CPU ns a ray of the synthetic quilt with a cone of 2 | 7 degrees
+// on lavapipe, before boxes were packed, 2026-11-21: two levels at a time, as here, 18.0 | 27.6;
+// one level at a time 19.4 | 28.8; up whatever the parent 19.5 | 32.0; from the largest inv_z of
+// the source instead of that around a run 27.8 | 39.0. Two texels a box 18.2 | 26.6, one 18.9 |
+// 26.6, whose build takes 12 ms instead of 15.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
