@@ -17,7 +17,7 @@
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
 #include "bench/report.h"
-#include "bench/rivals/cpu_rivals.h"
+#include "bench/cpu/cpu_rivals.h"
 #include "bench/side_by_side.h"
 #include "bench/viewloom_contestant.h"
 

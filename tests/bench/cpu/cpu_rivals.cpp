@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/cpu_rivals.h"
+#include "bench/cpu/cpu_rivals.h"
 
 #ifdef VIEWLOOM_HAS_EMBREE
-#include "bench/rivals/embree_mesh.h"
+#include "bench/cpu/embree_mesh.h"
 #endif
-#include "bench/rivals/planar_runs.h"
-#include "bench/rivals/sample_rows.h"
+#include "bench/cpu/planar_runs.h"
+#include "bench/cpu/sample_rows.h"
 
 namespace viewloom::bench {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/sample_rows.h"
+#include "bench/cpu/sample_rows.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
-#include "bench/rivals/light.h"
-#include "bench/rivals/parallel_chunks.h"
+#include "bench/cpu/light.h"
+#include "bench/cpu/parallel_chunks.h"
 
 namespace viewloom::bench {
 namespace {

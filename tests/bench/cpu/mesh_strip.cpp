@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/mesh_strip.h"
+#include "bench/cpu/mesh_strip.h"
 
 #include <algorithm>
 #include <cmath>

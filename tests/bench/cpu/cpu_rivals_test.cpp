@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/rivals/planar_runs.h"
-#include "bench/rivals/sample_rows.h"
+#include "bench/cpu/planar_runs.h"
+#include "bench/cpu/sample_rows.h"
 #ifdef VIEWLOOM_HAS_EMBREE
-#include "bench/rivals/embree_mesh.h"
+#include "bench/cpu/embree_mesh.h"
 #endif
 
 namespace viewloom::bench {

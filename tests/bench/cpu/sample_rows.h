@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/rivals/row_contestant.h"
+#include "bench/cpu/row_contestant.h"
 
 namespace viewloom::bench {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/row_contestant.h"
+#include "bench/cpu/row_contestant.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/rivals/light.h"
-#include "bench/rivals/parallel_chunks.h"
+#include "bench/cpu/light.h"
+#include "bench/cpu/parallel_chunks.h"
 
 namespace viewloom::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/embree_mesh.h"
+#include "bench/cpu/embree_mesh.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,9 +7,9 @@
 #include <embree3/rtcore.h>
 
 #include "base/check.h"
-#include "bench/rivals/mesh_strip.h"
-#include "bench/rivals/parallel_chunks.h"
-#include "bench/rivals/ray_packet.h"
+#include "bench/cpu/mesh_strip.h"
+#include "bench/cpu/parallel_chunks.h"
+#include "bench/cpu/ray_packet.h"
 
 namespace viewloom::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "bench/bench_load.h"
-#include "bench/rivals/light.h"
+#include "bench/cpu/light.h"
 
 namespace viewloom::bench {
 

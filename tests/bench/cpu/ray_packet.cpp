@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/ray_packet.h"
+#include "bench/cpu/ray_packet.h"
 
 #include <algorithm>
 #include <bit>

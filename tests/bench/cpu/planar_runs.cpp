@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/rivals/planar_runs.h"
+#include "bench/cpu/planar_runs.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "bench/rivals/light.h"
-#include "bench/rivals/parallel_chunks.h"
+#include "bench/cpu/light.h"
+#include "bench/cpu/parallel_chunks.h"
 
 namespace viewloom::bench {
 namespace {
