@@ -12,6 +12,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "commands/effective_nodes.h"
+#include "commands/median.h"
 #include "display/atlas_layout.h"
 #include "encode/band_encoder.h"
 #include "gpu/barrier.h"
@@ -23,12 +24,6 @@
 
 namespace viewloom {
 namespace {
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Nodes of all levels above the facets.
 uint64_t nodeCount(const StructureLayout& layout) {
@@ -110,7 +105,7 @@ class StageBench {
     const StructureLayout& layout = structure_.layout();
     StageReport report = {.source_px = layout.size_px.area() * structure_.shape().layerCount(),
                           .ray_count = ray_count_,
-                          .disparity_span_px = disparitySpanPx(),
+                          .disparity_span_px = disparitySpanPx(job_, structure_.stats().inv_z_max),
                           .upload_ms = medianOf(samples_.at("upload")),
                           .build_ms = medianOf(samples_.at("build")),
                           .build_pass_ms = {},
@@ -128,15 +123,6 @@ class StageBench {
   }
 
  private:
-  // For eyes in the source's plane, as those of a quilt in its place are.
-  double disparitySpanPx() const {
-    double moved_px_m = 0;
-    for (const abi::ViewParams& tile : job_.tiles) {
-      moved_px_m = std::max(moved_px_m, std::hypot(double{tile.eye.x}, double{tile.eye.y}));
-    }
-    return moved_px_m * structure_.stats().inv_z_max;
-  }
-
   template <typename Work>
   double timed(Work work) const {
     const int64_t started_ns = clock_.nowNs();
@@ -215,6 +201,14 @@ class StageBench {
 };
 
 }  // namespace
+
+double disparitySpanPx(const TraceJob& job, double inv_z_max) {
+  double moved_px_m = 0;
+  for (const abi::ViewParams& tile : job.tiles) {
+    moved_px_m = std::max(moved_px_m, std::hypot(double{tile.eye.x}, double{tile.eye.y}));
+  }
+  return moved_px_m * inv_z_max;
+}
 
 StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,
                           const EncodingSpec& encoding, uint32_t repetition_count) {

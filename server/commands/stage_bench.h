@@ -9,6 +9,7 @@
 #include "display/display_spec.h"
 #include "frame/frame.h"
 #include "gpu/device.h"
+#include "trace/trace_job.h"
 
 namespace viewloom {
 
@@ -16,9 +17,7 @@ namespace viewloom {
 struct StageReport {
   uint64_t source_px = 0;  // of all layers
   uint64_t ray_count = 0;
-  // How far apart, px of the source, the outermost view sees the nearest surface and the sky behind
-  // it, compared with the source's own camera.
-  double disparity_span_px = 0;
+  double disparity_span_px = 0;  // see disparitySpanPx
   double upload_ms = 0;
   double build_ms = 0;                          // submitted until done
   std::map<std::string, double> build_pass_ms;  // on the device, by pass; empty without timestamps
@@ -32,6 +31,10 @@ struct StageReport {
   uint64_t structure_bytes = 0;       // one slot, host and device
   uint64_t trace_slot_bytes = 0;
 };
+
+// How far apart, px of the source, the outermost view sees the nearest surface and the sky behind
+// it, compared with the source's own camera. For eyes in the source's plane.
+double disparitySpanPx(const TraceJob& job, double inv_z_max);
 
 // The first repetition warms up and does not count.
 StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,

@@ -2,11 +2,11 @@
 #include "bench/load_maker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>
 
+#include "commands/stage_bench.h"
 #include "gpu/walk_under_test.h"
 
 namespace viewloom::bench {
@@ -34,15 +34,6 @@ LoadSource sourceOf(const Frame& frame, const StructureImage& image,
   return source;
 }
 
-// px of the source that the nearest surface moves by in the outermost view.
-double spanOf(const TraceJob& job, double inv_z_max) {
-  double moved_px_m = 0;
-  for (const abi::ViewParams& tile : job.tiles) {
-    moved_px_m = std::max(moved_px_m, std::hypot(double{tile.eye.x}, double{tile.eye.y}));
-  }
-  return moved_px_m * inv_z_max;
-}
-
 bool isOneAxis(const TraceJob& job) {
   return std::all_of(job.tiles.begin(), job.tiles.end(), [](const abi::ViewParams& tile) {
     return tile.eye.y == 0 && tile.eye.z == 0 && tile.direction_dx.y == 0 &&
@@ -67,7 +58,7 @@ BenchLoad LoadMaker::make(std::string name, FramePtr frame, const ViewsOf& views
       .source = {},
       .job = makeTraceJob(layout, spec, slot->sourceCamera().pose, slot->sourceCamera(), size_px)};
   load.source = sourceOf(*load.frame, walk.readBack(*slot), measuredHead(*slot), stats.inv_z_max);
-  load.disparity_span_px = spanOf(load.job, stats.inv_z_max);
+  load.disparity_span_px = disparitySpanPx(load.job, stats.inv_z_max);
   load.is_one_axis = isOneAxis(load.job);
   return load;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a load costs on this device by address, through a storage binding and as a texel: the
 // figures behind shaders/lib/memory.glsl. Prints JSON; medians of interleaved runs.
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -11,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "commands/median.h"
 #include "gpu/command_recorder.h"
 #include "gpu/compute_pass.h"
 #include "gpu/timeline.h"
@@ -40,11 +40,6 @@ ComputePass makePass(const Device& device, uint32_t path) {
                               .specialization = {&path, 1},
                               .descriptors = kSlots,
                               .debug_name = "memory path"});
-}
-
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 nlohmann::json measure(const Device& device) {

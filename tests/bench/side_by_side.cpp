@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "commands/median.h"
+
 namespace viewloom::bench {
 namespace {
 
@@ -16,12 +18,6 @@ double timedMs(const Function& function) {
   function();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
       .count();
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 struct Samples {
