@@ -7,6 +7,7 @@
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/srgb_transfer.h"
 
 namespace viewloom {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 constexpr float kColorTolerance = 0.2f / 255;
 constexpr double kTransmittanceMin = 1.0 / 255;
 constexpr double kTolerance_px = 0.05;
-
-float srgbFrom(double linear) {
-  return float(linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
-}
 
 // What the surfaces along a ray add up to; false when something would still be seen behind them.
 bool compose(const oracle::OracleAnswer& answer, const std::vector<LinearColor>& layer_colors,
@@ -31,7 +28,7 @@ bool compose(const oracle::OracleAnswer& answer, const std::vector<LinearColor>&
     transmittance *= 1 - double{color[3]};
     if (transmittance <= kTransmittanceMin) break;
   }
-  for (size_t i = 0; i < 3; ++i) srgb[i] = srgbFrom(light[i]);
+  for (size_t i = 0; i < 3; ++i) srgb[i] = float(srgbFrom(light[i]));
   return transmittance <= kTransmittanceMin;
 }
 

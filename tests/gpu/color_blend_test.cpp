@@ -7,6 +7,7 @@
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/srgb_transfer.h"
 
 namespace viewloom {
 namespace {
@@ -19,14 +20,6 @@ constexpr double kTolerance_px = 0.05;
 // codes; the first leaves room for rounding to the nearest.
 constexpr double kCodeTolerance = 0.25;
 constexpr double kBlendTolerance = 2.0;
-
-double linearFrom(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
-double srgbFrom(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 class ColorBlendTest : public GpuTest {
  protected:
@@ -68,8 +61,8 @@ class ColorBlendTest : public GpuTest {
   }
 
   double meanAt(int column, int row, size_t channel, double share_x, double share_y) const {
-    const double above = std::lerp(lightAt(column, row, channel),
-                                   lightAt(column + 1, row, channel), share_x);
+    const double above =
+        std::lerp(lightAt(column, row, channel), lightAt(column + 1, row, channel), share_x);
     const double below = std::lerp(lightAt(column, row + 1, channel),
                                    lightAt(column + 1, row + 1, channel), share_x);
     return 255 * srgbFrom(std::lerp(above, below, share_y));
@@ -81,7 +74,9 @@ class ColorBlendTest : public GpuTest {
   std::unique_ptr<StructureSlot> slot_;
 };
 
-TEST_F(ColorBlendTest, everyCodeSurvives) { EXPECT_LE(worstError(0, 0), kCodeTolerance); }
+TEST_F(ColorBlendTest, everyCodeSurvives) {
+  EXPECT_LE(worstError(0, 0), kCodeTolerance);
+}
 
 TEST_F(ColorBlendTest, meansAreThoseOfLinearLight) {
   for (const double share : {0.125, 0.25, 0.5, 0.75, 0.875}) {

@@ -7,6 +7,7 @@
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/srgb_transfer.h"
 
 namespace viewloom {
 namespace {
@@ -14,10 +15,8 @@ namespace {
 constexpr double kTolerance_px = 0.05;
 
 // What every plane shows: light that grows from left to right and from top to bottom.
-LinearColor lightAt(double u, double v) { return {float(u), float(v), 0.5f, 1.0f}; }
-
-float linearFrom(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+LinearColor lightAt(double u, double v) {
+  return {float(u), float(v), 0.5f, 1.0f};
 }
 
 SharedBytes ramp(SizePx size_px) {
@@ -69,8 +68,8 @@ class ColorSizeTest : public GpuTest {
       second_layer_count += record.layer == 1;
       const LinearColor expected = lightAt(record.x_px / 64.0, record.y_px / 48.0);
       for (size_t channel = 0; channel < 3; ++channel) {
-        const float light = linearFrom(traced.srgb[i][channel]);
-        worst = std::max(worst, std::abs(double{light} - double{expected[channel]}));
+        const double light = linearFrom(traced.srgb[i][channel]);
+        worst = std::max(worst, std::abs(light - double{expected[channel]}));
       }
     }
     EXPECT_GT(hit_count, 500);

@@ -8,6 +8,7 @@
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/srgb_transfer.h"
 
 namespace viewloom {
 namespace {
@@ -26,10 +27,6 @@ using ColorOf = std::function<LinearColor(int column, int row)>;  // premultipli
 constexpr LinearColor kRed = {1, 0, 0, 1};
 constexpr LinearColor kGreen = {0, 1, 0, 1};
 constexpr LinearColor kBlue = {0, 0, 1, 1};
-
-float srgbFrom(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
 
 bool isAlike(const LinearColor& srgb, const LinearColor& linear,
              float tolerance = kColorTolerance) {
