@@ -64,10 +64,10 @@ struct PlantedFault {
   FoundBy found_by;
 };
 
-class PlantedFaultTest : public testing::TestWithParam<PlantedFault> {};
+class PlantedFaultTest : public DeviceNeededTest,
+                         public testing::WithParamInterface<PlantedFault> {};
 
 TEST_P(PlantedFaultTest, isFound) {
-  if (Device::listDevices().empty()) GTEST_SKIP() << "no Vulkan device";
   const Device device({.planted_fault = GetParam().fault});
   const Findings findings = lookAt(device);
   switch (GetParam().found_by) {
