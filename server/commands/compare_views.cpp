@@ -84,9 +84,11 @@ Json scoreJson(const ImageScore& score) {
   if (score.pixel_count == 0) {
     json["psnr_db"] = nullptr;
     json["ssim"] = nullptr;
+    json["flip"] = nullptr;
   } else {
     json["psnr_db"] = std::isinf(score.psnr_db) ? Json("inf") : Json(score.psnr_db);
     json["ssim"] = score.ssim;
+    json["flip"] = score.flip;
   }
   return json;
 }
@@ -136,7 +138,8 @@ absl::StatusOr<Json> compareView(const v1::TruthView& view, const RenderedAtlas&
 
   const RenderedView rendered = cutView(atlas, view.view_index(), options.transfer);
   const Inner inner = {options.border_px, truth->size_px};
-  const ImageComparison comparison(cropped(rendered.image, inner), cropped(*truth, inner));
+  const ImageComparison comparison(cropped(rendered.image, inner), cropped(*truth, inner),
+                                   options.transfer);
   Json json;
   json["view"] = view.view_index();
   json["by_renderer"] = scoreByClass(comparison, cropped(rendered.classes, inner));

@@ -23,8 +23,8 @@ struct CompareOptions {
 
 // [{"view", "by_renderer": {"covered", "hidden", "outside", "all"}, "by_mask": the same}], each
 // class with "pixels", "share", "psnr_db" (a number, "inf" for identical pictures, null without
-// pixels) and "ssim". The renderer's covered are its hits and what it knows to be empty. Needs
-// linear and mask.
+// pixels), "ssim" and "flip". The renderer's covered are its hits and what it knows to be empty.
+// Needs linear and mask.
 absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
                                                     const CompareOptions& options);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/truth_image.h"
 
-#include <cmath>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
@@ -15,14 +14,6 @@
 
 namespace viewloom {
 namespace {
-
-// IEC 61966-2-1.
-double srgbFromLinear(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-double linearFromSrgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 // Samples of a plane as numbers in 0..1, still in the plane's own transfer; alpha 1 where it has
 // none.
@@ -52,11 +43,6 @@ float onBlack(float sample, float alpha, const v1::Plane& plane) {
 }
 
 }  // namespace
-
-float scoredSample(float srgb_encoded, ScoreTransfer transfer) {
-  if (transfer == ScoreTransfer::kSrgb) return srgb_encoded;
-  return static_cast<float>(std::pow(linearFromSrgb(srgb_encoded), 1 / 2.2));
-}
 
 absl::StatusOr<ScoredImage> loadTruth(const v1::PlaneFile& file,
                                       const std::filesystem::path& folder, ScoreTransfer transfer) {

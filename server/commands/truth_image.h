@@ -11,12 +11,6 @@
 
 namespace viewloom {
 
-// How light becomes the numbers that are compared.
-enum class ScoreTransfer : uint8_t { kSrgb, kGamma22 };
-
-// An sRGB-encoded sample (0..1) in the transfer that is scored.
-float scoredSample(float srgb_encoded, ScoreTransfer transfer);
-
 // Colour with alpha is set on black.
 absl::StatusOr<ScoredImage> loadTruth(const v1::PlaneFile& file,
                                       const std::filesystem::path& folder, ScoreTransfer transfer);

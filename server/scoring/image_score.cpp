@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/check.h"
+#include "scoring/flip.h"
 
 namespace viewloom {
 namespace {
@@ -91,9 +92,18 @@ Plane ssimMap(const Plane& a, const Plane& b, SizePx size_px) {
   return map;
 }
 
+std::vector<float> lightOf(const ScoredImage& image, ScoreTransfer transfer) {
+  std::vector<float> light(image.rgb.size());
+  std::transform(image.rgb.begin(), image.rgb.end(), light.begin(), [transfer](float scored) {
+    return static_cast<float>(linearFromScored(std::clamp(scored, 0.0F, 1.0F), transfer));
+  });
+  return light;
+}
+
 }  // namespace
 
-ImageComparison::ImageComparison(const ScoredImage& got, const ScoredImage& truth)
+ImageComparison::ImageComparison(const ScoredImage& got, const ScoredImage& truth,
+                                 ScoreTransfer transfer)
     : size_px_(got.size_px), squared_error_(got.size_px.area()) {
   VIEWLOOM_CHECK(got.size_px == truth.size_px && size_px_.area() > 0);
   VIEWLOOM_CHECK(got.rgb.size() == 3 * size_px_.area() && truth.rgb.size() == got.rgb.size());
@@ -104,6 +114,7 @@ ImageComparison::ImageComparison(const ScoredImage& got, const ScoredImage& trut
     }
   }
   ssim_ = ssimMap(lumaOf(got), lumaOf(truth), size_px_);
+  flip_ = flipMap(lightOf(got, transfer), lightOf(truth, transfer), size_px_);
 }
 
 ImageScore ImageComparison::score(std::span<const uint8_t> selected,
@@ -112,16 +123,19 @@ ImageScore ImageComparison::score(std::span<const uint8_t> selected,
   ImageScore result;
   double error_sum = 0;
   double ssim_sum = 0;
+  double flip_sum = 0;
   for (size_t i = 0; i < selected.size(); ++i) {
     if (selected[i] == 0) continue;
     ++result.pixel_count;
     error_sum += squared_error_[i];
     ssim_sum += ssim_[i];
+    flip_sum += flip_[i];
   }
   const auto count = static_cast<double>(result.pixel_count);
   result.share = considered_count == 0 ? 0 : count / static_cast<double>(considered_count);
   result.psnr_db = -10 * std::log10(error_sum / count);  // 0 / 0 is NaN: no pixel, no score
   result.ssim = ssim_sum / count;
+  result.flip = flip_sum / count;
   return result;
 }
 

@@ -107,6 +107,8 @@ TEST_F(RenderTest, returnsTheSourceFromItsOwnPlaceAndScoresByTheGivenMask) {
   EXPECT_GT(view.at("by_renderer").at("all").at("psnr_db").get<double>(), 20 * std::log10(510));
   EXPECT_EQ(view.at("by_renderer").at("covered").at("share"), 1);
   EXPECT_TRUE(view.at("by_renderer").at("hidden").at("psnr_db").is_null());
+  EXPECT_LT(view.at("by_renderer").at("covered").at("flip").get<double>(), 0.01);
+  EXPECT_TRUE(view.at("by_renderer").at("hidden").at("flip").is_null());
   EXPECT_EQ(view.at("by_mask").at("covered").at("share"), 0.5);
   EXPECT_EQ(view.at("by_mask").at("hidden").at("share"), 0.25);
   EXPECT_EQ(view.at("by_mask").at("outside").at("share"), 0.25);

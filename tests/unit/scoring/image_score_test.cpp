@@ -33,12 +33,13 @@ ScoredImage noiseOf(uint32_t seed) {
   return imageOf([&](uint32_t, uint32_t, uint32_t) { return value(random); });
 }
 
-std::vector<uint8_t> everything() {
-  return std::vector<uint8_t>(kSize.area(), 1);
+ImageComparison compare(const ScoredImage& got, const ScoredImage& truth) {
+  return {got, truth, ScoreTransfer::kSrgb};
 }
 
 ImageScore scoreAll(const ScoredImage& got, const ScoredImage& truth) {
-  return ImageComparison(got, truth).score(everything(), kSize.area());
+  const std::vector<uint8_t> everything(kSize.area(), 1);
+  return compare(got, truth).score(everything, kSize.area());
 }
 
 TEST(ImageScore, ofAPictureWithItselfIsPerfect) {
@@ -88,9 +89,24 @@ TEST(ImageScore, ofScaledRampsIsTheSsimOfTheirVariances) {
   const double expected = (2 * covariance + 9e-4) / (var_a + var_b + 9e-4);
   std::vector<uint8_t> selected(kSize.area(), 0);
   for (uint32_t y = 0; y < kSize.height; ++y) selected[y * kSize.width + middle] = 1;
-  const ImageScore score = ImageComparison(ramp(0.02), ramp(0.01)).score(selected, kSize.area());
+  const ImageScore score = compare(ramp(0.02), ramp(0.01)).score(selected, kSize.area());
   EXPECT_NEAR(score.ssim, expected, 1e-6);  // float samples
   EXPECT_EQ(score.pixel_count, kSize.height);
+}
+
+TEST(ImageScore, ofFlatPicturesIsTheFlipOfTheirLight) {
+  // Greys of light 0.2 and 0.25, as each transfer has them; see flip_test.cpp for the value.
+  const double difference = std::pow(116 * (std::cbrt(0.25) - std::cbrt(0.2)), 0.7);
+  const double expected = 0.95 * difference / (0.4 * 41.28);
+  for (const auto transfer : {ScoreTransfer::kSrgb, ScoreTransfer::kGamma22}) {
+    const auto grey = [transfer](double light) {
+      return greyOf(scoredSample(static_cast<float>(srgbFromLinear(light)), transfer));
+    };
+    const std::vector<uint8_t> everything(kSize.area(), 1);
+    const ImageScore score =
+        ImageComparison(grey(0.2), grey(0.25), transfer).score(everything, kSize.area());
+    EXPECT_NEAR(score.flip, expected, 1e-3);
+  }
 }
 
 TEST(ImageScore, countsOnlyTheSelectedPixels) {
@@ -100,7 +116,7 @@ TEST(ImageScore, countsOnlyTheSelectedPixels) {
   for (uint32_t y = 0; y < kSize.height; ++y) {
     for (uint32_t x = 0; x < 10; ++x) left[y * kSize.width + x] = 255;
   }
-  const ImageScore score = ImageComparison(got, greyOf(0.6F)).score(left, kSize.area());
+  const ImageScore score = compare(got, greyOf(0.6F)).score(left, kSize.area());
   EXPECT_NEAR(score.psnr_db, 20, 1e-5);
   EXPECT_EQ(score.share, 0.25);
 }
@@ -108,9 +124,10 @@ TEST(ImageScore, countsOnlyTheSelectedPixels) {
 TEST(ImageScore, ofNoPixelIsNone) {
   const ScoredImage noise = noiseOf(1);
   const std::vector<uint8_t> nothing(kSize.area(), 0);
-  const ImageScore score = ImageComparison(noise, noiseOf(2)).score(nothing, kSize.area());
+  const ImageScore score = compare(noise, noiseOf(2)).score(nothing, kSize.area());
   EXPECT_TRUE(std::isnan(score.psnr_db));
   EXPECT_TRUE(std::isnan(score.ssim));
+  EXPECT_TRUE(std::isnan(score.flip));
   EXPECT_EQ(score.share, 0);
 }
 
