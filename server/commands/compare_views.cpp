@@ -2,112 +2,18 @@
 #include "commands/compare_views.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "base/str_cat.h"
-#include "encode/encoded_band.h"
+#include "commands/rendered_view.h"
+#include "commands/score_json.h"
 #include "files/frame_manifest.h"
+#include "scoring/inner_part.h"
 
 namespace viewloom {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Classes = std::vector<GivenClass>;
-
-// The part of a view that counts, in px of the view.
-struct Inner {
-  uint32_t border_px;
-  SizePx view_px;
-
-  SizePx sizePx() const { return {view_px.width - 2 * border_px, view_px.height - 2 * border_px}; }
-  // visit(index of the pixel in the view), row by row.
-  template <typename Visit>
-  void forEach(Visit visit) const {
-    for (size_t y = border_px; y < view_px.height - border_px; ++y) {
-      for (size_t x = border_px; x < view_px.width - border_px; ++x) visit(y * view_px.width + x);
-    }
-  }
-};
-
-ScoredImage cropped(const ScoredImage& image, const Inner& inner) {
-  ScoredImage part = {.size_px = inner.sizePx(), .rgb = {}};
-  inner.forEach(
-      [&](size_t i) { part.rgb.insert(part.rgb.end(), &image.rgb[3 * i], &image.rgb[3 * i] + 3); });
-  return part;
-}
-
-Classes cropped(const Classes& classes, const Inner& inner) {
-  Classes part;
-  inner.forEach([&](size_t i) { part.push_back(classes[i]); });
-  return part;
-}
-
-GivenClass classOf(uint8_t ray_class) {
-  switch (static_cast<RayClass>(ray_class)) {
-    case RayClass::kHidden:
-      return GivenClass::kHidden;
-    case RayClass::kOutside:
-      return GivenClass::kOutside;
-    default:
-      return GivenClass::kCovered;
-  }
-}
-
-// What the renderer made of one view, in the transfer that is scored.
-struct RenderedView {
-  ScoredImage image;
-  Classes classes;
-};
-
-RenderedView cutView(const RenderedAtlas& atlas, uint32_t view, ScoreTransfer transfer) {
-  const AtlasLayout& layout = *atlas.layout;
-  const TileOrigin origin = layout.tileOrigin(view);
-  RenderedView cut = {.image = {.size_px = layout.tile_size_px, .rgb = {}}, .classes = {}};
-  for (size_t y = 0; y < layout.tile_size_px.height; ++y) {
-    for (size_t x = 0; x < layout.tile_size_px.width; ++x) {
-      const size_t i = (origin.y_px + y) * layout.size_px.width + origin.x_px + x;
-      for (size_t c = 0; c < 3; ++c) {
-        cut.image.rgb.push_back(scoredSample(atlas.linear[4 * i + c], transfer));
-      }
-      cut.classes.push_back(classOf(atlas.mask[i]));
-    }
-  }
-  return cut;
-}
-
-Json scoreJson(const ImageScore& score) {
-  Json json;
-  json["pixels"] = score.pixel_count;
-  json["share"] = score.share;
-  if (score.pixel_count == 0) {
-    json["psnr_db"] = nullptr;
-    json["ssim"] = nullptr;
-    json["flip"] = nullptr;
-  } else {
-    json["psnr_db"] = std::isinf(score.psnr_db) ? Json("inf") : Json(score.psnr_db);
-    json["ssim"] = score.ssim;
-    json["flip"] = score.flip;
-  }
-  return json;
-}
-
-Json scoreByClass(const ImageComparison& comparison, const Classes& classes) {
-  Json json;
-  std::vector<uint8_t> selected(classes.size());
-  const auto score = [&](auto is_selected) {
-    std::transform(classes.begin(), classes.end(), selected.begin(), is_selected);
-    return scoreJson(comparison.score(selected, classes.size()));
-  };
-  for (const auto& [name, wanted] :
-       {std::pair{"covered", GivenClass::kCovered}, std::pair{"hidden", GivenClass::kHidden},
-        std::pair{"outside", GivenClass::kOutside}}) {
-    json[name] = score([wanted = wanted](GivenClass given) { return given == wanted; });
-  }
-  json["all"] = score([](GivenClass) { return true; });
-  return json;
-}
 
 absl::Status checkShape(const v1::TruthView& view, const ScoredImage& truth,
                         const RenderedAtlas& atlas, uint32_t border_px) {
@@ -132,21 +38,21 @@ absl::StatusOr<Json> compareView(const v1::TruthView& view, const RenderedAtlas&
     return invalidField("view_index", strCat("got ", view.view_index(), ", accepted is 0..",
                                              atlas.layout->views.size() - 1));
   }
-  const auto truth = loadTruth(view.color(), options.truth.parent_path(), options.transfer);
+  const auto truth = loadScoredImage(view.color(), options.truth.parent_path(), options.transfer);
   if (!truth.ok()) return withFieldPrefix(truth.status(), "color");
   VIEWLOOM_RETURN_IF_ERROR(checkShape(view, *truth, atlas, options.border_px));
 
   const RenderedView rendered = cutView(atlas, view.view_index(), options.transfer);
-  const Inner inner = {options.border_px, truth->size_px};
+  const InnerPart inner = {options.border_px, truth->size_px};
   const ImageComparison comparison(cropped(rendered.image, inner), cropped(*truth, inner),
                                    options.transfer);
   Json json;
   json["view"] = view.view_index();
-  json["by_renderer"] = scoreByClass(comparison, cropped(rendered.classes, inner));
+  json["by_renderer"] = scoreJson(scoreByClass(comparison, cropped(rendered.classes, inner)));
   if (covered_mask != nullptr) {
     const auto given = loadCoveredMask(*covered_mask, truth->size_px);
     if (!given.ok()) return given.status();
-    json["by_mask"] = scoreByClass(comparison, cropped(*given, inner));
+    json["by_mask"] = scoreJson(scoreByClass(comparison, cropped(*given, inner)));
   }
   return json;
 }

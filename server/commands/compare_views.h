@@ -21,10 +21,8 @@ struct CompareOptions {
   std::vector<std::filesystem::path> covered_masks;
 };
 
-// [{"view", "by_renderer": {"covered", "hidden", "outside", "all"}, "by_mask": the same}], each
-// class with "pixels", "share", "psnr_db" (a number, "inf" for identical pictures, null without
-// pixels), "ssim" and "flip". The renderer's covered are its hits and what it knows to be empty.
-// Needs linear and mask.
+// [{"view", "by_renderer", "by_mask"}]: scores (commands/score_json.h) by the renderer's own
+// classes and, where there is one, by the given mask. Needs linear and mask.
 absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
                                                     const CompareOptions& options);
 

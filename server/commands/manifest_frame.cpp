@@ -41,7 +41,12 @@ absl::StatusOr<FramePtr> frameFromWire(const WireFrame& wire) {
 absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path) {
   const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
   if (!manifest.ok()) return manifest.status();
-  const absl::StatusOr<WireFrame> wire = files::loadFrame(*manifest, path.parent_path());
+  return loadManifestFrame(*manifest, path.parent_path());
+}
+
+absl::StatusOr<FramePtr> loadManifestFrame(const v1::FrameManifest& manifest,
+                                           const std::filesystem::path& folder) {
+  const absl::StatusOr<WireFrame> wire = files::loadFrame(manifest, folder);
   if (!wire.ok()) return wire.status();
   return frameFromWire(*wire);
 }

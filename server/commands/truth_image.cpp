@@ -44,8 +44,9 @@ float onBlack(float sample, float alpha, const v1::Plane& plane) {
 
 }  // namespace
 
-absl::StatusOr<ScoredImage> loadTruth(const v1::PlaneFile& file,
-                                      const std::filesystem::path& folder, ScoreTransfer transfer) {
+absl::StatusOr<ScoredImage> loadScoredImage(const v1::PlaneFile& file,
+                                            const std::filesystem::path& folder,
+                                            ScoreTransfer transfer) {
   absl::StatusOr<files::LoadedPlane> loaded = files::loadColorPlane(file, folder);
   if (!loaded.ok()) return loaded.status();
   const v1::Plane& plane = loaded->plane;
@@ -68,7 +69,7 @@ absl::StatusOr<ScoredImage> loadTruth(const v1::PlaneFile& file,
   return image;
 }
 
-absl::StatusOr<std::vector<GivenClass>> loadCoveredMask(const std::filesystem::path& path,
+absl::StatusOr<std::vector<PixelClass>> loadCoveredMask(const std::filesystem::path& path,
                                                         SizePx size_px) {
   const auto png = files::readPngDepth(path, false);
   if (!png.ok()) return png.status();
@@ -77,13 +78,13 @@ absl::StatusOr<std::vector<GivenClass>> loadCoveredMask(const std::filesystem::p
                                                    " px; accepted is the size of the view, ",
                                                    size_px.width, "x", size_px.height));
   }
-  std::vector<GivenClass> classes(size_px.area());
+  std::vector<PixelClass> classes(size_px.area());
   for (size_t i = 0; i < classes.size(); ++i) {
     uint16_t grey = 0;
     std::memcpy(&grey, &png->bytes[2 * i], sizeof grey);
-    classes[i] = grey == 0     ? GivenClass::kHidden
-                 : grey >= 255 ? GivenClass::kCovered
-                               : GivenClass::kOutside;
+    classes[i] = grey == 0     ? PixelClass::kHidden
+                 : grey >= 255 ? PixelClass::kCovered
+                               : PixelClass::kOutside;
   }
   return classes;
 }
