@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// viewloom-fidelity: viewloom and simple depth warps against true views, by one mask.
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "base/log.h"
+#include "fidelity/report.h"
+
+namespace viewloom::fidelity {
+
+static void run(const std::filesystem::path& data, const std::string& device_name,
+                bool prints_json) {
+  setLogLevel(LogLevel::kWarning);
+  const Device device({.select = device_name});
+  nlohmann::ordered_json json{{"device", device.info().name},
+                              {"sets", nlohmann::ordered_json::array()}};
+  for (const Trial& trial : loadTrials(data)) {
+    json["sets"].push_back(trialJson(trial, runTrial(device, trial)));
+    if (!prints_json) std::cout << asTable(json["sets"].back()) << std::endl;
+  }
+  if (prints_json) std::cout << json.dump(2) << "\n";
+}
+
+}  // namespace viewloom::fidelity
+
+int main(int argc, char** argv) {
+  CLI::App app("Scores viewloom and simple depth warps against true views of recorded sets");
+  std::filesystem::path data;
+  std::string device;
+  bool prints_json = false;
+  app.add_option("--data", data, "Folder with beachball-stereo and hci-antinous")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--device", device, "Vulkan device, as viewloomd --device");
+  app.add_flag("--json", prints_json, "Print one JSON object at the end");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    viewloom::fidelity::run(data, device, prints_json);
+  } catch (const std::exception& error) {
+    std::cerr << "viewloom-fidelity: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

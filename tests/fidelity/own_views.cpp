@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fidelity/own_views.h"
+
+#include "commands/manifest_frame.h"
+#include "fidelity/value_or_throw.h"
+
+namespace viewloom::fidelity {
+
+std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
+                                      const std::vector<test::TrueView>& views,
+                                      ScoreTransfer transfer) {
+  OfflineRenderer renderer(device);
+  renderer.build(*valueOrThrow(loadManifestFrame(frameManifest(set), {})));
+
+  CamerasSpec cameras = {.tile_size_px = set.size_px, .columns = 1};
+  for (const test::TrueView& view : views) {
+    const Camera camera = cameraOf(set, view);
+    cameras.cameras.push_back({camera.pose, camera.intrinsics});
+  }
+  std::vector<RenderedView> rendered;
+  const DisplaySpec spec = valueOrThrow(completeDisplaySpec({.kind = cameras}));
+  const RenderedAtlas atlas = valueOrThrow(
+      renderer.render(spec, {.mask = true, .linear = true}, [](uint32_t, uint32_t) {}));
+  for (uint32_t view = 0; view < views.size(); ++view) {
+    rendered.push_back(cutView(atlas, view, transfer));
+  }
+  return rendered;
+}
+
+}  // namespace viewloom::fidelity

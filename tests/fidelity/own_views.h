@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The views of a set as viewloom renders them.
+#pragma once
+
+#include <vector>
+
+#include "commands/rendered_view.h"
+#include "gpu/device.h"
+#include "support/data_sets.h"
+
+namespace viewloom::fidelity {
+
+// In the order of `views`. Throws std::runtime_error when the files cannot be read.
+std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
+                                      const std::vector<test::TrueView>& views,
+                                      ScoreTransfer transfer);
+
+}  // namespace viewloom::fidelity

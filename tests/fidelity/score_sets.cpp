@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fidelity/score_sets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "commands/truth_image.h"
+#include "fidelity/flicker.h"
+#include "fidelity/own_views.h"
+#include "fidelity/value_or_throw.h"
+
+namespace viewloom::fidelity {
+namespace {
+
+// Thresholds at which the cut mesh does well on each set, which lie far above the disparity steps
+// within its surfaces and far below those at its silhouettes.
+constexpr double kBeachBallCut_px = 1;
+constexpr double kAntinousCut_px = 0.15;
+
+// All that the methods of a trial are measured by. The source's own view comes last.
+class Judge {
+ public:
+  explicit Judge(const Trial& trial)
+      : trial_(trial), inner_{trial.border_px, trial.set.size_px}, views_(trial.set.views) {
+    views_.push_back({.name = "source", .columns = 0, .rows = 0, .color = trial.set.color});
+    for (const test::TrueView& view : views_) {
+      truths_.push_back(valueOrThrow(loadScoredImage(view.color, {}, trial.transfer)));
+      classes_.push_back(cropped(classesOf(trial.set, view, trial.cut_px), inner_));
+    }
+  }
+
+  const std::vector<test::TrueView>& views() const { return views_; }
+  const ScoredImage& source() const { return truths_.back(); }
+
+  ImageComparison compare(const ScoredImage& got, size_t view) const {
+    return {cropped(got, inner_), cropped(truths_[view], inner_), trial_.transfer};
+  }
+  std::vector<PixelClass> inside(const std::vector<PixelClass>& classes) const {
+    return cropped(classes, inner_);
+  }
+
+  MethodReport judge(std::string method, const std::vector<ScoredImage>& pictures) const {
+    MethodReport report = {.method = std::move(method)};
+    for (size_t view = 0; view + 1 < views_.size(); ++view) {
+      report.by_mask.push_back(scoreByClass(compare(pictures[view], view), classes_[view]));
+    }
+    report.row_flicker = *flickerAlong(&test::TrueView::columns, &test::TrueView::rows, pictures);
+    report.column_flicker = flickerAlong(&test::TrueView::rows, &test::TrueView::columns, pictures);
+    return report;
+  }
+
+ private:
+  // Of the views from which the source is not `across` away, in the order of `along`.
+  std::optional<double> flickerAlong(int test::TrueView::*along, int test::TrueView::*across,
+                                     const std::vector<ScoredImage>& pictures) const {
+    std::vector<size_t> stack;
+    for (size_t view = 0; view < views_.size(); ++view) {
+      if (views_[view].*across == 0) stack.push_back(view);
+    }
+    if (stack.size() < 2) return std::nullopt;
+    std::sort(stack.begin(), stack.end(),
+              [&](size_t a, size_t b) { return views_[a].*along < views_[b].*along; });
+    std::vector<ScoredImage> got;
+    std::vector<ScoredImage> truth;
+    for (const size_t view : stack) {
+      got.push_back(pictures[view]);
+      truth.push_back(truths_[view]);
+    }
+    return flicker(got, truth, inner_);
+  }
+
+  const Trial& trial_;
+  InnerPart inner_;
+  std::vector<test::TrueView> views_;
+  std::vector<ScoredImage> truths_;               // [view]
+  std::vector<std::vector<PixelClass>> classes_;  // [view][pixel of the inner part]
+};
+
+}  // namespace
+
+std::vector<Trial> loadTrials(const std::filesystem::path& data) {
+  std::vector<Trial> trials;
+  trials.push_back({.set = valueOrThrow(test::loadBeachBall(data, {"R", "G", "B"})),
+                    .transfer = ScoreTransfer::kGamma22,
+                    .border_px = 0,
+                    .cut_px = kBeachBallCut_px});
+  trials.push_back({.set = valueOrThrow(test::loadAntinous(data)),
+                    .transfer = ScoreTransfer::kSrgb,
+                    .border_px = 8,
+                    .cut_px = kAntinousCut_px});
+  return trials;
+}
+
+TrialReport runTrial(const Device& device, const Trial& trial) {
+  const Judge judge(trial);
+  TrialReport report;
+  std::vector<ScoredImage> pictures;
+  const auto rendered = renderViews(device, trial.set, judge.views(), trial.transfer);
+  for (const RenderedView& view : rendered) pictures.push_back(view.image);
+  report.methods.push_back(judge.judge("viewloom", pictures));
+  for (size_t view = 0; view < trial.set.views.size(); ++view) {
+    report.by_own_classes.push_back(
+        scoreByClass(judge.compare(pictures[view], view), judge.inside(rendered[view].classes)));
+  }
+  for (const Rival& rival : rivalsOf(trial.cut_px)) {
+    pictures.clear();
+    for (const test::TrueView& view : judge.views()) {
+      pictures.push_back(rivalView(judge.source(), trial.set, view, rival));
+    }
+    report.methods.push_back(judge.judge(rival.name, pictures));
+  }
+  return report;
+}
+
+}  // namespace viewloom::fidelity
