@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A true picture as a frame that viewloom can build.
+#pragma once
+
+#include <cstdint>
+
+#include "frame/frame.h"
+#include "support/truth/picture.h"
+
+namespace viewloom::truth {
+
+// One source with the first layer_count layers: opaque 8-bit sRGB and binary32 planar depth.
+FramePtr frameOf(const Picture& picture, uint32_t layer_count);
+
+}  // namespace viewloom::truth
