@@ -12,12 +12,12 @@ ClassScores scoreByClass(const ImageComparison& comparison, std::span<const Pixe
     std::transform(classes.begin(), classes.end(), selected.begin(), is_selected);
     return comparison.score(selected, classes.size());
   };
-  const auto scoreClass = [&](PixelClass wanted) {
+  const auto of_class = [&](PixelClass wanted) {
     return score([wanted](PixelClass given) { return given == wanted; });
   };
-  return {.covered = scoreClass(PixelClass::kCovered),
-          .hidden = scoreClass(PixelClass::kHidden),
-          .outside = scoreClass(PixelClass::kOutside),
+  return {.covered = of_class(PixelClass::kCovered),
+          .hidden = of_class(PixelClass::kHidden),
+          .outside = of_class(PixelClass::kOutside),
           .all = score([](PixelClass) { return true; })};
 }
 

@@ -183,8 +183,8 @@ Features featuresOf(const Plane& achromatic, SizePx size_px, double px_per_degre
   const Plane bell = gaussian(sigma_px, radius);
   Plane slope = bell;
   Plane bend = bell;
-  for (int x = -radius; x <= radius; ++x) {
-    const auto i = static_cast<size_t>(x + radius);
+  for (size_t i = 0; i < bell.size(); ++i) {
+    const double x = static_cast<double>(i) - radius;
     slope[i] *= static_cast<float>(-x);
     bend[i] *= static_cast<float>(x * x / (sigma_px * sigma_px) - 1);
   }
