@@ -37,6 +37,7 @@ LAYERS = {
     "server/web": (["base", "frame", "display", "publish", BAND],
                    ["absl", "boost", "nlohmann"]),
     "client/synthetic": (["base", "frame", "lib/wire_frame.h"], ["glm", "protobuf"]),
+    "client/deep": ([], ["glm"]),
     "client/files": (["base", "lib/wire_frame.h"],
                      ["absl", "openexr", "png", "jpeg", "protobuf"]),
     "client/lib": (["base"], ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
