@@ -27,7 +27,7 @@ DeepExr::DeepExr(std::string path, std::vector<uint8_t> bytes, DeepExrHeader hea
     : path_(std::move(path)), bytes_(std::move(bytes)), header_(std::move(header)), units_(units) {}
 
 absl::StatusOr<DeepExr> DeepExr::open(const std::filesystem::path& path, const DeepUnits& units) {
-  absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
+  absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path, kDeepFileBytesMax);
   if (!bytes.ok()) return bytes.status();
   absl::StatusOr<DeepExrHeader> header = readDeepHeader(path.string(), *bytes);
   if (!header.ok()) return header.status();

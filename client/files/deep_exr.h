@@ -14,8 +14,10 @@
 
 namespace viewloom::files {
 
-// Limits, each checked before memory is taken: the file has at most kFileBytesMax, windows are
-// within kSideMax_px and kExrDataSideMax_px, and of what is in view
+// Limits, each checked before memory is taken. Windows are within kSideMax_px (the display's) and
+// kExrDataSideMax_px.
+inline constexpr uint64_t kDeepFileBytesMax = uint64_t{1} << 32;
+// Of what is in view:
 inline constexpr uint64_t kDeepChunkPixelsMax = uint64_t{1} << 26;  // in a tile or row
 inline constexpr uint64_t kDeepChunkBytesMax = uint64_t{1} << 28;   // its samples, unpacked
 inline constexpr uint64_t kDeepSamplesMax = uint64_t{1} << 29;      // in the file

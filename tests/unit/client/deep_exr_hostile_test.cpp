@@ -8,8 +8,8 @@
 #include <random>
 
 #include "files/deep_exr.h"
+#include "support/deep_exr_writer.h"
 #include "support/large_allocations.h"
-#include "unit/client/deep_exr_writer.h"
 #include "unit/client/test_files.h"
 
 namespace viewloom::files {
@@ -17,6 +17,9 @@ namespace {
 
 using Imath::Box2i;
 using Imath::V2i;
+using test::DeepFileOptions;
+using test::DeepPicture;
+using test::DeepPixel;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -35,7 +38,7 @@ DeepPicture smallPicture() {
 class HostileDeepExr : public ::testing::Test {
  protected:
   std::string goodBytes(const DeepFileOptions& options) const {
-    writeDeepExr(folder_.path() / "good.exr", smallPicture(), options);
+    test::writeDeepExr(folder_.path() / "good.exr", smallPicture(), options);
     return bytesOf(folder_.path() / "good.exr");
   }
 

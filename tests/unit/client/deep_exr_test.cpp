@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-#include "unit/client/deep_exr_writer.h"
+#include "support/deep_exr_writer.h"
 #include "unit/client/test_files.h"
 
 namespace viewloom::files {
@@ -16,6 +16,9 @@ namespace {
 
 using Imath::Box2i;
 using Imath::V2i;
+using test::DeepFileOptions;
+using test::DeepPicture;
+using test::DeepPixel;
 using ::testing::HasSubstr;
 
 // Up to five samples a pixel, many without any; values that binary16 holds, and whole depths.
@@ -86,7 +89,7 @@ class DeepExrTest : public ::testing::Test {
  protected:
   std::filesystem::path write(const DeepPicture& picture, const DeepFileOptions& options) const {
     const std::filesystem::path path = folder_.path() / "deep.exr";
-    writeDeepExr(path, picture, options);
+    test::writeDeepExr(path, picture, options);
     return path;
   }
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "deep/tidy_pixel.h"
-#include "unit/deep/composite.h"
+#include "support/deep_composite.h"
 
 namespace viewloom::deep {
 namespace {

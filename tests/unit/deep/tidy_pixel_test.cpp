@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "unit/deep/composite.h"
+#include "support/deep_composite.h"
 
 namespace viewloom::deep {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "unit/client/deep_exr_writer.h"
+#include "support/deep_exr_writer.h"
 
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace viewloom::files {
+namespace viewloom::test {
 namespace {
 
 float valueOf(const deep::DeepSample& sample, const std::string& channel) {
@@ -40,10 +40,9 @@ ChannelSamples samplesOf(const DeepPicture& picture, const std::string& name, Im
     std::vector<uint32_t>& values = samples.values.emplace_back();
     for (const deep::DeepSample& sample : pixel) {
       const float value = valueOf(sample, name);
-      const auto number = static_cast<uint32_t>(value);
       const uint16_t half_bits = Imath::half(value).bits();
       uint32_t& bits = values.emplace_back(0);
-      if (type == Imf::UINT) std::memcpy(&bits, &number, 4);
+      if (type == Imf::UINT) bits = static_cast<uint32_t>(value);
       if (type == Imf::HALF) std::memcpy(&bits, &half_bits, 2);
       if (type == Imf::FLOAT) std::memcpy(&bits, &value, 4);
     }
@@ -133,4 +132,4 @@ void writeDeepExr(const std::filesystem::path& path, const DeepPicture& picture,
   }
 }
 
-}  // namespace viewloom::files
+}  // namespace viewloom::test

@@ -13,7 +13,7 @@
 
 #include "deep/deep_sample.h"
 
-namespace viewloom::files {
+namespace viewloom::test {
 
 using DeepPixel = std::vector<deep::DeepSample>;
 
@@ -37,4 +37,4 @@ struct DeepFileOptions {
 void writeDeepExr(const std::filesystem::path& path, const DeepPicture& picture,
                   const DeepFileOptions& options);
 
-}  // namespace viewloom::files
+}  // namespace viewloom::test
