@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/str_cat.h"
+#include "cli/status_line.h"
 #include "files/exr_image.h"
-#include "files/frame_manifest.h"
 
 namespace viewloom::cli {
 namespace {
@@ -29,9 +29,37 @@ absl::Status setChannels(const std::string& view, v1::PlaneFile& color, v1::Plan
   return absl::OkStatus();
 }
 
+std::string noteOf(const files::DeepReport& deep) {
+  std::string note =
+      strCat(deep.file, ": up to ", deep.samples_per_px_max, " samples a px, split into ",
+             deep.layer_count, deep.layer_count == 1 ? " layer" : " layers", "; ",
+             formatNumber(100 * deep.mergedShare(), 2), " % of px merged, occlusion error mean ",
+             deep.error_mean_per_m, ", max ", deep.error_max_per_m, " (1/m)");
+  if (deep.dropped_sample_count == 0) return note;
+  return strCat(note, "; ", deep.dropped_sample_count,
+                " samples without a place in front of the camera dropped");
+}
+
+absl::Status validateDeep(const FileFeedOptions& options) {
+  if (options.deeps.empty()) {
+    if (!options.has_black_sky) return absl::OkStatus();
+    return absl::InvalidArgumentError("--black-sky is for files given with --deep");
+  }
+  if (!options.depths.empty() || !options.view.empty()) {
+    return absl::InvalidArgumentError(
+        "--depth and --view are given with --deep; a deep file has all there is to its frame");
+  }
+  if (!options.planes.transfer.empty() || !options.planes.alpha.empty()) {
+    return absl::InvalidArgumentError(
+        "--transfer and --alpha are given with --deep; deep files are linear and premultiplied");
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status FileFrames::validate(const FileFeedOptions& options) {
+  VIEWLOOM_RETURN_IF_ERROR(validateDeep(options));
   if (!options.depths.empty() && options.depths.size() != options.colors.size()) {
     return absl::InvalidArgumentError(strCat("--depth has ", options.depths.size(), " files for ",
                                              options.colors.size(),
@@ -48,31 +76,53 @@ absl::Status FileFrames::validate(const FileFeedOptions& options) {
 
 FileFrames::FileFrames(FileFeedOptions options) : options_(std::move(options)) {}
 
+// Those that are one a frame.
+const std::vector<std::string>& FileFrames::firstFiles() const {
+  if (!options_.manifests.empty()) return options_.manifests;
+  return options_.deeps.empty() ? options_.colors : options_.deeps;
+}
+
 size_t FileFrames::frameCount() const {
-  return std::max(options_.manifests.size(), options_.colors.size());
+  return firstFiles().size();
+}
+
+std::vector<std::string> FileFrames::takeNotes() {
+  return std::exchange(notes_, {});
 }
 
 absl::StatusOr<std::optional<WireFrame>> FileFrames::next(double /*elapsed_s*/) {
   if (next_index_ == frameCount()) {
     if (!options_.is_looping) return std::optional<WireFrame>();
     next_index_ = 0;
+    is_repeating_ = true;
   }
   const size_t index = next_index_++;
   if (only_frame_) {
     only_frame_->header.set_capture_time_ns(captureTimeNs());
     return only_frame_;
   }
-  absl::StatusOr<WireFrame> frame = load(index);
+  absl::StatusOr<files::LoadedFrame> frame = load(index);
   if (!frame.ok()) return frame.status();
-  frame->header.set_capture_time_ns(captureTimeNs());
-  if (frameCount() == 1) only_frame_ = *frame;
-  return std::optional<WireFrame>(*std::move(frame));
+  frame->wire.header.set_capture_time_ns(captureTimeNs());
+  if (frameCount() == 1) only_frame_ = frame->wire;
+  for (const files::DeepReport& deep : frame->deep) {
+    if (!is_repeating_) notes_.push_back(noteOf(deep));
+  }
+  return std::optional<WireFrame>(std::move(frame->wire));
 }
 
 absl::StatusOr<v1::FrameManifest> FileFrames::manifestOf(size_t index) const {
   v1::FrameManifest manifest;
   v1::SourceFiles& source = *manifest.add_sources();
   source.set_connection_tolerance(options_.planes.connection_tolerance);
+  if (!options_.deeps.empty()) {
+    v1::DeepFile& deep = *source.mutable_deep();
+    deep.set_file(options_.deeps[index]);
+    deep.set_layers(options_.deep_layer_count_max);
+    deep.set_black_sky(options_.has_black_sky);
+    *deep.mutable_depth() = depthFormat(options_.planes);
+    return manifest;
+  }
   v1::LayerFiles& layer = *source.add_layers();
   layer.mutable_color()->set_file(options_.colors[index]);
   layer.mutable_depth()->set_file(options_.depths.empty() ? options_.colors[index]
@@ -84,7 +134,7 @@ absl::StatusOr<v1::FrameManifest> FileFrames::manifestOf(size_t index) const {
   return manifest;
 }
 
-absl::StatusOr<WireFrame> FileFrames::load(size_t index) const {
+absl::StatusOr<files::LoadedFrame> FileFrames::load(size_t index) const {
   if (!options_.manifests.empty()) {
     const std::filesystem::path path = options_.manifests[index];
     const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
@@ -93,17 +143,15 @@ absl::StatusOr<WireFrame> FileFrames::load(size_t index) const {
   }
   const absl::StatusOr<v1::FrameManifest> manifest = manifestOf(index);
   if (!manifest.ok()) return manifest.status();
-  absl::StatusOr<WireFrame> frame = files::loadFrame(*manifest, "");
+  absl::StatusOr<files::LoadedFrame> frame = files::loadFrame(*manifest, "");
   if (!frame.ok()) return frame;
-  v1::Source& source = *frame->header.mutable_sources(0);
+  v1::Source& source = *frame->wire.header.mutable_sources(0);
   *source.mutable_camera() = camera(options_.planes, source.layers(0).planes(1).size());
   return frame;
 }
 
 std::string FileFrames::description() const {
-  const std::string& first =
-      options_.manifests.empty() ? options_.colors.front() : options_.manifests.front();
-  const std::string name = std::filesystem::path(first).filename().string();
+  const std::string name = std::filesystem::path(firstFiles().front()).filename().string();
   return frameCount() == 1 ? name : strCat(frameCount(), " frames from ", name);
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/status.h"
 #include "lib/wire_frame.h"
@@ -18,6 +19,8 @@ class FrameFeed {
   virtual absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) = 0;
   // What is being published, for the status: "synthetic 960x540, 2 layers".
   virtual std::string description() const = 0;
+  // What there is to say about the frames since the last call, a line each.
+  virtual std::vector<std::string> takeNotes() { return {}; }
   // A live feed goes on whether its frames are sent or not; others wait for each to be sent.
   virtual bool isLive() const = 0;
 };

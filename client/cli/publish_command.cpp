@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -29,6 +30,7 @@ struct PublishOptions {
   std::string stream = "demo";
   std::string session_id;
   bool is_synthetic = false;
+  std::optional<uint32_t> layer_count;
   SyntheticFeedOptions synthetic;
   FileFeedOptions files;
   double rate_hz = 15;
@@ -43,9 +45,9 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
       ->group("What");
   addSizeOption(app, "--size", options.synthetic.size_px, 8192, "Of the synthetic frames [960x540]")
       ->group("What");
-  app.add_option("--layers", options.synthetic.layer_count, "Of the synthetic frames, 1..4")
+  app.add_option("--layers", options.layer_count,
+                 "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
       ->check(CLI::Range(1, 4))
-      ->capture_default_str()
       ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene; 0 = without end")
@@ -55,6 +57,15 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                  "Colour files, one a frame: .exr (with depth in Z), .png, .jpg, .pfm")
       ->group("What");
   app.add_option("--depth", options.files.depths, "Depth files, one a frame: .exr, .png, .pfm")
+      ->group("What");
+  app.add_option("--deep", options.files.deeps,
+                 "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "
+                 "with the least occlusion error, which is told")
+      ->group("What");
+  app.add_flag(
+         "--black-sky", options.files.has_black_sky,
+         "Light that all samples of a deep px let through comes from a black sky, not from what "
+         "lies beside the px")
       ->group("What");
   app.add_option("--view", options.files.view, "View of multi-view EXR files, as right or left")
       ->group("What");
@@ -82,14 +93,20 @@ void addStreamOptions(CLI::App& app, PublishOptions& options) {
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& options) {
   const int kinds = int{options.is_synthetic} + int{!options.files.colors.empty()} +
-                    int{!options.files.manifests.empty()};
+                    int{!options.files.deeps.empty()} + int{!options.files.manifests.empty()};
   if (kinds != 1) {
     return absl::InvalidArgumentError(
-        "what to publish? Accepted is one of --synthetic, colour files, --manifest");
+        "what to publish? Accepted is one of --synthetic, colour files, --deep, --manifest");
   }
-  if (options.is_synthetic) return std::make_unique<SyntheticFrames>(options.synthetic);
-  VIEWLOOM_RETURN_IF_ERROR(FileFrames::validate(options.files));
-  return std::make_unique<FileFrames>(options.files);
+  if (options.is_synthetic) {
+    SyntheticFeedOptions synthetic = options.synthetic;
+    synthetic.layer_count = options.layer_count.value_or(synthetic.layer_count);
+    return std::make_unique<SyntheticFrames>(synthetic);
+  }
+  FileFeedOptions files = options.files;
+  files.deep_layer_count_max = options.layer_count.value_or(0);
+  VIEWLOOM_RETURN_IF_ERROR(FileFrames::validate(files));
+  return std::make_unique<FileFrames>(std::move(files));
 }
 
 // One run of the command, from the first frame to the last report.
@@ -100,7 +117,7 @@ class PublishRun {
       : options_(options), common_(common), feed_(std::move(feed)), line_(options.is_quiet) {}
 
   int run() {
-    absl::StatusOr<std::optional<WireFrame>> frame = feed_->next(0);
+    absl::StatusOr<std::optional<WireFrame>> frame = nextFrame(0);
     if (!frame.ok()) return fail(frame.status(), kExitUsage);
     publisher_ = std::make_unique<Publisher>(makeChannel(common_.server),
                                              PublisherOptions{.stream = options_.stream,
@@ -112,7 +129,7 @@ class PublishRun {
       publisher_->offer(**std::move(frame));
       const double elapsed_s = waitUntilDue(start);
       if (isOver()) break;
-      frame = feed_->next(elapsed_s);
+      frame = nextFrame(elapsed_s);
       if (!frame.ok()) return fail(frame.status(), kExitUsage);
     }
     while (options_.is_holding && !isOver()) tick();
@@ -120,6 +137,12 @@ class PublishRun {
   }
 
  private:
+  absl::StatusOr<std::optional<WireFrame>> nextFrame(double elapsed_s) {
+    absl::StatusOr<std::optional<WireFrame>> frame = feed_->next(elapsed_s);
+    for (const std::string& note : feed_->takeNotes()) line_.say(note);
+    return frame;
+  }
+
   PublisherCallbacks callbacks() {
     const OnConnection say = sayConnections(line_, common_);
     return {.on_accepted = {},
@@ -227,6 +250,7 @@ RunCommand addPublishCommand(CLI::App& app) {
       "Examples:\n"
       "  viewloom publish --synthetic --size 1280x720 --layers 3\n"
       "  viewloom publish frame.exr --focal-px 1200 --hold\n"
+      "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
       "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
       "  viewloom publish photo.png --depth photo_mm.png --scale 0.001 --fov 50 --hold");
   addSourceOptions(app, *options);

@@ -71,13 +71,31 @@ absl::Status checkDepthSizes(const v1::Source& source) {
   return absl::OkStatus();
 }
 
+absl::Status loadDeepSource(const v1::SourceFiles& files, const std::filesystem::path& folder,
+                            v1::Source& source, LoadedFrame& frame) {
+  if (files.layers_size() > 0) {
+    return invalidField("layers", "are given beside deep, which supplies all layers");
+  }
+  absl::StatusOr<DeepLayers> deep = loadDeepLayers(files.deep(), folder);
+  if (!deep.ok()) return withFieldPrefix(deep.status(), "deep");
+  for (size_t i = 0; i < deep->planes.size(); ++i) {
+    v1::Layer& layer =
+        i % 2 == 0 ? *source.add_layers() : *source.mutable_layers(source.layers_size() - 1);
+    addPlane(std::move(deep->planes[i]), layer, frame.wire);
+  }
+  frame.deep.push_back(std::move(deep->report));
+  return absl::OkStatus();
+}
+
 absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::path& folder,
-                        v1::Source& source, WireFrame& frame) {
-  VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
+                        v1::Source& source, LoadedFrame& frame) {
   if (files.has_camera()) *source.mutable_camera() = files.camera();
   source.set_connection_tolerance(files.connection_tolerance());
+  if (files.has_deep()) return loadDeepSource(files, folder, source, frame);
+  VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
   for (int i = 0; i < files.layers_size(); ++i) {
-    const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);
+    const absl::Status status =
+        loadLayer(files.layers(i), folder, *source.add_layers(), frame.wire);
     if (!status.ok()) return withFieldPrefix(status, absl::StrCat("layers[", i, "]"));
   }
   return checkDepthSizes(source);
@@ -93,16 +111,17 @@ absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path&
   return readJson<v1::TruthManifest>(path);
 }
 
-absl::StatusOr<WireFrame> loadFrame(const v1::FrameManifest& manifest,
-                                    const std::filesystem::path& folder) {
+absl::StatusOr<LoadedFrame> loadFrame(const v1::FrameManifest& manifest,
+                                      const std::filesystem::path& folder) {
   VIEWLOOM_RETURN_IF_ERROR(checkCount("sources", manifest.sources_size(), kSourcesMax));
-  WireFrame frame;
-  frame.header.set_number(std::max<uint64_t>(manifest.number(), 1));
-  frame.header.set_capture_time_ns(manifest.capture_time_ns());
-  frame.header.set_exposure_ev(manifest.exposure_ev());
+  LoadedFrame frame;
+  v1::FrameHeader& header = frame.wire.header;
+  header.set_number(std::max<uint64_t>(manifest.number(), 1));
+  header.set_capture_time_ns(manifest.capture_time_ns());
+  header.set_exposure_ev(manifest.exposure_ev());
   for (int i = 0; i < manifest.sources_size(); ++i) {
     const absl::Status status =
-        loadSource(manifest.sources(i), folder, *frame.header.add_sources(), frame);
+        loadSource(manifest.sources(i), folder, *header.add_sources(), frame);
     if (!status.ok()) return withFieldPrefix(status, absl::StrCat("sources[", i, "]"));
   }
   return frame;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "base/status.h"
+#include "files/deep_layers.h"
 #include "lib/wire_frame.h"
 #include "viewloom/v1/manifest.pb.h"
 
@@ -14,9 +16,14 @@ namespace viewloom::files {
 absl::StatusOr<v1::FrameManifest> readFrameManifest(const std::filesystem::path& path);
 absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path& path);
 
+struct LoadedFrame {
+  WireFrame wire;
+  std::vector<DeepReport> deep;  // of the sources that are deep files, in their order
+};
+
 // Reads every file of the manifest. Errors name the field of the manifest, and the file. What is no
 // matter of files, as the camera, is copied unseen: whoever takes the frame checks it.
-absl::StatusOr<WireFrame> loadFrame(const v1::FrameManifest& manifest,
-                                    const std::filesystem::path& folder);
+absl::StatusOr<LoadedFrame> loadFrame(const v1::FrameManifest& manifest,
+                                      const std::filesystem::path& folder);
 
 }  // namespace viewloom::files

@@ -38,17 +38,19 @@ absl::StatusOr<FramePtr> frameFromWire(const WireFrame& wire) {
 
 }  // namespace
 
-absl::StatusOr<FramePtr> readManifestFrame(const std::filesystem::path& path) {
+absl::StatusOr<ManifestFrame> readManifestFrame(const std::filesystem::path& path) {
   const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
   if (!manifest.ok()) return manifest.status();
   return loadManifestFrame(*manifest, path.parent_path());
 }
 
-absl::StatusOr<FramePtr> loadManifestFrame(const v1::FrameManifest& manifest,
-                                           const std::filesystem::path& folder) {
-  const absl::StatusOr<WireFrame> wire = files::loadFrame(manifest, folder);
-  if (!wire.ok()) return wire.status();
-  return frameFromWire(*wire);
+absl::StatusOr<ManifestFrame> loadManifestFrame(const v1::FrameManifest& manifest,
+                                                const std::filesystem::path& folder) {
+  absl::StatusOr<files::LoadedFrame> loaded = files::loadFrame(manifest, folder);
+  if (!loaded.ok()) return loaded.status();
+  absl::StatusOr<FramePtr> frame = frameFromWire(loaded->wire);
+  if (!frame.ok()) return frame.status();
+  return ManifestFrame{*std::move(frame), std::move(loaded->deep)};
 }
 
 FramePtr makeSyntheticFrame(const SyntheticOptions& options) {

@@ -60,6 +60,23 @@ Json sourceJson(const SourceStats& stats) {
   return json;
 }
 
+Json deepJson(const std::vector<files::DeepReport>& reports) {
+  Json json = Json::array();
+  for (const files::DeepReport& report : reports) {
+    Json& one = json.emplace_back();
+    one["file"] = report.file;
+    one["layers"] = report.layer_count;
+    one["samples"] = report.sample_count;
+    one["dropped_samples"] = report.dropped_sample_count;
+    one["samples_per_px_max"] = report.samples_per_px_max;
+    one["pixels"] = report.pixel_count;
+    one["merged"] = report.mergedShare();
+    one["error_mean_per_m"] = report.error_mean_per_m;
+    one["error_max_per_m"] = report.error_max_per_m;
+  }
+  return json;
+}
+
 // Messages about a file name it already; those about a field do not.
 absl::Status inFile(const absl::Status& status, const std::filesystem::path& path) {
   return fieldOf(status).empty() ? status : withFieldPrefix(status, path.string());
@@ -76,7 +93,7 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
 
   const Device device({.select = device_name});
   OfflineRenderer renderer(device);
-  renderer.build(**frame);
+  renderer.build(*frame->frame);
   const TraceOutputs outputs = {
       .mask = true, .linear = !arguments.compare.truth.empty(), .records = true};
   const auto atlas = renderer.render(*display, outputs, showProgress);
@@ -90,6 +107,7 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   json["files"] = *names;
   json["coverage"] = coverageJson(atlas->coverage);
   json["source"] = sourceJson(renderer.stats());
+  if (!frame->deep.empty()) json["deep"] = deepJson(frame->deep);
   json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
   if (!arguments.compare.truth.empty()) {
     auto views = compareViews(*atlas, arguments.compare);

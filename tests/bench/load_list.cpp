@@ -123,9 +123,9 @@ std::vector<NamedLoad> buildLoads() {
 NamedLoad manifestLoad(const std::filesystem::path& manifest) {
   const std::string name = strCat(manifest.stem().string(), ", portrait quilt, ", kNormal.name);
   return {name, [=](const LoadMaker& maker) {
-            const absl::StatusOr<FramePtr> frame = readManifestFrame(manifest);
+            const absl::StatusOr<ManifestFrame> frame = readManifestFrame(manifest);
             if (!frame.ok()) throw std::runtime_error(std::string(frame.status().message()));
-            return maker.make(name, *frame, quilt("portrait", kNormal));
+            return maker.make(name, frame->frame, quilt("portrait", kNormal));
           }};
 }
 

@@ -10,7 +10,7 @@ std::vector<RenderedView> renderViews(const Device& device, const test::DataSet&
                                       const std::vector<test::TrueView>& views,
                                       ScoreTransfer transfer) {
   OfflineRenderer renderer(device);
-  renderer.build(*valueOrThrow(loadManifestFrame(frameManifest(set), {})));
+  renderer.build(*valueOrThrow(loadManifestFrame(frameManifest(set), {})).frame);
 
   CamerasSpec cameras = {.tile_size_px = set.size_px, .columns = 1};
   for (const test::TrueView& view : views) {

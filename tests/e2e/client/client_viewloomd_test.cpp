@@ -9,8 +9,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <future>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "lib/watcher.h"
+#include "support/deep_exr_writer.h"
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom {
@@ -209,6 +212,34 @@ TEST_F(ClientWithViewloomd, theCommandPublishesRealFiles) {
   EXPECT_NEAR(of_ball.stats().inv_z_max(), 1 / 9.0, kFacetReach);
   EXPECT_NEAR(of_antinous.stats().inv_z_min(), 0.125 - 0.025 * 3.131, kFacetReach);
   EXPECT_NEAR(of_antinous.stats().inv_z_max(), 0.125 + 0.025 * 2.689, kFacetReach);
+}
+
+TEST_F(ClientWithViewloomd, theCommandSplitsADeepFileAndSaysWhatItCost) {
+  const auto surface = [](float z_m, float alpha) {
+    return deep::DeepSample{.z_m = z_m, .z_back_m = z_m, .alpha = alpha, .color = glm::vec3(alpha)};
+  };
+  test::DeepPicture picture;
+  picture.data = picture.display = {{0, 0}, {31, 15}};
+  picture.pixels.assign(32 * 16, {surface(2, 1)});
+  for (size_t i = 0; i < 128; ++i) picture.pixels[i].push_back(surface(1, 0.5F));
+  test::writeDeepExr(folder_ / "deep.exr", picture, {});
+  const std::string errors = (folder_ / "errors").string();
+  const std::string command = std::string(VIEWLOOM) + " --server " + address_ + " publish -q " +
+                              "--stream deep --deep " + (folder_ / "deep.exr").string();
+  EXPECT_EQ(runCommand(command + " --layers 1 2> " + errors), 0);
+  std::stringstream said;
+  said << std::ifstream(errors).rdbuf();
+  EXPECT_THAT(said.str(), testing::HasSubstr("deep.exr: up to 2 samples a px, split into 1 layer; "
+                                             "25.00 % of px merged, occlusion error mean 0.0625, "
+                                             "max 0.25 (1/m)\n"));
+  const auto streams = Catalog(makeChannel(address_)).listStreams();
+  ASSERT_TRUE(streams.ok()) << streams.status();
+  ASSERT_EQ(streams->streams_size(), 1);
+  EXPECT_EQ(streams->streams(0).size().width(), 32U);
+  EXPECT_EQ(streams->streams(0).layer_count(), 1U);
+  EXPECT_EQ(runCommand(command + " --alpha straight 2> " + errors), 2);
+  EXPECT_EQ(runCommand(command + " --depth-meaning window 2> " + errors), 2);
+  EXPECT_EQ(runCommand(command + " --synthetic 2> " + errors), 2);
 }
 
 TEST_F(ClientWithViewloomd, thePythonExampleSavesAQuiltAndAView) {

@@ -31,7 +31,9 @@ class FrameManifestTest : public ::testing::Test {
   absl::StatusOr<WireFrame> load(const std::string& json) const {
     const auto manifest = readFrameManifest(folder_.write("frame.json", json));
     if (!manifest.ok()) return manifest.status();
-    return loadFrame(*manifest, folder_.path());
+    absl::StatusOr<LoadedFrame> frame = loadFrame(*manifest, folder_.path());
+    if (!frame.ok()) return frame.status();
+    return std::move(frame->wire);
   }
 
   std::string refusal(const std::string& json) const {
@@ -104,6 +106,16 @@ TEST_F(FrameManifestTest, refusesDepthWithoutAMeaning) {
   const std::string json =
       source(R"({"color": {"file": "color.png"}, "depth": {"file": "depth.png"}})");
   EXPECT_THAT(refusal(json), HasSubstr("sources[0].layers[0].depth.depth.meaning: is missing"));
+}
+
+TEST_F(FrameManifestTest, takesADeepFileOrLayersButNotBoth) {
+  const std::string deep = R"("deep": {"file": "none.exr",
+    "depth": {"meaning": "DEPTH_MEANING_PLANAR"}})";
+  EXPECT_THAT(refusal(R"({"sources": [{)" + deep + "}]}"), HasSubstr("sources[0].deep: "));
+  EXPECT_THAT(refusal(R"({"sources": [{)" + deep + "}]}"), HasSubstr("none.exr: no such file"));
+  EXPECT_THAT(refusal(R"({"sources": [{)" + deep + R"(, "layers": [)" +
+                      layer("color.png", "depth.png") + "]}]}"),
+              HasSubstr("sources[0].layers: are given beside deep"));
 }
 
 TEST_F(FrameManifestTest, refusesChannelsOfFilesThatHaveNoNamesForThem) {
