@@ -126,6 +126,18 @@ DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding
   return coefficients;
 }
 
+glm::vec3 surfaceStep(const PlaneFormat& depth) {
+  constexpr float kRelativeStepF16 = 0x1p-10F;
+  constexpr float kRelativeStepF32 = 0x1p-22F;  // an ulp, and one of the division
+  const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
+  if (depth.encoding == PlaneEncoding::kDepthU16) {
+    const float step = std::abs(coefficients.scale);
+    return coefficients.reciprocal != 0 ? glm::vec3(0, 0, step) : glm::vec3(step, 0, 0);
+  }
+  const bool is_half = depth.encoding == PlaneEncoding::kDepthF16;
+  return {0, is_half ? kRelativeStepF16 : kRelativeStepF32, 0};
+}
+
 absl::Status validateDepthFormat(const DepthFormat& format, PlaneEncoding encoding,
                                  std::string_view field) {
   VIEWLOOM_RETURN_IF_ERROR(validateInvalidValue(format, encoding, field));

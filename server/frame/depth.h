@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <glm/vec3.hpp>
+
 #include "base/status.h"
 #include "frame/frame.h"
 
@@ -35,6 +37,11 @@ struct DepthCoefficients {
 
 // Expects a format that validateDepthFormat accepts.
 DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding encoding);
+
+// How far two surfaces of a column may be apart in 1/Z and still be one sample's worth: terms of
+// step(w) = x + y w + z w^2, 1/m. A step of the stored number, carried through 1/Z = value or
+// 1/Z = 1 / value.
+glm::vec3 surfaceStep(const PlaneFormat& depth);
 
 // Errors name the field relative to `field`, as in proto DepthFormat.
 absl::Status validateDepthFormat(const DepthFormat& format, PlaneEncoding encoding,

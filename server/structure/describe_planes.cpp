@@ -38,19 +38,6 @@ abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes) {
           .invalid_is_far = coefficients.invalid_is_far};
 }
 
-// A step of the stored number, carried through inv_z = value or inv_z = 1 / value.
-abi::vec3 formatStep(const PlaneFormat& depth) {
-  constexpr float kRelativeStepF16 = 0x1p-10F;
-  constexpr float kRelativeStepF32 = 0x1p-22F;  // an ulp, and one of the division
-  const DepthCoefficients coefficients = makeDepthCoefficients(depth.depth, depth.encoding);
-  if (depth.encoding == PlaneEncoding::kDepthU16) {
-    const float step = std::abs(coefficients.scale);
-    return coefficients.reciprocal ? abi::vec3(0, 0, step) : abi::vec3(step, 0, 0);
-  }
-  const bool is_half = depth.encoding == PlaneEncoding::kDepthF16;
-  return {0, is_half ? kRelativeStepF16 : kRelativeStepF32, 0};
-}
-
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
                                          double exposure_ev) {
   return {.from = {},

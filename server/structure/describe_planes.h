@@ -9,9 +9,6 @@ namespace viewloom {
 
 // `offset_bytes`: of the plane in the upload, a multiple of its sample's size.
 abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes);
-// How far two surfaces of a column may be apart in 1/Z and still be one sample's worth: terms of
-// step(w) = x + y w + z w^2, 1/m.
-abi::vec3 formatStep(const PlaneFormat& depth);
 // All but the addresses.
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
                                          double exposure_ev);

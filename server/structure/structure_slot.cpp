@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 
+#include "frame/depth.h"
 #include "structure/describe_planes.h"
 
 namespace viewloom {
@@ -162,7 +163,7 @@ void StructureSlot::describe(const Frame& frame) {
   build_.given_kappa = float(source.connection_tolerance);
   build_.format_step = {};
   for (const LayerFormat& layer : source.layers) {
-    build_.format_step = glm::max(build_.format_step, formatStep(layer.depth));
+    build_.format_step = glm::max(build_.format_step, surfaceStep(layer.depth));
   }
 }
 

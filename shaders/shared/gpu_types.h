@@ -5,6 +5,7 @@
 #define VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_
 
 #ifdef __cplusplus
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,6 +25,14 @@ using glm::vec4;
 #define VIEWLOOM_ABI_BEGIN namespace viewloom::abi {
 #define VIEWLOOM_ABI_END }
 #define VIEWLOOM_ABI_CONST inline constexpr
+#define VIEWLOOM_ABI_FUNCTION inline constexpr
+
+constexpr uint floatBitsToUint(float value) {
+  return std::bit_cast<uint>(value);
+}
+constexpr float uintBitsToFloat(uint bits) {
+  return std::bit_cast<float>(bits);
+}
 
 }  // namespace viewloom::abi
 #else
@@ -31,6 +40,7 @@ using glm::vec4;
 #define VIEWLOOM_ABI_BEGIN
 #define VIEWLOOM_ABI_END
 #define VIEWLOOM_ABI_CONST const
+#define VIEWLOOM_ABI_FUNCTION
 #endif
 
 #endif  // VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_

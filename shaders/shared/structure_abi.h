@@ -31,31 +31,19 @@ VIEWLOOM_ABI_CONST uint kLevelLast = 6u;
 // level comes first. In units of its cell count n: levels 6, 5, 4, 3, 2 begin at 0, 1, 5, 21, 85,
 // which are the leading bits of 0b10101010101; the entries at 341 by the same rule; the facets at
 // 597.
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    levelOffset(uint level, uint padded_area) {
+VIEWLOOM_ABI_FUNCTION uint levelOffset(uint level, uint padded_area) {
   const uint before = level == kLevelFacets ? 597u : 0x555u >> (2u * level);
   return before * (padded_area / 4096u);
 }
 
 // Cells of all levels of a layer: the links begin behind them.
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    cellCount(uint padded_area) {
+VIEWLOOM_ABI_FUNCTION uint cellCount(uint padded_area) {
   return levelOffset(kLevelFacets, padded_area) + padded_area;
 }
 
 // 8-byte words of a layer: cells, then links. Layer k of an undivided structure begins at k times
 // this.
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    layerWords(uint padded_area) {
+VIEWLOOM_ABI_FUNCTION uint layerWords(uint padded_area) {
   return cellCount(padded_area) + padded_area / 4u;
 }
 
@@ -107,27 +95,15 @@ VIEWLOOM_ABI_CONST int kMeasuredBlocks = 8;  // side by side, an invocation of m
 // inv_z of a layer lies in rows of a pitch of its own, with a guard of no surface around the image:
 // whole blocks above and below, at least two px to the right of each row, which are also those to
 // the left of the next.
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    invZPitch(uint width_px) {
+VIEWLOOM_ABI_FUNCTION uint invZPitch(uint width_px) {
   return (width_px + 5u) & ~3u;
 }
 
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    invZArea(uint width_px, uint height_px) {
+VIEWLOOM_ABI_FUNCTION uint invZArea(uint width_px, uint height_px) {
   return invZPitch(width_px) * (((height_px + 3u) & ~3u) + 8u);
 }
 
-#ifdef __cplusplus
-inline constexpr
-#endif
-    uint
-    invZIndex(uint pitch, uint x, int y) {
+VIEWLOOM_ABI_FUNCTION uint invZIndex(uint pitch, uint x, int y) {
   return uint(y + kBlockPx) * pitch + x;
 }
 

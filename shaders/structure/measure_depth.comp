@@ -4,16 +4,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/histogram.glsl"
 #include "lib/memory.glsl"
+#include "shared/histogram.h"
 
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
-
-// Differences of a few roundings are none: 8 ulp.
-const float kRoundingShare = 8.0 / 8388608.0;
 
 float nearestInvZ(ivec2 pixel) {
   const uint area = invZArea(push.width_px, push.height_px);

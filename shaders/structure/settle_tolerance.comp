@@ -4,22 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/histogram.glsl"
 #include "lib/memory.glsl"
+#include "shared/histogram.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
-
-// kappa of a source that does not state its own (see shaders/README.md, Links).
-const float kKappaSteps = 1.5;
-const float kKappaSigmas = 8.0;
-// A surface is one up to where neighbours differ by a fiftieth of their depth: at a focal length of
-// 1000 px, up to 87 degrees from the image plane. Limbs of smooth bodies are as steep as that.
-const float kKappaRelative = 0.02;
-// |second difference| of independent noise: sigma sqrt(1 + 4 + 1), and a median of 0.6745 of that.
-const float kMedianPerSigma = 0.6745 * 2.44949;
-// Among differences that are not zero, a quantised source has none below its step.
-const float kStepQuantile = 0.01;
 
 float depthQuantile(MeasuredRef measured, float count, float share) {
   const float wanted = share * count;
@@ -69,6 +58,6 @@ void main() {
   measured.value.head.kappa_abs =
       given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  measured.value.head.inv_z_far = depthQuantile(measured, surface_count, 0.02);
-  measured.value.head.inv_z_near = depthQuantile(measured, surface_count, 0.98);
+  measured.value.head.inv_z_far = depthQuantile(measured, surface_count, kFarQuantile);
+  measured.value.head.inv_z_near = depthQuantile(measured, surface_count, kNearQuantile);
 }
