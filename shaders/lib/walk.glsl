@@ -216,20 +216,21 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       has_passed = true;
       in_front = false;
     }
+    // Where in the last block the ray hits, or ends.
+    const float share = front_from > 0.0 ? front_from / (front_from - front_to) : 1.0;
+    const float last_t = event == kEnds ? end_t : at.t + (end_t - at.t) * share;
+    const ivec2 block_end = at.cell | int((1u << own_level) - 1u);
+    const ivec2 cell = ivec2(floor(start_px + last_t * extent_px));
+    const ivec2 inside = clamp(cell, at.cell, min(block_end, last_cell)) ^ flip;
     if (event == kHits || hits_edge) {
-      const ivec2 end_cell = at.cell | int((1u << own_level) - 1u);
-      const float share = front_from > 0.0 ? front_from / (front_from - front_to) : 1.0;
-      const float hit_t = at.t + (end_t - at.t) * share;
-      const ivec2 cell = ivec2(floor(start_px + hit_t * extent_px));
-      const ivec2 inside = clamp(cell, at.cell, min(end_cell, last_cell));
       result.is_hit = true;
-      result.t = hits_edge ? at.t : hit_t;
-      result.cell = (hits_edge ? at.cell : inside) ^ flip;
+      result.t = hits_edge ? at.t : last_t;
+      result.cell = hits_edge ? at.cell ^ flip : inside;
       result.layer = hits_edge ? crossing.hit_layer : layer;
     }
     if (event == kEnds && layer == 0u) {
       result.ends_behind = !in_front;
-      result.cell = at.cell ^ flip;
+      result.cell = inside;
     }
 
     // This layer is done; the next begins where the ray passed behind it.
