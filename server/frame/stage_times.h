@@ -15,6 +15,13 @@ struct Coverage {
   uint64_t empty = 0;
 
   uint64_t rayCount() const { return hit + hit_assumed + hidden + outside + empty; }
+  void add(const Coverage& other) {
+    hit += other.hit;
+    hit_assumed += other.hit_assumed;
+    hidden += other.hidden;
+    outside += other.outside;
+    empty += other.empty;
+  }
   bool operator==(const Coverage&) const = default;
 };
 

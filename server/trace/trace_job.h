@@ -11,6 +11,22 @@
 
 namespace viewloom {
 
+// Rows of an atlas, full width.
+struct BandRows {
+  uint32_t first_row = 0;
+  uint32_t row_count = 0;
+};
+
+// Which planes of a band are wanted beside its 8-bit colour.
+struct TraceOutputs {
+  bool depth = false;    // 1/Z of the view
+  bool mask = false;     // ray classes
+  bool linear = false;   // colour before it is rounded to 8 bits
+  bool records = false;  // abi::RayRecord per px: for tests, statistics and the heat map
+
+  bool operator==(const TraceOutputs&) const = default;
+};
+
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
   double tolerance_px = 0;

@@ -9,18 +9,9 @@
 #include "frame/stage_times.h"
 #include "gpu/buffer.h"
 #include "shared/trace_abi.h"
+#include "trace/trace_job.h"
 
 namespace viewloom {
-
-// Which planes of a band are wanted beside its 8-bit colour.
-struct TraceOutputs {
-  bool depth = false;    // 1/Z of the view
-  bool mask = false;     // ray classes
-  bool linear = false;   // colour before it is rounded to 8 bits
-  bool records = false;  // abi::RayRecord per px: for tests, statistics and the heat map
-
-  bool operator==(const TraceOutputs&) const = default;
-};
 
 struct TraceSlotShape {
   uint32_t width_px = 0;

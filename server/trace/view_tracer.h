@@ -15,11 +15,6 @@
 
 namespace viewloom {
 
-struct BandRows {
-  uint32_t first_row = 0;
-  uint32_t row_count = 0;
-};
-
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
 class ViewTracer {
  public:

@@ -34,7 +34,13 @@ JudgedViews judgeViews(WalkUnderTest& walk, const StructureSlot& slot,
                        const oracle::OracleSource& source,
                        const std::vector<oracle::OutputView>& views, double tolerance_px,
                        const std::string& where, int stride) {
-  const std::vector<TracedView> traced = walk.trace(slot, views, tolerance_px);
+  return judgeTraced(walk.trace(slot, views, tolerance_px), source, views, tolerance_px, where,
+                     stride);
+}
+
+JudgedViews judgeTraced(const std::vector<TracedView>& traced, const oracle::OracleSource& source,
+                        const std::vector<oracle::OutputView>& views, double tolerance_px,
+                        const std::string& where, int stride) {
   oracle::Judge judge(source, oracle::toleranceOf(source, tolerance_px));
   JudgedViews judged;
   for (size_t index = 0; index < views.size(); ++index) {

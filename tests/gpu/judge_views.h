@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings what the walk answered before the oracle's judge, view by view.
+// Brings what a tracer answered before the oracle's judge, view by view.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,11 @@ struct JudgedViews {
 };
 
 oracle::TestedAnswer testedAnswer(const abi::RayRecord& record);
+
+// Judges every ray of the views as they were traced, or of every stride-th column and row.
+JudgedViews judgeTraced(const std::vector<TracedView>& traced, const oracle::OracleSource& source,
+                        const std::vector<oracle::OutputView>& views, double tolerance_px,
+                        const std::string& where, int stride = 1);
 
 // Traces the views and judges every ray of them, or of every stride-th column and row. `where`
 // names the scene in messages.

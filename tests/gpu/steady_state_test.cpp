@@ -92,6 +92,13 @@ DisplaySpec fixedQuiltOfManyViews() {
   return spec;
 }
 
+// Above the source, so that it is walked.
+DisplaySpec raisedQuilt() {
+  DisplaySpec spec = smallQuilt();
+  spec.world_pose = Pose{.position_m = {0, 0.05, 0}};
+  return spec;
+}
+
 // Keeps the newest atlas, as a client's mailbox does.
 class NewestAtlas : public Subscriber {
  public:
@@ -176,6 +183,7 @@ TEST_F(SteadyState, allocatesNothingLargeFromWireToAtlas) {
   watch(smallQuilt(), {.chroma = Chroma::k444, .with_depth = true, .with_mask = true});
   watch(smallQuilt(), {.color = BandEncoding::kRaw});
   watch(fixedQuiltOfManyViews(), {});
+  watch(raisedQuilt(), {});
   uint64_t number = 0;
   for (int round = 0; round < kRoundsMax; ++round) {
     std::vector<CollectedFrame> frames;

@@ -120,10 +120,36 @@ FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& lay
   return frame;
 }
 
+TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
+               const Camera& source_camera, SizePx source_px) {
+  DisplaySpec spec;
+  spec.tolerance_px = tolerance_px;
+  return makeTraceJob(std::make_shared<const AtlasLayout>(rowOfViews(views)), spec, Pose{},
+                      source_camera, source_px);
+}
+
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot) {
-  const oracle::ConnectionTolerance kappa{float(slot.stats().connection_tolerance),
-                                          scene.kappa.relative};
-  return {oracle::canonicalPlanes(scene.planes), scene.pinhole, kappa};
+  return sourceOf(scene, slot.stats().connection_tolerance);
+}
+
+oracle::OracleSource sourceOf(const oracle::Scene& scene, double connection_tolerance) {
+  return {oracle::canonicalPlanes(scene.planes), scene.pinhole,
+          {float(connection_tolerance), scene.kappa.relative}};
+}
+
+std::vector<TracedView> splitByView(const AtlasLayout& layout,
+                                    std::span<const abi::RayRecord> records,
+                                    std::span<const float> linear) {
+  std::vector<TracedView> by_view(layout.views.size());
+  const size_t width = layout.tile_size_px.width;
+  for (size_t index = 0; index < layout.size_px.area(); ++index) {
+    TracedView& view = by_view[index % layout.size_px.width / width];
+    view.width = int(width);
+    view.records.push_back(records[index]);
+    const float* const color = &linear[4 * index];
+    view.srgb.push_back({color[0], color[1], color[2], color[3]});
+  }
+  return by_view;
 }
 
 WalkUnderTest::WalkUnderTest(const Device& device)
@@ -192,30 +218,16 @@ std::vector<abi::uvec2> WalkUnderTest::cells(const StructureSlot& slot, uint32_t
 std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot,
                                              const std::vector<oracle::OutputView>& views,
                                              double tolerance_px) {
-  const auto layout = std::make_shared<const AtlasLayout>(rowOfViews(views));
-  DisplaySpec spec;
-  spec.tolerance_px = tolerance_px;
   const TraceJob job =
-      makeTraceJob(layout, spec, Pose{}, slot.sourceCamera(), slot.shape().depth_px);
-  TraceSlot traced(device_, {.width_px = layout->size_px.width,
-                             .row_count_max = layout->size_px.height,
+      jobOf(views, tolerance_px, slot.sourceCamera(), slot.shape().depth_px);
+  const AtlasLayout& layout = *job.layout;
+  TraceSlot traced(device_, {.width_px = layout.size_px.width,
+                             .row_count_max = layout.size_px.height,
                              .tile_count_max = uint32_t(job.tiles.size()),
                              .outputs = {.linear = true, .records = true}});
-  tracer_.recordBand(recorder_.begin(), slot, job, {0, layout->size_px.height}, traced, nullptr);
+  tracer_.recordBand(recorder_.begin(), slot, job, {0, layout.size_px.height}, traced, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
-
-  const std::span<const abi::RayRecord> records = traced.records();
-  const std::span<const float> linear = traced.linear();
-  std::vector<TracedView> by_view(views.size());
-  const size_t width = layout->tile_size_px.width;
-  for (size_t index = 0; index < layout->size_px.area(); ++index) {
-    TracedView& view = by_view[index % layout->size_px.width / width];
-    view.width = int(width);
-    view.records.push_back(records[index]);
-    const float* const color = &linear[4 * index];
-    view.srgb.push_back({color[0], color[1], color[2], color[3]});
-  }
-  return by_view;
+  return splitByView(layout, traced.records(), traced.linear());
 }
 
 }  // namespace viewloom

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "frame/frame.h"
@@ -26,8 +27,15 @@ FramePtr frameOf(const oracle::Scene& scene);
 // Each layer of one colour, which may be semitransparent.
 FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& layer_colors);
 
+// Views of one size, side by side.
+TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
+               const Camera& source_camera, SizePx source_px);
+
 // What the oracle sees of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);
+
+// The same with a connection tolerance that was found otherwise, 1/m.
+oracle::OracleSource sourceOf(const oracle::Scene& scene, double connection_tolerance);
 
 // One view as it was traced, [row][column].
 struct TracedView {
@@ -37,6 +45,11 @@ struct TracedView {
 
   size_t index(int column, int row) const { return size_t(row) * size_t(width) + size_t(column); }
 };
+
+// Of an atlas that jobOf() made: its planes, [row][column].
+std::vector<TracedView> splitByView(const AtlasLayout& layout,
+                                    std::span<const abi::RayRecord> records,
+                                    std::span<const float> linear);
 
 // Thread-safety: none.
 class WalkUnderTest {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads that share the pieces of one task with the thread that has it.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace viewloom {
+
+// Thread-safety: forEach() may be called from any thread; tasks of several callers run one after
+// the other.
+class WorkerPool {
+ public:
+  // As many workers as that, of which the caller of forEach() is one. 0 = one a core.
+  explicit WorkerPool(uint32_t worker_count = 0);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  uint32_t workerCount() const { return uint32_t(threads_.size()) + 1; }
+
+  // Calls piece(index, worker) once for every index below `count`, and returns when all have
+  // returned. A worker, numbered below workerCount(), has one piece at a time. Pieces must not
+  // throw.
+  using Piece = std::function<void(uint32_t index, uint32_t worker)>;
+  void forEach(uint32_t count, const Piece& piece);
+
+ private:
+  void run(const std::stop_token& stop, uint32_t worker);
+  void takePieces(uint32_t worker);
+
+  std::mutex task_mutex_;  // one caller at a time
+  std::mutex mutex_;       // guards what follows, but for next_
+  std::condition_variable_any begun_;
+  std::condition_variable ended_;
+  const Piece* piece_ = nullptr;
+  uint32_t count_ = 0;
+  uint64_t task_number_ = 0;
+  uint32_t busy_count_ = 0;
+  std::atomic<uint32_t> next_ = 0;
+  std::vector<std::jthread> threads_;  // last: they use all of the above
+};
+
+}  // namespace viewloom

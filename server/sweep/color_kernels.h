@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// From places among the texels of a row to colour, with the vectors of the CPU it runs on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace viewloom {
+
+// Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed light (packed_light.h).
+// `places`: 1/256 px, at whose two texels light is blended; negative: the background, which is as
+// rgba. Places may be read a vector beyond the width.
+void colorRow(const uint32_t* texels, const int32_t* places, size_t width_px, uint32_t background,
+              uint32_t* rgba);
+
+}  // namespace viewloom

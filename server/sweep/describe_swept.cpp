@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/describe_swept.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweep/packed_light.h"
+
+namespace viewloom {
+namespace {
+
+uint8_t classOf(const SweptRow& swept, uint32_t p) {
+  if (swept.inv_z[p] < 0) return swept.class_of_hole[p];
+  const bool is_assumed = swept.has_passed && swept.passed_inv_z[0][p] > swept.inv_z[p];
+  return uint8_t(is_assumed ? abi::kClassHitAssumed : abi::kClassHit);
+}
+
+// A channel of a blend, 0..1, sRGB-encoded, before it is rounded.
+float channelOf(const uint32_t* texels, float share, int shift, uint32_t steps) {
+  const auto lightOf = [&](uint32_t texel) {
+    const float root = float(texel >> shift & steps) * (kRootMax / float(steps));
+    return root * root;
+  };
+  const float root = std::sqrt(lightOf(texels[0]) * (1 - share) + lightOf(texels[1]) * share);
+  const float code =
+      ((kCodeCubic[0] * root + kCodeCubic[1]) * root + kCodeCubic[2]) * root + kCodeCubic[3];
+  return std::clamp(code / 255, 0.0F, 1.0F);
+}
+
+void writeLinear(const RowToDescribe& described, uint32_t p, float* rgba) {
+  const int32_t place = described.swept.texel[p];
+  rgba[3] = 1;
+  if (place < 0) {
+    for (int i = 0; i < 3; ++i) rgba[i] = float(described.fill.background >> (8 * i) & 255) / 255;
+    return;
+  }
+  const uint32_t* const texels = described.row.texels.data() + place / kSubtexelSteps;
+  const float share = float(place % kSubtexelSteps) / kSubtexelSteps;
+  rgba[0] = channelOf(texels, share, 0, kRedSteps);
+  rgba[1] = channelOf(texels, share, kGreenShift, kGreenSteps);
+  rgba[2] = channelOf(texels, share, kBlueShift, kBlueSteps);
+}
+
+abi::RayRecord recordOf(const RowToDescribe& described, uint32_t p, uint8_t ray_class) {
+  const SweptRow& swept = described.swept;
+  const float inv_z = std::max(swept.inv_z[p], 0.0F);
+  const SweepView& view = described.view;
+  const int32_t place = std::max(swept.texel[p], 0);
+  // A texel reaches half a px to both sides of its sample.
+  const uint32_t texel = uint32_t(place + kSubtexelSteps / 2) / kSubtexelSteps;
+  return {.x_px = view.start_px + view.step_px * float(p) + view.eye_px_m * inv_z,
+          .y_px = float(described.y_px),
+          .inv_z = inv_z,
+          .ray_class = ray_class,
+          .layer = swept.inv_z[p] < 0 ? 0U : described.row.texel_layer[texel],
+          .visits = 0};
+}
+
+}  // namespace
+
+void describeSwept(const RowToDescribe& described, size_t at_px, const TraceOutputs& outputs,
+                   SweptAtlas& atlas) {
+  for (uint32_t p = 0; p < described.width_px; ++p) {
+    const uint8_t ray_class = classOf(described.swept, p);
+    const size_t at = at_px + p;
+    if (outputs.depth) {
+      atlas.depth[at] = std::max(described.swept.inv_z[p], 0.0F) * described.view_z;
+    }
+    if (outputs.mask) atlas.mask[at] = ray_class;
+    if (outputs.linear) writeLinear(described, p, atlas.linear.data() + 4 * at);
+    if (outputs.records) atlas.records[at] = recordOf(described, p, ray_class);
+  }
+}
+
+}  // namespace viewloom

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Links of a row of facets, and colours blended along links to the next row, with the vectors of
+// the CPU it runs on. What they mean: shaders/README.md. Every array may be read and written a
+// vector beyond its width.
+#pragma once
+
+#include <cstdint>
+
+#include "sweep/facet_kernels.h"
+#include "sweep/measure_columns.h"
+
+namespace viewloom {
+
+// Links between the columns of a row: 0 = silhouette, 1 + k = linked to layer k of the column on
+// the right (left). uint8[width] each; 1 + its own layer where there is no facet: nothing begins or
+// ends there.
+void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
+                 const ByLayer<uint8_t*>& to_left);
+
+// Colours of a row between the samples of two rows: of each facet, blended with what it is linked
+// to in the other row, as packed light (sweep/packed_light.h).
+struct TexelRow {
+  FacetRow here;   // slopes along y
+  FacetRow there;  // the next row
+  ByLayer<const uint32_t*> color_here;
+  ByLayer<const uint32_t*> color_there;
+  float share = 0;        // of the other row, 0..0.5
+  bool is_below = false;  // the other row
+  ByLayer<uint32_t*> texels;
+};
+void blendRows(const TexelRow& row, const Kappa& kappa);
+
+}  // namespace viewloom

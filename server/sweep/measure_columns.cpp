@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/measure_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "shared/histogram.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kBlockPx = abi::kBlockPx;
+
+float depthQuantile(std::span<const uint32_t> bins, float surface_count, float share) {
+  const float wanted = share * surface_count;
+  float below = 0;
+  for (uint32_t bin = 0; bin < bins.size(); ++bin) {
+    const float here = float(bins[bin]);
+    if (here > 0 && below + here >= wanted) {
+      const float start = abi::binStart(bin, abi::kDepthMantissaBits);
+      const float end = abi::binStart(bin + 1, abi::kDepthMantissaBits);
+      const float part = std::clamp((wanted - below) / here, 0.0F, 1.0F);
+      return bin == 0 ? 0 : start * (1 - part) + end * part;
+    }
+    below += here;
+  }
+  return 0;
+}
+
+// The end of the bin that holds the quantile, counted from bin `first`.
+float noiseQuantile(std::span<const uint32_t> bins, uint32_t first, float share) {
+  const float total = float(std::accumulate(bins.begin() + first, bins.end(), uint64_t{0}));
+  float below = 0;
+  for (uint32_t bin = first; bin < bins.size() && total > 0; ++bin) {
+    below += float(bins[bin]);
+    if (below < share * total) continue;
+    return bin == 0 ? 0 : abi::binStart(bin + 1, abi::kNoiseMantissaBits);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void ColumnHistograms::addBlockRow(const DepthColumns& columns, uint32_t block_row) {
+  const SizePx size_px = columns.sizePx();
+  const int y = int(std::min(block_row * kBlockPx + 2, size_px.height - 1));
+  const float* const row = columns.row(0, y);
+  const float* const above = columns.row(0, y - 1);
+  const float* const below = columns.row(0, y + 1);
+  for (uint32_t block = 0; block * kBlockPx < size_px.width; ++block) {
+    const int x = int(std::min(block * kBlockPx + 2, size_px.width - 1));
+    const bool is_along_x = ((block + block_row) & 1) == 0;
+    const float before = is_along_x ? row[x - 1] : above[x];
+    const float inv_z = row[x];
+    const float after = is_along_x ? row[x + 1] : below[x];
+    if (inv_z < 0) continue;
+    ++depth[abi::depthBin(inv_z)];
+    if (std::min(before, after) < 0) continue;
+    const float difference = std::abs((after - inv_z) - (inv_z - before));
+    ++noise[abi::noiseBin(difference <= inv_z * abi::kRoundingShare ? 0 : difference)];
+  }
+}
+
+void ColumnHistograms::add(const ColumnHistograms& other) {
+  const auto addTo = [](auto& sums, const auto& counts) {
+    std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
+  };
+  addTo(depth, other.depth);
+  addTo(noise, other.noise);
+}
+
+MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCounts& counts,
+                              float given_kappa) {
+  const float step = noiseQuantile(histograms.noise, 1, abi::kStepQuantile);
+  const float sigma = noiseQuantile(histograms.noise, 0, 0.5F) / abi::kMedianPerSigma;
+  const float surface_count =
+      float(std::accumulate(histograms.depth.begin(), histograms.depth.end(), uint64_t{0}));
+  const bool is_given = given_kappa > 0;
+  const Kappa kappa = {
+      .absolute =
+          is_given ? given_kappa : std::max(abi::kKappaSteps * step, abi::kKappaSigmas * sigma),
+      .relative = is_given ? 0 : abi::kKappaRelative};
+  const auto quantile = [&](float share) {
+    return depthQuantile(histograms.depth, surface_count, share);
+  };
+  const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
+  return {.stats = {.depth_step = step,
+                    .noise_sigma = sigma,
+                    .connection_tolerance = kappa.absolute,
+                    .bad_samples_count = counts.bad_samples_count,
+                    .unsorted_columns_count = counts.unsorted_columns_count,
+                    .inv_z_min = has_surface ? counts.inv_z_min : 0.0F,
+                    .inv_z_max = has_surface ? counts.inv_z_max : 0.0F,
+                    .inv_z_near = quantile(abi::kNearQuantile),
+                    .inv_z_far = quantile(abi::kFarQuantile)},
+          .kappa = kappa};
+}
+
+}  // namespace viewloom

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/paint_kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "shared/trace_abi.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sweep/paint_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sweep/hit_painter_inl.h"
+#include "sweep/project_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viewloom::HWY_NAMESPACE {
+
+// inv_z of rays where they cross an edge, along p.
+struct EdgeLine {
+  EdgeLine(const Steps& steps, size_t k, const SweepView& view)
+      : at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
+        step(set(-view.step_px / view.eye_px_m)),
+        low(set(steps.low_inv_z[k])),
+        high(set(steps.high_inv_z[k])) {}
+
+  Vec invZ(Vec p) const { return hn::Min(hn::Max(hn::MulAdd(step, p, at), low), high); }
+
+  Vec at, step, low, high;
+};
+
+HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const SweptRow& swept,
+                             const HitPainter& painter) {
+  for (uint32_t i = 0; i < swept.covering_count; ++i) {
+    const size_t k = size_t(swept.covering[i]);
+    const EdgeLine line(bridges, k, view);
+    const IntVec texel = hn::Set(kInts, bridges.texel[k]);
+    painter.paint(swept.from[k], swept.to[k], [&](Vec p) { return Place{line.invZ(p), texel}; });
+  }
+}
+
+// Both lie on the same line where a ray passes behind two layers at one edge; but for rounding.
+constexpr float kSameEdge = 1.0F + 8.0F / 8388608.0F;
+
+// Which of the rays inside are behind all layers before.
+HWY_INLINE Mask reaches(const float* passed_before, int32_t first, Vec inv_z, Mask inside) {
+  if (passed_before == nullptr) return inside;
+  const Vec reach = hn::Mul(hn::Load(kFloats, passed_before + first), set(kSameEdge));
+  return hn::And(inside, hn::Le(inv_z, reach));
+}
+
+// Where rays first pass behind a layer; returns whether any does. `passed_before`: behind the layer
+// before it; nullptr for the nearest.
+HWY_INLINE bool paintPassed(const Steps& steps, const SweepView& view, SweptRow& swept,
+                            const float* passed_before, uint32_t width_px, float* passed) {
+  const uint32_t lanes = uint32_t(hn::Lanes(kFloats));
+  for (size_t p = 0; p < width_px; p += lanes) hn::Store(set(-1), kFloats, passed + p);
+  std::fill_n(swept.passed_vectors.data(), width_px / (64 * lanes) + 1, uint64_t{0});
+  for (uint32_t i = 0; i < swept.covering_count; ++i) {
+    const size_t k = size_t(swept.covering[i]);
+    const EdgeLine line(steps, k, view);
+    forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
+      const Vec inv_z = line.invZ(p);
+      const Mask passes = reaches(passed_before, first, inv_z, inside);
+      const Vec before = hn::Load(kFloats, passed + first);
+      hn::Store(hn::Max(before, hn::IfThenElse(passes, inv_z, before)), kFloats, passed + first);
+      const uint32_t vector = uint32_t(first) / lanes;
+      swept.passed_vectors[vector / 64] |= uint64_t{1} << (vector % 64);
+    });
+  }
+  return swept.covering_count > 0;
+}
+
+// What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
+// the ray passed last.
+void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
+               uint32_t width_px, SweptRow& swept) {
+  const int32_t lanes = int32_t(hn::Lanes(kFloats));
+  const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
+  for (uint32_t i = 0; i < row.layer_count; ++i) {
+    const Steps& steps = row.layers[i].silhouettes[travel];
+    const float* const passed_before = i == 0 ? nullptr : swept.passed_inv_z[i - 1].data();
+    projectSteps(steps, view, float(width_px), swept);
+    const float rank = 2 * fill.inv_z_max * (float(i) - float(abi::kLayerCountMax));
+    for (uint32_t n = 0; n < swept.covering_count; ++n) {
+      const size_t k = size_t(swept.covering[n]);
+      if (steps.texel[k] < 0) continue;
+      const EdgeLine line(steps, k, view);
+      const IntVec texel = hn::Set(kInts, steps.texel[k]);
+      forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
+        if (swept.block_has_hole[first / lanes] == 0) return;
+        const Vec inv_z = line.invZ(p);
+        float* const ranks = swept.fill_rank.data() + first;
+        int32_t* const texels = swept.fill_texel.data() + first;
+        const Vec own = hn::Sub(set(rank), inv_z);
+        const Vec before = hn::Load(kFloats, ranks);
+        const Mask is_better =
+            hn::And(reaches(passed_before, first, inv_z, inside), hn::Gt(own, before));
+        hn::Store(hn::IfThenElse(is_better, own, before), kFloats, ranks);
+        hn::Store(hn::IfThenElse(hn::RebindMask(kInts, is_better), texel, hn::Load(kInts, texels)),
+                  kInts, texels);
+      });
+    }
+  }
+}
+
+// Hits of all layers, and where rays pass behind them; false: behind none.
+bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
+                 uint32_t width_px, SweptRow& swept) {
+  const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
+  const float width = float(width_px);
+  const float* passed_before = nullptr;
+  for (uint32_t i = 0; i < row.layer_count; ++i) {
+    const LayerSurfaces& layer = row.layers[i];
+    if (i > 0 && fill.planted_fault == SweepFault::kLayerDropped) return true;
+    const HitPainter painter(swept, passed_before, fill.planted_fault);
+    projectRuns(layer.runs, view, width, swept);
+    paintRuns(layer.runs, swept, painter);
+    if (view.eye_px_m == 0) return false;  // crosses no edge
+    projectSteps(layer.bridges[travel], view, width, swept);
+    paintBridges(layer.bridges[travel], view, swept, painter);
+    if (i > 0 && i + 1 == row.layer_count) return true;
+    projectSteps(layer.silhouettes[travel], view, width, swept);
+    float* const passed = swept.passed_inv_z[i].data();
+    if (!paintPassed(layer.silhouettes[travel], view, swept, passed_before, width_px, passed)) {
+      return i > 0;
+    }
+    passed_before = passed;
+  }
+  return true;
+}
+
+struct RayEnd {
+  uint32_t ray_class;
+  uint32_t column;
+};
+
+// How a ray without a hit ends.
+HWY_INLINE RayEnd endOf(const SurfaceRow& row, const SweepView& view, float p) {
+  const float u = view.start_px + view.step_px * p;
+  const float width = float(row.width_px);
+  const uint32_t column = uint32_t(std::min(std::max(u, 0.0F), width - 1));
+  if (row.is_outside) return {abi::kClassOutside, column};
+  if (u >= 0 && u < width) {
+    const bool exists = row.nearest_texel[column] >= 0;
+    return {exists ? abi::kClassHidden : abi::kClassEmpty, column};
+  }
+  // It leaves through a border if it travels towards it.
+  const bool leaves = u < 0 ? view.eye_px_m > 0 : view.eye_px_m < 0;
+  const float inv_z = leaves ? ((u < 0 ? 0 : width) - u) / view.eye_px_m : 3.4e38F;
+  const float border_inv_z = u < 0 ? row.left_inv_z : row.right_inv_z;
+  return {inv_z <= border_inv_z ? abi::kClassHidden : abi::kClassOutside, column};
+}
+
+// Gives the px of a vector that have no hit what they show.
+HWY_INLINE void fillHoles(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
+                          size_t begin, size_t end, SweptRow& swept, Coverage& coverage) {
+  for (size_t p = begin; p < end; ++p) {
+    if (swept.inv_z[p] >= 0) continue;
+    const RayEnd ray_end = endOf(row, view, float(p));
+    swept.class_of_hole[p] = uint8_t(ray_end.ray_class);
+    const int32_t last = row.nearest_texel[ray_end.column];
+    if (ray_end.ray_class == abi::kClassHidden) {
+      ++coverage.hidden;
+      swept.texel[p] = swept.fill_texel[p] >= 0 ? swept.fill_texel[p] : last;
+    } else if (ray_end.ray_class == abi::kClassOutside) {
+      ++coverage.outside;
+      swept.texel[p] = fill.fills_border ? last : -1;
+    } else {
+      ++coverage.empty;
+      swept.texel[p] = -1;
+    }
+  }
+}
+
+HWY_INLINE void clearRow(uint32_t width_px, SweptRow& swept) {
+  for (size_t p = 0; p < width_px; p += hn::Lanes(kFloats)) {
+    hn::Store(set(-1), kFloats, swept.inv_z.data() + p);
+  }
+}
+
+HWY_INLINE void clearFill(uint32_t width_px, SweptRow& swept) {
+  for (size_t p = 0; p < width_px; p += hn::Lanes(kFloats)) {
+    hn::Store(set(-3.4e38F), kFloats, swept.fill_rank.data() + p);
+    hn::Store(hn::Set(kInts, -1), kInts, swept.fill_texel.data() + p);
+  }
+}
+
+// Counts the hits; returns whether px are left that have none. `passes`: passed_inv_z[0] is set.
+HWY_INLINE bool countHits(uint32_t width_px, bool passes, SweptRow& swept, Coverage& coverage) {
+  const size_t lanes = hn::Lanes(kFloats);
+  const float* const passed = swept.passed_inv_z[0].data();
+  size_t hit_count = 0;
+  size_t assumed_count = 0;
+  for (size_t p = 0; p < width_px; p += lanes) {
+    const Vec inv_z = hn::Load(kFloats, swept.inv_z.data() + p);
+    const Mask exists = hn::FirstN(kFloats, width_px - p);
+    const Mask is_hit = hn::And(hn::Ge(inv_z, set(0)), exists);
+    hit_count += hn::CountTrue(kFloats, is_hit);
+    swept.block_has_hole[p / lanes] = hn::AllFalse(kFloats, hn::AndNot(is_hit, exists)) ? 0 : 1;
+    if (!passes) continue;
+    const Mask is_assumed = hn::And(is_hit, hn::Gt(hn::Load(kFloats, passed + p), inv_z));
+    assumed_count += hn::CountTrue(kFloats, is_assumed);
+  }
+  coverage.hit += hit_count - assumed_count;
+  coverage.hit_assumed += assumed_count;
+  return hit_count < width_px;
+}
+
+void PaintRow(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
+              uint32_t width_px, SweptRow& swept, Coverage& coverage) {
+  clearRow(width_px, swept);
+  swept.has_passed = !row.is_outside && paintLayers(row, view, fill, width_px, swept);
+  if (!countHits(width_px, swept.has_passed, swept, coverage)) return;
+  clearFill(width_px, swept);
+  if (swept.has_passed) paintFill(row, view, fill, width_px, swept);
+  const size_t lanes = hn::Lanes(kFloats);
+  for (size_t p = 0; p < width_px; p += lanes) {
+    if (swept.block_has_hole[p / lanes] == 0) continue;
+    fillHoles(row, view, fill, p, std::min(p + lanes, size_t{width_px}), swept, coverage);
+  }
+}
+
+}  // namespace viewloom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viewloom {
+
+HWY_EXPORT(PaintRow);
+
+void paintRow(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
+              uint32_t width_px, SweptRow& swept, Coverage& coverage) {
+  HWY_DYNAMIC_DISPATCH(PaintRow)(row, view, fill, width_px, swept, coverage);
+}
+
+}  // namespace viewloom
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/surface_row.h"
+
+#include <algorithm>
+
+namespace viewloom {
+namespace {
+
+// What vectors read beyond the last.
+constexpr uint32_t kSlack = 16;
+
+}  // namespace
+
+void Runs::reserve(uint32_t run_count) {
+  for (auto* values : {&begin_px, &end_px, &begin_inv_z, &end_inv_z}) {
+    values->reserve(run_count + kSlack);
+  }
+  texel_offset.reserve(run_count + kSlack);
+}
+
+void Steps::reserve(uint32_t step_count) {
+  for (auto* values : {&edge_px, &low_inv_z, &high_inv_z}) values->reserve(step_count + kSlack);
+  texel.reserve(step_count + kSlack);
+}
+
+void Steps::add(float edge, float low, float high, int32_t texel_at) {
+  if (!(low < high)) return;
+  edge_px[count] = edge;
+  low_inv_z[count] = low;
+  high_inv_z[count] = high;
+  texel[count++] = texel_at;
+}
+
+void SurfaceRow::reserve(uint32_t columns, uint32_t layers_of_each) {
+  width_px = columns;
+  layer_count = layers_of_each;
+  // Every facet may be a surface of its own, and two runs.
+  for (uint32_t i = 0; i < layer_count; ++i) {
+    layers[i].runs.reserve(2 * columns);
+    for (auto* steps : {&layers[i].bridges, &layers[i].silhouettes}) {
+      for (Steps& one_way : *steps) one_way.reserve(2 * columns);
+    }
+  }
+  nearest_texel.reserve(columns + kSlack);
+  texels.reserve(3 * size_t{columns} * layer_count + kSlack);
+  texel_layer.reserve(3 * size_t{columns} * layer_count + kSlack);
+}
+
+void SurfaceRow::clear() {
+  texel_count = 0;
+  for (LayerSurfaces& layer : layers) {
+    layer.runs.count = 0;
+    for (auto* steps : {&layer.bridges, &layer.silhouettes}) {
+      for (Steps& one_way : *steps) one_way.count = 0;
+    }
+  }
+  std::fill_n(nearest_texel.data(), width_px, -1);
+}
+
+uint32_t SurfaceRow::pieceCountMax() const {
+  uint32_t most = 0;
+  for (const LayerSurfaces& layer : layers) {
+    most = std::max(most, layer.runs.count);
+    for (const auto* steps : {&layer.bridges, &layer.silhouettes}) {
+      most = std::max({most, (*steps)[0].count, (*steps)[1].count});
+    }
+  }
+  return most;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surfaces that rays of one row meet: what a sweep paints.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "shared/structure_abi.h"
+#include "sweep/aligned_array.h"
+
+namespace viewloom {
+
+template <typename T>
+using ByLayer = std::array<T, abi::kLayerCountMax>;
+
+// Positions among the texels of a row, and steps of colour: 1/256 px, as in lib/color.glsl.
+inline constexpr int kSubtexelSteps = 256;
+
+// Straight pieces of the connected surfaces of a layer, each surface from left to right.
+struct Runs {
+  uint32_t count = 0;
+  AlignedArray<float> begin_px;  // in the source
+  AlignedArray<float> end_px;
+  AlignedArray<float> begin_inv_z;  // 1/m
+  AlignedArray<float> end_inv_z;
+  // A place x px stands for 256 x + texel_offset among the texels.
+  AlignedArray<int32_t> texel_offset;
+
+  void reserve(uint32_t run_count);
+};
+
+// Edges between columns where surfaces end or step, as rays meet them that travel one way.
+// A ray that crosses an edge with an inv_z in (low, high] meets it.
+struct Steps {
+  uint32_t count = 0;
+  AlignedArray<float> edge_px;
+  AlignedArray<float> low_inv_z;
+  AlignedArray<float> high_inv_z;
+  // Where the colour is: of bridges that of the edge; of silhouettes the far side's, -1 = none.
+  AlignedArray<int32_t> texel;
+
+  void reserve(uint32_t step_count);
+  void add(float edge, float low, float high, int32_t texel_at);
+};
+
+// Which way rays travel along the row: those of an eye to the right of the source go left.
+enum class Travel : uint8_t { kLeft, kRight };
+template <typename T>
+using ByTravel = std::array<T, 2>;
+
+struct LayerSurfaces {
+  Runs runs;
+  ByTravel<Steps> bridges;      // links whose facets are apart: rays hit the edge
+  ByTravel<Steps> silhouettes;  // rays pass behind
+};
+
+// One row of a source, at some height. Thread-safety: none.
+struct SurfaceRow {
+  uint32_t width_px = 0;
+  uint32_t layer_count = 0;
+  bool is_outside = false;  // above or below the image: no ray meets anything
+  ByLayer<LayerSurfaces> layers;
+  // Of every surface its px from the left, and one more at both ends: packed light.
+  AlignedArray<uint32_t> texels;
+  AlignedArray<uint8_t> texel_layer;
+  uint32_t texel_count = 0;
+  AlignedArray<int32_t> nearest_texel;  // [column]: of layer 0, 256 times its index; -1: none
+  float left_inv_z = 0;                 // of layer 0 at the border of the image; kNoSurface
+  float right_inv_z = 0;
+
+  // Room for all that can be made of so many columns.
+  void reserve(uint32_t columns, uint32_t layers_of_each);
+  // Of surfaces.
+  void clear();
+  // The most that any layer has of runs or of steps of one kind.
+  uint32_t pieceCountMax() const;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/surface_row_builder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kSlack = 64;  // what vectors read and write beyond the width
+
+FiveRows rowsAround(const DepthColumns& columns, int y) {
+  FiveRows rows{.inv_z = {}, .layer_count = columns.layerCount(), .width = columns.sizePx().width};
+  for (int k = 0; k < 5; ++k) {
+    for (uint32_t i = 0; i < rows.layer_count; ++i) {
+      rows.inv_z[size_t(k)][i] = columns.row(i, y + k - 2);
+    }
+  }
+  return rows;
+}
+
+// The first of the bytes from `first` on that is not `value`; `end` if there is none before.
+uint32_t findOther(const uint8_t* bytes, uint32_t first, uint32_t end, uint8_t value) {
+  const uint64_t pattern = 0x0101010101010101U * value;
+  for (uint32_t x = first; x < end; x += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes + x, sizeof word);
+    word ^= pattern;
+    if (word != 0) return std::min(x + uint32_t(std::countr_zero(word)) / 8, end);
+  }
+  return end;
+}
+
+}  // namespace
+
+void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
+  const uint32_t width = columns.sizePx().width;
+  if (width == width_ && columns.layerCount() == layer_count_) return;
+  width_ = width;
+  layer_count_ = columns.layerCount();
+  const uint32_t size = width + kSlack;
+  inverse_.reserve(size);
+  for (uint32_t n = 1; n < size; ++n) inverse_[n] = 1.0F / float(n);
+  for (uint32_t i = 0; i < layer_count_; ++i) {
+    LayerScratch& layer = layers_[i];
+    for (auto* values :
+         {&layer.slope_x, &layer.slope_y, &layer.slope_y_there, &layer.left, &layer.right}) {
+      values->reserve(size);
+    }
+    for (auto* values : {&layer.to_right, &layer.to_left}) values->reserve(size);
+    for (auto* values : {&layer.texels, &layer.color_here, &layer.color_there}) {
+      values->reserve(size);
+    }
+    layer.texel.reserve(size);
+  }
+  made_.reserve(width_, layer_count_);
+}
+
+const SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance) {
+  const SizePx size_px = source.columns->sizePx();
+  reserve(*source.columns);
+  kappa_ = source.kappa;
+  planted_fault_ = source.planted_fault;
+  tolerance_ = tolerance;
+  made_.is_outside = !(y_px >= 0 && y_px < size_px.height);
+  const int y = std::clamp(int(std::floor(y_px)), 0, int(size_px.height) - 1);
+  // Without a sample above or below, its colour goes on.
+  const double dy = made_.is_outside ? 0 : y_px - (y + 0.5);
+  findFacets(source, y, hasFault(SweepFault::kRowOff) ? 0 : float(dy));
+  blendTexels(source, y, float(dy));
+  made_.clear();
+  for (uint32_t i = 0; i < layer_count_; ++i) {
+    const uint8_t* const to_left = layers_[i].to_left.data();
+    for (uint32_t x = 0; x < width_; ++x) {
+      x = findOther(to_left, x, width_, uint8_t(i + 1));
+      if (x < width_ && to_left[x] == 0) followSurface(i, x);
+    }
+  }
+  for (uint32_t i = 0; i < layer_count_; ++i) addSilhouettes(i);
+  made_.left_inv_z = layers_[0].left[0];
+  made_.right_inv_z = layers_[0].right[width_ - 1];
+  return made_;
+}
+
+void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
+  const FiveRows rows = rowsAround(*source.columns, y);
+  inv_z_ = rows.inv_z[2];
+  FacetRow facets{.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
+  ByLayer<float*> slope_x{};
+  ByLayer<float*> slope_y{};
+  ByLayer<const float*> const_slope_y{};
+  ByLayer<uint8_t*> to_right{};
+  ByLayer<uint8_t*> to_left{};
+  EdgeRow edges{};
+  for (uint32_t i = 0; i < layer_count_; ++i) {
+    LayerScratch& layer = layers_[i];
+    facets.slope[i] = slope_x[i] = layer.slope_x.data();
+    const_slope_y[i] = slope_y[i] = layer.slope_y.data();
+    to_right[i] = layer.to_right.data();
+    to_left[i] = layer.to_left.data();
+    edges.left[i] = layer.left.data();
+    edges.right[i] = layer.right.data();
+  }
+  findSlopesX(rows, slope_x);
+  findSlopesY(rows, slope_y);
+  linkColumns(facets, source.kappa, to_right, to_left);
+  for (uint32_t i = 0; hasFault(SweepFault::kCrossLinks) && i < layer_count_; ++i) {
+    for (uint8_t* links : {to_right[i], to_left[i]}) {
+      std::replace_if(
+          links, links + width_, [&](uint8_t link) { return link != i + 1; }, 0);
+    }
+  }
+  some_fall_ = findEdges(facets, const_slope_y, dy, edges);
+}
+
+// A vector may read beyond the last px of a plane: of its last row, a copy.
+const uint32_t* SurfaceRowBuilder::colorRow(const RowSource& source, uint32_t layer, int y,
+                                            AlignedArray<uint32_t>& copy) const {
+  const uint32_t* const row = source.color[layer] + size_t(y) * width_;
+  if (uint32_t(y) + 1 < source.columns->sizePx().height && width_ >= kSlack) return row;
+  std::copy_n(row, width_, copy.data());
+  return copy.data();
+}
+
+void SurfaceRowBuilder::blendTexels(const RowSource& source, int y, float dy) {
+  const int steps = int(std::lround(std::abs(dy) * kSubtexelSteps));
+  const bool is_below = dy > 0;
+  const int y_there = y + (is_below ? 1 : -1);
+  const bool has_there = y_there >= 0 && y_there < int(source.columns->sizePx().height);
+  const FiveRows rows_there = rowsAround(*source.columns, has_there ? y_there : y);
+  TexelRow row{.share = has_there ? float(steps) / kSubtexelSteps : 0, .is_below = is_below};
+  row.here = {.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
+  row.there = {
+      .inv_z = rows_there.inv_z[2], .slope = {}, .layer_count = layer_count_, .width = width_};
+  ByLayer<float*> slope_there{};
+  for (uint32_t i = 0; i < layer_count_; ++i) {
+    LayerScratch& layer = layers_[i];
+    slope_there[i] = layer.slope_y_there.data();
+    row.here.slope[i] = layer.slope_y.data();
+    row.there.slope[i] = slope_there[i];
+    row.color_here[i] = colorRow(source, i, y, layer.color_here);
+    row.color_there[i] = colorRow(source, i, has_there ? y_there : y, layer.color_there);
+    row.texels[i] = layer.texels.data();
+  }
+  if (row.share > 0) findSlopesY(rows_there, slope_there);
+  blendRows(row, source.kappa);
+}
+
+// From its first facet on, through links to any layer, as far as it is connected.
+void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
+  const uint32_t base = made_.texel_count;
+  uint32_t texel = base + 1;
+  Surface surface = {
+      .texel_offset = (int32_t(texel) - int32_t(column)) * kSubtexelSteps - kSubtexelSteps / 2,
+      .before_inv_z = abi::kNoSurface};
+  uint32_t* const texels = made_.texels.data();
+  uint8_t* const texel_layer = made_.texel_layer.data();
+  for (;;) {
+    LayerScratch& own = layers_[layer];
+    const uint32_t last = findOther(own.to_right.data(), column, width_ - 1, uint8_t(layer + 1));
+    const uint32_t count = last + 1 - column;
+    std::copy_n(own.texels.data() + column, count, texels + texel);
+    std::fill_n(texel_layer + texel, count, uint8_t(layer));
+    int32_t* const places = (layer == 0 ? made_.nearest_texel : own.texel).data() + column;
+    for (uint32_t i = 0; i < count; ++i) places[i] = int32_t(texel + i) * kSubtexelSteps;
+    texel += count;
+    followPiece(surface, layer, column, last);
+    if (last + 1 == width_ || own.to_right[last] == 0) break;
+    layer = own.to_right[last] - 1U;
+    column = last + 1;
+  }
+  texels[base] = texels[base + 1];
+  texel_layer[base] = texel_layer[base + 1];
+  texels[texel] = texels[texel - 1];
+  texel_layer[texel] = texel_layer[texel - 1];
+  made_.texel_count = texel + 1;
+}
+
+// The fewest straight runs that stay within the tolerance of every facet, one after the other. As
+// the planes of a structure they stray by no more than half the connection tolerance.
+void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t first,
+                                    uint32_t last) {
+  RunSearch search = {.left = layers_[layer].left.data(),
+                      .right = layers_[layer].right.data(),
+                      .inverse = inverse_.data()};
+  uint32_t falling = findFalling(layer, first, last);
+  for (uint32_t begin = first; begin <= last;) {
+    if (begin == falling) {
+      followFallingFacet(surface, layer, begin++);
+      falling = findFalling(layer, begin, last);
+      continue;
+    }
+    search.last = falling - 1;
+    const float kappa = std::max(kappa_.absolute, kappa_.relative * search.left[begin]);
+    search.tolerance = std::min(tolerance_, 0.5F * kappa);
+    if (hasFault(SweepFault::kTolerance)) search.tolerance *= 8;
+    float end_inv_z = 0;
+    const uint32_t end = findRunEnd(search, begin, &end_inv_z);
+    addRun(surface, layer, float(begin), float(end), search.left[begin], end_inv_z);
+    begin = end;
+  }
+}
+
+// The first facet of which an edge is at the sky only because nothing is below it; last + 1.
+uint32_t SurfaceRowBuilder::findFalling(uint32_t layer, uint32_t first, uint32_t last) const {
+  const bool is_sought = some_fall_ && !hasFault(SweepFault::kFallsBelowSky);
+  for (uint32_t x = first; is_sought && x <= last; ++x) {
+    const float left = layers_[layer].left[x];
+    const float right = layers_[layer].right[x];
+    const float rise = layers_[layer].slope_x[x];
+    if (right == 0 && left > 0 && left + rise < 0) return x;
+    if (left == 0 && right > 0 && right < rise) return x;
+  }
+  return last + 1;
+}
+
+// Down to the sky, and along it; or the other way round.
+void SurfaceRowBuilder::followFallingFacet(Surface& surface, uint32_t layer, uint32_t column) {
+  const float left = layers_[layer].left[column];
+  const float right = layers_[layer].right[column];
+  const float above_px = (left + right) / std::abs(layers_[layer].slope_x[column]);
+  const float begin_px = float(column);
+  const float meets_px = left > 0 ? begin_px + above_px : begin_px + 1 - above_px;
+  addRun(surface, layer, begin_px, meets_px, left, 0);
+  addRun(surface, layer, meets_px, begin_px + 1, 0, right);
+}
+
+void SurfaceRowBuilder::addRun(Surface& surface, uint32_t layer, float begin_px, float end_px,
+                               float begin_inv_z, float end_inv_z) {
+  Runs& runs = made_.layers[layer].runs;
+  const uint32_t at = runs.count++;
+  runs.begin_px[at] = begin_px;
+  runs.end_px[at] = end_px;
+  runs.begin_inv_z[at] = begin_inv_z;
+  runs.end_inv_z[at] = end_inv_z;
+  runs.texel_offset[at] = surface.texel_offset;
+  const float before = surface.before_inv_z;
+  if (hasFault(SweepFault::kRunsOff)) runs.begin_px[at] += 1;
+  if (hasFault(SweepFault::kRunsOff)) runs.end_px[at] += 1;
+  if (before >= 0 && !hasFault(SweepFault::kBridges)) {
+    // Whoever comes over the lower side meets the higher one at the edge.
+    const Travel travel = before > begin_inv_z ? Travel::kLeft : Travel::kRight;
+    made_.layers[layer].bridges[size_t(travel)].add(
+        begin_px, std::min(before, begin_inv_z), std::max(before, begin_inv_z),
+        int32_t(begin_px) * kSubtexelSteps + surface.texel_offset);
+  }
+  surface.before_inv_z = end_inv_z;
+}
+
+// Where rays pass behind the layer: surfaces begin, for those that come from the left, or end; or
+// it goes on from a nearer layer, which the ray has been behind before.
+void SurfaceRowBuilder::addSilhouettes(uint32_t layer) {
+  const LayerScratch& scratch = layers_[layer];
+  for (const Travel travel : {Travel::kLeft, Travel::kRight}) {
+    const bool goes_left = travel == Travel::kLeft;
+    const uint8_t* const links = goes_left ? scratch.to_right.data() : scratch.to_left.data();
+    for (uint32_t x = 0; x < width_; ++x) {
+      x = findOther(links, x, width_, uint8_t(layer + 1));
+      if (x >= width_ || links[x] > layer) continue;
+      if (links[x] > 0 && hasFault(SweepFault::kGoesOnBehind)) continue;
+      addSilhouette(layer, travel, x, links[x]);
+    }
+  }
+}
+
+// Rays that enter `column` pass behind its facet. Their far side is the surface that they were over
+// before, half a px away from the edge; at the border of the image, the facet itself.
+void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t column,
+                                      uint8_t link) {
+  const bool goes_left = travel == Travel::kLeft;
+  const LayerScratch& scratch = layers_[layer];
+  const int64_t before = goes_left ? int64_t{column} + 1 : int64_t{column} - 1;
+  const auto edgeBefore = [&](uint32_t of_layer) {
+    return goes_left ? layers_[of_layer].left[size_t(before)]
+                     : layers_[of_layer].right[size_t(before)];
+  };
+  const bool is_border = before < 0 || before >= int64_t{width_};
+  if (is_border && hasFault(SweepFault::kEntryInFront)) return;
+  const bool is_over = !is_border && inv_z_[layer][before] >= 0;
+  const float own = goes_left ? scratch.right[column] : scratch.left[column];
+  const float high = link == 0 ? own : std::min(own, edgeBefore(link - 1U));
+  const float low = is_over ? edgeBefore(layer) : 0;
+  const size_t far_column = is_border ? column : size_t(before);
+  const int32_t half_px = goes_left ? kSubtexelSteps / 2 : -kSubtexelSteps / 2;
+  const bool has_far_side = link == 0 && (is_border || is_over);
+  const int32_t texel =
+      has_far_side ? (layer == 0 ? made_.nearest_texel : scratch.texel)[far_column] + half_px : -1;
+  made_.layers[layer].silhouettes[size_t(travel)].add(goes_left ? float(column + 1) : float(column),
+                                                      low, high, texel);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// From columns to the surfaces of a row: facets, links, and the straight runs they make up.
+#pragma once
+
+#include <cstdint>
+
+#include "frame/frame.h"
+#include "sweep/link_kernels.h"
+#include "sweep/surface_row.h"
+#include "sweep/sweep_fault.h"
+
+namespace viewloom {
+
+// What rows are made of. Colour planes are opaque sRGB, RGBA8, of the depth planes' size.
+struct RowSource {
+  const DepthColumns* columns = nullptr;
+  ByLayer<const uint32_t*> color{};  // uint32[height][width]
+  Kappa kappa;
+  SweepFault planted_fault = SweepFault::kNone;
+};
+
+// Keeps what rows need on their way. Thread-safety: none; one a thread.
+class SurfaceRowBuilder {
+ public:
+  // The surfaces at height `y_px` of the source, straight within `tolerance`, 1/m; until the next.
+  const SurfaceRow& build(const RowSource& source, double y_px, float tolerance);
+
+ private:
+  struct LayerScratch {
+    AlignedArray<float> slope_x, slope_y, slope_y_there, left, right;
+    AlignedArray<uint8_t> to_right, to_left;
+    AlignedArray<uint32_t> texels;
+    AlignedArray<int32_t> texel;  // [column]: 256 times its index among those of the row
+    AlignedArray<uint32_t> color_here, color_there;
+  };
+  // A surface that is being followed to the right.
+  struct Surface {
+    int32_t texel_offset;  // Runs::texel_offset
+    float before_inv_z;    // where the run before ends; abi::kNoSurface: none
+  };
+
+  bool hasFault(SweepFault fault) const { return planted_fault_ == fault; }
+  void reserve(const DepthColumns& columns);
+  void findFacets(const RowSource& source, int y, float dy);
+  void blendTexels(const RowSource& source, int y, float dy);
+  const uint32_t* colorRow(const RowSource& source, uint32_t layer, int y,
+                           AlignedArray<uint32_t>& copy) const;
+  void followSurface(uint32_t layer, uint32_t column);
+  void followPiece(Surface& surface, uint32_t layer, uint32_t first, uint32_t last);
+  void followFallingFacet(Surface& surface, uint32_t layer, uint32_t column);
+  uint32_t findFalling(uint32_t layer, uint32_t first, uint32_t last) const;
+  void addRun(Surface& surface, uint32_t layer, float begin_px, float end_px, float begin_inv_z,
+              float end_inv_z);
+  void addSilhouettes(uint32_t layer);
+  void addSilhouette(uint32_t layer, Travel travel, uint32_t column, uint8_t link);
+
+  uint32_t width_ = 0;
+  uint32_t layer_count_ = 0;
+  AlignedArray<float> inverse_;  // [n] = 1 / n
+  ByLayer<LayerScratch> layers_;
+  ByLayer<const float*> inv_z_{};
+  Kappa kappa_;
+  SweepFault planted_fault_ = SweepFault::kNone;
+  float tolerance_ = 0;
+  bool some_fall_ = false;  // facets below the sky
+  SurfaceRow made_;         // with room for the most there can be
+};
+
+}  // namespace viewloom

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewloom {
+namespace {
+
+// Poses that ought to cancel leave a few roundings. Positions in the source may be off by this
+// much, a quarter of a step of colour.
+constexpr double kMoved_px = 1.0 / (4 * kSubtexelSteps);
+
+bool canSweep(const abi::ViewParams& tile, SizePx tile_px, double inv_z_max) {
+  if (!(tile.direction.z > 0) || !(tile.direction_dx.x > 0)) return false;
+  const double z = double{tile.direction.z};
+  const double across = tile_px.width;
+  const double down = tile_px.height;
+  const auto isSmall = [](double moved_px) { return std::abs(moved_px) <= kMoved_px; };
+  // A direction off by this share of its depth moves the picture by up to a side of it.
+  const auto isSmallShare = [&](double share) {
+    return std::abs(share) * abi::kPlainExtentMax_px <= kMoved_px;
+  };
+  return isSmall(tile.eye.y * inv_z_max) && isSmallShare(tile.eye.z * inv_z_max) &&
+         isSmall(tile.direction_dx.y * across / z) && isSmall(tile.direction_dy.x * down / z) &&
+         isSmallShare(tile.direction_dx.z * across / z) &&
+         isSmallShare(tile.direction_dy.z * down / z);
+}
+
+SweepView sweepView(const abi::ViewParams& tile) {
+  const double z = double{tile.direction.z};
+  const double step_px = double{tile.direction_dx.x} / z;
+  return {.start_px = float(double{tile.direction.x} / z + 0.5 * step_px),
+          .step_px = float(step_px),
+          .eye_px_m = tile.eye.x};
+}
+
+}  // namespace
+
+std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
+  const SizePx tile_px = job.layout->tile_size_px;
+  const bool is_swept = std::all_of(job.tiles.begin(), job.tiles.end(), [&](const auto& tile) {
+    return tile.is_used == 0 || canSweep(tile, tile_px, inv_z_max);
+  });
+  if (!is_swept) return std::nullopt;
+  SweepPlan plan;
+  plan.tile_height_ = tile_px.height;
+  for (uint32_t index = 0; index < job.tiles.size(); ++index) {
+    const abi::ViewParams& tile = job.tiles[index];
+    plan.views_.push_back(tile.is_used == 0 ? SweepView{} : sweepView(tile));
+    if (tile.is_used != 0) plan.addTile(index, tile);
+  }
+  return plan;
+}
+
+void SweepPlan::addTile(uint32_t index, const abi::ViewParams& tile) {
+  const double z = double{tile.direction.z};
+  const double step_px = double{tile.direction_dy.y} / z;
+  const double first_px = double{tile.direction.y} / z + 0.5 * step_px;
+  auto group = std::find_if(groups_.begin(), groups_.end(), [&](const SweptTiles& known) {
+    return known.first_px == first_px && known.step_px == step_px;
+  });
+  if (group == groups_.end()) {
+    group = groups_.insert(
+        group,
+        {.first_px = first_px, .step_px = step_px, .tolerance = tile.inv_z_tolerance, .tiles = {}});
+  }
+  group->tolerance = std::min(group->tolerance, tile.inv_z_tolerance);
+  group->tiles.push_back(index);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rows of the source the views of a display look along, when it can be swept at all.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sweep/paint_kernels.h"
+#include "trace/trace_job.h"
+
+namespace viewloom {
+
+// Views whose rows look along the same rows of the source.
+struct SweptTiles {
+  double first_px = 0;  // row r of a tile looks along first + step r
+  double step_px = 0;
+  float tolerance = 0;  // in inv_z, the least of the views', 1/m
+  std::vector<uint32_t> tiles;
+};
+
+// Immutable. Thread-safety: all methods may be called from any thread.
+class SweepPlan {
+ public:
+  // Rays of a row of a view stay in a row of the source, and are parallel in (x, inv_z): the eyes
+  // lie beside the source along its rows, and look along its axes. nullopt for any other display.
+  // `inv_z_max`: of the source, 1/m.
+  static std::optional<SweepPlan> make(const TraceJob& job, double inv_z_max);
+
+  // Tile row r of group g is row g * height + r of the plan.
+  uint32_t rowCount() const { return uint32_t(groups_.size()) * tile_height_; }
+  uint32_t tileRow(uint32_t row) const { return row % tile_height_; }
+  const SweptTiles& groupOf(uint32_t row) const { return groups_[row / tile_height_]; }
+  const SweepView& viewOf(uint32_t tile) const { return views_[tile]; }
+
+ private:
+  void addTile(uint32_t index, const abi::ViewParams& tile);
+
+  uint32_t tile_height_ = 1;
+  std::vector<SweptTiles> groups_;
+  std::vector<SweepView> views_;  // [tile]
+};
+
+}  // namespace viewloom

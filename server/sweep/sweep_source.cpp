@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_source.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewloom {
+namespace {
+
+// Pieces of a frame's height that threads take: whole blocks of what is measured.
+constexpr uint32_t kRowsPerPiece = 16;
+static_assert(kRowsPerPiece % abi::kBlockPx == 0);
+constexpr uint32_t kBlockRowsPerPiece = kRowsPerPiece / abi::kBlockPx;
+
+uint32_t pieceCount(size_t count, uint32_t per_piece) {
+  return uint32_t((count + per_piece - 1) / per_piece);
+}
+
+}  // namespace
+
+bool canSweep(const Frame& frame) {
+  const std::vector<LayerPlanes>& planes = frame.sources.front();
+  const std::vector<LayerFormat>& layers = frame.format.sources.front().layers;
+  const SizePx size_px = layers.front().depth.size_px;
+  const auto isPlain = [&](const LayerFormat& layer) {
+    return layer.color.size_px == size_px && layer.color.transfer == ColorTransfer::kSrgb &&
+           layer.color.primaries == ColorPrimaries::kBt709 &&
+           layer.color.alpha == AlphaMode::kOpaque;
+  };
+  return frame.format.exposure_ev == 0 && std::all_of(layers.begin(), layers.end(), isPlain) &&
+         std::all_of(planes.begin(), planes.end(), [](const LayerPlanes& layer) {
+           return layer.color_encoding == PlaneEncoding::kRgba8;
+         });
+}
+
+void SweepSource::prepare(FramePtr frame, WorkerPool& workers) {
+  frame_ = std::move(frame);
+  columns_.beginFrame(*frame_);
+  const SizePx size_px = columns_.sizePx();
+  std::vector<ColumnCounts> counts(workers.workerCount());
+  workers.forEach(pieceCount(size_px.height, kRowsPerPiece), [&](uint32_t piece, uint32_t worker) {
+    const uint32_t first = piece * kRowsPerPiece;
+    counts[worker].add(
+        columns_.prepareRows(first, std::min(kRowsPerPiece, size_px.height - first)));
+  });
+  const uint32_t block_rows = pieceCount(size_px.height, abi::kBlockPx);
+  std::vector<ColumnHistograms> histograms(workers.workerCount());
+  workers.forEach(pieceCount(block_rows, kBlockRowsPerPiece), [&](uint32_t piece, uint32_t worker) {
+    const uint32_t first = piece * kBlockRowsPerPiece;
+    const uint32_t end = std::min(first + kBlockRowsPerPiece, block_rows);
+    for (uint32_t row = first; row < end; ++row) {
+      histograms[worker].addBlockRow(columns_, row);
+    }
+  });
+  for (size_t worker = 1; worker < counts.size(); ++worker) {
+    counts[0].add(counts[worker]);
+    histograms[0].add(histograms[worker]);
+  }
+  measured_ = settleColumns(histograms[0], counts[0],
+                            float(frame_->format.sources.front().connection_tolerance));
+}
+
+RowSource SweepSource::rowSource() const {
+  RowSource source{.columns = &columns_, .kappa = measured_.kappa};
+  for (uint32_t i = 0; i < columns_.layerCount(); ++i) {
+    source.color[i] = reinterpret_cast<const uint32_t*>(frame_->sources.front()[i].color->data());
+  }
+  return source;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first source of a frame, ready to be swept.
+#pragma once
+
+#include "base/worker_pool.h"
+#include "sweep/surface_row_builder.h"
+
+namespace viewloom {
+
+// Whether such frames can be swept: all colour is opaque 8-bit sRGB, a px for each of depth.
+bool canSweep(const Frame& frame);
+
+// Keeps its memory from frame to frame. Thread-safety: none while it is prepared, then immutable.
+class SweepSource {
+ public:
+  // Takes over a frame that can be swept.
+  void prepare(FramePtr frame, WorkerPool& workers);
+
+  const Frame& frame() const { return *frame_; }
+  const MeasuredColumns& measured() const { return measured_; }
+  const Camera& camera() const { return frame_->format.sources.front().camera; }
+  SizePx sizePx() const { return columns_.sizePx(); }
+  RowSource rowSource() const;
+  // Beside the frame.
+  uint64_t sizeBytes() const { return columns_.sizeBytes(); }
+
+ private:
+  FramePtr frame_;
+  DepthColumns columns_;
+  MeasuredColumns measured_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A row of a view, and what a sweep finds for it.
+#pragma once
+
+#include <cstdint>
+
+#include "sweep/surface_row.h"
+
+namespace viewloom {
+
+// Px p of a row of a view sees, at inv_z w, the source at x = start_px + step_px p + eye_px_m w.
+struct SweepView {
+  float start_px = 0;
+  float step_px = 1;  // > 0
+  float eye_px_m = 0;
+};
+
+// One row of a view on its way, and what came of it. Thread-safety: none; one a thread.
+struct SweptRow {
+  // By px.
+  AlignedArray<float> inv_z;  // of the hit; negative without one
+  // Where the ray first passed behind the layer, after those before it; else negative.
+  ByLayer<AlignedArray<float>> passed_inv_z;
+  bool has_passed = false;                // else passed_inv_z says nothing
+  AlignedArray<uint64_t> passed_vectors;  // a bit for each vector in which rays pass
+  AlignedArray<int32_t> texel;            // 1/256 px; -1 = the background
+  AlignedArray<uint8_t> class_of_hole;    // abi::kClass..., where there is no hit
+  AlignedArray<float> fill_rank;          // the larger, the better the far side
+  AlignedArray<int32_t> fill_texel;
+  AlignedArray<uint8_t> block_has_hole;
+  // By run, bridge or silhouette.
+  AlignedArray<int32_t> from;
+  AlignedArray<int32_t> to;
+  AlignedArray<int32_t> covering;  // indices of those that cover px
+  uint32_t covering_count = 0;
+  AlignedArray<float> inv_z_at, inv_z_step, texel_at, texel_step;
+
+  // `piece_count`: runs, or steps, of a row of the source.
+  void reserve(uint32_t width_px, uint32_t piece_count);
+};
+
+}  // namespace viewloom

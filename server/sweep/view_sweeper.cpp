@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/view_sweeper.h"
+
+#include <algorithm>
+
+#include "sweep/color_kernels.h"
+#include "sweep/describe_swept.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kOpaqueBlack = 0xff000000;
+
+// 0xRRGGBB as the atlas has it.
+uint32_t redFirst(uint32_t rgb) {
+  return (rgb >> 16 & 0xff) | (rgb & 0xff00) | (rgb & 0xff) << 16 | kOpaqueBlack;
+}
+
+bool hasUnusedPixels(const TraceJob& job) {
+  const AtlasLayout& layout = *job.layout;
+  return layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
+         layout.views.size() < size_t{layout.columns} * layout.rows;
+}
+
+// The first px of a row of a tile.
+size_t firstPixel(const AtlasLayout& layout, uint32_t tile, uint32_t tile_row) {
+  const size_t row =
+      layout.padding_top_px + size_t{tile / layout.columns} * layout.tile_size_px.height + tile_row;
+  return row * layout.size_px.width + size_t{tile % layout.columns} * layout.tile_size_px.width;
+}
+
+}  // namespace
+
+void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
+  const size_t area_px = job.layout->size_px.area();
+  const bool clears = hasUnusedPixels(job);
+  const auto reset = [&](bool is_wanted, size_t count, auto value, auto& plane) {
+    plane.resize(is_wanted ? count : 0);
+    if (clears) std::fill(plane.begin(), plane.end(), value);
+  };
+  reset(true, area_px, kOpaqueBlack, color);
+  reset(outputs.depth, area_px, 0.0F, depth);
+  reset(outputs.mask, area_px, uint8_t{0}, mask);
+  reset(outputs.linear, 4 * area_px, 0.0F, linear);
+  reset(outputs.records, area_px, abi::RayRecord{}, records);
+}
+
+Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
+                                const TraceOutputs& outputs, SweptAtlas& atlas) {
+  const TraceJob& job = *picture.job;
+  const uint32_t width_px = job.layout->tile_size_px.width;
+  const SweepFill fill = {.fills_border = job.outside_fill == OutsideFill::kBorder,
+                          .background = redFirst(job.background_rgb),
+                          .inv_z_max = picture.inv_z_max,
+                          .planted_fault = picture.source.planted_fault};
+  Coverage coverage;
+  for (uint32_t index = first_row; index < first_row + row_count; ++index) {
+    const SweptTiles& group = picture.plan->groupOf(index);
+    const uint32_t tile_row = picture.plan->tileRow(index);
+    const double y_px = group.first_px + group.step_px * tile_row;
+    const SurfaceRow& row = builder_.build(picture.source, y_px, group.tolerance);
+    row_.reserve(width_px, row.pieceCountMax());
+    for (const uint32_t tile : group.tiles) {
+      const SweepView& view = picture.plan->viewOf(tile);
+      const size_t at_px = firstPixel(*job.layout, tile, tile_row);
+      paintRow(row, view, fill, width_px, row_, coverage);
+      colorRow(row.texels.data(), row_.texel.data(), width_px, fill.background,
+               atlas.color.data() + at_px);
+      if (outputs == TraceOutputs{}) continue;
+      describeSwept({.row = row,
+                     .view = view,
+                     .fill = fill,
+                     .swept = row_,
+                     .y_px = y_px,
+                     .view_z = job.tiles[tile].direction.z,
+                     .width_px = width_px},
+                    at_px, outputs, atlas);
+    }
+  }
+  return coverage;
+}
+
+Coverage sweepAtlas(const SweepPicture& picture, const TraceOutputs& outputs, WorkerPool& workers,
+                    std::vector<ViewSweeper>& sweepers, SweptAtlas& atlas) {
+  constexpr uint32_t kRowsPerPiece = 8;
+  const uint32_t row_count = picture.plan->rowCount();
+  sweepers.resize(std::max(sweepers.size(), size_t{workers.workerCount()}));
+  std::vector<Coverage> coverages(workers.workerCount());
+  atlas.begin(*picture.job, outputs);
+  workers.forEach(
+      (row_count + kRowsPerPiece - 1) / kRowsPerPiece, [&](uint32_t piece, uint32_t worker) {
+        const uint32_t first = piece * kRowsPerPiece;
+        coverages[worker].add(sweepers[worker].sweepRows(
+            picture, first, std::min(kRowsPerPiece, row_count - first), outputs, atlas));
+      });
+  for (size_t worker = 1; worker < coverages.size(); ++worker) {
+    coverages[0].add(coverages[worker]);
+  }
+  return coverages[0];
+}
+
+}  // namespace viewloom

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sweeps atlases: the answers of the walk, for views beside the source in its rows.
+#pragma once
+
+#include <vector>
+
+#include "base/worker_pool.h"
+#include "sweep/surface_row_builder.h"
+#include "sweep/sweep_plan.h"
+#include "trace/trace_job.h"
+
+namespace viewloom {
+
+// A display that is swept over a source.
+struct SweepPicture {
+  const TraceJob* job = nullptr;
+  const SweepPlan* plan = nullptr;
+  RowSource source;
+  float inv_z_max = 0;  // of the source, 1/m
+};
+
+// The planes of an atlas in host memory, packed, top row first. Those not wanted are empty.
+struct SweptAtlas {
+  std::vector<uint32_t> color;          // uint32_t[height][width]: R, G, B, 255 in memory order
+  std::vector<float> depth;             // float[height][width], 1/Z of the view, 1/m
+  std::vector<uint8_t> mask;            // uint8_t[height][width], RayClass
+  std::vector<float> linear;            // float[height][width][4], sRGB-encoded
+  std::vector<abi::RayRecord> records;  // by px; no visits are counted
+
+  // Room for the planes, black where no view stands.
+  void begin(const TraceJob& job, const TraceOutputs& outputs);
+};
+
+// Keeps what a row needs on its way. Thread-safety: none; one a thread. Several may sweep rows of
+// one atlas.
+class ViewSweeper {
+ public:
+  // Rows of the plan: all that views see along them.
+  Coverage sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
+                     const TraceOutputs& outputs, SweptAtlas& atlas);
+
+ private:
+  SurfaceRowBuilder builder_;
+  SweptRow row_;
+};
+
+// The whole atlas by all workers; `sweepers`: one each, kept from atlas to atlas.
+Coverage sweepAtlas(const SweepPicture& picture, const TraceOutputs& outputs, WorkerPool& workers,
+                    std::vector<ViewSweeper>& sweepers, SweptAtlas& atlas);
+
+}  // namespace viewloom

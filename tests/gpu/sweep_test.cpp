@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sweep against the oracle. Needs no device.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gpu/judge_views.h"
+#include "gpu/sweep_under_test.h"
+
+namespace viewloom {
+namespace {
+
+// Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
+// scene.
+constexpr double kExcusedShareMax = 0.1;
+
+std::vector<oracle::OutputView> viewsBeside(oracle::Random& random, int count, int width,
+                                            int height) {
+  std::vector<oracle::OutputView> views;
+  for (int i = 0; i < count; ++i) views.push_back(oracle::randomView(random, 0, width, height));
+  return views;
+}
+
+JudgedViews judge(SweepUnderTest& sweep, const oracle::Scene& scene,
+                  const std::vector<oracle::OutputView>& views, double tolerance_px,
+                  const std::string& where) {
+  sweep.prepare(frameOf(scene));
+  const oracle::OracleSource source =
+      sourceOf(scene, sweep.source().measured().stats.connection_tolerance);
+  return judgeTraced(sweep.trace(views, tolerance_px), source, views, tolerance_px, where);
+}
+
+JudgedViews judgeSeeds(SweepUnderTest& sweep, uint64_t seed_count) {
+  constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
+  oracle::Random random(11);
+  JudgedViews sum;
+  for (uint64_t seed = 0; seed < seed_count; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    const auto views = viewsBeside(random, 3, 24, 18);
+    sum.add(judge(sweep, scene, views, kTolerances_px[seed % 3],
+                  "seed " + std::to_string(seed) + " " + scene.name));
+  }
+  return sum;
+}
+
+TEST(Sweep, agreesWithTheOracle) {
+  SweepUnderTest sweep;
+  const JudgedViews sum = judgeSeeds(sweep, 400);
+  EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();
+  EXPECT_LE(sum.verdict.excusedShare(), kExcusedShareMax) << sum.summary();
+  std::cout << sum.summary() << "\n";
+}
+
+TEST(Sweep, fromItsOwnPoseASourceSeesItself) {
+  SweepUnderTest sweep;
+  for (uint64_t seed = 0; seed < 56; ++seed) {
+    const oracle::Scene scene = oracle::randomScene(seed);
+    sweep.prepare(frameOf(scene));
+    const oracle::OracleSource source = sourceOf(scene, 0.0);
+    const TracedView traced = sweep.trace({oracle::ownView(scene)}, 0.25).front();
+    for (int row = 0; row < source.height(); ++row) {
+      for (int column = 0; column < source.width(); ++column) {
+        const abi::RayRecord& record = traced.records[traced.index(column, row)];
+        if (!source.exists({0, column, row})) {
+          EXPECT_EQ(record.ray_class, abi::kClassEmpty);
+          continue;
+        }
+        ASSERT_EQ(record.ray_class, abi::kClassHit) << "seed " << seed << " " << scene.name;
+        EXPECT_EQ(record.layer, 0u);
+        // Rounding alone: a thousandth of a px.
+        EXPECT_NEAR(record.x_px, column + 0.5, 1e-3);
+        EXPECT_NEAR(record.y_px, row + 0.5, 1e-3);
+      }
+    }
+  }
+}
+
+// Rough surfaces so close to each other that straight runs of one cross those of the other.
+oracle::Scene closeLayers() {
+  oracle::Random random(5);
+  oracle::Scene scene;
+  scene.name = "close layers";
+  scene.planes = oracle::makePlanes(60, 4, 2);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      const float near = float(0.5 + random.uniform(-0.002, 0.002));
+      // A pole, behind which rays pass: else no ray gets to the second layer at all.
+      const bool is_pole = column == 10;
+      scene.planes.at(0, column, row) = is_pole ? 1.0F : near;
+      scene.planes.at(1, column, row) = is_pole ? near : near - 0.0005F;
+    }
+  }
+  scene.pinhole = {{60, 60}, {30, 2}};
+  scene.kappa = {.absolute = 0.02F, .relative = 0};
+  return scene;
+}
+
+size_t countOfDeeperHits(SweepUnderTest& sweep) {
+  oracle::OutputView view = oracle::ownView(closeLayers());
+  view.position_m.x = 0.5;
+  sweep.prepare(frameOf(closeLayers()));
+  const TracedView traced = sweep.trace({view}, 0.25).front();
+  return size_t(std::count_if(traced.records.begin(), traced.records.end(), [](const auto& record) {
+    return record.ray_class == abi::kClassHit && record.layer != 0;
+  }));
+}
+
+TEST(Sweep, showsTheNearerOfLayersCloserThanTheTolerance) {
+  SweepUnderTest sweep;
+  EXPECT_EQ(countOfDeeperHits(sweep), 0u);
+  sweep.plantFault(SweepFault::kPassedIgnored);
+  EXPECT_GT(countOfDeeperHits(sweep), 0u);
+}
+
+struct PlantedFault {
+  SweepFault fault;
+  const char* name;
+};
+
+class SweepFaultTest : public testing::TestWithParam<PlantedFault> {};
+
+TEST_P(SweepFaultTest, isFound) {
+  SweepUnderTest sweep;
+  sweep.plantFault(GetParam().fault);
+  EXPECT_GT(judgeSeeds(sweep, 400).verdict.differing, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, SweepFaultTest,
+                         testing::Values(PlantedFault{SweepFault::kRowOff, "rowOff"},
+                                         PlantedFault{SweepFault::kRunsOff, "runsOff"},
+                                         PlantedFault{SweepFault::kCrossLinks, "crossLinks"},
+                                         PlantedFault{SweepFault::kBridges, "bridges"},
+                                         PlantedFault{SweepFault::kTolerance, "tolerance"},
+                                         PlantedFault{SweepFault::kFallsBelowSky, "fallsBelowSky"},
+                                         PlantedFault{SweepFault::kGoesOnBehind, "goesOnBehind"},
+                                         PlantedFault{SweepFault::kEntryInFront, "entryInFront"},
+                                         PlantedFault{SweepFault::kLayerDropped, "layerDropped"},
+                                         PlantedFault{SweepFault::kLastWins, "lastWins"}),
+                         [](const testing::TestParamInfo<PlantedFault>& fault) {
+                           return fault.param.name;
+                         });
+
+}  // namespace
+}  // namespace viewloom

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+namespace viewloom {
+namespace {
+
+TEST(WorkerPool, givesEveryIndexOnce) {
+  for (const uint32_t worker_count : {1U, 2U, 3U, 8U}) {
+    WorkerPool pool(worker_count);
+    for (const uint32_t count : {1U, 2U, 7U, 1000U}) {
+      std::vector<std::atomic<uint32_t>> given(count);
+      pool.forEach(count, [&](uint32_t index, uint32_t) { ++given.at(index); });
+      for (const std::atomic<uint32_t>& times : given) EXPECT_EQ(times, 1u);
+    }
+  }
+}
+
+// What pieces leave per worker needs no lock: TSan sees whether that is so.
+TEST(WorkerPool, givesAWorkerOnePieceAtATime) {
+  constexpr uint32_t kPieces = 2000;
+  WorkerPool pool(4);
+  ASSERT_EQ(pool.workerCount(), 4u);
+  std::vector<uint64_t> sums(pool.workerCount());
+  pool.forEach(kPieces, [&](uint32_t index, uint32_t worker) { sums.at(worker) += index; });
+  EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), uint64_t{0}), kPieces * (kPieces - 1) / 2);
+}
+
+TEST(WorkerPool, returnsWhenAllPiecesHave) {
+  WorkerPool pool(3);
+  std::vector<uint32_t> squares(64);
+  for (uint32_t round = 0; round < 500; ++round) {
+    pool.forEach(64, [&](uint32_t index, uint32_t) { squares[index] = index * index + round; });
+    for (uint32_t index = 0; index < 64; ++index) {
+      ASSERT_EQ(squares[index], index * index + round);
+    }
+  }
+}
+
+TEST(WorkerPool, runsTasksOfSeveralCallersOneAfterTheOther) {
+  constexpr uint32_t kPieces = 20;
+  constexpr uint32_t kRounds = 100;
+  WorkerPool pool(3);
+  std::atomic<int> running_task = -1;
+  std::atomic<uint32_t> mixed_count = 0;
+  std::vector<uint64_t> sums(pool.workerCount());  // no lock: one task at a time
+  {
+    std::vector<std::jthread> callers;
+    for (int caller = 0; caller < 4; ++caller) {
+      callers.emplace_back([&, caller] {
+        for (uint32_t round = 0; round < kRounds; ++round) {
+          std::atomic<uint32_t> done_count = 0;
+          pool.forEach(kPieces, [&](uint32_t index, uint32_t worker) {
+            sums.at(worker) += index;
+            int expected = -1;
+            running_task.compare_exchange_strong(expected, caller);
+            mixed_count += expected != -1 && expected != caller;
+            if (++done_count == kPieces) running_task = -1;
+          });
+          EXPECT_EQ(done_count, kPieces);
+        }
+      });
+    }
+  }
+  EXPECT_EQ(mixed_count, 0u);
+  EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), uint64_t{0}),
+            4 * kRounds * kPieces * (kPieces - 1) / 2);
+}
+
+TEST(WorkerPool, hasNothingToDoForNoPieces) {
+  WorkerPool pool(3);
+  pool.forEach(0, [](uint32_t, uint32_t) { FAIL(); });
+  uint32_t given_count = 0;
+  pool.forEach(1, [&](uint32_t, uint32_t) { ++given_count; });
+  EXPECT_EQ(given_count, 1u);
+}
+
+TEST(WorkerPool, oneWorkerIsTheCaller) {
+  WorkerPool pool(1);
+  EXPECT_EQ(pool.workerCount(), 1u);
+  pool.forEach(5, [caller = std::this_thread::get_id()](uint32_t, uint32_t worker) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_EQ(worker, 0u);
+  });
+}
+
+TEST(WorkerPool, hasAWorkerACoreIfNotTold) {
+  EXPECT_EQ(WorkerPool().workerCount(), std::max(1U, std::thread::hardware_concurrency()));
+}
+
+TEST(WorkerPool, endsWithoutEverHavingWorked) {
+  for (int i = 0; i < 100; ++i) const WorkerPool pool(4);
+}
+
+}  // namespace
+}  // namespace viewloom
