@@ -25,6 +25,7 @@ const LabelValues kStages = {"receive", "decode", "upload", "build",
 const LabelValues kHandOvers = {"decode", "structure", "trace", "grpc", "web"};
 const LabelValues kTransports = {"grpc", "web"};
 const LabelValues kRayAnswers = {"hit", "hit_assumed", "hidden", "outside", "empty"};
+const LabelValues kTraceMethods = {"walk", "sweep"};
 const LabelValues kHttpAnswers = {"success", "redirect", "client_error", "server_error"};
 
 Counter counter(prometheus::Registry& registry, const char* name, const char* help) {
@@ -102,8 +103,9 @@ Metrics::Metrics()
                              "Bytes of planes, as they came on the wire.")),
       structures_built(counter(store_->registry, "viewloom_structures_built_total",
                                "Acceleration structures built.")),
-      atlases_traced(counter(store_->registry, "viewloom_atlases_traced_total",
-                             "Atlases traced, one per distinct picture.")),
+      atlases_traced(counters<TraceMethod>(
+          store_->registry, "viewloom_atlases_traced_total",
+          "Atlases traced, one per distinct picture, by how.", "method", kTraceMethods)),
       atlases_encoded(counter(store_->registry, "viewloom_atlases_encoded_total",
                               "Atlases encoded, one per distinct picture and encoding.")),
       bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),

@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "base/trace_method.h"
+
 namespace prometheus {
 class Counter;
 class Gauge;
@@ -91,7 +93,7 @@ class Metrics {
   Counter frames_refused;    // by the checks of their header or bytes
   Counter received_bytes;    // of planes, as they came on the wire
   Counter structures_built;
-  Counter atlases_traced;
+  Labelled<TraceMethod, Counter> atlases_traced;     // {method}
   Counter atlases_encoded;
   Counter bands_encoded;
   Counter encoded_bytes;

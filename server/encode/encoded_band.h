@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/byte_pool.h"
+#include "base/trace_method.h"
 #include "display/atlas_layout.h"
 #include "frame/stage_times.h"
 
@@ -39,6 +40,7 @@ struct EncodedAtlas {
   EncodingSpec encoding;
   StageTimes times;
   Coverage coverage;
+  TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
   std::vector<EncodedBand> bands;
 };

@@ -23,12 +23,13 @@ StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
           .total_ns = encoded_ns - frame.first_chunk_ns};
 }
 
-void count(const Metrics& metrics, const StageTimes& times, const Coverage& coverage) {
+void count(const Metrics& metrics, TraceMethod method, const StageTimes& times,
+           const Coverage& coverage) {
   metrics.observeStage(Stage::kWait, times.wait_ns);
   metrics.observeStage(Stage::kTrace, times.trace_ns);
   metrics.observeStage(Stage::kEncode, times.encode_ns);
   metrics.observeStage(Stage::kTotal, times.total_ns);
-  metrics.atlases_traced.add();
+  metrics.atlases_traced[method].add();
   metrics.rays[RayAnswer::kHit].add(static_cast<double>(coverage.hit));
   metrics.rays[RayAnswer::kHitAssumed].add(static_cast<double>(coverage.hit_assumed));
   metrics.rays[RayAnswer::kHidden].add(static_cast<double>(coverage.hidden));
@@ -69,7 +70,7 @@ void AtlasPublisher::dropAll() {
 void AtlasPublisher::publish(AtlasRun& run) {
   const StageTimes times = stageTimes(run, links_.clock.nowNs());
   const Coverage coverage = run.coverage();
-  count(links_.metrics, times, coverage);
+  count(links_.metrics, run.method, times, coverage);
   for (AtlasOutput& output : run.outputs) {
     const uint64_t display_id = output.display->id;
     auto atlas = std::make_shared<EncodedAtlas>();
@@ -83,6 +84,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->encoding = output.display->encoding;
     atlas->times = times;
     atlas->coverage = coverage;
+    atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
     atlas->bands = std::move(output.bands);
     links_.broadcaster.publish(std::move(atlas));

@@ -52,11 +52,7 @@ TraceSlotShape AtlasRun::stripShape() const {
 
 void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  coverage_.hit += strip_coverage.hit;
-  coverage_.hit_assumed += strip_coverage.hit_assumed;
-  coverage_.hidden += strip_coverage.hidden;
-  coverage_.outside += strip_coverage.outside;
-  coverage_.empty += strip_coverage.empty;
+  coverage_.add(strip_coverage);
   traced_ns_ = std::max(traced_ns_, now_ns);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/trace_method.h"
 #include "encode/encoded_band.h"
 #include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
@@ -46,6 +47,7 @@ class AtlasRun {
   const PicturePtr picture;
   std::vector<AtlasOutput> outputs;
   TraceOutputs planes;  // that some output wants
+  TraceMethod method = TraceMethod::kWalk;
   uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;
   uint32_t next_strip = 0;

@@ -15,30 +15,6 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
 }
 
-std::span<const uint8_t> planeBytes(const TraceSlot& slot, AtlasPlane plane) {
-  switch (plane) {
-    case AtlasPlane::kColor:
-      return bytesOf(slot.color());
-    case AtlasPlane::kDepth:
-      return bytesOf(slot.depth());
-    case AtlasPlane::kMask:
-      break;
-  }
-  return slot.mask();
-}
-
-// A plane of the whole strip, once its trace is done.
-BandPixels tracedPixels(const TracedStrip& strip, AtlasPlane plane) {
-  const uint32_t row_count = strip.run->rowCount(strip.strip);
-  const std::span<const uint8_t> bytes = planeBytes(strip.trace->slot, plane);
-  return {.plane = plane,
-          .first_row = strip.run->firstRow(strip.strip),
-          .row_count = row_count,
-          .width_px = strip.run->picture->layout->size_px.width,
-          .bytes = bytes,
-          .stride_bytes = bytes.size() / row_count};
-}
-
 // Up to `row_count` rows from `row` of the strip on.
 BandPixels rowsOf(const BandPixels& strip, uint32_t row, uint32_t row_count) {
   BandPixels band = strip;
@@ -50,18 +26,41 @@ BandPixels rowsOf(const BandPixels& strip, uint32_t row, uint32_t row_count) {
 
 }  // namespace
 
+struct EncodePool::StripPlanes {
+  std::span<const uint32_t> color;
+  std::span<const float> depth;
+  std::span<const uint8_t> mask;
+
+  // A plane of the whole strip.
+  BandPixels pixels(const AtlasRun& run, uint32_t strip, AtlasPlane plane) const {
+    const uint32_t row_count = run.rowCount(strip);
+    const std::span<const uint8_t> bytes = plane == AtlasPlane::kColor   ? bytesOf(color)
+                                           : plane == AtlasPlane::kDepth ? bytesOf(depth)
+                                                                         : mask;
+    return {.plane = plane,
+            .first_row = run.firstRow(strip),
+            .row_count = row_count,
+            .width_px = run.picture->layout->size_px.width,
+            .bytes = bytes,
+            .stride_bytes = bytes.size() / row_count};
+  }
+};
+
 EncodePool::EncodePool(const PipelineLinks& links, const Timeline& timeline,
                        AtlasPublisher& publisher, uint32_t thread_count, uint32_t queued_count_max)
     : links_(links),
       timeline_(timeline),
       publisher_(publisher),
       bytes_(kKeptBandCount),
-      strips_(queued_count_max) {
+      tasks_(queued_count_max) {
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
       try {
         run();
       } catch (const std::exception& error) {
+        // What this thread had in hand will never be done: the others must not wait for it.
+        tasks_.close();
+        tasks_.clear();
         links_.on_failure(error);
       }
     });
@@ -69,39 +68,72 @@ EncodePool::EncodePool(const PipelineLinks& links, const Timeline& timeline,
 }
 
 void EncodePool::stop() {
-  strips_.close();
+  tasks_.close();
   for (std::jthread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
-  while (strips_.pop()) {  // what threads that failed have left
-  }
+  tasks_.clear();  // what came after a thread had failed
 }
 
 void EncodePool::run() {
-  BandEncoder encoder(bytes_);
-  while (auto strip = strips_.pop()) encode(*std::move(strip), encoder);
+  Worker worker{.encoder = BandEncoder(bytes_), .sweeper = {}};
+  while (auto task = tasks_.pop()) {
+    if (task->part.sweep)
+      serve(std::move(task->part), worker);
+    else
+      serve(std::move(task->traced), worker);
+  }
 }
 
-void EncodePool::encode(TracedStrip strip, BandEncoder& encoder) {
+void EncodePool::serve(TracedStrip strip, Worker& worker) {
   timeline_.wait(strip.timeline_value);
   AtlasRun& run = *strip.run;
-  run.noteTraced(strip.trace->slot.coverage(), links_.clock.nowNs());
-  for (AtlasOutput& output : run.outputs) encodeOutput(strip, output, encoder);
+  const TraceSlot& slot = strip.trace->slot;
+  run.noteTraced(slot.coverage(), links_.clock.nowNs());
+  encode(run, strip.strip, {slot.color(), slot.depth(), slot.mask()}, worker.encoder);
   strip.trace.reset();  // room for the next strip before the atlas goes out
   if (run.noteEncoded()) publisher_.complete(run);
 }
 
-void EncodePool::encodeOutput(const TracedStrip& strip, AtlasOutput& output, BandEncoder& encoder) {
+void EncodePool::serve(SweepPart part, Worker& worker) {
+  const AtlasRunPtr run = part.sweep->run();
+  if (!part.is_strip) {
+    const Coverage coverage = part.sweep->sweepPiece(part.index, worker.sweeper);
+    run->noteTraced(coverage, links_.clock.nowNs());
+    tasks_.noteSwept(*part.sweep);  // after the last, others may pack and publish at once
+    return;
+  }
+  const SweptAtlas& atlas = part.sweep->atlas();
+  const size_t width_px = run->picture->layout->size_px.width;
+  const size_t first = run->firstRow(part.index) * width_px;
+  const size_t count = run->rowCount(part.index) * width_px;
+  const auto rowsOfStrip = [&]<typename T>(const std::vector<T>& plane) {
+    return plane.empty() ? std::span<const T>() : std::span<const T>(plane).subspan(first, count);
+  };
+  encode(*run, part.index,
+         {rowsOfStrip(atlas.color), rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)},
+         worker.encoder);
+  part.sweep.reset();  // room for the next sweep before the atlas goes out
+  if (run->noteEncoded()) publisher_.complete(*run);
+}
+
+void EncodePool::encode(AtlasRun& run, uint32_t strip, const StripPlanes& planes,
+                        BandEncoder& encoder) {
+  for (AtlasOutput& output : run.outputs) encodeOutput(run, strip, planes, output, encoder);
+}
+
+void EncodePool::encodeOutput(AtlasRun& run, uint32_t strip, const StripPlanes& planes,
+                              AtlasOutput& output, BandEncoder& encoder) {
   const EncodingSpec& encoding = output.display->encoding;
   uint32_t plane_rank = 0;
   for (const AtlasPlane plane : {AtlasPlane::kColor, AtlasPlane::kDepth, AtlasPlane::kMask}) {
     if (plane == AtlasPlane::kDepth && !encoding.with_depth) continue;
     if (plane == AtlasPlane::kMask && !encoding.with_mask) continue;
-    const BandPixels pixels = tracedPixels(strip, plane);
+    const BandPixels pixels = planes.pixels(run, strip, plane);
     for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
       const BandPixels band = rowsOf(pixels, row, output.band_row_count);
       const uint32_t index = band.first_row / output.band_row_count;
-      EncodedBand packed = encoder.encode(band, encoding, *strip.run->picture->layout);
+      EncodedBand packed = encoder.encode(band, encoding, *run.picture->layout);
       links_.metrics.bands_encoded.add();
       links_.metrics.encoded_bytes.add(static_cast<double>(packed.bytes->size()));
       output.bands[plane_rank * output.bands_per_plane + index] = std::move(packed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads that wait for traced strips and pack them as each display asked for.
+// Threads that wait for traced strips, or sweep atlases, and pack them as each display asked for.
 #pragma once
 
 #include <cstdint>
@@ -7,45 +7,48 @@
 #include <thread>
 #include <vector>
 
-#include "base/bounded_queue.h"
 #include "base/byte_pool.h"
 #include "encode/band_encoder.h"
 #include "gpu/timeline.h"
 #include "pipeline/atlas_publisher.h"
-#include "pipeline/strip_trace.h"
+#include "pipeline/encode_queue.h"
 
 namespace viewloom {
 
-// A strip whose trace has been submitted. Holding it keeps the slot and the structure from reuse.
-struct TracedStrip {
-  AtlasRunPtr run;
-  uint32_t strip = 0;
-  std::shared_ptr<StripTrace> trace;
-  uint64_t timeline_value = 0;
-};
-
 // Thread-safety: all methods may be called from any thread. push waits when all threads are busy
-// and as many strips as there are trace slots wait already.
+// and as much waits already as there are slots for.
 class EncodePool {
  public:
   EncodePool(const PipelineLinks& links, const Timeline& timeline, AtlasPublisher& publisher,
              uint32_t thread_count, uint32_t queued_count_max);
   ~EncodePool() { stop(); }
 
-  void push(TracedStrip strip) { strips_.push(std::move(strip)); }
+  void push(TracedStrip strip) { tasks_.push(std::move(strip)); }
+  // Swept by as many threads as come free, then packed by them.
+  void push(SweepRunPtr sweep) { tasks_.push(std::move(sweep)); }
   // Packs what was pushed, then ends the threads. From one thread.
   void stop();
 
  private:
+  struct Worker {
+    BandEncoder encoder;
+    ViewSweeper sweeper;
+  };
+  // A strip in host memory: where the rows of each plane begin.
+  struct StripPlanes;
+
   void run();
-  void encode(TracedStrip strip, BandEncoder& encoder);
-  void encodeOutput(const TracedStrip& strip, AtlasOutput& output, BandEncoder& encoder);
+  void serve(TracedStrip strip, Worker& worker);
+  void serve(SweepPart part, Worker& worker);
+  void encode(AtlasRun& run, uint32_t strip, const StripPlanes& planes, BandEncoder& encoder);
+  void encodeOutput(AtlasRun& run, uint32_t strip, const StripPlanes& planes, AtlasOutput& output,
+                    BandEncoder& encoder);
 
   const PipelineLinks& links_;
   const Timeline& timeline_;
   AtlasPublisher& publisher_;
   BytePool bytes_;
-  BoundedQueue<TracedStrip> strips_;
+  EncodeQueue tasks_;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 

@@ -7,12 +7,13 @@
 
 namespace viewloom {
 
-GpuLoop::GpuLoop(const PipelineLinks& links, Timeline& timeline, TraceLoop& traces, WakeUp& wake_up)
+GpuLoop::GpuLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
+                 TraceLoop& traces, WakeUp& wake_up)
     : links_(links),
       timeline_(timeline),
+      builder_(builder),
       traces_(traces),
       wake_up_(wake_up),
-      builder_(links.device),
       thread_([this](const std::stop_token& stop) {
         try {
           run(stop);
@@ -69,10 +70,10 @@ bool GpuLoop::submitBuild() {
     request = std::move(builds_.front());
     builds_.pop_front();
   }
-  StructureBuild& build = *request->build;
+  WalkedForm& form = *request->build->walked;
   try {
-    builder_.record(build.recorder.begin(), build.slot, nullptr);
-    request->timeline_value.set_value(build.recorder.submit(timeline_));
+    builder_.record(form.recorder.begin(), form.slot, nullptr);
+    request->timeline_value.set_value(form.recorder.submit(timeline_));
   } catch (const std::exception&) {
     // Who waits may be the first to tell of it: let it be told what happened.
     request->timeline_value.set_exception(std::current_exception());

@@ -24,7 +24,8 @@ namespace viewloom {
 class GpuLoop {
  public:
   // `wake_up` is rung when there may be something to trace, or room for it.
-  GpuLoop(const PipelineLinks& links, Timeline& timeline, TraceLoop& traces, WakeUp& wake_up);
+  GpuLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
+          TraceLoop& traces, WakeUp& wake_up);
   ~GpuLoop() { stop(); }
 
   // Builds the structure in an uploaded slot and waits until the device is done. Throws when the
@@ -47,9 +48,9 @@ class GpuLoop {
 
   const PipelineLinks& links_;
   Timeline& timeline_;
+  const StructureBuilder& builder_;
   TraceLoop& traces_;
   WakeUp& wake_up_;
-  StructureBuilder builder_;
   std::atomic<bool> is_abandoned_ = false;
   std::mutex mutex_;
   std::deque<BuildRequest> builds_;

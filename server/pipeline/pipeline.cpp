@@ -45,14 +45,15 @@ struct Pipeline::Loops {
         links(withFailure(std::move(given_links),
                           [this](const std::exception& error) { fail(error); })),
         timeline(links.device),
+        builder(links.device),
         publisher(links),
         encoders(links, timeline, publisher, options.encode_thread_count,
                  kSlotRingCount * options.trace_slot_count),
         pictures(options.atlas_limits),
-        traces(links, timeline, encoders, publisher, pictures, options.trace_slot_count,
+        traces(links, timeline, builder, encoders, publisher, pictures, options.trace_slot_count,
                [this] { gpu_wake_up.ring(); }),
         streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
-        gpu(links, timeline, traces, gpu_wake_up),
+        gpu(links, timeline, builder, traces, gpu_wake_up),
         structures(links, streams, gpu, structure_wake_up,
                    [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
                      serve(stream, ticket);
@@ -70,6 +71,7 @@ struct Pipeline::Loops {
   std::atomic<bool> is_draining = false;
   std::atomic<bool> has_failed = false;
   Timeline timeline;
+  StructureBuilder builder;
   AtlasPublisher publisher;
   EncodePool encoders;
   PictureCache pictures;

@@ -2,6 +2,7 @@
 // The structure of one frame, ready to be traced, and what is known of that frame.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -28,6 +29,8 @@ struct ResidentStructure {
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration
   int64_t built_at_ns = 0;
+  // Set when a display needs the walk, so that the stream's next frame is built for it.
+  std::shared_ptr<std::atomic<bool>> stream_is_walked;
 };
 
 using ResidentPtr = std::shared_ptr<const ResidentStructure>;

@@ -2,6 +2,7 @@
 // The streams that have frames: what waits of each, and its newest structure.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -37,6 +38,8 @@ class PipelineStream {
   SlotPool<StructureBuild> slots;
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
   std::optional<double> focal_distance_m;  // from the first frame, then held
+  // A display of the stream needed the walk since the last frame came: the next is built for it.
+  std::shared_ptr<std::atomic<bool>> is_walked = std::make_shared<std::atomic<bool>>(false);
 
  private:
   mutable std::mutex mutex_;

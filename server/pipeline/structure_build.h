@@ -1,18 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one frame's structure occupies on the device, with the commands that build it.
+// One frame in the forms that tracers take it in.
 #pragma once
+
+#include <memory>
 
 #include "gpu/command_recorder.h"
 #include "structure/structure_slot.h"
+#include "sweep/sweep_source.h"
 
 namespace viewloom {
 
-struct StructureBuild {
-  StructureBuild(const Device& device, const FrameShape& shape)
+// What the walk needs of a frame, on the device, with the commands that build it.
+struct WalkedForm {
+  WalkedForm(const Device& device, const FrameShape& shape)
       : slot(device, shape), recorder(device) {}
 
   StructureSlot slot;
   CommandRecorder recorder;
+};
+
+// Owner decides which thread has it: the structure loop's until the structure is resident, then
+// the GPU loop's, which may build the walked form late; `swept` does not change then.
+struct StructureBuild {
+  explicit StructureBuild(FrameShape frame_shape) : shape(std::move(frame_shape)) {}
+
+  const FrameShape shape;
+  bool is_swept = false;  // the frame in hand has the form for sweeps
+  SweepSource swept;
+  // Allocated when a display of such frames first needs it; holds the frame in hand if is_walked.
+  std::unique_ptr<WalkedForm> walked;
+  bool is_walked = false;
+
+  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  void allocateWalked(const Device& device) {
+    if (!walked) walked = std::make_unique<WalkedForm>(device, shape);
+  }
 };
 
 }  // namespace viewloom

@@ -82,8 +82,15 @@ bool StructureLoop::serve(PipelineStream& stream) {
 std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
                                                         const Frame& frame) const {
   const FrameShape shape = shapeOf(frame);
-  return stream.slots.take([&](const StructureBuild& free) { return free.slot.shape() == shape; },
-                           [&] { return std::make_unique<StructureBuild>(links_.device, shape); });
+  std::shared_ptr<StructureBuild> slot =
+      stream.slots.take([&](const StructureBuild& free) { return free.shape == shape; },
+                        [&] { return std::make_unique<StructureBuild>(shape); });
+  if (!slot) return nullptr;
+  // A GPU walks everything: there the walk is faster than the CPU beside it.
+  slot->is_swept = links_.device.info().is_software && canSweep(frame);
+  slot->is_walked = stream.is_walked->exchange(false) || !slot->is_swept;
+  if (slot->is_walked) slot->allocateWalked(links_.device);
+  return slot;
 }
 
 void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
@@ -93,15 +100,18 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->serial = ++last_serial_;
 
   const int64_t started_ns = links_.clock.nowNs();
-  slot->slot.upload(*offered.frame);
-  offered.frame.reset();  // its planes go back to their pool
+  if (slot->is_walked) slot->walked->slot.upload(*offered.frame);
   const int64_t uploaded_ns = links_.clock.nowNs();
-  gpu_.build(*slot);
+  // Takes the frame over; else its planes go back to their pool.
+  if (slot->is_swept) slot->swept.prepare(offered.frame, workers_);
+  offered.frame.reset();
+  if (slot->is_walked) gpu_.build(*slot);
   structure->built_at_ns = links_.clock.nowNs();
   structure->upload_ns = uploaded_ns - started_ns;
   structure->build_ns = structure->built_at_ns - uploaded_ns;
 
-  structure->stats = slot->slot.stats();
+  structure->stats = slot->is_swept ? slot->swept.measured().stats : slot->walked->slot.stats();
+  structure->stream_is_walked = stream.is_walked;
   if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
   structure->defaults.focal_distance_m = *stream.focal_distance_m;
   structure->build = std::move(slot);
@@ -120,7 +130,7 @@ void StructureLoop::count(const ResidentStructure& structure) const {
   links_.metrics.observeStage(Stage::kBuild, structure.build_ns);
   links_.directory.noteResident(structure.stream, structure.frame_number,
                                 structure.defaults.source_size_px,
-                                structure.build->slot.shape().layerCount(), structure.stats);
+                                structure.build->shape.layerCount(), structure.stats);
 }
 
 }  // namespace viewloom

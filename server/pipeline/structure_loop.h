@@ -5,6 +5,7 @@
 #include <functional>
 #include <thread>
 
+#include "base/worker_pool.h"
 #include "pipeline/gpu_loop.h"
 #include "pipeline/pipeline_links.h"
 #include "pipeline/stream_table.h"
@@ -12,8 +13,8 @@
 
 namespace viewloom {
 
-// One thread: takes a frame, copies it to a free slot, has it built by the GPU loop, makes it
-// resident. It uploads while the GPU loop traces what is resident already.
+// One thread: takes a frame, gives it the forms that displays need (those of the walk are built by
+// the GPU loop), makes it resident. It uploads while the GPU loop traces what is resident already.
 // Thread-safety: stop() from one thread, once.
 class StructureLoop {
  public:
@@ -40,6 +41,7 @@ class StructureLoop {
   GpuLoop& gpu_;
   WakeUp& wake_up_;
   const OnResident on_resident_;
+  WorkerPool workers_;
   uint64_t last_serial_ = 0;
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -5,18 +5,22 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 
-TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline, EncodePool& encoders,
+TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
+                     const StructureBuilder& builder, EncodePool& encoders,
                      AtlasPublisher& publisher, PictureCache& pictures, uint32_t slot_count,
                      const std::function<void()>& on_slot_return)
     : links_(links),
       timeline_(timeline),
+      builder_(builder),
       encoders_(encoders),
       publisher_(publisher),
       pictures_(pictures),
-      tracer_(links.device) {
+      tracer_(links.device),
+      swept_atlases_(slot_count, on_slot_return) {
   for (const bool depth : {false, true}) {
     for (const bool mask : {false, true}) {
       rings_.push_back({{.outputs = {.depth = depth, .mask = mask}}, {slot_count, on_slot_return}});
@@ -42,6 +46,7 @@ bool TraceLoop::submitStrip(bool may_begin) {
   if (may_begin) beginDueJobs();
   const AtlasRunPtr run = soonestRun();
   if (!run) return false;
+  if (run->method == TraceMethod::kSweep) return submitSweep(run);
   std::shared_ptr<StripTrace> trace = takeSlot(*run);
   if (!trace) return false;
   submit(run, std::move(trace));
@@ -101,19 +106,47 @@ bool TraceLoop::begin(AtlasJob& job) {
   if (displays.empty()) return false;
   const auto picture = pictures_.get(*displays.front(), *job.structure);
   if (!picture.ok()) {
-    for (const ActiveDisplayPtr& display : displays) {
-      links_.broadcaster.refuse(display->id, picture.status());
-    }
+    refuse(displays, picture.status());
+    return false;
+  }
+  const auto method = prepareMethod(**picture, *job.structure);
+  if (!method.ok()) {
+    refuse(displays, method.status());
     return false;
   }
   for (const ActiveDisplayPtr& display : displays) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
+  run->method = *method;
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);
   begun_.push_back(std::move(run));
   return true;
+}
+
+void TraceLoop::refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) {
+  for (const ActiveDisplayPtr& display : displays) {
+    links_.broadcaster.refuse(display->id, status);
+  }
+}
+
+// Sweeps what can be swept; else sees to it that the structure can be walked.
+absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture,
+                                                     const ResidentStructure& structure) {
+  StructureBuild& build = *structure.build;
+  if (build.is_swept && SweepPlan::make(picture, structure.stats.inv_z_max)) {
+    return TraceMethod::kSweep;
+  }
+  structure.stream_is_walked->store(true);
+  if (build.is_walked) return TraceMethod::kWalk;
+  try {
+    buildForWalk(build);
+  } catch (const vk::OutOfDeviceMemoryError& error) {
+    return absl::ResourceExhaustedError(
+        strCat("the device has no room to walk frames of this stream: ", error.what()));
+  }
+  return TraceMethod::kWalk;
 }
 
 AtlasRunPtr TraceLoop::soonestRun() const {
@@ -124,13 +157,38 @@ AtlasRunPtr TraceLoop::soonestRun() const {
   return soonest == begun_.end() ? nullptr : *soonest;
 }
 
+// A structure that nobody has walked so far: the device has no newer work to do.
+void TraceLoop::buildForWalk(StructureBuild& build) {
+  build.allocateWalked(links_.device);
+  build.walked->slot.upload(build.swept.frame());
+  builder_.record(build.walked->recorder.begin(), build.walked->slot, nullptr);
+  timeline_.wait(build.walked->recorder.submit(timeline_));
+  build.is_walked = true;
+}
+
+// The whole atlas at once: its rows lie all over it. False when every atlas is lent.
+bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
+  std::shared_ptr<SweptAtlas> atlas = swept_atlases_.take(
+      [](const SweptAtlas&) { return true; }, [] { return std::make_unique<SweptAtlas>(); });
+  if (!atlas) return false;
+  auto plan = SweepPlan::make(*run->picture, run->job.structure->stats.inv_z_max);
+  encoders_.push(std::make_shared<SweepRun>(run, *std::move(plan), std::move(atlas)));
+  finish(run);
+  return true;
+}
+
 void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
   const uint32_t strip = run->next_strip++;
-  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->slot, *run->picture,
-                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
+  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->walked->slot,
+                     *run->picture, {run->firstRow(strip), run->rowCount(strip)}, trace->slot,
+                     nullptr);
   const uint64_t value = trace->recorder.submit(timeline_);
-  encoders_.push({run, strip, std::move(trace), value});
-  if (run->next_strip < run->stripCount()) return;
+  encoders_.push(TracedStrip{run, strip, std::move(trace), value});
+  if (run->next_strip == run->stripCount()) finish(run);
+}
+
+// Everything of it has been handed on.
+void TraceLoop::finish(const AtlasRunPtr& run) {
   {
     std::lock_guard lock(mutex_);
     jobs_.finish(run->job.picture_key);

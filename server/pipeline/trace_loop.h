@@ -14,6 +14,7 @@
 #include "pipeline/picture_cache.h"
 #include "pipeline/slot_pool.h"
 #include "pipeline/strip_trace.h"
+#include "structure/structure_builder.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
@@ -24,9 +25,9 @@ inline constexpr uint32_t kSlotRingCount = 4;
 // Thread-safety: offer() from any thread; the rest is the GPU loop's, and after its end anyone's.
 class TraceLoop {
  public:
-  TraceLoop(const PipelineLinks& links, Timeline& timeline, EncodePool& encoders,
-            AtlasPublisher& publisher, PictureCache& pictures, uint32_t slot_count,
-            const std::function<void()>& on_slot_return);
+  TraceLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
+            EncodePool& encoders, AtlasPublisher& publisher, PictureCache& pictures,
+            uint32_t slot_count, const std::function<void()>& on_slot_return);
 
   // Replaces a job of the same picture and an older structure that has not begun.
   void offer(AtlasJob job);
@@ -50,15 +51,23 @@ class TraceLoop {
   bool begin(AtlasJob& job);
   std::vector<ActiveDisplayPtr> takeUnserved(const AtlasJob& job);
   AtlasRunPtr soonestRun() const;
+  bool submitSweep(const AtlasRunPtr& run);
   void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
+  absl::StatusOr<TraceMethod> prepareMethod(const TraceJob& picture,
+                                            const ResidentStructure& structure);
+  void buildForWalk(StructureBuild& build);
+  void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status);
+  void finish(const AtlasRunPtr& run);
 
   const PipelineLinks& links_;
   Timeline& timeline_;
+  const StructureBuilder& builder_;
   EncodePool& encoders_;
   AtlasPublisher& publisher_;
   PictureCache& pictures_;
   ViewTracer tracer_;
   std::vector<SlotRing> rings_;  // one for each set of planes, see ringOf
+  SlotPool<SweptAtlas> swept_atlases_;
   std::vector<AtlasRunPtr> begun_;
   std::map<uint64_t, uint64_t> served_;  // display id -> serial of the last structure begun for it
 

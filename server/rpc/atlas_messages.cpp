@@ -34,6 +34,10 @@ v1::AtlasPlane planeToProto(AtlasPlane plane) {
   return v1::ATLAS_PLANE_UNSPECIFIED;
 }
 
+v1::TraceMethod methodToProto(TraceMethod method) {
+  return method == TraceMethod::kSweep ? v1::TRACE_METHOD_SWEEP : v1::TRACE_METHOD_WALK;
+}
+
 void writeBytesTag(CodedOutputStream& output, int field_number, size_t byte_count) {
   output.WriteTag(WireFormatLite::MakeTag(field_number, WireFormatLite::WIRETYPE_LENGTH_DELIMITED));
   output.WriteVarint32(static_cast<uint32_t>(byte_count));
@@ -95,6 +99,7 @@ grpc::ByteBuffer AtlasMessages::header() const {
   *header.mutable_coverage() = coverageToProto(atlas_->coverage);
   header.set_band_count(static_cast<uint32_t>(atlas_->bands.size()));
   *header.mutable_stats() = statsToProto(atlas_->stats);
+  header.set_method(methodToProto(atlas_->method));
   return bytesFromMessage(response);
 }
 

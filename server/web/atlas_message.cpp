@@ -39,6 +39,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
           {"encoding", encodingJson(atlas.encoding)},
           {"times", timesJson(atlas.times)},
           {"coverage", coverageJson(atlas.coverage)},
+          {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
           {"delivery", delivery.delivery},
           {"dropped_count", delivery.dropped_count},
           {"mailbox_ns", delivery.mailbox_ns},

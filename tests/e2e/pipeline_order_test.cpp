@@ -75,11 +75,12 @@ TEST_F(PipelineOrderTest, letsASmallAtlasOvertakeALargeOneBetweenTwoStrips) {
   const auto small = std::make_shared<OrderNoter>("small", order, order_mutex);
 
   const auto gate_place = join(server, smallQuilt({64, 48}), gate);
-  // 8 strips, of which two can be on their way while the gate holds the encode thread.
-  const auto large_place = join(server, smallQuilt({320, 1000}), large);
+  // So large that the small one is on its way before it is done, strip by strip or swept.
+  const auto large_place = join(server, smallQuilt({2400, 4000}), large);
   server.offer(syntheticFrame(1));
   gate->waitUntilReached();
   const auto small_place = join(server, smallQuilt({80, 60}), small);
+  while (!server.broadcaster.layout(small_place->displayId())) std::this_thread::yield();
   gate->release();
   small->arrived().wait();
   large->arrived().wait();

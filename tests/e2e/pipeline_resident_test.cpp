@@ -2,6 +2,8 @@
 // What a stream that has sent one frame, and sends no more, still serves.
 #include <gmock/gmock.h>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "e2e/pipeline_fixture.h"
 
 namespace viewloom::test {
@@ -16,15 +18,27 @@ DisplaySpec withFocus(DisplaySpec spec, double focal_distance_m) {
   return spec;
 }
 
+double tracedCount(const Metrics& metrics) {
+  return metrics.atlases_traced[TraceMethod::kWalk].value() +
+         metrics.atlases_traced[TraceMethod::kSweep].value();
+}
+
+// A camera that stands in the source's place, turned: no row of it lies in a row of the source.
+DisplaySpec turnedCamera() {
+  DisplaySpec spec;
+  ViewCamera camera;
+  camera.pose.orientation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
+  camera.projection = Intrinsics{.focal_px = {100, 100}, .principal_px = {80, 45}};
+  spec.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 90}, .columns = 1};
+  return spec;
+}
+
 TEST_F(PipelineResidentTest, servesAJoinerAStillAndAChangedFocusFromOneUploadAndOneBuild) {
   Server server(device());
-  FramePtr frame = syntheticFrame(7);
-  const std::weak_ptr<const Frame> planes = frame;
-  server.offer(std::move(frame));
+  server.offer(syntheticFrame(7));
   const std::vector<FrameReport> reports = server.reports.waitForReports(1);
   ASSERT_THAT(reports, SizeIs(1));
   EXPECT_EQ(reports[0].outcome, FrameOutcome::kBuiltWithoutDisplay);
-  ASSERT_TRUE(planes.expired()) << "the planes are gone, so nothing can upload them again";
 
   const DisplaySpec quilt = smallQuilt();
   const Viewer joiner = watch(server, quilt);
@@ -46,8 +60,31 @@ TEST_F(PipelineResidentTest, servesAJoinerAStillAndAChangedFocusFromOneUploadAnd
   }
   EXPECT_EQ(refocused.subscriber->waitForAtlases(1).front()->layout->focal_distance_m, 3);
   EXPECT_EQ(server.metrics.structures_built.value(), 1);
-  EXPECT_EQ(server.metrics.atlases_traced.value(), 3);
+  EXPECT_EQ(tracedCount(server.metrics), 3);
   EXPECT_THAT(joiner.subscriber->waitForAtlases(1), SizeIs(1)) << "others' wishes cost it nothing";
+}
+
+TEST_F(PipelineResidentTest, walksWhatCannotBeSweptFromTheSameFrame) {
+  Server server(device());
+  server.offer(syntheticFrame(7));
+  const Viewer quilt = watch(server, smallQuilt());
+  const auto swept = quilt.subscriber->waitForAtlases(1);
+  ASSERT_THAT(swept, SizeIs(1));
+  // A GPU walks everything.
+  EXPECT_EQ(swept[0]->method == TraceMethod::kSweep, device().info().is_software);
+
+  const Viewer camera = watch(server, turnedCamera());
+  const auto walked = camera.subscriber->waitForAtlases(1);
+  ASSERT_THAT(walked, SizeIs(1));
+  EXPECT_EQ(walked[0]->method, TraceMethod::kWalk);
+  EXPECT_EQ(walked[0]->frame_number, 7u);
+  EXPECT_GT(walked[0]->coverage.hit, 0u);
+
+  // Now that the stream is walked, its next frame is built for both.
+  server.offer(syntheticFrame(8));
+  EXPECT_EQ(quilt.subscriber->waitForAtlases(2).at(1)->method, swept[0]->method);
+  EXPECT_EQ(camera.subscriber->waitForAtlases(2).at(1)->method, TraceMethod::kWalk);
+  EXPECT_EQ(server.metrics.structures_built.value(), 2);
 }
 
 TEST_F(PipelineResidentTest, tracesOnceForAllWhoShareAPictureAndEncodesOnceForEachEncoding) {
@@ -61,7 +98,7 @@ TEST_F(PipelineResidentTest, tracesOnceForAllWhoShareAPictureAndEncodesOnceForEa
     ASSERT_THAT(viewer->subscriber->waitForAtlases(1), SizeIs(1));
   }
   server.pipeline.drain();
-  EXPECT_EQ(server.metrics.atlases_traced.value(), 1);
+  EXPECT_EQ(tracedCount(server.metrics), 1);
   EXPECT_EQ(server.metrics.atlases_encoded.value(), 2);
   EXPECT_EQ(first.subscriber->waitForAtlases(1).front(),
             second.subscriber->waitForAtlases(1).front())

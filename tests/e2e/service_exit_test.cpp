@@ -120,6 +120,10 @@ TEST_P(ViewloomdOnALostDevice, saysWhyEndsItsCallsAndExitsWithThree) {
   v1::StreamAtlasesRequest request;
   *request.mutable_open() = openQuilt("scene", {400, 300});
   request.mutable_open()->set_wait_for_stream(true);
+  // Above the source: the device has to build and to walk.
+  v1::Pose& pose = *request.mutable_open()->mutable_display()->mutable_world_pose();
+  pose.mutable_position()->set_y(0.05);
+  pose.mutable_orientation()->set_w(1);
   EXPECT_TRUE(call->Write(request));
   call->WritesDone();
 

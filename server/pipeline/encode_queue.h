@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What encode threads do next: strips that the device has traced, and pieces of atlases to sweep.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "pipeline/strip_trace.h"
+#include "pipeline/sweep_run.h"
+
+namespace viewloom {
+
+// A strip whose trace has been submitted. Holding it keeps the slot and the structure from reuse.
+struct TracedStrip {
+  AtlasRunPtr run;
+  uint32_t strip = 0;
+  std::shared_ptr<StripTrace> trace;
+  uint64_t timeline_value = 0;
+};
+
+// A part of an atlas that is swept: rows of its plan, or, once all are swept, a strip to pack.
+struct SweepPart {
+  SweepRunPtr sweep;
+  bool is_strip = false;
+  uint32_t index = 0;  // of the piece, or the strip
+};
+
+// One of the two.
+struct EncodeTask {
+  TracedStrip traced;
+  SweepPart part;  // without a sweep: the strip
+};
+
+// Of several atlases the one that is due soonest goes first, also between two parts of another; the
+// device's strips keep their order, and go before sweeps that are due no sooner.
+// Thread-safety: all methods may be called from any thread.
+class EncodeQueue {
+ public:
+  explicit EncodeQueue(size_t strip_count_max) : strip_count_max_(strip_count_max) {}
+
+  // Waits for room. Dropped once the queue is closed.
+  void push(TracedStrip strip);
+  void push(SweepRunPtr sweep);
+  // Waits for something to do. Empty once the queue is closed and everything in it is done.
+  std::optional<EncodeTask> pop();
+  // A piece that was popped is swept.
+  void noteSwept(SweepRun& sweep);
+  // Nothing more comes in; what is inside is still handed out.
+  void close();
+  // Lets go of everything inside.
+  void clear();
+
+ private:
+  SweepPart takePart();
+
+  const size_t strip_count_max_;
+  std::mutex mutex_;
+  std::condition_variable room_;
+  std::condition_variable filled_;
+  std::deque<TracedStrip> strips_;
+  std::vector<SweepRunPtr> sweeps_;  // of which parts are left, soonest deadline first
+  bool is_closed_ = false;
+};
+
+}  // namespace viewloom
