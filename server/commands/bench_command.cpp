@@ -65,6 +65,10 @@ Json stagesJson(const StageReport& report) {
   json["upload"] = stage(report.upload_ms, report.source_px, "ns_per_sample");
   json["build"] = stage(report.build_ms, report.source_px, "ns_per_sample");
   json["build_passes_ms"] = report.build_pass_ms;
+  if (report.sweep_ms) {
+    json["sweep_source"] = stage(*report.sweep_source_ms, report.source_px, "ns_per_sample");
+    json["sweep"] = stage(*report.sweep_ms, report.ray_count, "ns_per_ray");
+  }
   json["trace"] = stage(report.trace_ms, report.ray_count, "ns_per_ray");
   json["readback"] = stage(report.readback_ms, report.ray_count, "ns_per_ray");
   json["encode_one_thread"] = stage(report.encode_ms, report.ray_count, "ns_per_ray");
@@ -87,6 +91,10 @@ Json memoryJson(const StageReport& report, const Config& config) {
   Json json;
   json["per_stream_bytes"] = report.structure_bytes * config.pipeline.structure_slots;
   json["per_set_of_display_planes_bytes"] = report.trace_slot_bytes * config.pipeline.trace_slots;
+  if (report.sweep_ms) {
+    json["per_swept_stream_bytes"] = report.swept_frame_bytes * config.pipeline.structure_slots;
+    json["swept_atlases_bytes"] = report.swept_atlas_bytes * config.pipeline.trace_slots;
+  }
   json["per_display_bytes"] = report.encoded_bytes;     // its newest atlas, shared by all who watch
   json["per_subscriber_bytes"] = report.encoded_bytes;  // an atlas on its way, until it is sent
   json["process_peak_bytes"] = peakResidentBytes();
@@ -122,7 +130,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
   {
     std::cerr << "timing the stages, one after the other\n";
     const Device device({.select = config.device});
-    stages = measureStages(device, *frame, *spec, EncodingSpec{}, arguments.repetition_count);
+    stages = measureStages(device, frame, *spec, EncodingSpec{}, arguments.repetition_count);
     json["device"] = device.info().name;
     json["driver"] = device.info().driver;
     json["cores"] = std::thread::hardware_concurrency();

@@ -22,12 +22,7 @@ void append(const TraceSlot& slot, const TraceOutputs& outputs, RenderedAtlas& a
   if (outputs.records) {
     for (const abi::RayRecord& record : slot.records()) atlas.visits.push_back(record.visits);
   }
-  const Coverage band = slot.coverage();
-  atlas.coverage.hit += band.hit;
-  atlas.coverage.hit_assumed += band.hit_assumed;
-  atlas.coverage.hidden += band.hidden;
-  atlas.coverage.outside += band.outside;
-  atlas.coverage.empty += band.empty;
+  atlas.coverage.add(slot.coverage());
 }
 
 void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {

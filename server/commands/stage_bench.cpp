@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@
 #include "gpu/gpu_timer.h"
 #include "gpu/timeline.h"
 #include "structure/structure_builder.h"
+#include "sweep/sweep_source.h"
+#include "sweep/view_sweeper.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
@@ -41,14 +44,14 @@ double perPixel(uint64_t count, const StructureLayout& layout) {
 // Everything one repetition needs, kept from one to the next.
 class StageBench {
  public:
-  StageBench(const Device& device, const Frame& frame, const DisplaySpec& spec,
+  StageBench(const Device& device, const FramePtr& frame, const DisplaySpec& spec,
              const EncodingSpec& encoding)
       : frame_(frame),
         spec_(spec),
         encoding_(encoding),
         timeline_(device),
         recorder_(device),
-        structure_(device, shapeOf(frame)),
+        structure_(device, shapeOf(*frame)),
         builder_(device),
         tracer_(device),
         build_timer_(device, kStructurePassCountMax),
@@ -65,6 +68,9 @@ class StageBench {
     VIEWLOOM_CHECK(layout.ok());
     layout_ = std::make_shared<AtlasLayout>(*layout);
     job_ = makeTraceJob(layout_, spec_, displayPose(spec_, camera), camera, source_px);
+    if (device.info().is_software && canSweep(*frame)) {
+      plan_ = SweepPlan::make(job_, structure_.stats().inv_z_max);
+    }
     trace_slot_ = std::make_unique<TraceSlot>(
         device, TraceSlotShape{.width_px = layout_->size_px.width,
                                .row_count_max = bandRowCount(encoding_),
@@ -72,7 +78,11 @@ class StageBench {
   }
 
   void repeat() {
-    samples_["upload"].push_back(timed([&] { structure_.upload(frame_); }));
+    if (plan_) {
+      samples_["sweep source"].push_back(timed([&] { sweep_source_.prepare(frame_, workers_); }));
+      samples_["sweep"].push_back(timed([&] { sweep(); }));
+    }
+    samples_["upload"].push_back(timed([&] { structure_.upload(*frame_); }));
     samples_["build"].push_back(timed([&] { build(); }));
     for (const GpuPassTime& pass : build_timer_.results()) {
       build_passes_[pass.name].push_back(static_cast<double>(pass.duration_ns) * 1e-6);
@@ -118,6 +128,12 @@ class StageBench {
                           .structure_bytes_per_px = perPixel(layout.layerBytes(), layout),
                           .structure_bytes = structureBytes(structure_.shape()),
                           .trace_slot_bytes = trace_slot_->sizeBytes()};
+    if (plan_) {
+      report.sweep_source_ms = medianOf(samples_.at("sweep source"));
+      report.sweep_ms = medianOf(samples_.at("sweep"));
+      report.swept_frame_bytes = structure_.shape().staged_bytes + sweep_source_.sizeBytes();
+      report.swept_atlas_bytes = swept_atlas_.color.size() * sizeof(uint32_t);
+    }
     for (const auto& [name, values] : build_passes_) report.build_pass_ms[name] = medianOf(values);
     return report;
   }
@@ -131,7 +147,7 @@ class StageBench {
   }
 
   void build() {
-    if (!is_uploaded_) structure_.upload(frame_);
+    if (!is_uploaded_) structure_.upload(*frame_);
     is_uploaded_ = true;
     const vk::CommandBuffer commands = recorder_.begin();
     build_timer_.recordReset(commands);
@@ -155,6 +171,14 @@ class StageBench {
     return cells;
   }
 
+  void sweep() {
+    sweepAtlas({.job = &job_,
+                .plan = &*plan_,
+                .source = sweep_source_.rowSource(),
+                .inv_z_max = static_cast<float>(sweep_source_.measured().stats.inv_z_max)},
+               {}, workers_, sweepers_, swept_atlas_);
+  }
+
   void trace(BandRows rows) {
     const vk::CommandBuffer commands = recorder_.begin();
     trace_timer_.recordReset(commands);
@@ -175,7 +199,7 @@ class StageBench {
     encoded_bytes_ += band.bytes->size();
   }
 
-  const Frame& frame_;
+  const FramePtr frame_;
   const DisplaySpec& spec_;
   const EncodingSpec encoding_;
   const SteadyClock clock_;
@@ -192,6 +216,11 @@ class StageBench {
   std::shared_ptr<const AtlasLayout> layout_;
   TraceJob job_;
   std::unique_ptr<TraceSlot> trace_slot_;
+  WorkerPool workers_;
+  std::optional<SweepPlan> plan_;  // of what the server would sweep
+  SweepSource sweep_source_;
+  std::vector<ViewSweeper> sweepers_;
+  SweptAtlas swept_atlas_;
 
   uint64_t effective_node_count_ = 0;                        // of the nearest layer
   uint64_t ray_count_ = 0;                                   // of the last repetition
@@ -210,7 +239,7 @@ double disparitySpanPx(const TraceJob& job, double inv_z_max) {
   return moved_px_m * inv_z_max;
 }
 
-StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,
+StageReport measureStages(const Device& device, const FramePtr& frame, const DisplaySpec& spec,
                           const EncodingSpec& encoding, uint32_t repetition_count) {
   StageBench bench(device, frame, spec, encoding);
   bench.repeat();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "display/display_spec.h"
@@ -21,6 +22,11 @@ struct StageReport {
   double upload_ms = 0;
   double build_ms = 0;                          // submitted until done
   std::map<std::string, double> build_pass_ms;  // on the device, by pass; empty without timestamps
+  // Of a display that the server sweeps: from planes to columns, and the sweep, on all cores.
+  std::optional<double> sweep_source_ms;
+  std::optional<double> sweep_ms;
+  uint64_t swept_frame_bytes = 0;  // its planes and columns
+  uint64_t swept_atlas_bytes = 0;
   double trace_ms = 0;     // on the device; all of the submissions without timestamps
   double readback_ms = 0;  // the rest of the trace's submissions: clearing, copying, waiting
   double encode_ms = 0;    // one thread
@@ -37,7 +43,7 @@ struct StageReport {
 double disparitySpanPx(const TraceJob& job, double inv_z_max);
 
 // The first repetition warms up and does not count.
-StageReport measureStages(const Device& device, const Frame& frame, const DisplaySpec& spec,
+StageReport measureStages(const Device& device, const FramePtr& frame, const DisplaySpec& spec,
                           const EncodingSpec& encoding, uint32_t repetition_count);
 
 }  // namespace viewloom

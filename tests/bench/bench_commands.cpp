@@ -14,10 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "bench/cpu/cpu_rivals.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
 #include "bench/report.h"
-#include "bench/cpu/cpu_rivals.h"
 #include "bench/side_by_side.h"
 #include "bench/viewloom_contestant.h"
 
@@ -64,13 +64,17 @@ std::vector<NamedLoad> chosenLoads(const Arguments& arguments, Work work) {
 Json measure(const Device& device, const BenchLoad& load, Work work, int round_count) {
   // Anew for each load: what one needed is not there for the next.
   std::vector<std::unique_ptr<Contestant>> contestants;
-  auto own = std::make_unique<ViewloomContestant>(device);
-  ViewloomContestant& viewloom = *own;
+  auto own = std::make_unique<ViewloomContestant>(device, true);
+  auto walking = std::make_unique<ViewloomContestant>(device, false);
+  const bool is_swept = own->isSwept(load);
+  ViewloomContestant& walk = is_swept ? *walking : *own;
   contestants.push_back(std::move(own));
+  contestants.push_back(std::move(walking));
   for (auto& rival : makeGpuRivals(device)) contestants.push_back(std::move(rival));
   for (auto& rival : makeCpuRivals()) contestants.push_back(std::move(rival));
   const LoadReport report = runSideBySide(load, contestants, work, round_count, "dda");
-  return work == Work::kBuild ? buildJson(report) : traceJson(report, viewloom.visits());
+  if (work == Work::kBuild) return buildJson(report);
+  return traceJson(report, is_swept ? TraceMethod::kSweep : TraceMethod::kWalk, walk.visits());
 }
 
 void measureAll(const Arguments& arguments, Work work) {

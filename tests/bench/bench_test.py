@@ -29,6 +29,7 @@ class BenchTest(unittest.TestCase):
         (load,) = report["loads"]
         self.assertEqual(load["rays"], 3360 * 3360)
         self.assertAlmostEqual(load["disparity_span_px"], 18, delta=0.01)
+        self.assertEqual(load["method"], "sweep" if "walk" in load["build_ms"] else "walk")
         contestants = {"viewloom", "floor", "copy", "dda", "hiz", "rows", "runs"}
         self.assertLessEqual(contestants, set(load["build_ms"]))
         for name, share in load["differ_share"].items():

@@ -29,11 +29,11 @@ Json buildJson(const LoadReport& report) {
   return json;
 }
 
-Json traceJson(const LoadReport& report, const Visits& visits) {
+Json traceJson(const LoadReport& report, TraceMethod method, const Visits& visits) {
   Json json{{"name", report.load},
             {"rays", report.ray_count},
             {"disparity_span_px", report.disparity_span_px},
-            {"method", "walk"}};
+            {"method", method == TraceMethod::kSweep ? "sweep" : "walk"}};
   const auto rays = static_cast<double>(report.ray_count);
   for (const auto& [name, measured] : report.by_contestant) {
     json["build_ms"][name] = measured.build_ms;

@@ -16,12 +16,30 @@ BandRows rowsOfBand(uint32_t band, uint32_t height_px) {
 
 }  // namespace
 
-ViewloomContestant::ViewloomContestant(const Device& device)
-    : device_(device), timeline_(device), recorder_(device), builder_(device), tracer_(device) {}
+ViewloomContestant::ViewloomContestant(const Device& device, bool can_sweep)
+    : device_(device),
+      can_sweep_(can_sweep),
+      timeline_(device),
+      recorder_(device),
+      builder_(device),
+      tracer_(device) {}
+
+bool ViewloomContestant::isSwept(const BenchLoad& load) const {
+  return device_.info().is_software && canSweep(*load.frame) &&
+         SweepPlan::make(load.job, double{load.source.inv_z_max}).has_value();
+}
 
 void ViewloomContestant::prepare(const BenchLoad& load) {
   load_ = &load;
   bands_.clear();
+  sweep_.reset();
+  if (can_sweep_ && isSwept(load)) {
+    auto plan = SweepPlan::make(load.job, double{load.source.inv_z_max});
+    sweep_.emplace(Sweep{.plan = *std::move(plan), .source = {}, .sweepers = {}, .atlas = {}});
+    build();
+    trace();
+    return;
+  }
   structure_ = std::make_unique<StructureSlot>(device_, shapeOf(*load.frame));
   structure_->upload(*load.frame);
   const SizePx atlas_px = load.job.layout->size_px;
@@ -37,11 +55,24 @@ void ViewloomContestant::prepare(const BenchLoad& load) {
 }
 
 void ViewloomContestant::build() {
+  if (sweep_) {
+    sweep_->source.prepare(load_->frame, workers_);
+    return;
+  }
   builder_.record(recorder_.begin(), *structure_, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
+void ViewloomContestant::sweep(const TraceOutputs& outputs) {
+  sweepAtlas({.job = &load_->job,
+              .plan = &sweep_->plan,
+              .source = sweep_->source.rowSource(),
+              .inv_z_max = float(sweep_->source.measured().stats.inv_z_max)},
+             outputs, workers_, sweep_->sweepers, sweep_->atlas);
+}
+
 void ViewloomContestant::trace() {
+  if (sweep_) return sweep({});
   const vk::CommandBuffer commands = recorder_.begin();
   for (uint32_t band = 0; band < bands_.size(); ++band) {
     tracer_.recordBand(commands, *structure_, load_->job,
@@ -52,6 +83,16 @@ void ViewloomContestant::trace() {
 
 Picture ViewloomContestant::picture() {
   Picture picture;
+  if (sweep_) {
+    sweep({.records = true});
+    picture.rgba = sweep_->atlas.color;
+    for (const abi::RayRecord& record : sweep_->atlas.records) {
+      const bool is_hit =
+          record.ray_class == abi::kClassHit || record.ray_class == abi::kClassHitAssumed;
+      picture.inv_z.push_back(is_hit ? record.inv_z : kNoSurface);
+    }
+    return picture;
+  }
   traceBands({.records = true}, [&](const TraceSlot& band, BandRows rows) {
     const size_t count = size_t{rows.row_count} * load_->job.layout->size_px.width;
     const auto colors = band.color().first(count);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloom's own build and walk, as the server runs them.
+// viewloom itself, as the server runs it.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bench/contestant.h"
 #include "gpu/command_recorder.h"
 #include "gpu/timeline.h"
 #include "structure/structure_builder.h"
+#include "sweep/sweep_source.h"
+#include "sweep/view_sweeper.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom::bench {
@@ -22,30 +25,45 @@ struct Visits {
 
 class ViewloomContestant : public Contestant {
  public:
-  // The device must outlive it.
-  explicit ViewloomContestant(const Device& device);
+  // As the server traces, or the walk beside it, where the server sweeps. The device must outlive
+  // it.
+  ViewloomContestant(const Device& device, bool can_sweep);
 
-  std::string_view name() const override { return "viewloom"; }
-  bool takes(const BenchLoad&) const override { return true; }
+  std::string_view name() const override { return can_sweep_ ? "viewloom" : "walk"; }
+  bool takes(const BenchLoad& load) const override { return can_sweep_ || isSwept(load); }
+  // Whether the server would sweep it.
+  bool isSwept(const BenchLoad& load) const;
   void prepare(const BenchLoad& load) override;
   void build() override;
   void trace() override;
   Picture picture() override;
 
-  // Nodes and facets a ray looks at, of the prepared load.
+  // Nodes and facets a ray looks at, of the prepared load; it is walked.
   Visits visits();
 
  private:
+  // The load's display, when it is swept.
+  struct Sweep {
+    SweepPlan plan;
+    SweepSource source;
+    std::vector<ViewSweeper> sweepers;  // [worker]
+    SweptAtlas atlas;
+  };
+
+  void sweep(const TraceOutputs& outputs);
   // Traces the whole atlas; hears each band when it is done.
   void traceBands(const TraceOutputs& outputs,
                   const std::function<void(const TraceSlot& band, BandRows rows)>& on_band);
 
   const Device& device_;
+  const bool can_sweep_;
   Timeline timeline_;
   CommandRecorder recorder_;
   StructureBuilder builder_;
   ViewTracer tracer_;
   const BenchLoad* load_ = nullptr;
+  WorkerPool workers_;
+  std::optional<Sweep> sweep_;
   std::unique_ptr<StructureSlot> structure_;
   std::vector<std::unique_ptr<TraceSlot>> bands_;  // of the whole atlas, from the top
 };
