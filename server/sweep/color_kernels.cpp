@@ -36,8 +36,9 @@ HWY_INLINE WordVec codeOf(WordVec texel, WordVec next, Vec share, int shift, uin
   return hn::BitCast(kWords, hn::MulAdd(outer, root, set(kCodeCubic[3] + 0x1p23F)));
 }
 
-HWY_INLINE WordVec colorAt(const uint32_t* texels, IntVec place, uint32_t background) {
-  const IntVec index = hn::Max(hn::ShiftRight<8>(place), hn::Zero(kInts));
+HWY_INLINE WordVec colorAt(const uint32_t* texels, IntVec last_index, IntVec place,
+                           uint32_t background) {
+  const IntVec index = hn::Min(hn::Max(hn::ShiftRight<8>(place), hn::Zero(kInts)), last_index);
   const IntVec steps = hn::And(place, hn::Set(kInts, kSubtexelSteps - 1));
   const Vec share = hn::Mul(hn::ConvertTo(kFloats, steps), set(1.0F / kSubtexelSteps));
   const WordVec texel = hn::GatherIndex(kWords, texels, index);
@@ -52,17 +53,22 @@ HWY_INLINE WordVec colorAt(const uint32_t* texels, IntVec place, uint32_t backgr
   return hn::IfThenElse(is_background, hn::Set(kWords, background), color);
 }
 
-void ColorRow(const uint32_t* HWY_RESTRICT texels, const int32_t* HWY_RESTRICT places,
-              size_t width_px, uint32_t background, uint32_t* HWY_RESTRICT rgba) {
+void ColorRow(const uint32_t* HWY_RESTRICT texels, uint32_t texel_count,
+              const int32_t* HWY_RESTRICT places, size_t width_px, uint32_t background,
+              uint32_t* HWY_RESTRICT rgba) {
   const size_t lanes = hn::Lanes(kFloats);
+  // Whatever a place is, no texel is read that is not there.
+  const IntVec last_index = hn::Set(kInts, int32_t(std::max(texel_count, 2U)) - 2);
   size_t p = 0;
   for (; p + lanes <= width_px; p += lanes) {
-    hn::StoreU(colorAt(texels, hn::Load(kInts, places + p), background), kWords, rgba + p);
+    hn::StoreU(colorAt(texels, last_index, hn::Load(kInts, places + p), background), kWords,
+               rgba + p);
   }
   if (p == width_px) return;
   const auto exists = hn::FirstN(kInts, width_px - p);
   HWY_ALIGN uint32_t last[HWY_MAX_BYTES / sizeof(uint32_t)];
-  hn::Store(colorAt(texels, hn::IfThenElseZero(exists, hn::Load(kInts, places + p)), background),
+  hn::Store(colorAt(texels, last_index, hn::IfThenElseZero(exists, hn::Load(kInts, places + p)),
+                    background),
             kWords, last);
   std::copy_n(last, width_px - p, rgba + p);
 }
@@ -75,9 +81,9 @@ namespace viewloom {
 
 HWY_EXPORT(ColorRow);
 
-void colorRow(const uint32_t* texels, const int32_t* places, size_t width_px, uint32_t background,
-              uint32_t* rgba) {
-  HWY_DYNAMIC_DISPATCH(ColorRow)(texels, places, width_px, background, rgba);
+void colorRow(const uint32_t* texels, uint32_t texel_count, const int32_t* places, size_t width_px,
+              uint32_t background, uint32_t* rgba) {
+  HWY_DYNAMIC_DISPATCH(ColorRow)(texels, texel_count, places, width_px, background, rgba);
 }
 
 }  // namespace viewloom

@@ -7,10 +7,11 @@
 
 namespace viewloom {
 
-// Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed light (packed_light.h).
+// Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed light (packed_light.h), two
+// at least.
 // `places`: 1/256 px, at whose two texels light is blended; negative: the background, which is as
 // rgba. Places may be read a vector beyond the width.
-void colorRow(const uint32_t* texels, const int32_t* places, size_t width_px, uint32_t background,
-              uint32_t* rgba);
+void colorRow(const uint32_t* texels, uint32_t texel_count, const int32_t* places, size_t width_px,
+              uint32_t background, uint32_t* rgba);
 
 }  // namespace viewloom

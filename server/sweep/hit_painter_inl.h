@@ -104,10 +104,18 @@ HWY_INLINE void paintRuns(const Runs& runs, const SweptRow& swept, const HitPain
     constexpr float kRounder = 0x1.8p23F;
     const IntVec offset =
         hn::Sub(hn::Set(kInts, runs.texel_offset[k]), hn::BitCast(kInts, set(kRounder)));
+    // Of runs that rays graze, little is left of a difference: no place is beside the run.
+    const Vec first_place = set(runs.begin_px[k] * kSubtexelSteps);
+    const Vec last_place = set(runs.end_px[k] * kSubtexelSteps);
+    const Vec begin_inv_z = set(runs.begin_inv_z[k]);
+    const Vec end_inv_z = set(runs.end_inv_z[k]);
+    const Vec low = hn::Min(begin_inv_z, end_inv_z);
+    const Vec high = hn::Max(begin_inv_z, end_inv_z);
     painter.paint(swept.from[k], swept.to[k], [&](Vec p) {
-      const Vec inv_z = hn::Max(hn::MulAdd(inv_z_step, p, inv_z_at), set(0));
-      const Vec place = hn::Add(hn::MulAdd(texel_step, p, texel_at), set(kRounder));
-      return Place{inv_z, hn::Add(hn::BitCast(kInts, place), offset)};
+      const Vec inv_z = hn::Min(hn::Max(hn::MulAdd(inv_z_step, p, inv_z_at), low), high);
+      const Vec place =
+          hn::Min(hn::Max(hn::MulAdd(texel_step, p, texel_at), first_place), last_place);
+      return Place{inv_z, hn::Add(hn::BitCast(kInts, hn::Add(place, set(kRounder))), offset)};
     });
   }
 }

@@ -64,7 +64,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
       const SweepView& view = picture.plan->viewOf(tile);
       const size_t at_px = firstPixel(*job.layout, tile, tile_row);
       paintRow(row, view, fill, width_px, row_, coverage);
-      colorRow(row.texels.data(), row_.texel.data(), width_px, fill.background,
+      colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, fill.background,
                atlas.color.data() + at_px);
       if (outputs == TraceOutputs{}) continue;
       describeSwept({.row = row,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/judge_views.h"
 #include "gpu/sweep_under_test.h"
@@ -110,6 +111,50 @@ TEST(Sweep, showsTheNearerOfLayersCloserThanTheTolerance) {
   EXPECT_EQ(countOfDeeperHits(sweep), 0u);
   sweep.plantFault(SweepFault::kPassedIgnored);
   EXPECT_GT(countOfDeeperHits(sweep), 0u);
+}
+
+// Walls whose plane contains the eye, but for roundings: of what rays meet on them all digits but
+// the first few may be lost.
+TEST(Sweep, staysOnSurfacesThatRaysGraze) {
+  constexpr uint32_t kWidth = 64;
+  constexpr uint32_t kViewWidth = 16000;
+  oracle::Random random(3);
+  SurfaceRowBuilder builder;
+  SweptRow swept;
+  uint64_t hit_count = 0;
+  for (int wall = 0; wall < 100; ++wall) {
+    const double eye_px_m = random.uniform(10, 200);
+    const double slope = 1 / eye_px_m * (1 + random.uniform(-1e-6, 1e-6));
+    const double inv_z_at_0 = random.uniform(0, 1);
+    oracle::Scene scene;
+    scene.planes = oracle::makePlanes(kWidth, 1, 1);
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      scene.planes.at(0, int(x), 0) = float(slope * (x + 0.5) + inv_z_at_0);
+    }
+    SweepUnderTest sweep;
+    sweep.prepare(frameOf(scene));
+    RowSource source = sweep.source().rowSource();
+    source.kappa = {.absolute = 0, .relative = 0.02F};
+    const SurfaceRow& row = builder.build(source, 0.5, float(0.1 / eye_px_m));
+    swept.reserve(kViewWidth, row.pieceCountMax());
+    float eye = float(eye_px_m);
+    for (int nudge = 0; nudge < 10; ++nudge) eye = std::nextafter(eye, 0.0F);
+    for (int nudge = -10; nudge < 10; ++nudge, eye = std::nextafter(eye, 1e9F)) {
+      const double px = std::floor(random.uniform(0, kViewWidth));
+      const float start_px = float(-double{eye} * inv_z_at_0 - px);
+      Coverage coverage;
+      paintRow(row, {.start_px = start_px, .step_px = 1, .eye_px_m = eye}, {.inv_z_max = 100},
+               kViewWidth, swept, coverage);
+      for (uint32_t p = 0; p < kViewWidth; ++p) {
+        if (swept.inv_z[p] < 0) continue;
+        ++hit_count;
+        ASSERT_GE(swept.texel[p], 0) << "wall " << wall << ", nudge " << nudge;
+        ASSERT_LT(uint32_t(swept.texel[p] / kSubtexelSteps + 1), row.texel_count);
+        ASSERT_LE(double{swept.inv_z[p]}, slope * (kWidth + 1) + inv_z_at_0);
+      }
+    }
+  }
+  EXPECT_GT(hit_count, 100u);
 }
 
 struct PlantedFault {
