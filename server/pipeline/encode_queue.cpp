@@ -27,10 +27,7 @@ void EncodeQueue::push(SweepRunPtr sweep) {
 std::optional<EncodeTask> EncodeQueue::pop() {
   std::unique_lock lock(mutex_);
   while (true) {
-    const bool is_due =
-        !strips_.empty() &&
-        (sweeps_.empty() || strips_.front().run->job.deadline_ns <= sweeps_.front()->deadlineNs());
-    SweepPart part = is_due ? SweepPart{} : takePart();
+    SweepPart part = takePart();
     if (part.sweep) return EncodeTask{{}, std::move(part)};
     if (!strips_.empty()) {
       EncodeTask task{std::move(strips_.front()), {}};
@@ -43,9 +40,11 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   }
 }
 
-// Of the soonest sweep that has any; one that is being swept to its end has none.
+// Of the soonest sweep that has any and is due before the strips; one that is being swept to its
+// end has none.
 SweepPart EncodeQueue::takePart() {
   for (auto sweep = sweeps_.begin(); sweep != sweeps_.end(); ++sweep) {
+    if (!strips_.empty() && strips_.front().run->job.deadline_ns <= (*sweep)->deadlineNs()) break;
     SweepPart part{.sweep = *sweep};
     SweepRun& run = **sweep;
     if (run.next_piece < run.pieceCount()) {

@@ -89,7 +89,12 @@ std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
   // A GPU walks everything: there the walk is faster than the CPU beside it.
   slot->is_swept = links_.device.info().is_software && canSweep(frame);
   slot->is_walked = stream.is_walked->exchange(false) || !slot->is_swept;
-  if (slot->is_walked) slot->allocateWalked(links_.device);
+  try {
+    if (slot->is_walked) slot->allocateWalked(links_.device);
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    if (!slot->is_swept) throw;
+    slot->is_walked = false;  // those who need it are told, the others are served
+  }
   return slot;
 }
 

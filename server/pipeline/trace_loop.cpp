@@ -138,14 +138,13 @@ absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture,
   if (build.is_swept && SweepPlan::make(picture, structure.stats.inv_z_max)) {
     return TraceMethod::kSweep;
   }
-  structure.stream_is_walked->store(true);
-  if (build.is_walked) return TraceMethod::kWalk;
   try {
-    buildForWalk(build);
+    if (!build.is_walked) buildForWalk(build);
   } catch (const vk::OutOfDeviceMemoryError& error) {
     return absl::ResourceExhaustedError(
         strCat("the device has no room to walk frames of this stream: ", error.what()));
   }
+  structure.stream_is_walked->store(true);
   return TraceMethod::kWalk;
 }
 
