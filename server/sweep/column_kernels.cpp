@@ -23,7 +23,22 @@ HWY_INLINE Vec loadSamples(PlaneEncoding encoding, const std::byte* bytes, size_
     }
     case PlaneEncoding::kDepthF16: {
       const auto* const values = reinterpret_cast<const hwy::float16_t*>(bytes) + x;
-      return hn::PromoteTo(kFloats, hn::LoadU(HalfFloats(), values));
+      const Vec value = hn::PromoteTo(kFloats, hn::LoadU(HalfFloats(), values));
+#if HWY_TARGET > HWY_AVX2
+      // Without an instruction for it, infinity and NaN are taken for numbers.
+      const WordVec bits =
+          hn::PromoteTo(kWords, hn::LoadU(Halves(), reinterpret_cast<const uint16_t*>(bytes) + x));
+      const WordVec exponent = hn::Set(kWords, 0x7c00U);
+      const WordVec special =
+          hn::Or(hn::ShiftLeft<13>(hn::And(bits, hn::Set(kWords, 0x3ffU))),
+                 hn::Or(hn::Set(kWords, 0x7f800000U),
+                        hn::ShiftLeft<16>(hn::And(bits, hn::Set(kWords, 0x8000U)))));
+      const auto is_special = hn::Eq(hn::And(bits, exponent), exponent);
+      return hn::IfThenElse(hn::RebindMask(kFloats, is_special), hn::BitCast(kFloats, special),
+                            value);
+#else
+      return value;
+#endif
     }
     default:
       return hn::LoadU(kFloats, reinterpret_cast<const float*>(bytes) + x);

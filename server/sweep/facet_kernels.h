@@ -32,7 +32,7 @@ struct FacetRow {
 };
 
 // Where the facets of a row meet its left and right edges at the height `dy` px below its samples,
-// never below 0 and never in front of a layer before them; abi::kNoSurface where there is none.
+// never below 0; abi::kNoSurface where there is none.
 // Returns whether some facet falls below 0 between its edges.
 struct EdgeRow {
   ByLayer<float*> left;

@@ -79,7 +79,8 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
                uint32_t width_px, SweptRow& swept) {
   const int32_t lanes = int32_t(hn::Lanes(kFloats));
   const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
-  for (uint32_t i = 0; i < row.layer_count; ++i) {
+  // Behind a layer that no ray passes, none passes another.
+  for (uint32_t i = 0; i < row.layer_count && i <= swept.passed_layer_count; ++i) {
     const Steps& steps = row.layers[i].silhouettes[travel];
     const float* const passed_before = i == 0 ? nullptr : swept.passed_inv_z[i - 1].data();
     projectSteps(steps, view, float(width_px), swept);
@@ -112,6 +113,7 @@ bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& 
   const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
   const float width = float(width_px);
   const float* passed_before = nullptr;
+  swept.passed_layer_count = 0;
   for (uint32_t i = 0; i < row.layer_count; ++i) {
     const LayerSurfaces& layer = row.layers[i];
     if (i > 0 && fill.planted_fault == SweepFault::kLayerDropped) return true;
@@ -127,6 +129,7 @@ bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& 
     if (!paintPassed(layer.silhouettes[travel], view, swept, passed_before, width_px, passed)) {
       return i > 0;
     }
+    swept.passed_layer_count = i + 1;
     passed_before = passed;
   }
   return true;

@@ -65,7 +65,7 @@ const SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px,
   planted_fault_ = source.planted_fault;
   tolerance_ = tolerance;
   made_.is_outside = !(y_px >= 0 && y_px < size_px.height);
-  const int y = std::clamp(int(std::floor(y_px)), 0, int(size_px.height) - 1);
+  const int y = int(std::clamp(std::floor(y_px), 0.0, size_px.height - 1.0));
   // Without a sample above or below, its colour goes on.
   const double dy = made_.is_outside ? 0 : y_px - (y + 0.5);
   findFacets(source, y, hasFault(SweepFault::kRowOff) ? 0 : float(dy));

@@ -22,6 +22,7 @@ struct SweptRow {
   // Where the ray first passed behind the layer, after those before it; else negative.
   ByLayer<AlignedArray<float>> passed_inv_z;
   bool has_passed = false;                // else passed_inv_z says nothing
+  uint32_t passed_layer_count = 0;        // of which passed_inv_z says something
   AlignedArray<uint64_t> passed_vectors;  // a bit for each vector in which rays pass
   AlignedArray<int32_t> texel;            // 1/256 px; -1 = the background
   AlignedArray<uint8_t> class_of_hole;    // abi::kClass..., where there is no hit
