@@ -8,6 +8,14 @@ namespace {
 
 constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
+std::string describe(uint64_t seed, const oracle::Scene& scene,
+                     const oracle::OracleSource& source) {
+  std::ostringstream text;
+  text << "seed " << seed << " " << scene.name << source.width() << "x" << source.height() << "x"
+       << source.layerCount();
+  return text.str();
+}
+
 }  // namespace
 
 std::string JudgedSeed::text() const {
@@ -28,10 +36,20 @@ JudgedSeed judgeSeed(WalkUnderTest& walk, uint64_t seed) {
     const auto views = oracle::randomViews(random, kind_count, 13, 10);
     judged.add(judgeViews(walk, *slot, source, views, tolerance_px, "soak"));
   }
-  std::ostringstream name;
-  name << "seed " << seed << " " << scene.name << source.width() << "x" << source.height() << "x"
-       << source.layerCount();
-  return {name.str(), checkStructure(image, source), judged};
+  return {describe(seed, scene, source), checkStructure(image, source), judged};
+}
+
+JudgedSeed judgeSweptSeed(SweepUnderTest& sweep, uint64_t seed) {
+  const oracle::Scene scene = oracle::randomScene(seed);
+  oracle::Random random(seed);
+  std::vector<oracle::OutputView> views;
+  for (int i = 0; i < 3; ++i) views.push_back(oracle::randomView(random, 0, 24, 18));
+  sweep.prepare(frameOf(scene));
+  const oracle::OracleSource source =
+      sourceOf(scene, sweep.source().measured().stats.connection_tolerance);
+  const double tolerance_px = kTolerances_px[seed % 3];
+  return {describe(seed, scene, source), Complaints(),
+          judgeTraced(sweep.trace(views, tolerance_px), source, views, tolerance_px, "soak")};
 }
 
 }  // namespace viewloom

@@ -7,6 +7,7 @@
 
 #include "gpu/judge_views.h"
 #include "gpu/structure_checks.h"
+#include "gpu/sweep_under_test.h"
 
 namespace viewloom {
 
@@ -20,5 +21,8 @@ struct JudgedSeed {
 };
 
 JudgedSeed judgeSeed(WalkUnderTest& walk, uint64_t seed);
+
+// The same of the sweep: three views beside the source. No structure is built, none is checked.
+JudgedSeed judgeSweptSeed(SweepUnderTest& sweep, uint64_t seed);
 
 }  // namespace viewloom

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include <gtest/gtest.h>
+
 namespace viewloom {
 
 using oracle::RayClass;
@@ -61,6 +63,24 @@ JudgedViews judgeTraced(const std::vector<TracedView>& traced, const oracle::Ora
   judged.visits_bound_share = double(judged.visits_largest) /
                               (4.0 * (source.width() + source.height()) * source.layerCount());
   return judged;
+}
+
+void expectSeesItself(const TracedView& traced, const oracle::OracleSource& source,
+                      const std::string& where) {
+  for (int row = 0; row < source.height(); ++row) {
+    for (int column = 0; column < source.width(); ++column) {
+      const abi::RayRecord& record = traced.records[traced.index(column, row)];
+      if (!source.exists({0, column, row})) {
+        EXPECT_EQ(record.ray_class, abi::kClassEmpty);
+        continue;
+      }
+      ASSERT_EQ(record.ray_class, abi::kClassHit) << where;
+      EXPECT_EQ(record.layer, 0u);
+      // Rounding alone: a thousandth of a px.
+      EXPECT_NEAR(record.x_px, column + 0.5, 1e-3);
+      EXPECT_NEAR(record.y_px, row + 0.5, 1e-3);
+    }
+  }
 }
 
 }  // namespace viewloom

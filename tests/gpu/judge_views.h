@@ -28,6 +28,10 @@ JudgedViews judgeTraced(const std::vector<TracedView>& traced, const oracle::Ora
                         const std::vector<oracle::OutputView>& views, double tolerance_px,
                         const std::string& where, int stride = 1);
 
+// Fails the test unless a view from the source's own pose sees each px of its nearest layer.
+void expectSeesItself(const TracedView& traced, const oracle::OracleSource& source,
+                      const std::string& where);
+
 // Traces the views and judges every ray of them, or of every stride-th column and row. `where`
 // names the scene in messages.
 JudgedViews judgeViews(WalkUnderTest& walk, const StructureSlot& slot,

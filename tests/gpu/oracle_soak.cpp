@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloom-oracle-soak [first seed [count]]: random scenes and views by the thousand against the
-// oracle. Prints every seed that differs; exit code 1 when one did.
+// viewloom-oracle-soak [sweep] [first seed [count]]: random scenes and views by the thousand
+// against the oracle, walked or swept. Prints every seed that differs; exit code 1 when one did.
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -18,20 +18,16 @@ uint64_t numberOr(const char* text, uint64_t otherwise) {
   return number;
 }
 
-bool agrees(WalkUnderTest& walk, uint64_t seed, JudgedViews& sum) {
-  const JudgedSeed judged = judgeSeed(walk, seed);
-  sum.add(judged.judged);
-  if (!judged.agrees()) std::printf("%s\n", judged.text().c_str());
-  return judged.agrees();
-}
-
-int soak(uint64_t first, uint64_t count) {
-  const Device device(DeviceOptions{});
-  WalkUnderTest walk(device);
+// Judges a seed by itself; says what differs.
+template <typename Judge>
+int soak(uint64_t first, uint64_t count, const Judge& judge) {
   JudgedViews sum;
   uint64_t failed_count = 0;
   for (uint64_t seed = first; seed < first + count; ++seed) {
-    failed_count += !agrees(walk, seed, sum);
+    const JudgedSeed judged = judge(seed);
+    sum.add(judged.judged);
+    failed_count += !judged.agrees();
+    if (!judged.agrees()) std::printf("%s\n", judged.text().c_str());
     if ((seed + 1 - first) % kProgressEvery == 0) {
       std::printf("%llu seeds, %llu failed\n", static_cast<unsigned long long>(seed + 1 - first),
                   static_cast<unsigned long long>(failed_count));
@@ -42,10 +38,25 @@ int soak(uint64_t first, uint64_t count) {
   return failed_count == 0 ? 0 : 1;
 }
 
+int soakWalk(uint64_t first, uint64_t count) {
+  const Device device(DeviceOptions{});
+  WalkUnderTest walk(device);
+  return soak(first, count, [&](uint64_t seed) { return judgeSeed(walk, seed); });
+}
+
+int soakSweep(uint64_t first, uint64_t count) {
+  SweepUnderTest sweep;
+  return soak(first, count, [&](uint64_t seed) { return judgeSweptSeed(sweep, seed); });
+}
+
 }  // namespace
 }  // namespace viewloom
 
 int main(int argument_count, char** arguments) {
-  return viewloom::soak(viewloom::numberOr(argument_count > 1 ? arguments[1] : nullptr, 0),
-                        viewloom::numberOr(argument_count > 2 ? arguments[2] : nullptr, 10000));
+  const bool is_swept = argument_count > 1 && std::strcmp(arguments[1], "sweep") == 0;
+  const int at = is_swept ? 2 : 1;
+  const uint64_t first = viewloom::numberOr(argument_count > at ? arguments[at] : nullptr, 0);
+  const uint64_t count =
+      viewloom::numberOr(argument_count > at + 1 ? arguments[at + 1] : nullptr, 10000);
+  return is_swept ? viewloom::soakSweep(first, count) : viewloom::soakWalk(first, count);
 }

@@ -59,20 +59,7 @@ TEST(Sweep, fromItsOwnPoseASourceSeesItself) {
     sweep.prepare(frameOf(scene));
     const oracle::OracleSource source = sourceOf(scene, 0.0);
     const TracedView traced = sweep.trace({oracle::ownView(scene)}, 0.25).front();
-    for (int row = 0; row < source.height(); ++row) {
-      for (int column = 0; column < source.width(); ++column) {
-        const abi::RayRecord& record = traced.records[traced.index(column, row)];
-        if (!source.exists({0, column, row})) {
-          EXPECT_EQ(record.ray_class, abi::kClassEmpty);
-          continue;
-        }
-        ASSERT_EQ(record.ray_class, abi::kClassHit) << "seed " << seed << " " << scene.name;
-        EXPECT_EQ(record.layer, 0u);
-        // Rounding alone: a thousandth of a px.
-        EXPECT_NEAR(record.x_px, column + 0.5, 1e-3);
-        EXPECT_NEAR(record.y_px, row + 0.5, 1e-3);
-      }
-    }
+    expectSeesItself(traced, source, "seed " + std::to_string(seed) + " " + scene.name);
   }
 }
 
