@@ -15,7 +15,7 @@ namespace viewloom {
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
   uint32_t structure_slots_per_stream = 2;  // >= 2: one is traced while the next is built
-  uint32_t trace_slot_count = 3;            // strips on their way at once
+  uint32_t trace_slot_count = 3;            // strips on their way at once; swept atlases
   AtlasLimits atlas_limits;
 };
 

@@ -26,7 +26,7 @@ struct StructureBuild {
 
   const FrameShape shape;
   bool is_swept = false;  // the frame in hand has the form for sweeps
-  SweepSource swept;
+  SweepSource swept;      // keeps the last frame that was swept until the next one comes
   // Allocated when a display of such frames first needs it; holds the frame in hand if is_walked.
   std::unique_ptr<WalkedForm> walked;
   bool is_walked = false;
