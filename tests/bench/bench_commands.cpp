@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/bench_commands.h"
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +20,7 @@
 #include "bench/cpu/cpu_rivals.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
+#include "bench/recorded_loads.h"
 #include "bench/report.h"
 #include "bench/side_by_side.h"
 #include "bench/viewloom_contestant.h"
@@ -32,6 +36,8 @@ struct Arguments {
   bool prints_json = false;
   int round_count = 5;
   std::string only;
+  uint32_t miniature = 1;
+  std::filesystem::path data = VIEWLOOM_SHARED_DATA;
   std::vector<std::filesystem::path> manifests;
 };
 
@@ -44,18 +50,23 @@ std::string today() {
   return text;
 }
 
-std::vector<NamedLoad> chosenLoads(const Arguments& arguments, Work work) {
+RecordedLoads chosenLoads(const Arguments& arguments, Work work) {
+  RecordedLoads all = recordedLoads(arguments.data);
   std::vector<NamedLoad> loads = work == Work::kBuild ? buildLoads()
                                  : arguments.is_full  ? fullLoads()
                                                       : quickLoads();
+  std::move(all.loads.begin(), all.loads.end(), std::back_inserter(loads));
   for (const auto& path : arguments.manifests) loads.push_back(manifestLoad(path));
-  std::vector<NamedLoad> chosen;
+  RecordedLoads chosen;
   std::string names;
-  for (const NamedLoad& load : loads) {
-    if (load.name.find(arguments.only) != std::string::npos) chosen.push_back(load);
+  const auto isWanted = [&](const auto& load) {
     names += "\n  " + load.name;
-  }
-  if (chosen.empty()) {
+    return load.name.find(arguments.only) != std::string::npos;
+  };
+  std::copy_if(loads.begin(), loads.end(), std::back_inserter(chosen.loads), isWanted);
+  std::copy_if(all.skipped.begin(), all.skipped.end(), std::back_inserter(chosen.skipped),
+               isWanted);
+  if (chosen.loads.empty() && chosen.skipped.empty()) {
     throw std::runtime_error("--only: no load has \"" + arguments.only + "\" in its name:" + names);
   }
   return chosen;
@@ -80,9 +91,12 @@ Json measure(const Device& device, const BenchLoad& load, Work work, int round_c
 void measureAll(const Arguments& arguments, Work work) {
   setLogLevel(LogLevel::kWarning);
   const Device device({.select = arguments.device});
-  const LoadMaker maker(device);
+  const LoadMaker maker(device, arguments.miniature);
   Json json{{"device", device.info().name}, {"date", today()}, {"loads", Json::array()}};
-  const std::vector<NamedLoad> loads = chosenLoads(arguments, work);
+  const auto [loads, skipped] = chosenLoads(arguments, work);
+  for (const SkippedLoad& load : skipped) {
+    json["skipped"].push_back({{"name", load.name}, {"reason", load.reason}});
+  }
   for (size_t i = 0; i < loads.size(); ++i) {
     std::cerr << "load " << i + 1 << " of " << loads.size() << ": " << loads[i].name << "\n";
     json["loads"].push_back(measure(device, loads[i].make(maker), work, arguments.round_count));
@@ -99,6 +113,12 @@ void addCommand(CLI::App& app, const char* name, const char* description, Work w
   command->add_option("--rounds", arguments->round_count, "Rounds of each load, for the medians")
       ->check(CLI::Range(1, 1000));
   command->add_option("--only", arguments->only, "Loads whose name has this in it");
+  command
+      ->add_option("--miniature", arguments->miniature,
+                   "Scenes and tiles so many times smaller on a side: tries the program out")
+      ->check(CLI::Range(1, 32));
+  command->add_option("--data", arguments->data, "Folder of the recorded sets")
+      ->capture_default_str();
   command->add_option("--frame", arguments->manifests, "FrameManifest to add as a load; repeatable")
       ->check(CLI::ExistingFile);
   if (work == Work::kBuildAndTrace) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct LoadSource {
 
 inline constexpr float kNoSurface = -1;  // as shaders/shared/structure_abi.h
 
+// The picture that a camera truly sees of the scene: rgba[row][column] as LoadSource's; alpha is 0
+// where the source's image ends before it reaches what is seen.
+using TrueView = std::function<std::vector<uint32_t>(const Camera& view, SizePx view_px)>;
+
 struct BenchLoad {
   std::string name;
   FramePtr frame;     // as viewloom takes it
@@ -35,6 +40,7 @@ struct BenchLoad {
   double disparity_span_px = 0;  // of the outermost view
   // All eyes lie beside the source's, with its axes: no ray leaves its row of the source.
   bool is_one_axis = false;
+  TrueView true_view;  // empty: nobody knows
 };
 
 }  // namespace viewloom::bench

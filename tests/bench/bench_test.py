@@ -12,6 +12,8 @@ PROGRAM = ""
 # A surface found half a px of disparity away, or not at all. Silhouettes are a matter of
 # definition: samples of a px, planes and triangles end within a px of each other.
 DIFFER_SHARE_MAX = 0.02
+# A picture of the scene as it is; frames are small here, and their silhouettes coarse.
+PSNR_MIN_DB = 22
 
 
 def run(*arguments):
@@ -23,22 +25,41 @@ def run(*arguments):
 
 class BenchTest(unittest.TestCase):
     def test_trace(self):
-        report = run("trace", "--json", "--rounds", "1", "--only",
+        report = run("trace", "--json", "--rounds", "1", "--miniature", "4", "--only",
                      "clutter x2, portrait quilt, normal")
         self.assertRegex(report["date"], r"^\d{4}-\d\d-\d\d$")
         (load,) = report["loads"]
-        self.assertEqual(load["rays"], 3360 * 3360)
+        self.assertEqual(load["rays"], 8 * 105 * 6 * 140)
         self.assertAlmostEqual(load["disparity_span_px"], 18, delta=0.01)
         self.assertEqual(load["method"], "sweep" if "walk" in load["build_ms"] else "walk")
         contestants = {"viewloom", "floor", "copy", "dda", "hiz", "rows", "runs"}
         self.assertLessEqual(contestants, set(load["build_ms"]))
         for name, share in load["differ_share"].items():
             self.assertLess(share, DIFFER_SHARE_MAX, name)
+        for name in contestants - {"copy"}:
+            self.assertGreater(load["psnr_db"][name], PSNR_MIN_DB, name)
         self.assertGreaterEqual(load["visits"]["mean"], 1)
         self.assertGreaterEqual(load["visits"]["max"], load["visits"]["p99"])
 
+    def test_every_kind_of_views(self):
+        for views, count in (("8x8 parallax, normal", 64), ("stepping camera", 16),
+                             ("one rotated view", 1)):
+            report = run("trace", "--json", "--rounds", "1", "--miniature", "8", "--only", views)
+            (load,) = report["loads"]
+            self.assertEqual(load["method"], "walk")
+            self.assertEqual(load["rays"] % count, 0)
+            for name in {"viewloom", "dda", "hiz"}:
+                self.assertGreater(load["psnr_db"][name], PSNR_MIN_DB, f"{views}: {name}")
+
+    def test_recorded_sets_that_are_not_there(self):
+        report = run("trace", "--json", "--data", "/nowhere", "--only", "antinous")
+        self.assertEqual(report["loads"], [])
+        (skipped,) = report["skipped"]
+        self.assertEqual(skipped["name"], "antinous, portrait quilt, normal")
+        self.assertIn("/nowhere", skipped["reason"])
+
     def test_build(self):
-        report = run("build", "--json", "--rounds", "1", "--only", "smooth x1")
+        report = run("build", "--json", "--rounds", "1", "--miniature", "4", "--only", "smooth x1")
         (load,) = report["loads"]
         self.assertGreater(load["build_ms"]["viewloom"], 0)
         self.assertGreater(load["build_ms"]["copy"], 0)

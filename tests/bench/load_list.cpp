@@ -2,17 +2,17 @@
 #include "bench/load_list.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "base/str_cat.h"
 #include "bench/bench_frames.h"
-#include "commands/manifest_frame.h"
+#include "bench/true_views.h"
 
 namespace viewloom::bench {
 namespace {
 
 constexpr SizePx kSource_px{1920, 1080};
+constexpr SizePx k4K_px{3840, 2160};
 constexpr uint32_t kNoiseSeed = 5;
 
 // px of the source between the nearest surface and the sky in the outermost view.
@@ -27,20 +27,30 @@ constexpr Span kExtreme{"extreme", 190};
 struct Scene {
   const char* name;
   FramePtr (*make)(SizePx size_px, uint32_t layer_count);
+  std::vector<uint32_t> (*look)(const Camera& view, SizePx view_px, SizePx source_px);
 };
-constexpr Scene kClutter{"clutter", clutterFrame};
-constexpr Scene kSmooth{"smooth", smoothFrame};
-constexpr Scene kThin{"thin", thinFrame};
+constexpr Scene kClutter{"clutter", clutterFrame, trueClutter};
+constexpr Scene kSmooth{"smooth", smoothFrame, trueSmooth};
+constexpr Scene kThin{"thin", thinFrame, trueThin};
+
+TrueView trueView(const Scene& scene, SizePx source_px) {
+  return [look = scene.look, source_px](const Camera& view, SizePx view_px) {
+    return look(view, view_px, source_px);
+  };
+}
 
 ViewsOf quilt(const char* preset, const Span& span) {
   return [=](const SourceView& source) { return quiltOfSpan(source, preset, span.px); };
 }
 
 NamedLoad loadOf(const Scene& scene, uint32_t layer_count, const std::string& views_name,
-                 const ViewsOf& views) {
+                 const ViewsOf& views, SizePx source_px = kSource_px) {
   const std::string name = strCat(scene.name, " x", layer_count, ", ", views_name);
   return {name, [=](const LoadMaker& maker) {
-            return maker.make(name, scene.make(kSource_px, layer_count), views);
+            const SizePx size_px = maker.sceneSize(source_px);
+            BenchLoad load = maker.make(name, scene.make(size_px, layer_count), views);
+            load.true_view = trueView(scene, size_px);
+            return load;
           }};
 }
 
@@ -54,12 +64,28 @@ NamedLoad noisyLoad(double noise_px) {
   const std::string name =
       strCat("clutter x2, noise ", noise_px, " px, portrait quilt, ", kNormal.name);
   return {name, [=](const LoadMaker& maker) {
-            const FramePtr clean = clutterFrame(kSource_px, 2);
+            const SizePx size_px = maker.sceneSize(kSource_px);
+            const FramePtr clean = clutterFrame(size_px, 2);
             const double inv_z_per_px =
                 maker.make(name, clean, quilt("portrait", kNormal)).source.inv_z_max / kNormal.px;
-            return maker.make(name, withNoise(*clean, noise_px * inv_z_per_px, kNoiseSeed),
-                              quilt("portrait", kNormal));
+            BenchLoad load =
+                maker.make(name, withNoise(*clean, noise_px * inv_z_per_px, kNoiseSeed),
+                           quilt("portrait", kNormal));
+            load.true_view = trueView(kClutter, size_px);
+            return load;
           }};
+}
+
+NamedLoad parallaxLoad(const Span& span) {
+  constexpr uint32_t kSide = 8;
+  return loadOf(kClutter, 2, strCat("8x8 parallax, ", span.name),
+                [=](const SourceView& source) { return gridOfSpan(source, kSide, span.px); });
+}
+
+// Views that stand nowhere in particular.
+NamedLoad posedLoad(const char* name, AtlasLayout (*views)(const SourceView&, double span_px)) {
+  return loadOf(kClutter, 2, strCat(name, ", ", kNormal.name),
+                [=](const SourceView& source) { return views(source, kNormal.px); });
 }
 
 NamedLoad sharedAreaLoad(uint32_t view_count) {
@@ -82,19 +108,20 @@ std::vector<NamedLoad> quickLoads() {
     loads.push_back(quiltLoad(scene, 2, "portrait", kNormal));
   }
   for (const double noise_px : {0.1, 0.4}) loads.push_back(noisyLoad(noise_px));
-  loads.push_back(quiltLoad(kClutter, 2, "16_gen3_l", kNormal));
-  loads.push_back(
-      loadOf(kClutter, 2, strCat("8x8 parallax, ", kNormal.name),
-             [](const SourceView& source) { return gridOfSpan(source, 8, kNormal.px); }));
-  loads.push_back(
-      loadOf(kClutter, 2, strCat("stepping camera, ", kNormal.name),
-             [](const SourceView& source) { return steppingCamera(source, kNormal.px); }));
+  for (const char* preset : {"16_gen3_l", "32_gen3_l"}) {
+    loads.push_back(quiltLoad(kClutter, 2, preset, kNormal));
+  }
+  for (const Span& span : {kNormal, kWide, kExtreme}) loads.push_back(parallaxLoad(span));
+  loads.push_back(posedLoad("stepping camera", steppingCamera));
+  loads.push_back(posedLoad("one rotated view", rotatedView));
   for (const uint32_t view_count : {8u, 96u}) loads.push_back(sharedAreaLoad(view_count));
   return loads;
 }
 
 std::vector<NamedLoad> fullLoads() {
   std::vector<NamedLoad> loads = quickLoads();
+  loads.push_back(loadOf(kClutter, 4, strCat("4K, 32_gen3_l quilt, ", kNormal.name),
+                         quilt("32_gen3_l", kNormal), k4K_px));
   for (const Scene& scene : {kClutter, kSmooth, kThin}) {
     for (const uint32_t layer_count : {1u, 2u, 4u}) {
       for (const char* preset : {"portrait", "16_gen3_l", "32_gen3_l"}) {
@@ -118,15 +145,6 @@ std::vector<NamedLoad> buildLoads() {
   }
   for (const double noise_px : {0.1, 0.4}) loads.push_back(noisyLoad(noise_px));
   return loads;
-}
-
-NamedLoad manifestLoad(const std::filesystem::path& manifest) {
-  const std::string name = strCat(manifest.stem().string(), ", portrait quilt, ", kNormal.name);
-  return {name, [=](const LoadMaker& maker) {
-            const absl::StatusOr<ManifestFrame> frame = readManifestFrame(manifest);
-            if (!frame.ok()) throw std::runtime_error(std::string(frame.status().message()));
-            return maker.make(name, frame->frame, quilt("portrait", kNormal));
-          }};
 }
 
 }  // namespace viewloom::bench

@@ -48,8 +48,10 @@ BenchLoad LoadMaker::make(std::string name, FramePtr frame, const ViewsOf& views
   const std::unique_ptr<StructureSlot> slot = walk.build(*frame);
   const SourceStats stats = slot->stats();
   const SizePx size_px = slot->layout().size_px;
-  const auto layout = std::make_shared<AtlasLayout>(
-      views_of({.camera = slot->sourceCamera(), .size_px = size_px, .stats = stats}));
+  const auto layout = std::make_shared<AtlasLayout>(views_of({.camera = slot->sourceCamera(),
+                                                              .size_px = size_px,
+                                                              .stats = stats,
+                                                              .miniature = miniature_}));
   DisplaySpec spec;
   spec.tolerance_px = kDefaultTolerance_px;
   BenchLoad load{

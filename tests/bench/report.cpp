@@ -40,6 +40,7 @@ Json traceJson(const LoadReport& report, TraceMethod method, const Visits& visit
     json["ns_per_ray"][name] = measured.trace_ms * 1e6 / rays;
     json["total_ms"][name] = measured.total_ms;
     if (measured.differ_share) json["differ_share"][name] = *measured.differ_share;
+    if (measured.psnr_db) json["psnr_db"][name] = *measured.psnr_db;
   }
   json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
   return json;
@@ -50,12 +51,14 @@ std::string asTable(const Json& load) {
   text << load.at("name").get<std::string>() << "\n"
        << std::left << std::setw(12) << "" << std::right << std::setw(12) << "build ms"
        << std::setw(12) << "ns/ray" << std::setw(12) << "total ms" << std::setw(12) << "differ %"
+       << std::setw(12) << "psnr dB"
        << "\n";
   for (const auto& [name, unused] : load.at("build_ms").items()) {
     text << "  " << std::left << std::setw(10) << name << std::right << std::setw(12)
          << cell(load, "build_ms", name, 1) << std::setw(12) << cell(load, "ns_per_ray", name, 1)
          << std::setw(12) << cell(load, "total_ms", name, 1) << std::setw(12)
-         << cell(load, "differ_share", name, 100) << "\n";
+         << cell(load, "differ_share", name, 100) << std::setw(12) << cell(load, "psnr_db", name, 1)
+         << "\n";
   }
   return text.str();
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "bench/true_views.h"
 #include "commands/median.h"
 
 namespace viewloom::bench {
@@ -64,21 +65,27 @@ LoadReport runSideBySide(const BenchLoad& load,
                     .ray_count = load.job.layout->size_px.area(),
                     .disparity_span_px = load.disparity_span_px,
                     .by_contestant = {}};
-  std::vector<float> truth;
+  std::vector<float> reference_inv_z;
   for (Contestant* contestant : taking) {
     if (work == Work::kBuildAndTrace && contestant->name() == reference) {
-      truth = contestant->picture().inv_z;
+      reference_inv_z = contestant->picture().inv_z;
     }
   }
+  std::optional<TrueTiles> truth;
+  if (work == Work::kBuildAndTrace) truth.emplace(load);
   for (Contestant* contestant : taking) {
     const std::string name(contestant->name());
     Measured measured{.build_ms = medianOf(samples[name].build_ms),
                       .trace_ms = medianOf(samples[name].trace_ms),
                       .total_ms = medianOf(samples[name].total_ms),
-                      .differ_share = {}};
-    const Picture picture = truth.empty() ? Picture{} : contestant->picture();
-    if (!truth.empty() && picture.inv_z.size() == truth.size()) {
-      measured.differ_share = differShare(load, picture.inv_z, truth);
+                      .differ_share = {},
+                      .psnr_db = {}};
+    if (truth) {
+      const Picture picture = contestant->picture();
+      if (!reference_inv_z.empty() && picture.inv_z.size() == reference_inv_z.size()) {
+        measured.differ_share = differShare(load, picture.inv_z, reference_inv_z);
+      }
+      measured.psnr_db = truth->psnrDb(picture.rgba);
     }
     report.by_contestant[name] = measured;
   }
