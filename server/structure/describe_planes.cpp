@@ -45,6 +45,7 @@ abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding
           .texel_count = uint32_t(color.size_px.area()),
           .from_format =
               decoded_encoding == PlaneEncoding::kRgba8 ? abi::kColorRgba8 : abi::kColorRgba16f,
+          .to_format = abi::kColorRgba16f,
           .is_linear = color.transfer == ColorTransfer::kLinear,
           .primaries = uint32_t(color.primaries),
           .alpha = uint32_t(color.alpha),

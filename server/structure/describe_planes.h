@@ -9,7 +9,7 @@ namespace viewloom {
 
 // `offset_bytes`: of the plane in the upload, a multiple of its sample's size.
 abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes);
-// All but the addresses.
+// All but the addresses and what it becomes.
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
                                          double exposure_ev);
 

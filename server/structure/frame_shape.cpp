@@ -29,11 +29,15 @@ FrameShape shapeOf(const Frame& frame) {
   FrameShape shape;
   shape.depth_px = source.layers.front().depth.size_px;
   bool all_plain = frame.format.exposure_ev == 0;
+  bool all_opaque = true;
   for (size_t i = 0; i < source.layers.size(); ++i) {
     shape.color_px.push_back(source.layers[i].color.size_px);
     all_plain = all_plain && isPlainColor(source.layers[i].color, planes[i].color_encoding);
+    all_opaque = all_opaque && source.layers[i].color.alpha == AlphaMode::kOpaque;
   }
-  shape.color_storage = all_plain ? ColorStorage::kRgba8Srgb : ColorStorage::kRgba16fLinear;
+  shape.color_storage = all_plain    ? ColorStorage::kRgba8Srgb
+                        : all_opaque ? ColorStorage::kRgb11Root
+                                     : ColorStorage::kRgba16fLinear;
   const std::vector<StagedLayer> staged = stagedLayers(frame);
   shape.staged_depth_bytes = alignedEnd(staged.back().depth.offset, staged.back().depth.size_bytes);
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);

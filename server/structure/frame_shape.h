@@ -12,6 +12,7 @@ namespace viewloom {
 // How colour lies on the device.
 enum class ColorStorage : uint8_t {
   kRgba8Srgb,     // opaque sRGB BT.709 as it came, 4 bytes a px
+  kRgb11Root,     // roots of light, BT.709, 4 bytes a px: what else is opaque
   kRgba16fLinear  // linear BT.709, premultiplied, 8 bytes a px: everything else
 };
 

@@ -36,8 +36,24 @@ inline StructureLayout structureLayout(SizePx depth_px) {
   return {depth_px, {(depth_px.width + mask) & ~mask, (depth_px.height + mask) & ~mask}};
 }
 
+// abi::kColor...
+inline uint32_t colorFormat(ColorStorage storage) {
+  switch (storage) {
+    case ColorStorage::kRgba8Srgb:
+      return abi::kColorRgba8;
+    case ColorStorage::kRgb11Root:
+      return abi::kColorRgb11;
+    default:
+      return abi::kColorRgba16f;
+  }
+}
+
+inline uint32_t texelBytes(ColorStorage storage) {
+  return storage == ColorStorage::kRgba16fLinear ? 8 : 4;
+}
+
 inline uint64_t colorBytes(ColorStorage storage, SizePx color_px) {
-  return color_px.area() * (storage == ColorStorage::kRgba8Srgb ? 4 : 8);
+  return color_px.area() * texelBytes(storage);
 }
 
 }  // namespace viewloom

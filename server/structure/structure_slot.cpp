@@ -28,11 +28,11 @@ bool writesColorInPlace(const Device& device, const FrameShape& shape) {
 }
 
 LayeredBufferOptions colorOptions(const Device& device, const FrameShape& shape) {
-  const bool is_plain = shape.color_storage == ColorStorage::kRgba8Srgb;
+  const uint32_t texel_bytes = texelBytes(shape.color_storage);
   return {.layer_bytes = colorLayerBytes(shape),
           .layer_count = shape.layerCount(),
-          .texel_format = is_plain ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
-          .texel_bytes = is_plain ? 4u : 8u,
+          .texel_format = texel_bytes == 4 ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
+          .texel_bytes = texel_bytes,
           .intent =
               writesColorInPlace(device, shape) ? MemoryIntent::kUpload : MemoryIntent::kDeviceOnly,
           .debug_name = "color"};
@@ -97,8 +97,7 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
 }
 
 uint32_t StructureSlot::colorStride() const {
-  const uint32_t texel_bytes = shape_.color_storage == ColorStorage::kRgba8Srgb ? 4 : 8;
-  return uint32_t(color_.layerBytes() / texel_bytes);
+  return uint32_t(color_.layerBytes() / texelBytes(shape_.color_storage));
 }
 
 Descriptor StructureSlot::measuredDescriptor() const {
@@ -151,6 +150,7 @@ void StructureSlot::describe(const Frame& frame) {
         source.layers[i].color, frame.sources.front()[i].color_encoding, frame.format.exposure_ev);
     color.from = addressWords(staging_.address() + staged_[i].color.offset);
     color.to = addressWords(color_.address(layer));
+    color.to_format = colorFormat(shape_.color_storage);
     conversions_.push_back(color);
     build_.inv_z[i] = addressWords(inv_z_.address(layer));
     build_.layers[i] = addressWords(structure_.address(layer));

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sweep/packed_light.h"
+#include "sweep/packed_codes.h"
 #include "sweep/surface_row.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,24 +16,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// Squared root of a channel, in its steps.
-HWY_INLINE Vec lightOf(WordVec texel, int shift, uint32_t steps) {
-  const WordVec root = hn::And(hn::ShiftRightSame(texel, shift), hn::Set(kWords, steps));
-  const Vec value = hn::ConvertTo(kFloats, hn::BitCast(kInts, root));
-  return hn::Mul(value, value);
+// A channel of packed codes, in its steps.
+HWY_INLINE Vec stepsOf(WordVec texel, int shift, uint32_t mask) {
+  const WordVec steps = hn::And(hn::ShiftRightSame(texel, shift), hn::Set(kWords, mask));
+  return hn::ConvertTo(kFloats, hn::BitCast(kInts, steps));
 }
 
-// The code, 0..255, of blended light: in the low byte; above it are the bits of 2^23.
-HWY_INLINE WordVec codeOf(WordVec texel, WordVec next, Vec share, int shift, uint32_t steps) {
-  const float scale = kRootMax / float(steps);
-  const Vec from = lightOf(texel, shift, steps);
-  const Vec light = hn::MulAdd(share, hn::Sub(lightOf(next, shift, steps), from), from);
-  const Vec root = hn::Mul(light, hn::ApproximateReciprocalSqrt(light));
-  const Vec inner = hn::MulAdd(root, set(kCodeCubic[0] * scale * scale * scale),
-                               set(kCodeCubic[1] * scale * scale));
-  const Vec outer = hn::MulAdd(inner, root, set(kCodeCubic[2] * scale));
+// The code, 0..255, of a blend: in the low byte; above it are the bits of 2^23.
+HWY_INLINE WordVec codeOf(WordVec texel, WordVec next, Vec share, int shift, uint32_t mask,
+                          float steps) {
+  const Vec from = stepsOf(texel, shift, mask);
+  const Vec blend = hn::MulAdd(share, hn::Sub(stepsOf(next, shift, mask), from), from);
   // Above 2^23 the steps of floats are 1: their low bits are the code, rounded.
-  return hn::BitCast(kWords, hn::MulAdd(outer, root, set(kCodeCubic[3] + 0x1p23F)));
+  return hn::BitCast(kWords, hn::MulAdd(blend, set(1 / steps), set(0x1p23F)));
 }
 
 HWY_INLINE WordVec colorAt(const uint32_t* texels, IntVec last_index, IntVec place,
@@ -43,9 +38,9 @@ HWY_INLINE WordVec colorAt(const uint32_t* texels, IntVec last_index, IntVec pla
   const Vec share = hn::Mul(hn::ConvertTo(kFloats, steps), set(1.0F / kSubtexelSteps));
   const WordVec texel = hn::GatherIndex(kWords, texels, index);
   const WordVec next = hn::GatherIndex(kWords, texels + 1, index);
-  const WordVec red = codeOf(texel, next, share, 0, kRedSteps);
-  const WordVec green = codeOf(texel, next, share, kGreenShift, kGreenSteps);
-  const WordVec blue = codeOf(texel, next, share, kBlueShift, kBlueSteps);
+  const WordVec red = codeOf(texel, next, share, 0, kRedMask, kRedSteps);
+  const WordVec green = codeOf(texel, next, share, kGreenShift, kGreenMask, kGreenSteps);
+  const WordVec blue = codeOf(texel, next, share, kBlueShift, kBlueMask, kBlueSteps);
   // The bits of 2^23 are shifted out, or lie under alpha.
   const WordVec color = hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)),
                                hn::Or(hn::ShiftLeft<16>(blue), hn::Set(kWords, 0xff000000U)));

@@ -7,7 +7,7 @@
 
 namespace viewloom {
 
-// Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed light (packed_light.h), two
+// Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed codes (packed_codes.h), two
 // at least.
 // `places`: 1/256 px, at whose two texels light is blended; negative: the background, which is as
 // rgba. Places may be read a vector beyond the width.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep/packed_light.h"
+#include "sweep/packed_codes.h"
 
 namespace viewloom {
 namespace {
@@ -16,15 +16,10 @@ uint8_t classOf(const SweptRow& swept, uint32_t p) {
 }
 
 // A channel of a blend, 0..1, sRGB-encoded, before it is rounded.
-float channelOf(const uint32_t* texels, float share, int shift, uint32_t steps) {
-  const auto lightOf = [&](uint32_t texel) {
-    const float root = float(texel >> shift & steps) * (kRootMax / float(steps));
-    return root * root;
-  };
-  const float root = std::sqrt(lightOf(texels[0]) * (1 - share) + lightOf(texels[1]) * share);
-  const float code =
-      ((kCodeCubic[0] * root + kCodeCubic[1]) * root + kCodeCubic[2]) * root + kCodeCubic[3];
-  return std::clamp(code / 255, 0.0F, 1.0F);
+float channelOf(const uint32_t* texels, float share, int shift, uint32_t mask, float steps) {
+  const float from = float(texels[0] >> shift & mask);
+  const float to = float(texels[1] >> shift & mask);
+  return std::lerp(from, to, share) / (steps * 255);
 }
 
 void writeLinear(const RowToDescribe& described, uint32_t p, float* rgba) {
@@ -36,9 +31,9 @@ void writeLinear(const RowToDescribe& described, uint32_t p, float* rgba) {
   }
   const uint32_t* const texels = described.row.texels.data() + place / kSubtexelSteps;
   const float share = float(place % kSubtexelSteps) / kSubtexelSteps;
-  rgba[0] = channelOf(texels, share, 0, kRedSteps);
-  rgba[1] = channelOf(texels, share, kGreenShift, kGreenSteps);
-  rgba[2] = channelOf(texels, share, kBlueShift, kBlueSteps);
+  rgba[0] = channelOf(texels, share, 0, kRedMask, kRedSteps);
+  rgba[1] = channelOf(texels, share, kGreenShift, kGreenMask, kGreenSteps);
+  rgba[2] = channelOf(texels, share, kBlueShift, kBlueMask, kBlueSteps);
 }
 
 abi::RayRecord recordOf(const RowToDescribe& described, uint32_t p, uint8_t ray_class) {

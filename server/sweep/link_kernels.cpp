@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/link_kernels.h"
 
-#include "sweep/packed_light.h"
+#include "sweep/packed_codes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sweep/link_kernels.cpp"
@@ -113,25 +113,18 @@ void LinkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*
                  const ByLayer<uint8_t*>& to_left){
     VIEWLOOM_BY_LAYER_COUNT(row.layer_count, linkRow, row, kappa, to_right, to_left)}
 
-// Light of the codes in one byte of each texel, with kRootOffset.
-HWY_INLINE Vec lightOf(WordVec texels, int shift) {
+// The codes in one byte of each texel.
+HWY_INLINE Vec codesOf(WordVec texels, int shift) {
   const WordVec byte = hn::And(hn::ShiftRightSame(texels, shift), hn::Set(kWords, 255U));
-  const Vec code = hn::ConvertTo(kFloats, hn::BitCast(kInts, byte));
-  const Vec inner = hn::Add(hn::Mul(set(kLightCubic[0]), code), set(kLightCubic[1]));
-  const Vec outer = hn::Add(hn::Mul(inner, code), set(kLightCubic[2]));
-  return hn::Add(hn::Mul(outer, code), set(kRootOffset));
-}
-
-HWY_INLINE WordVec packRoot(Vec light, uint32_t steps) {
-  const Vec root = hn::Mul(hn::Sqrt(light), set(float(steps) / kRootMax));
-  return hn::BitCast(kWords, hn::NearestInt(root));
+  return hn::ConvertTo(kFloats, hn::BitCast(kInts, byte));
 }
 
 HWY_INLINE WordVec packedBlend(WordVec here, WordVec there, Vec share) {
-  const auto blend = [&](int shift, uint32_t steps) {
-    const Vec from = lightOf(here, shift);
-    const Vec to = lightOf(there, shift);
-    return packRoot(hn::Add(from, hn::Mul(share, hn::Sub(to, from))), steps);
+  const auto blend = [&](int shift, float steps) {
+    const Vec from = codesOf(here, shift);
+    const Vec to = codesOf(there, shift);
+    const Vec code = hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
+    return hn::BitCast(kWords, hn::NearestInt(hn::Mul(code, set(steps))));
   };
   const WordVec red = blend(0, kRedSteps);
   const WordVec green = blend(8, kGreenSteps);

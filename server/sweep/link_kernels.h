@@ -18,7 +18,7 @@ void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*
                  const ByLayer<uint8_t*>& to_left);
 
 // Colours of a row between the samples of two rows: of each facet, blended with what it is linked
-// to in the other row, as packed light (sweep/packed_light.h).
+// to in the other row, as packed codes (sweep/packed_codes.h).
 struct TexelRow {
   FacetRow here;   // slopes along y
   FacetRow there;  // the next row

@@ -60,7 +60,7 @@ struct SurfaceRow {
   uint32_t layer_count = 0;
   bool is_outside = false;  // above or below the image: no ray meets anything
   ByLayer<LayerSurfaces> layers;
-  // Of every surface its px from the left, and one more at both ends: packed light.
+  // Of every surface its px from the left, and one more at both ends: packed codes.
   AlignedArray<uint32_t> texels;
   AlignedArray<uint8_t> texel_layer;
   uint32_t texel_count = 0;

@@ -177,9 +177,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   const ComputePass& walk =
       pass({.reads_by_address = structure.readsByAddress(),
             .wanted = wantedFlags(slot.shape_.outputs),
-            .color_format = structure.shape().color_storage == ColorStorage::kRgba8Srgb
-                                ? abi::kColorRgba8
-                                : abi::kColorRgba16f,
+            .color_format = colorFormat(structure.shape().color_storage),
             .pixels_per_invocation = pixels,
             .lanes_are_views = lanes_are_views,
             .color_is_scaled = colorIsScaled(structure.shape()),

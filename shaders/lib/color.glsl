@@ -7,17 +7,19 @@
 #include "lib/srgb.glsl"
 #include "lib/structure_access.glsl"
 
-// Premultiplied linear BT.709. `count`: texels of a layer.
+// kColorRgba8: codes 0..255. kColorRgb11: roots of light. Else premultiplied linear BT.709.
+// `count`: texels of a layer.
 vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format,
                uint index) {
   uvec2 bits;
   if (!kReadByAddress)
     bits = texelFetch(color_texels, int(layer * count + index)).xy;
-  else if (color_format == kColorRgba8)
-    bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
-  else
+  else if (color_format == kColorRgba16f)
     bits = Uvec2Ref(pickAddress(color, layer)).at[index];
-  if (color_format == kColorRgba8) return vec4(lightFromCodes(bits.x), 1.0);
+  else
+    bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
+  if (color_format == kColorRgba8) return vec4(codesOfRgba8(bits.x), 1.0);
+  if (color_format == kColorRgb11) return vec4(rootsOfRgb11(bits.x), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 

@@ -12,21 +12,30 @@ vec3 linearFromSrgb(vec3 srgb) {
   return mix(curve, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-// Opaque 8-bit colour is blended in light that is nearly linear: a cubic of the code without the
-// curve's toe, whose inverse is a cubic of its root. That takes half the operations of the sRGB
-// fits, for each of twelve channels a ray. Codes survive unchanged (the inverse is within 0.14 of
-// one), and a blend, before it is rounded, differs from that in linear light by less than two
-// codes, by 0.33 in the mean over all pairs and weights. Light is 0..1.
-
-// `rgb`: codes 0..255 in the low three bytes.
-vec3 lightFromCodes(uint rgb) {
-  const vec3 code = vec3(rgb & 255u, (rgb >> 8) & 255u, (rgb >> 16) & 255u);
-  return ((2.4726537e-08 * code + 8.366013e-06) * code + 1.8039216e-04) * code;
+// kColorRgba8: codes 0..255.
+vec3 codesOfRgba8(uint rgba) {
+  return vec3(rgba & 255u, (rgba >> 8) & 255u, (rgba >> 16) & 255u);
 }
 
-vec3 codesFromLight(vec3 light) {
-  const vec3 root = sqrt(light + 0.00078);
-  return ((33.135467 * root - 111.46330) * root + 342.96448) * root - 9.6227989;
+// kColorRgb11: light to the power of 1 / 2.4, 0..1.
+const vec3 kRootSteps = vec3(2047.0, 2047.0, 1023.0);
+
+vec3 rootsOfRgb11(uint rgb) {
+  return vec3(rgb & 2047u, (rgb >> 11) & 2047u, rgb >> 22) / kRootSteps;
+}
+
+uint rgb11FromLinear(vec3 light) {
+  const vec3 roots = pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.4));
+  const uvec3 steps = uvec3(roots * kRootSteps + 0.5);
+  return steps.r | (steps.g << 11) | (steps.b << 22);
+}
+
+// Codes 0..255 before they are rounded. The curve is 269.025 L^(1/2.4) - 14.025; the toe, 12.92 L,
+// a fit that is within 0.09 of a code, and nothing at 0.
+vec3 codesFromRoots(vec3 root) {
+  const vec3 curve = 269.025 * root - 14.025;
+  const vec3 toe = ((-66896.274 * root + 15675.502) * root + 379.52996) * root * root;
+  return mix(curve, toe, lessThanEqual(root, vec3(0.0904738)));
 }
 
 // Codes 0..255 before they are rounded.

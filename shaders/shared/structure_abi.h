@@ -177,8 +177,9 @@ struct Measured {
 // What a colour plane holds on the device.
 VIEWLOOM_ABI_CONST uint kColorRgba8 = 0u;    // sRGB, opaque; one uint a px
 VIEWLOOM_ABI_CONST uint kColorRgba16f = 1u;  // linear BT.709, premultiplied; two uints a px
+VIEWLOOM_ABI_CONST uint kColorRgb11 = 2u;    // light of BT.709 to 1 / 2.4, opaque; one uint a px
 
-// Source of convert_color.comp: an RGBA8 or RGBA16F plane of any transfer, primaries and alpha.
+// What convert_color.comp is told of a plane.
 VIEWLOOM_ABI_CONST uint kPrimariesBt709 = 0u;
 VIEWLOOM_ABI_CONST uint kPrimariesDisplayP3 = 1u;
 VIEWLOOM_ABI_CONST uint kPrimariesBt2020 = 2u;
@@ -188,9 +189,10 @@ VIEWLOOM_ABI_CONST uint kAlphaStraight = 2u;
 
 struct ConvertColorPush {
   Address from;
-  Address to;  // RGBA16F, linear BT.709, premultiplied
+  Address to;
   uint texel_count;
-  uint from_format;  // kColor...
+  uint from_format;  // kColorRgba8 or kColorRgba16f, of any transfer, primaries and alpha
+  uint to_format;    // kColorRgba16f or, of what is opaque, kColorRgb11
   uint is_linear;
   uint primaries;     // kPrimaries...
   uint alpha;         // kAlpha...
@@ -201,7 +203,7 @@ struct ConvertColorPush {
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 104);
 static_assert(offsetof(Measured, noise_histogram) == 40 + 4 * kDepthHistogramBinCount);
-static_assert(sizeof(ConvertColorPush) == 40);
+static_assert(sizeof(ConvertColorPush) == 44);
 #endif
 
 VIEWLOOM_ABI_END

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour planes that are not opaque sRGB BT.709 to what the trace blends: linear BT.709,
-// premultiplied, binary16.
+// Colour planes that are not 8-bit opaque sRGB BT.709 to what the trace blends: opaque ones to
+// roots of light, others to linear BT.709, premultiplied, binary16.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -42,6 +42,10 @@ void main() {
   if (push.primaries == kPrimariesBt2020) light = kBt709FromBt2020 * light;
   light *= push.light_scale;
   if (push.alpha != kAlphaPremultiplied || is_encoded) light *= alpha;
+  if (push.to_format == kColorRgb11) {
+    UintRef(push.to).at[index] = rgb11FromLinear(light);
+    return;
+  }
   // The largest binary16: brighter light would become infinite and spread.
   light = clamp(light, -65504.0, 65504.0);
   Uvec2Ref(push.to).at[index] = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, alpha)));

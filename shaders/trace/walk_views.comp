@@ -22,7 +22,7 @@ layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
 layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
 // All eyes are in the source's plane, or as good as that (server/trace/trace_job.h).
 layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
-const bool kSeesThrough = kColorFormat != kColorRgba8;
+const bool kSeesThrough = kColorFormat == kColorRgba16f;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -76,7 +76,13 @@ Walk walkBeside(WalkStart start) {
   return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0u);
 }
 
-// What a px shows; if nothing is known, the background. Light as the surfaces' (lib/color.glsl).
+// Codes 0..255 of a blend of texels.
+vec3 codesOfBlend(vec3 blend) {
+  if (kColorFormat == kColorRgba8) return blend;
+  return kColorFormat == kColorRgb11 ? codesFromRoots(blend) : codesFromLinear(blend);
+}
+
+// What a px shows; if nothing is known, the background. In what texels hold (lib/color.glsl).
 struct Light {
   vec4 color;  // premultiplied
   bool is_known;
@@ -149,8 +155,7 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
 }
 
 void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
-  const vec3 rgb = light.color.rgb;
-  const vec3 codes = kSeesThrough ? codesFromLinear(rgb) : codesFromLight(rgb);
+  const vec3 codes = codesOfBlend(light.color.rgb);
   band[index] = light.is_known ? packCodes(codes) : push.fill | kOpaqueCode;
   if (kWanted == 0u) return;
   const vec3 point = ray.start + walk.t * ray.extent;

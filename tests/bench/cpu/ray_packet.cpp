@@ -9,10 +9,6 @@ namespace {
 
 constexpr int kLanes = int(kPacketSize);
 
-float lightAt(uint32_t color, uint32_t shift) {
-  return lightFromCode((color >> shift) & 255U);
-}
-
 }  // namespace
 
 bool raysLookAhead(const BenchLoad& load) {
@@ -89,9 +85,9 @@ void PacketColors::blend() {
     const uint32_t c = rgba[2][lane];
     const uint32_t d = rgba[3][lane];
     const auto channel = [=](uint32_t shift) {
-      const float top = lightAt(a, shift) + x * (lightAt(b, shift) - lightAt(a, shift));
-      const float bottom = lightAt(c, shift) + x * (lightAt(d, shift) - lightAt(c, shift));
-      return codeFromLight(top + y * (bottom - top)) << shift;
+      const float top = codeAt(a, shift) + x * (codeAt(b, shift) - codeAt(a, shift));
+      const float bottom = codeAt(c, shift) + x * (codeAt(d, shift) - codeAt(c, shift));
+      return uint32_t(int(top + y * (bottom - top) + 0.5F)) << shift;
     };
     blended[lane] = kOpaqueCode | channel(0) | channel(8) | channel(16);
   }

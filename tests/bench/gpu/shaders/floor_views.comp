@@ -27,7 +27,7 @@ uint pixelOf(ViewParams view, Run run, uint i, float bound) {
   const uint links = loadLinks(unused, layer, extent, cell);
   const vec4 color =
       surfaceColorPerFacet(unused, unused, extent, kColorRgba8, layer, cell, links, point);
-  return is_hit ? packCodes(codesFromLight(color.rgb)) : hit.x;
+  return is_hit ? packCodes(color.rgb) : hit.x;
 }
 
 #include "rival_views.glsl"

@@ -35,9 +35,9 @@ float weightIfLinked(float weight, float inv_z, float own) {
 }
 
 // Bilinear over the up to four px around the point that are no further from the px hit than kappa,
-// in the light and with the positions of lib/color.glsl. A layer alone: links between layers are
+// in the codes and with the positions of lib/color.glsl. A layer alone: links between layers are
 // viewloom's.
-vec3 lightAt(uint layer, ivec2 cell, vec2 point) {
+vec3 codesAt(uint layer, ivec2 cell, vec2 point) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * 256.0) / 256.0;
   const vec2 share = min(abs(offset), vec2(0.5));
   const vec2 other = 1.0 - share;
@@ -60,7 +60,7 @@ vec3 lightAt(uint layer, ivec2 cell, vec2 point) {
                                    weights.w > 0.0 ? toward.x + down : 0);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
-    sum += weights[i] * lightFromCodes(texelFetch(color_texels, taps[i]).x);
+    sum += weights[i] * codesOfRgba8(texelFetch(color_texels, taps[i]).x);
   }
   return sum * (1.0 / (weights.x + weights.y + weights.z + weights.w));
 }
@@ -101,7 +101,7 @@ uint codeOf(Ray ray, Found found) {
   const vec2 point = ray.start.xy + found.t * ray.extent.xy;
   const vec2 middle = ray.start.xy + found.middle_t * ray.extent.xy;
   const ivec2 cell = ivec2(clamp(middle, vec2(0.0), vec2(sourceSize() - 1)));
-  const vec3 codes = codesFromLight(lightAt(found.layer, cell, point));
+  const vec3 codes = codesAt(found.layer, cell, point);
   const bool is_border = !ray.is_endless && (push.fill & kFillBorder) != 0u;
   const bool is_known = found.is_hit || found.is_hidden || is_border;
   return is_known ? packCodes(codes) : push.fill | kOpaqueCode;
