@@ -8,8 +8,24 @@
 namespace viewloom {
 namespace {
 
-size_t sampleBytes(AtlasPlane plane) {
-  return plane == AtlasPlane::kMask ? 1 : 4;
+void checkPlane(std::span<const uint8_t> bytes, size_t row_count, size_t stride_bytes,
+                size_t row_bytes) {
+  VIEWLOOM_CHECK(stride_bytes >= row_bytes);
+  VIEWLOOM_CHECK(bytes.size() >= (row_count - 1) * stride_bytes + row_bytes);
+}
+
+void checkPlanes(const BandPixels& pixels, const EncodingSpec& encoding) {
+  if (pixels.plane != AtlasPlane::kColor || pixels.form == ColorForm::kRgba) {
+    const size_t sample_bytes = pixels.plane == AtlasPlane::kMask ? 1 : 4;
+    return checkPlane(pixels.bytes, pixels.row_count, pixels.stride_bytes,
+                      sample_bytes * pixels.width_px);
+  }
+  VIEWLOOM_CHECK(pixels.form == directForm(encoding));
+  const YcbcrLayout layout({pixels.width_px, pixels.row_count}, pixels.form);
+  checkPlane(pixels.bytes, layout.luma_row_count, pixels.stride_bytes, layout.luma_stride);
+  for (const auto chroma : {pixels.cb, pixels.cr}) {
+    checkPlane(chroma, layout.chroma_row_count, pixels.chroma_stride_bytes, layout.chroma_stride);
+  }
 }
 
 void checkShape(const BandPixels& pixels, const EncodingSpec& encoding, SizePx atlas_size_px) {
@@ -17,9 +33,8 @@ void checkShape(const BandPixels& pixels, const EncodingSpec& encoding, SizePx a
   VIEWLOOM_CHECK(pixels.first_row % bandRowCount(encoding) == 0);
   const uint32_t end_row = pixels.first_row + pixels.row_count;
   VIEWLOOM_CHECK(pixels.row_count == bandRowCount(encoding) || end_row == atlas_size_px.height);
-  const size_t row_bytes = sampleBytes(pixels.plane) * pixels.width_px;
-  VIEWLOOM_CHECK(pixels.row_count > 0 && pixels.stride_bytes >= row_bytes);
-  VIEWLOOM_CHECK(pixels.bytes.size() >= (pixels.row_count - 1) * pixels.stride_bytes + row_bytes);
+  VIEWLOOM_CHECK(pixels.row_count > 0);
+  checkPlanes(pixels, encoding);
 }
 
 }  // namespace

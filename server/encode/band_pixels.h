@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "display/color_form.h"
 #include "encode/encoded_band.h"
 
 namespace viewloom {
@@ -16,10 +17,15 @@ struct BandPixels {
   uint32_t first_row = 0;  // px from the top; a multiple of bandRowCount()
   uint32_t row_count = 0;  // bandRowCount(), fewer only in the last band
   uint32_t width_px = 0;   // of the atlas
-  // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored; kDepth: float[row][x] in 1/m;
-  // kMask: uint8_t[row][x], a RayClass.
+  // Of kColor; JPEG takes its directForm() beside kRgba, lossless encodings take kRgba alone.
+  ColorForm form = ColorForm::kRgba;
+  // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored, or uint8_t[row][x] Y; kDepth:
+  // float[row][x] in 1/m; kMask: uint8_t[row][x], a RayClass.
   std::span<const uint8_t> bytes;
   size_t stride_bytes = 0;  // from row to row
+  // Of colour that is not kRgba, rows padded as in YcbcrLayout: uint8_t[row][x].
+  std::span<const uint8_t> cb, cr;
+  size_t chroma_stride_bytes = 0;
 };
 
 }  // namespace viewloom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/jpeg_encoder.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 #include "base/check.h"
@@ -27,15 +29,22 @@ void setParameters(jpeg_compress_struct& compressor, const BandPixels& pixels,
                    const EncodingSpec& encoding) {
   compressor.image_width = pixels.width_px;
   compressor.image_height = pixels.row_count;
-  compressor.input_components = 4;
-  compressor.in_color_space = JCS_EXT_RGBX;
+  const bool is_rgba = pixels.form == ColorForm::kRgba;
+  compressor.input_components = is_rgba ? 4 : 3;
+  compressor.in_color_space = is_rgba ? JCS_EXT_RGBX : JCS_YCbCr;
   jpeg_set_defaults(&compressor);
+  compressor.raw_data_in = !is_rgba;
   jpeg_set_quality(&compressor, static_cast<int>(encoding.jpeg_quality), TRUE);
   const int luma_sampling = encoding.chroma == Chroma::k420 ? 2 : 1;
   compressor.comp_info[0].h_samp_factor = luma_sampling;
   compressor.comp_info[0].v_samp_factor = luma_sampling;
   compressor.restart_in_rows = 1;
   compressor.dct_method = JDCT_ISLOW;
+}
+
+// libjpeg reads through this pointer only; its type predates const.
+JSAMPROW sampleRow(std::span<const uint8_t> samples, uint32_t row, size_t stride_bytes) {
+  return const_cast<JSAMPROW>(samples.data()) + row * stride_bytes;
 }
 
 // Where a JPEG's header ends, and where in it the frame header holds the height.
@@ -91,15 +100,41 @@ void JpegEncoder::growStream(Destination& destination) {
   destination.free_in_buffer = stream.size() - used_bytes;
 }
 
+void JpegEncoder::writeRgba(const BandPixels& pixels) {
+  while (compressor_.next_scanline < compressor_.image_height) {
+    JSAMPROW row = sampleRow(pixels.bytes, compressor_.next_scanline, pixels.stride_bytes);
+    jpeg_write_scanlines(&compressor_, &row, 1);
+  }
+}
+
+// An MCU row at a time, past libjpeg's conversion and downsampling. Below the last row that is
+// there, it goes on.
+void JpegEncoder::writePlanes(const BandPixels& pixels) {
+  const uint32_t shared_px = pixels.form == ColorForm::kYcbcr420 ? 2 : 1;
+  const uint32_t mcu_rows = DCTSIZE * shared_px;
+  std::array<std::array<JSAMPROW, 2 * DCTSIZE>, 3> rows;
+  std::array<JSAMPARRAY, 3> planes = {rows[0].data(), rows[1].data(), rows[2].data()};
+  for (uint32_t first = 0; first < pixels.row_count; first += mcu_rows) {
+    for (uint32_t i = 0; i < mcu_rows; ++i) {
+      const uint32_t row = std::min(first + i, pixels.row_count - 1);
+      rows[0][i] = sampleRow(pixels.bytes, row, pixels.stride_bytes);
+    }
+    for (uint32_t i = 0; i < DCTSIZE; ++i) {
+      const uint32_t row = std::min(first / shared_px + i, (pixels.row_count - 1) / shared_px);
+      rows[1][i] = sampleRow(pixels.cb, row, pixels.chroma_stride_bytes);
+      rows[2][i] = sampleRow(pixels.cr, row, pixels.chroma_stride_bytes);
+    }
+    VIEWLOOM_CHECK(jpeg_write_raw_data(&compressor_, planes.data(), mcu_rows) == mcu_rows);
+  }
+}
+
 size_t JpegEncoder::compress(const BandPixels& pixels, const EncodingSpec& encoding) {
   setParameters(compressor_, pixels, encoding);
   jpeg_start_compress(&compressor_, TRUE);
-  while (compressor_.next_scanline < compressor_.image_height) {
-    // libjpeg reads through this pointer only; its type predates const.
-    JSAMPROW row =
-        const_cast<JSAMPROW>(pixels.bytes.data()) + compressor_.next_scanline * pixels.stride_bytes;
-    jpeg_write_scanlines(&compressor_, &row, 1);
-  }
+  if (pixels.form == ColorForm::kRgba)
+    writeRgba(pixels);
+  else
+    writePlanes(pixels);
   jpeg_finish_compress(&compressor_);
   return stream_.size() - destination_.free_in_buffer;
 }

@@ -24,7 +24,7 @@ class JpegEncoder {
   JpegEncoder(const JpegEncoder&) = delete;
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
-  // pixels.plane is kColor.
+  // pixels.plane is kColor. Samples that are Y'CbCr already are taken as they are.
   SharedBytes encode(const BandPixels& pixels, const EncodingSpec& encoding,
                      uint32_t image_height_px);
 
@@ -35,6 +35,8 @@ class JpegEncoder {
   };
   static void growStream(Destination& destination);
 
+  void writeRgba(const BandPixels& pixels);
+  void writePlanes(const BandPixels& pixels);
   // Fills stream_ with the band as a JPEG of its own; returns its length.
   size_t compress(const BandPixels& pixels, const EncodingSpec& encoding);
 
