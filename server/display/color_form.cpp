@@ -13,7 +13,7 @@ ColorForm directForm(const EncodingSpec& encoding) {
 YcbcrLayout::YcbcrLayout(SizePx size_px, ColorForm form) {
   VIEWLOOM_CHECK(form != ColorForm::kRgba);
   const uint32_t shared_px = form == ColorForm::kYcbcr420 ? 2 : 1;  // px a chroma sample, each way
-  luma_stride = (size_px.width + kMcuSide_px - 1) / kMcuSide_px * kMcuSide_px;
+  luma_stride = (size_px.width + kPadding_px - 1) / kPadding_px * kPadding_px;
   luma_row_count = size_px.height;
   chroma_stride = luma_stride / shared_px;
   chroma_row_count = (size_px.height + shared_px - 1) / shared_px;

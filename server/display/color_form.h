@@ -17,15 +17,15 @@ enum class ColorForm : uint8_t { kRgba, kYcbcr444, kYcbcr420 };
 // either is the same to the byte.
 ColorForm directForm(const EncodingSpec& encoding);
 
-// Y, Cb and Cr of an image, one plane after the other, uint8_t[row][stride]. Rows are padded to
-// whole MCUs by samples of their last px, as libjpeg pads them.
+// Y, Cb and Cr of an image, one plane after the other, uint8_t[row][stride]. Rows are padded with
+// samples of their last px, as libjpeg pads them, to whole MCUs and to whole vectors.
 struct YcbcrLayout {
-  uint32_t luma_stride = 0;  // bytes, of 1 px each; a multiple of kMcuSide_px
+  uint32_t luma_stride = 0;  // bytes, of 1 px each; a multiple of kPadding_px
   uint32_t luma_row_count = 0;
   uint32_t chroma_stride = 0;
   uint32_t chroma_row_count = 0;
 
-  static constexpr uint32_t kMcuSide_px = 16;  // of 4:2:0
+  static constexpr uint32_t kPadding_px = 32;
 
   // `form`: not kRgba.
   YcbcrLayout(SizePx size_px, ColorForm form);
