@@ -27,6 +27,12 @@ class SweepPlan {
   // `inv_z_max`: of the source, 1/m.
   static std::optional<SweepPlan> make(const TraceJob& job, double inv_z_max);
 
+  // The form in which whole rows can be coloured: that one, if all views look along the same rows,
+  // else kRgba.
+  ColorForm colorForm(ColorForm wanted) const {
+    return groups_.size() == 1 ? wanted : ColorForm::kRgba;
+  }
+
   // Tile row r of group g is row g * height + r of the plan.
   uint32_t rowCount() const { return uint32_t(groups_.size()) * tile_height_; }
   uint32_t tileRow(uint32_t row) const { return row % tile_height_; }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/check.h"
+#include "shared/ycbcr.h"
 #include "sweep/color_kernels.h"
 #include "sweep/describe_swept.h"
 
@@ -33,51 +35,93 @@ size_t firstPixel(const AtlasLayout& layout, uint32_t tile, uint32_t tile_row) {
 
 void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   const size_t area_px = job.layout->size_px.area();
+  const bool is_rgba = outputs.color == ColorForm::kRgba;
   const bool clears = hasUnusedPixels(job);
   const auto reset = [&](bool is_wanted, size_t count, auto value, auto& plane) {
     plane.resize(is_wanted ? count : 0);
     if (clears) std::fill(plane.begin(), plane.end(), value);
   };
-  reset(true, area_px, kOpaqueBlack, color);
+  reset(is_rgba, area_px, kOpaqueBlack, color);
   reset(outputs.depth, area_px, 0.0F, depth);
   reset(outputs.mask, area_px, uint8_t{0}, mask);
   reset(outputs.linear, 4 * area_px, 0.0F, linear);
   reset(outputs.records, area_px, abi::RayRecord{}, records);
+  if (is_rgba) return ycbcr.clear();
+  const YcbcrLayout layout(job.layout->size_px, outputs.color);
+  ycbcr.resize(layout.sizeBytes());
+  if (!clears) return;
+  std::fill_n(ycbcr.begin(), layout.lumaBytes(), abi::lumaOf(kOpaqueBlack));
+  static_assert(abi::cbOf(kOpaqueBlack) == abi::crOf(kOpaqueBlack));
+  std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(kOpaqueBlack));
+}
+
+// Rows of an atlas on their way.
+struct ViewSweeper::Piece {
+  const SweepPicture& picture;
+  const TraceOutputs& outputs;
+  const SweepFill fill;
+  SweptAtlas& atlas;
+  Coverage coverage;
+};
+
+// Of a row of the plan the tiles that takes(tile), each coloured at rowOf(tile).
+template <typename Takes, typename RowOf>
+void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf) {
+  const SweepPlan& plan = *piece.picture.plan;
+  const TraceJob& job = *piece.picture.job;
+  const uint32_t width_px = job.layout->tile_size_px.width;
+  const SweptTiles& group = plan.groupOf(index);
+  const uint32_t tile_row = plan.tileRow(index);
+  const double y_px = group.first_px + group.step_px * tile_row;
+  const SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance);
+  row_.reserve(width_px, row.pieceCountMax());
+  for (const uint32_t tile : group.tiles) {
+    if (!takes(tile)) continue;
+    const SweepView& view = plan.viewOf(tile);
+    paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
+    colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
+             rowOf(tile, tile_row));
+    if (piece.outputs.wantsOnlyColor()) continue;
+    describeSwept({.row = row,
+                   .view = view,
+                   .fill = piece.fill,
+                   .swept = row_,
+                   .y_px = y_px,
+                   .view_z = job.tiles[tile].direction.z,
+                   .width_px = width_px},
+                  firstPixel(*job.layout, tile, tile_row), piece.outputs, piece.atlas);
+  }
 }
 
 Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
                                 const TraceOutputs& outputs, SweptAtlas& atlas) {
   const TraceJob& job = *picture.job;
-  const uint32_t width_px = job.layout->tile_size_px.width;
-  const SweepFill fill = {.fills_border = job.outside_fill == OutsideFill::kBorder,
+  Piece piece = {.picture = picture,
+                 .outputs = outputs,
+                 .fill = {.fills_border = job.outside_fill == OutsideFill::kBorder,
                           .background = redFirst(job.background_rgb),
                           .inv_z_max = picture.inv_z_max,
-                          .planted_fault = picture.source.planted_fault};
-  Coverage coverage;
-  for (uint32_t index = first_row; index < first_row + row_count; ++index) {
-    const SweptTiles& group = picture.plan->groupOf(index);
-    const uint32_t tile_row = picture.plan->tileRow(index);
-    const double y_px = group.first_px + group.step_px * tile_row;
-    const SurfaceRow& row = builder_.build(picture.source, y_px, group.tolerance);
-    row_.reserve(width_px, row.pieceCountMax());
-    for (const uint32_t tile : group.tiles) {
-      const SweepView& view = picture.plan->viewOf(tile);
-      const size_t at_px = firstPixel(*job.layout, tile, tile_row);
-      paintRow(row, view, fill, width_px, row_, coverage);
-      colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, fill.background,
-               atlas.color.data() + at_px);
-      if (outputs == TraceOutputs{}) continue;
-      describeSwept({.row = row,
-                     .view = view,
-                     .fill = fill,
-                     .swept = row_,
-                     .y_px = y_px,
-                     .view_z = job.tiles[tile].direction.z,
-                     .width_px = width_px},
-                    at_px, outputs, atlas);
+                          .planted_fault = picture.source.planted_fault},
+                 .atlas = atlas,
+                 .coverage = {}};
+  VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);
+  if (outputs.color == ColorForm::kRgba) {
+    for (uint32_t index = first_row; index < first_row + row_count; ++index) {
+      sweepRow(
+          piece, index, [](uint32_t) { return true; },
+          [&](uint32_t tile, uint32_t tile_row) {
+            return atlas.color.data() + firstPixel(*job.layout, tile, tile_row);
+          });
     }
+    return piece.coverage;
   }
-  return coverage;
+  ycbcr_rows_.begin(*job.layout, outputs.color, first_row, row_count);
+  ycbcr_rows_.forEachStep(atlas.ycbcr.data(), [&](YcbcrRows::Step step) {
+    sweepRow(
+        piece, step.tile_row, [&](uint32_t tile) { return ycbcr_rows_.takes(tile, step); },
+        [&](uint32_t tile, uint32_t) { return ycbcr_rows_.rowOf(tile, step); });
+  });
+  return piece.coverage;
 }
 
 Coverage sweepAtlas(const SweepPicture& picture, const TraceOutputs& outputs, WorkerPool& workers,

@@ -7,6 +7,7 @@
 #include "base/worker_pool.h"
 #include "sweep/surface_row_builder.h"
 #include "sweep/sweep_plan.h"
+#include "sweep/ycbcr_rows.h"
 #include "trace/trace_job.h"
 
 namespace viewloom {
@@ -19,9 +20,11 @@ struct SweepPicture {
   float inv_z_max = 0;  // of the source, 1/m
 };
 
-// The planes of an atlas in host memory, packed, top row first. Those not wanted are empty.
+// The planes of an atlas in host memory, packed, top row first. Those not wanted are empty; colour
+// has one of two forms.
 struct SweptAtlas {
   std::vector<uint32_t> color;          // uint32_t[height][width]: R, G, B, 255 in memory order
+  std::vector<uint8_t> ycbcr;           // as YcbcrLayout
   std::vector<float> depth;             // float[height][width], 1/Z of the view, 1/m
   std::vector<uint8_t> mask;            // uint8_t[height][width], RayClass
   std::vector<float> linear;            // float[height][width][4], sRGB-encoded
@@ -35,13 +38,20 @@ struct SweptAtlas {
 // one atlas.
 class ViewSweeper {
  public:
-  // Rows of the plan: all that views see along them.
+  // Rows of the plan: all that views see along them. The plan can colour in the form of `outputs`;
+  // but for kRgba, rows are those of all tiles, and some may move to a neighbouring piece.
   Coverage sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
                      const TraceOutputs& outputs, SweptAtlas& atlas);
 
  private:
+  struct Piece;
+
+  template <typename Takes, typename RowOf>
+  void sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf);
+
   SurfaceRowBuilder builder_;
   SweptRow row_;
+  YcbcrRows ycbcr_rows_;
 };
 
 // The whole atlas by all workers; `sweepers`: one each, kept from atlas to atlas.

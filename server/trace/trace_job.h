@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "display/atlas_layout.h"
+#include "display/color_form.h"
 #include "display/display_spec.h"
 #include "shared/trace_abi.h"
 
@@ -17,13 +18,15 @@ struct BandRows {
   uint32_t row_count = 0;
 };
 
-// Which planes of a band are wanted beside its 8-bit colour.
+// The form of a band's 8-bit colour, and which planes are wanted beside it.
 struct TraceOutputs {
+  ColorForm color = ColorForm::kRgba;
   bool depth = false;    // 1/Z of the view
   bool mask = false;     // ray classes
   bool linear = false;   // colour before it is rounded to 8 bits
   bool records = false;  // abi::RayRecord per px: for tests, statistics and the heat map
 
+  bool wantsOnlyColor() const { return !(depth || mask || linear || records); }
   bool operator==(const TraceOutputs&) const = default;
 };
 
