@@ -28,4 +28,10 @@ struct BandPixels {
   size_t chroma_stride_bytes = 0;
 };
 
+// The colour of `size_px`, from row 0, in planes that lie as YcbcrLayout says. `form`: not kRgba.
+BandPixels planarPixels(std::span<const uint8_t> planes, SizePx size_px, ColorForm form);
+
+// Up to `row_count` of the rows from `row` on, even for 4:2:0; rows have whole strides of bytes.
+BandPixels rowsOf(const BandPixels& pixels, uint32_t row, uint32_t row_count);
+
 }  // namespace viewloom

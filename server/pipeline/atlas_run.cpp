@@ -25,7 +25,9 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
 
 AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays)
     : job(std::move(atlas_job)), picture(std::move(resolved)) {
+  planes.color = directForm(displays.front()->encoding);
   for (ActiveDisplayPtr& display : displays) {
+    if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;
     planes.depth |= display->encoding.with_depth;
     planes.mask |= display->encoding.with_mask;
     outputs.push_back(makeOutput(std::move(display), *picture->layout));

@@ -46,7 +46,9 @@ class AtlasRun {
   AtlasJob job;
   const PicturePtr picture;
   std::vector<AtlasOutput> outputs;
-  TraceOutputs planes;  // that some output wants
+  // That some output wants; colour as all of them take it most directly, or kRgba. Settled once it
+  // is known how it is traced.
+  TraceOutputs planes;
   TraceMethod method = TraceMethod::kWalk;
   uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;

@@ -15,34 +15,33 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
 }
 
-// Up to `row_count` rows from `row` of the strip on.
-BandPixels rowsOf(const BandPixels& strip, uint32_t row, uint32_t row_count) {
-  BandPixels band = strip;
-  band.first_row += row;
-  band.row_count = std::min(row_count, strip.row_count - row);
-  band.bytes = strip.bytes.subspan(row * strip.stride_bytes, band.row_count * strip.stride_bytes);
-  return band;
+// All rows of an image, from row 0. Of the two forms of colour, the one that is asked for is there.
+BandPixels colorOf(std::span<const uint32_t> rgba, std::span<const uint8_t> ycbcr, SizePx size_px,
+                   ColorForm form) {
+  if (form != ColorForm::kRgba) return planarPixels(ycbcr, size_px, form);
+  return {.plane = AtlasPlane::kColor,
+          .row_count = size_px.height,
+          .width_px = size_px.width,
+          .bytes = bytesOf(rgba),
+          .stride_bytes = size_t{size_px.width} * sizeof(uint32_t)};
 }
 
 }  // namespace
 
 struct EncodePool::StripPlanes {
-  std::span<const uint32_t> color;
+  BandPixels color;
   std::span<const float> depth;
   std::span<const uint8_t> mask;
 
   // A plane of the whole strip.
-  BandPixels pixels(const AtlasRun& run, uint32_t strip, AtlasPlane plane) const {
-    const uint32_t row_count = run.rowCount(strip);
-    const std::span<const uint8_t> bytes = plane == AtlasPlane::kColor   ? bytesOf(color)
-                                           : plane == AtlasPlane::kDepth ? bytesOf(depth)
-                                                                         : mask;
-    return {.plane = plane,
-            .first_row = run.firstRow(strip),
-            .row_count = row_count,
-            .width_px = run.picture->layout->size_px.width,
-            .bytes = bytes,
-            .stride_bytes = bytes.size() / row_count};
+  BandPixels pixels(AtlasPlane plane) const {
+    if (plane == AtlasPlane::kColor) return color;
+    BandPixels pixels = color;
+    pixels.plane = plane;
+    pixels.form = ColorForm::kRgba;
+    pixels.bytes = plane == AtlasPlane::kDepth ? bytesOf(depth) : mask;
+    pixels.stride_bytes = pixels.bytes.size() / pixels.row_count;
+    return pixels;
   }
 };
 
@@ -90,7 +89,10 @@ void EncodePool::serve(TracedStrip strip, Worker& worker) {
   AtlasRun& run = *strip.run;
   const TraceSlot& slot = strip.trace->slot;
   run.noteTraced(slot.coverage(), links_.clock.nowNs());
-  encode(run, strip.strip, {slot.color(), slot.depth(), slot.mask()}, worker.encoder);
+  const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};
+  BandPixels color = colorOf(slot.color(), {}, size_px, ColorForm::kRgba);
+  color.first_row = run.firstRow(strip.strip);
+  encode(run, {color, slot.depth(), slot.mask()}, worker.encoder);
   strip.trace.reset();  // room for the next strip before the atlas goes out
   if (run.noteEncoded()) publisher_.complete(run);
 }
@@ -104,32 +106,31 @@ void EncodePool::serve(SweepPart part, Worker& worker) {
     return;
   }
   const SweptAtlas& atlas = part.sweep->atlas();
-  const size_t width_px = run->picture->layout->size_px.width;
-  const size_t first = run->firstRow(part.index) * width_px;
-  const size_t count = run->rowCount(part.index) * width_px;
+  const SizePx size_px = run->picture->layout->size_px;
+  const size_t first = size_t{run->firstRow(part.index)} * size_px.width;
+  const size_t count = size_t{run->rowCount(part.index)} * size_px.width;
   const auto rowsOfStrip = [&]<typename T>(const std::vector<T>& plane) {
     return plane.empty() ? std::span<const T>() : std::span<const T>(plane).subspan(first, count);
   };
-  encode(*run, part.index,
-         {rowsOfStrip(atlas.color), rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)},
-         worker.encoder);
+  const BandPixels color = rowsOf(colorOf(atlas.color, atlas.ycbcr, size_px, run->planes.color),
+                                  run->firstRow(part.index), run->rowCount(part.index));
+  encode(*run, {color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)}, worker.encoder);
   part.sweep.reset();  // room for the next sweep before the atlas goes out
   if (run->noteEncoded()) publisher_.complete(*run);
 }
 
-void EncodePool::encode(AtlasRun& run, uint32_t strip, const StripPlanes& planes,
-                        BandEncoder& encoder) {
-  for (AtlasOutput& output : run.outputs) encodeOutput(run, strip, planes, output, encoder);
+void EncodePool::encode(AtlasRun& run, const StripPlanes& planes, BandEncoder& encoder) {
+  for (AtlasOutput& output : run.outputs) encodeOutput(run, planes, output, encoder);
 }
 
-void EncodePool::encodeOutput(AtlasRun& run, uint32_t strip, const StripPlanes& planes,
-                              AtlasOutput& output, BandEncoder& encoder) {
+void EncodePool::encodeOutput(AtlasRun& run, const StripPlanes& planes, AtlasOutput& output,
+                              BandEncoder& encoder) {
   const EncodingSpec& encoding = output.display->encoding;
   uint32_t plane_rank = 0;
   for (const AtlasPlane plane : {AtlasPlane::kColor, AtlasPlane::kDepth, AtlasPlane::kMask}) {
     if (plane == AtlasPlane::kDepth && !encoding.with_depth) continue;
     if (plane == AtlasPlane::kMask && !encoding.with_mask) continue;
-    const BandPixels pixels = planes.pixels(run, strip, plane);
+    const BandPixels pixels = planes.pixels(plane);
     for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
       const BandPixels band = rowsOf(pixels, row, output.band_row_count);
       const uint32_t index = band.first_row / output.band_row_count;

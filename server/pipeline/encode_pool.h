@@ -34,14 +34,14 @@ class EncodePool {
     BandEncoder encoder;
     ViewSweeper sweeper;
   };
-  // A strip in host memory: where the rows of each plane begin.
+  // A strip in host memory.
   struct StripPlanes;
 
   void run();
   void serve(TracedStrip strip, Worker& worker);
   void serve(SweepPart part, Worker& worker);
-  void encode(AtlasRun& run, uint32_t strip, const StripPlanes& planes, BandEncoder& encoder);
-  void encodeOutput(AtlasRun& run, uint32_t strip, const StripPlanes& planes, AtlasOutput& output,
+  void encode(AtlasRun& run, const StripPlanes& planes, BandEncoder& encoder);
+  void encodeOutput(AtlasRun& run, const StripPlanes& planes, AtlasOutput& output,
                     BandEncoder& encoder);
 
   const PipelineLinks& links_;

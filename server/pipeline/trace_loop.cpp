@@ -119,6 +119,7 @@ bool TraceLoop::begin(AtlasJob& job) {
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
   run->method = *method;
+  if (*method == TraceMethod::kWalk) run->planes.color = ColorForm::kRgba;
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);
   begun_.push_back(std::move(run));
@@ -171,6 +172,7 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
       [](const SweptAtlas&) { return true; }, [] { return std::make_unique<SweptAtlas>(); });
   if (!atlas) return false;
   auto plan = SweepPlan::make(*run->picture, run->job.structure->stats.inv_z_max);
+  run->planes.color = plan->colorForm(run->planes.color);
   encoders_.push(std::make_shared<SweepRun>(run, *std::move(plan), std::move(atlas)));
   finish(run);
   return true;

@@ -44,6 +44,30 @@ TEST_F(PipelineBytesTest, doNotDependOnWhoElseWatchesOrOnTheNumberOfThreads) {
                   *one_of_many.subscriber->waitForAtlases(1).front());
 }
 
+// The colour of one display goes to the encoder as planes; beside another chroma, or lossless
+// colour, as RGB.
+TEST_F(PipelineBytesTest, doNotDependOnTheFormInWhichColourIsEncoded) {
+  const FramePtr frame = syntheticFrame(1);
+  for (const SizePx size_px : {SizePx{400, 300}, SizePx{414, 301}}) {
+    for (const Chroma chroma : {Chroma::k420, Chroma::k444}) {
+      const EncodingSpec encoding = {.chroma = chroma, .with_mask = true};
+      Server alone(device());
+      const Viewer single = watch(alone, smallQuilt(size_px), encoding);
+      alone.offer(frame);
+      ASSERT_THAT(single.subscriber->waitForAtlases(1), SizeIs(1));
+
+      Server shared(device());
+      const Viewer other = watch(shared, smallQuilt(size_px), {.color = BandEncoding::kZstd});
+      const Viewer one_of_two = watch(shared, smallQuilt(size_px), encoding);
+      shared.offer(frame);
+      ASSERT_THAT(one_of_two.subscriber->waitForAtlases(1), SizeIs(1));
+
+      expectSameBytes(*single.subscriber->waitForAtlases(1).front(),
+                      *one_of_two.subscriber->waitForAtlases(1).front());
+    }
+  }
+}
+
 TEST_F(PipelineBytesTest, comeInOrderOfSequenceAndFrame) {
   constexpr uint64_t kFrameCount = 12;
   Server server(device(), {.encode_thread_count = 4, .trace_slot_count = 4});

@@ -13,30 +13,15 @@ namespace {
 struct PlanarPicture {
   SizePx size_px;
   ColorForm form;
-  YcbcrLayout layout;
   Bytes planes;
 
   PlanarPicture(const Picture& picture, ColorForm color_form)
       : size_px(picture.size_px),
         form(color_form),
-        layout(size_px, form),
         planes(ycbcrPlanesOf(std::span(picture.rgbx), picture.stride_bytes, size_px, form)) {}
 
   BandPixels band(uint32_t first_row, uint32_t row_count) const {
-    const uint32_t first_chroma = form == ColorForm::kYcbcr420 ? first_row / 2 : first_row;
-    const size_t chroma_offset = size_t{first_chroma} * layout.chroma_stride;
-    const size_t chroma_bytes = layout.chromaBytes() - chroma_offset;
-    const std::span<const uint8_t> all(planes);
-    return {.plane = AtlasPlane::kColor,
-            .first_row = first_row,
-            .row_count = row_count,
-            .width_px = size_px.width,
-            .form = form,
-            .bytes = all.subspan(size_t{first_row} * layout.luma_stride),
-            .stride_bytes = layout.luma_stride,
-            .cb = all.subspan(layout.cbOffset() + chroma_offset, chroma_bytes),
-            .cr = all.subspan(layout.crOffset() + chroma_offset, chroma_bytes),
-            .chroma_stride_bytes = layout.chroma_stride};
+    return rowsOf(planarPixels(planes, size_px, form), first_row, row_count);
   }
 };
 
