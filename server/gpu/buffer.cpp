@@ -12,6 +12,7 @@ namespace {
 using Property = vk::MemoryPropertyFlagBits;
 
 std::atomic<uint64_t> allocation_count = 0;
+std::atomic<uint64_t> memory_bytes = 0;
 
 // Best kind first; Vulkan promises that the last one exists.
 std::span<const vk::MemoryPropertyFlags> preferences(MemoryIntent intent) {
@@ -51,16 +52,15 @@ vk::raii::Buffer makeBuffer(const Device& device, const BufferOptions& options) 
                                                   device.info().limits.allocation_bytes_max));
   }
   using Usage = vk::BufferUsageFlagBits;
-  return {device.handle(),
-          {.size = options.size_bytes,
-           .usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst |
-                    Usage::eUniformBuffer |
-                    Usage::eUniformTexelBuffer | Usage::eShaderDeviceAddress}};
+  return {
+      device.handle(),
+      {.size = options.size_bytes,
+       .usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst |
+                Usage::eUniformBuffer | Usage::eUniformTexelBuffer | Usage::eShaderDeviceAddress}};
 }
 
-vk::raii::DeviceMemory makeMemory(const Device& device, const vk::raii::Buffer& buffer,
+vk::raii::DeviceMemory makeMemory(const Device& device, const vk::MemoryRequirements& needs,
                                   MemoryIntent intent) {
-  const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
   const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
   ++allocation_count;
   return {device.handle(),
@@ -71,11 +71,27 @@ vk::raii::DeviceMemory makeMemory(const Device& device, const vk::raii::Buffer& 
 
 }  // namespace
 
+CountedMemory::CountedMemory(uint64_t size_bytes) : size_bytes_(size_bytes) {
+  memory_bytes += size_bytes;
+}
+
+CountedMemory::~CountedMemory() {
+  memory_bytes -= size_bytes_;
+}
+
+CountedMemory& CountedMemory::operator=(CountedMemory&& other) noexcept {
+  memory_bytes -= size_bytes_;
+  size_bytes_ = std::exchange(other.size_bytes_, 0);
+  return *this;
+}
+
 Buffer::Buffer() : memory_(nullptr), buffer_(nullptr) {}
 
 Buffer::Buffer(const Device& device, const BufferOptions& options) : Buffer() {
   buffer_ = makeBuffer(device, options);
-  memory_ = makeMemory(device, buffer_, options.intent);
+  const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
+  memory_ = makeMemory(device, needs, options.intent);
+  counted_ = CountedMemory(needs.size);
   buffer_.bindMemory(*memory_, 0);
   size_bytes_ = options.size_bytes;
   address_ = device.handle().getBufferAddress({.buffer = *buffer_});
@@ -88,6 +104,10 @@ Buffer::Buffer(const Device& device, const BufferOptions& options) : Buffer() {
 
 uint64_t gpuAllocationCount() {
   return allocation_count;
+}
+
+uint64_t gpuMemoryBytes() {
+  return memory_bytes;
 }
 
 }  // namespace viewloom

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "gpu/device.h"
 
@@ -20,6 +21,20 @@ struct BufferOptions {
   uint64_t size_bytes = 0;  // > 0
   MemoryIntent intent = MemoryIntent::kDeviceOnly;
   const char* debug_name = "";
+};
+
+// Counts in gpuMemoryBytes() as long as it lives.
+class CountedMemory {
+ public:
+  CountedMemory() = default;
+  explicit CountedMemory(uint64_t size_bytes);
+  ~CountedMemory();
+  CountedMemory(CountedMemory&& other) noexcept
+      : size_bytes_(std::exchange(other.size_bytes_, 0)) {}
+  CountedMemory& operator=(CountedMemory&& other) noexcept;
+
+ private:
+  uint64_t size_bytes_ = 0;
 };
 
 // Invariant: empty, or a buffer bound to memory of its own (coherent and mapped unless
@@ -38,6 +53,7 @@ class Buffer {
 
  private:
   vk::raii::DeviceMemory memory_;
+  CountedMemory counted_;
   vk::raii::Buffer buffer_;
   uint64_t size_bytes_ = 0;
   vk::DeviceAddress address_ = 0;
@@ -46,5 +62,7 @@ class Buffer {
 
 // GPU allocations of this process so far; what proves that warm slots allocate nothing.
 uint64_t gpuAllocationCount();
+// What its buffers hold now, as it was allocated: on the device, and where the CPU writes or reads.
+uint64_t gpuMemoryBytes();
 
 }  // namespace viewloom

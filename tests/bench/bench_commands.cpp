@@ -72,20 +72,33 @@ RecordedLoads chosenLoads(const Arguments& arguments, Work work) {
   return chosen;
 }
 
+MemoryUse sweptMemory(const BenchLoad& load) {
+  WorkerPool workers;
+  const auto plan = SweepPlan::make(load.job, double{load.source.inv_z_max});
+  return sweepMemory(*load.frame, load.job, *plan, workers);
+}
+
 Json measure(const Device& device, const BenchLoad& load, Work work, int round_count) {
   // Anew for each load: what one needed is not there for the next.
   std::vector<std::unique_ptr<Contestant>> contestants;
-  auto own = std::make_unique<ViewloomContestant>(device, true);
+  auto serving = std::make_unique<ViewloomContestant>(device, true);
   auto walking = std::make_unique<ViewloomContestant>(device, false);
-  const bool is_swept = own->isSwept(load);
-  ViewloomContestant& walk = is_swept ? *walking : *own;
-  contestants.push_back(std::move(own));
+  const bool is_swept = serving->isSwept(load);
+  ViewloomContestant& walk = is_swept ? *walking : *serving;
+  contestants.push_back(std::move(serving));
   contestants.push_back(std::move(walking));
   for (auto& rival : makeGpuRivals(device)) contestants.push_back(std::move(rival));
   for (auto& rival : makeCpuRivals()) contestants.push_back(std::move(rival));
   const LoadReport report = runSideBySide(load, contestants, work, round_count, "dda");
   if (work == Work::kBuild) return buildJson(report);
-  return traceJson(report, is_swept ? TraceMethod::kSweep : TraceMethod::kWalk, walk.visits());
+  OwnReport own{.method = is_swept ? TraceMethod::kSweep : TraceMethod::kWalk,
+                .visits = walk.visits(),
+                .walk = {},
+                .sweep = {}};
+  contestants.clear();  // makes room
+  own.walk = walkMemory(device, *load.frame, load.job);
+  if (is_swept && canMeasureSweeps()) own.sweep = sweptMemory(load);
+  return traceJson(report, own);
 }
 
 void measureAll(const Arguments& arguments, Work work) {

@@ -40,6 +40,15 @@ class BenchTest(unittest.TestCase):
             self.assertGreater(load["psnr_db"][name], PSNR_MIN_DB, name)
         self.assertGreaterEqual(load["visits"]["mean"], 1)
         self.assertGreaterEqual(load["visits"]["max"], load["visits"]["p99"])
+        self.assertGreaterEqual(load["visits"]["slowest_8x8_sum"], load["visits"]["max"])
+        self.assertLessEqual(load["visits"]["slowest_8x8_sum"], 64 * load["visits"]["max"])
+
+        for name, memory in load["memory_mib"].items():
+            self.assertIn(name, {"viewloom", "walk"})
+            parts = memory["structure"] + memory["trace_target"] + memory["frame_input"]
+            self.assertAlmostEqual(memory["total"], parts, places=3)
+            self.assertGreaterEqual(memory.get("peak", parts), parts - 1e-3)
+            self.assertGreater(memory["further_frame"], memory["structure"] - 1e-3)
 
     def test_every_kind_of_views(self):
         for views, count in (("8x8 parallax, normal", 64), ("stepping camera", 16),

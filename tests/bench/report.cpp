@@ -19,6 +19,17 @@ std::string cell(const Json& load, const char* figure, const std::string& contes
   return text.str();
 }
 
+Json memoryJson(const MemoryUse& use) {
+  constexpr double kMib = 1 << 20;
+  Json json{{"structure", double(use.structure_bytes) / kMib},
+            {"trace_target", double(use.trace_target_bytes) / kMib},
+            {"frame_input", double(use.frame_input_bytes) / kMib},
+            {"total", double(use.totalBytes()) / kMib}};
+  if (use.peak_bytes) json["peak"] = double(*use.peak_bytes) / kMib;
+  json["further_frame"] = double(use.further_frame_bytes) / kMib;
+  return json;
+}
+
 }  // namespace
 
 Json buildJson(const LoadReport& report) {
@@ -29,11 +40,12 @@ Json buildJson(const LoadReport& report) {
   return json;
 }
 
-Json traceJson(const LoadReport& report, TraceMethod method, const Visits& visits) {
+Json traceJson(const LoadReport& report, const OwnReport& own) {
+  const bool is_swept = own.method == TraceMethod::kSweep;
   Json json{{"name", report.load},
             {"rays", report.ray_count},
             {"disparity_span_px", report.disparity_span_px},
-            {"method", method == TraceMethod::kSweep ? "sweep" : "walk"}};
+            {"method", is_swept ? "sweep" : "walk"}};
   const auto rays = static_cast<double>(report.ray_count);
   for (const auto& [name, measured] : report.by_contestant) {
     json["build_ms"][name] = measured.build_ms;
@@ -42,7 +54,12 @@ Json traceJson(const LoadReport& report, TraceMethod method, const Visits& visit
     if (measured.differ_share) json["differ_share"][name] = *measured.differ_share;
     if (measured.psnr_db) json["psnr_db"][name] = *measured.psnr_db;
   }
-  json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
+  json["visits"] = {{"mean", own.visits.mean},
+                    {"p99", own.visits.p99},
+                    {"max", own.visits.max},
+                    {"slowest_8x8_sum", own.visits.slowest_block_sum}};
+  if (own.sweep) json["memory_mib"]["viewloom"] = memoryJson(*own.sweep);
+  json["memory_mib"][is_swept ? "walk" : "viewloom"] = memoryJson(own.walk);
   return json;
 }
 

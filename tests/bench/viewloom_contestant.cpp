@@ -107,17 +107,12 @@ Picture ViewloomContestant::picture() {
 }
 
 Visits ViewloomContestant::visits() {
-  std::vector<uint32_t> visits;
+  VisitCounter counter(*load_->job.layout);
   traceBands({.records = true}, [&](const TraceSlot& band, BandRows rows) {
-    const size_t count = size_t{rows.row_count} * load_->job.layout->size_px.width;
-    for (const abi::RayRecord& record : band.records().first(count)) {
-      visits.push_back(record.visits);
-    }
+    counter.addRows(
+        band.records().first(size_t{rows.row_count} * load_->job.layout->size_px.width));
   });
-  std::sort(visits.begin(), visits.end());
-  double sum = 0;
-  for (const uint32_t count : visits) sum += count;
-  return {sum / double(visits.size()), visits[visits.size() * 99 / 100], visits.back()};
+  return counter.visits();
 }
 
 void ViewloomContestant::traceBands(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/contestant.h"
+#include "bench/visit_counter.h"
 #include "gpu/command_recorder.h"
 #include "gpu/timeline.h"
 #include "structure/structure_builder.h"
@@ -16,12 +17,6 @@
 #include "trace/view_tracer.h"
 
 namespace viewloom::bench {
-
-struct Visits {
-  double mean = 0;
-  uint32_t p99 = 0;
-  uint32_t max = 0;
-};
 
 class ViewloomContestant : public Contestant {
  public:
@@ -38,7 +33,7 @@ class ViewloomContestant : public Contestant {
   void trace() override;
   Picture picture() override;
 
-  // Nodes and facets a ray looks at, of the prepared load; it is walked.
+  // Of the prepared load; it is walked.
   Visits visits();
 
  private:

@@ -73,5 +73,21 @@ TEST_F(DeviceTest, countsEachGpuAllocation) {
   EXPECT_NE(moved.address(), second.address());
 }
 
+TEST_F(DeviceTest, knowsWhatItsBuffersHold) {
+  const uint64_t before_bytes = gpuMemoryBytes();
+  {
+    Buffer buffer(device(), {.size_bytes = 1000});
+    EXPECT_GE(gpuMemoryBytes(), before_bytes + 1000);
+    const uint64_t one_bytes = gpuMemoryBytes();
+    const Buffer moved = std::move(buffer);
+    EXPECT_EQ(gpuMemoryBytes(), one_bytes);
+    buffer = Buffer(device(), {.size_bytes = 2000});
+    EXPECT_GE(gpuMemoryBytes(), one_bytes + 2000);
+    buffer = Buffer();
+    EXPECT_EQ(gpuMemoryBytes(), one_bytes);
+  }
+  EXPECT_EQ(gpuMemoryBytes(), before_bytes);
+}
+
 }  // namespace
 }  // namespace viewloom
