@@ -20,9 +20,11 @@
 #include "bench/cpu/cpu_rivals.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
+#include "bench/markdown.h"
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
 #include "bench/side_by_side.h"
+#include "bench/targets.h"
 #include "bench/viewloom_contestant.h"
 
 namespace viewloom::bench {
@@ -34,6 +36,7 @@ struct Arguments {
   std::string device;
   bool is_full = false;
   bool prints_json = false;
+  bool prints_table = false;
   int round_count = 5;
   std::string only;
   uint32_t miniature = 1;
@@ -113,16 +116,27 @@ void measureAll(const Arguments& arguments, Work work) {
   for (size_t i = 0; i < loads.size(); ++i) {
     std::cerr << "load " << i + 1 << " of " << loads.size() << ": " << loads[i].name << "\n";
     json["loads"].push_back(measure(device, loads[i].make(maker), work, arguments.round_count));
-    if (!arguments.prints_json) std::cout << asTable(json["loads"].back()) << std::endl;
+    const bool waits = arguments.prints_json || arguments.prints_table;
+    if (!waits) std::cout << asTable(json["loads"].back()) << std::endl;
   }
-  if (arguments.prints_json) std::cout << json.dump(2) << "\n";
+  json["ratios"] = targetRatios(json["loads"]);
+  if (arguments.prints_json) {
+    std::cout << json.dump(2) << "\n";
+  } else if (arguments.prints_table) {
+    std::cout << asMarkdown(json);
+  } else {
+    std::cout << targetsAsMarkdown(json["ratios"]);
+  }
 }
 
 void addCommand(CLI::App& app, const char* name, const char* description, Work work) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command = app.add_subcommand(name, description);
   command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
+  CLI::Option* const json =
+      command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
+  command->add_flag("--table", arguments->prints_table, "Print tables in markdown at the end")
+      ->excludes(json);
   command->add_option("--rounds", arguments->round_count, "Rounds of each load, for the medians")
       ->check(CLI::Range(1, 1000));
   command->add_option("--only", arguments->only, "Loads whose name has this in it");
@@ -136,7 +150,7 @@ void addCommand(CLI::App& app, const char* name, const char* description, Work w
       ->check(CLI::ExistingFile);
   if (work == Work::kBuildAndTrace) {
     command->add_flag("--full,!--quick", arguments->is_full,
-                      "Every scene with every display; default: about a dozen loads");
+                      "Every scene with every display, and 4K; default: two dozen loads");
   }
   command->callback([arguments, work] { measureAll(*arguments, work); });
 }

@@ -43,6 +43,14 @@ class BenchTest(unittest.TestCase):
         self.assertGreaterEqual(load["visits"]["slowest_8x8_sum"], load["visits"]["max"])
         self.assertLessEqual(load["visits"]["slowest_8x8_sum"], 64 * load["visits"]["max"])
 
+        for ratio in report["ratios"]:
+            self.assertEqual(ratio["load"], load["name"])
+            sign, bound = ratio["target"].split()
+            is_met = {">=": ratio["value"] >= float(bound), "<=": ratio["value"] <= float(bound)}
+            self.assertEqual(ratio["is_met"], is_met[sign], ratio)
+        ratios = {ratio["what"]: ratio["value"] for ratio in report["ratios"]}
+        self.assertAlmostEqual(ratios["rows / viewloom, build + trace"],
+                               load["total_ms"]["rows"] / load["total_ms"]["viewloom"])
         for name, memory in load["memory_mib"].items():
             self.assertIn(name, {"viewloom", "walk"})
             parts = memory["structure"] + memory["trace_target"] + memory["frame_input"]
@@ -67,11 +75,24 @@ class BenchTest(unittest.TestCase):
         self.assertEqual(skipped["name"], "antinous, portrait quilt, normal")
         self.assertIn("/nowhere", skipped["reason"])
 
+    def test_tables(self):
+        finished = subprocess.run([PROGRAM, "trace", "--table", "--rounds", "1", "--miniature", "8",
+                                   "--only", "clutter x1", "--data", "/nowhere"],
+                                  capture_output=True, text=True, check=True)
+        rows = [line for line in finished.stdout.splitlines() if line.startswith("|")]
+        times = next(row for row in rows if "clutter x1, portrait quilt, normal" in row)
+        cells = [cell.strip() for cell in times.strip("|").split("|")]
+        self.assertEqual(len(cells), 10)
+        self.assertRegex(cells[2], r"^[\d.]+ \+ [\d.]+$")
+        self.assertTrue(any("visits per ray, p99" in row for row in rows))
+
     def test_build(self):
         report = run("build", "--json", "--rounds", "1", "--miniature", "4", "--only", "smooth x1")
         (load,) = report["loads"]
         self.assertGreater(load["build_ms"]["viewloom"], 0)
         self.assertGreater(load["build_ms"]["copy"], 0)
+        (ratio,) = report["ratios"]
+        self.assertEqual(ratio["what"], "2-D structure / copy, build")
 
     def test_a_load_that_does_not_exist(self):
         finished = subprocess.run([PROGRAM, "trace", "--only", "no such load"],

@@ -120,12 +120,13 @@ MemoryUse sweepMemory(const Frame& frame, const TraceJob& job, const SweepPlan& 
   const auto prepare = [&](SweptFrame& swept) {
     swept.source.prepare(decodedCopy(frame), workers);
   };
+  const TraceOutputs outputs{.color = plan.colorForm(directForm(EncodingSpec{}))};
   const auto sweep = [&](SweptFrame& swept) {
     sweepAtlas({.job = &job,
                 .plan = &plan,
                 .source = swept.source.rowSource(),
                 .inv_z_max = float(swept.source.measured().stats.inv_z_max)},
-               {}, workers, sweepers, swept.atlas);
+               outputs, workers, sweepers, swept.atlas);
   };
   MemoryUse use;
   use.frame_input_bytes = planeBytes(frame);

@@ -14,8 +14,8 @@ namespace viewloom::bench {
 // Of what the server allocates for a frame and an atlas of it: on the device, and on the host.
 struct MemoryUse {
   uint64_t structure_bytes = 0;
-  // The walk: a strip, as high as JPEG bands are by default. The sweep: the whole atlas, and what
-  // its threads keep.
+  // As displays are encoded by default. The walk: a strip, as high as bands are. The sweep: the
+  // whole atlas in the form that the encoder takes, and what its threads keep.
   uint64_t trace_target_bytes = 0;
   uint64_t frame_input_bytes = 0;  // decoded planes
   // The most there was while a frame was taken in, built and traced. None under a sanitizer.
