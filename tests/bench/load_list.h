@@ -20,7 +20,7 @@ struct NamedLoad {
 // a 32" quilt are the largest.
 std::vector<NamedLoad> quickLoads();
 // Those; every scene, number of layers, span and display with each other; and 3840x2160 in four
-// layers, of which all contestants together take 15 GB of memory.
+// layers, of which all contestants together take 11 GB of memory and minutes a round.
 std::vector<NamedLoad> fullLoads();
 // For the build alone: scenes, layers, noise and sizes; their views do not matter.
 std::vector<NamedLoad> buildLoads();
