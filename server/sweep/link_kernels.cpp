@@ -78,6 +78,15 @@ HWY_INLINE Vec facetAt(Vec inv_z, Vec slope, float offset) {
   return hn::IfThenElse(hn::Ge(inv_z, hn::Zero(kFloats)), at, set(abi::kNoSurface));
 }
 
+// kDeepEdge where a facet without a link is the far side of a deep silhouette.
+HWY_INLINE IntVec markDeep(IntVec link, Vec far, Vec near) {
+  const Mask is_deep = hn::And(hn::Ge(far, hn::Zero(kFloats)),
+                               hn::Gt(hn::Mul(near, set(1.0F - abi::kDeepStep)), far));
+  const auto has_none = hn::Eq(link, hn::Zero(kInts));
+  return hn::IfThenElse(hn::And(hn::RebindMask(kInts, is_deep), has_none),
+                        hn::Set(kInts, int32_t(abi::kDeepEdge)), link);
+}
+
 template <uint32_t kLayers>
 HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
                         const ByLayer<uint8_t*>& to_left) {
@@ -101,9 +110,11 @@ HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<u
       const IntVec own = hn::Set(kInts, int32_t(i) + 1);
       const auto exists_here = hn::RebindMask(kInts, hn::Ge(here[i], zero));
       const auto exists_there = hn::RebindMask(kInts, hn::Ge(there[i], zero));
-      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_here, right[i], own)), kBytes,
+      const IntVec marked_right = markDeep(right[i], here[i], there[i]);
+      const IntVec marked_left = markDeep(left[i], there[i], here[i]);
+      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_here, marked_right, own)), kBytes,
                  to_right[i] + x);
-      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_there, left[i], own)), kBytes,
+      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_there, marked_left, own)), kBytes,
                  to_left[i] + x + 1);
     }
   }

@@ -17,4 +17,14 @@ inline constexpr float kRedSteps = 8;  // a code
 inline constexpr float kGreenSteps = 8;
 inline constexpr float kBlueSteps = 4;
 
+// `share` of b, the rest of a.
+inline uint32_t blendOfCodes(uint32_t a, uint32_t b, float share) {
+  const auto blend = [&](int shift, uint32_t mask) {
+    const float from = float(a >> shift & mask);
+    const float to = float(b >> shift & mask);
+    return uint32_t(from + share * (to - from) + 0.5F) << shift;
+  };
+  return blend(0, kRedMask) | blend(kGreenShift, kGreenMask) | blend(kBlueShift, kBlueMask);
+}
+
 }  // namespace viewloom

@@ -89,10 +89,13 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
       const size_t k = size_t(swept.covering[n]);
       if (steps.texel[k] < 0) continue;
       const EdgeLine line(steps, k, view);
-      const IntVec texel = hn::Set(kInts, steps.texel[k]);
+      const IntVec texel_at_low = hn::Set(kInts, steps.texel[k]);
+      const Vec texel_per_inv_z = set(steps.texel_per_inv_z[k]);
       forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
         if (swept.block_has_hole[first / lanes] == 0) return;
         const Vec inv_z = line.invZ(p);
+        const Vec up = hn::Mul(hn::Sub(inv_z, line.low), texel_per_inv_z);
+        const IntVec texel = hn::Add(texel_at_low, hn::NearestInt(up));
         float* const ranks = swept.fill_rank.data() + first;
         int32_t* const texels = swept.fill_texel.data() + first;
         const Vec own = hn::Sub(set(rank), inv_z);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sweep/packed_codes.h"
+
 namespace viewloom {
 namespace {
 
@@ -21,14 +23,27 @@ void Runs::reserve(uint32_t run_count) {
 void Steps::reserve(uint32_t step_count) {
   for (auto* values : {&edge_px, &low_inv_z, &high_inv_z}) values->reserve(step_count + kSlack);
   texel.reserve(step_count + kSlack);
+  texel_per_inv_z.reserve(step_count + kSlack);
 }
 
-void Steps::add(float edge, float low, float high, int32_t texel_at) {
+void Steps::add(float edge, float low, float high, int32_t texel_at, float texel_per_inv_z_at) {
   if (!(low < high)) return;
   edge_px[count] = edge;
   low_inv_z[count] = low;
   high_inv_z[count] = high;
+  texel_per_inv_z[count] = texel_per_inv_z_at;
   texel[count++] = texel_at;
+}
+
+void MixedTexels::reserve(uint32_t texel_count) {
+  for (auto* values : {&index, &own, &inner}) values->reserve(texel_count);
+}
+
+void MixedTexels::add(uint32_t texel_index, uint32_t own_texel, uint32_t inner_texel) {
+  if (own_texel == inner_texel) return;
+  index[count] = texel_index;
+  own[count] = own_texel;
+  inner[count++] = inner_texel;
 }
 
 void SurfaceRow::reserve(uint32_t columns, uint32_t layers_of_each) {
@@ -42,12 +57,18 @@ void SurfaceRow::reserve(uint32_t columns, uint32_t layers_of_each) {
     }
   }
   nearest_texel.reserve(columns + kSlack);
-  texels.reserve(3 * size_t{columns} * layer_count + kSlack);
-  texel_layer.reserve(3 * size_t{columns} * layer_count + kSlack);
+  // Every facet may be a surface of its own, of three texels, and the near side of two silhouettes,
+  // of as many.
+  const size_t texel_count_max = 9 * size_t{columns} * layer_count + kSlack;
+  texels.reserve(texel_count_max);
+  texel_layer.reserve(texel_count_max);
+  mixed.reserve(4 * columns * layer_count);
 }
 
 void SurfaceRow::clear() {
   texel_count = 0;
+  mixed.count = 0;
+  clean = 0;
   for (LayerSurfaces& layer : layers) {
     layer.runs.count = 0;
     for (auto* steps : {&layer.bridges, &layer.silhouettes}) {
@@ -55,6 +76,14 @@ void SurfaceRow::clear() {
     }
   }
   std::fill_n(nearest_texel.data(), width_px, -1);
+}
+
+void SurfaceRow::cleanMixedTexels(float share) {
+  if (share == clean) return;
+  clean = share;
+  for (uint32_t i = 0; i < mixed.count; ++i) {
+    texels[mixed.index[i]] = blendOfCodes(mixed.own[i], mixed.inner[i], share);
+  }
 }
 
 uint32_t SurfaceRow::pieceCountMax() const {

@@ -38,9 +38,22 @@ struct Steps {
   AlignedArray<float> high_inv_z;
   // Where the colour is: of bridges that of the edge; of silhouettes the far side's, -1 = none.
   AlignedArray<int32_t> texel;
+  // How far it moves from there with the inv_z above `low`.
+  AlignedArray<float> texel_per_inv_z;
 
   void reserve(uint32_t step_count);
-  void add(float edge, float low, float high, int32_t texel_at);
+  void add(float edge, float low, float high, int32_t texel_at, float texel_per_inv_z_at = 0);
+};
+
+// Texels on the far side of deep silhouettes, as they are and as the next one further in.
+struct MixedTexels {
+  uint32_t count = 0;
+  AlignedArray<uint32_t> index;
+  AlignedArray<uint32_t> own;
+  AlignedArray<uint32_t> inner;
+
+  void reserve(uint32_t texel_count);
+  void add(uint32_t texel_index, uint32_t own_texel, uint32_t inner_texel);
 };
 
 // Which way rays travel along the row: those of an eye to the right of the source go left.
@@ -64,6 +77,8 @@ struct SurfaceRow {
   AlignedArray<uint32_t> texels;
   AlignedArray<uint8_t> texel_layer;
   uint32_t texel_count = 0;
+  MixedTexels mixed;
+  float clean = 0;  // how far mixed texels have given way, 0..1
   AlignedArray<int32_t> nearest_texel;  // [column]: of layer 0, 256 times its index; -1: none
   float left_inv_z = 0;                 // of layer 0 at the border of the image; kNoSurface
   float right_inv_z = 0;
@@ -72,6 +87,8 @@ struct SurfaceRow {
   void reserve(uint32_t columns, uint32_t layers_of_each);
   // Of surfaces.
   void clear();
+  // Lets mixed texels give way to the next ones so far, 0..1.
+  void cleanMixedTexels(float share);
   // The most that any layer has of runs or of steps of one kind.
   uint32_t pieceCountMax() const;
 };

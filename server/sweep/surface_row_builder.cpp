@@ -33,6 +33,10 @@ uint32_t findOther(const uint8_t* bytes, uint32_t first, uint32_t end, uint8_t v
   return end;
 }
 
+bool isSilhouette(uint8_t link) {
+  return link == 0 || link == abi::kDeepEdge;
+}
+
 }  // namespace
 
 void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
@@ -58,7 +62,7 @@ void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
   made_.reserve(width_, layer_count_);
 }
 
-const SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance) {
+SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance) {
   const SizePx size_px = source.columns->sizePx();
   reserve(*source.columns);
   kappa_ = source.kappa;
@@ -75,7 +79,7 @@ const SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px,
     const uint8_t* const to_left = layers_[i].to_left.data();
     for (uint32_t x = 0; x < width_; ++x) {
       x = findOther(to_left, x, width_, uint8_t(i + 1));
-      if (x < width_ && to_left[x] == 0) followSurface(i, x);
+      if (x < width_ && isSilhouette(to_left[x])) followSurface(i, x);
     }
   }
   for (uint32_t i = 0; i < layer_count_; ++i) addSilhouettes(i);
@@ -157,6 +161,8 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
       .before_inv_z = abi::kNoSurface};
   uint32_t* const texels = made_.texels.data();
   uint8_t* const texel_layer = made_.texel_layer.data();
+  const bool begins_deep = layers_[layer].to_left[column] == abi::kDeepEdge;
+  bool ends_deep = false;
   for (;;) {
     LayerScratch& own = layers_[layer];
     const uint32_t last = findOther(own.to_right.data(), column, width_ - 1, uint8_t(layer + 1));
@@ -167,7 +173,8 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
     for (uint32_t i = 0; i < count; ++i) places[i] = int32_t(texel + i) * kSubtexelSteps;
     texel += count;
     followPiece(surface, layer, column, last);
-    if (last + 1 == width_ || own.to_right[last] == 0) break;
+    ends_deep = own.to_right[last] == abi::kDeepEdge;
+    if (last + 1 == width_ || isSilhouette(own.to_right[last])) break;
     layer = own.to_right[last] - 1U;
     column = last + 1;
   }
@@ -176,6 +183,23 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
   texels[texel] = texels[texel - 1];
   texel_layer[texel] = texel_layer[texel - 1];
   made_.texel_count = texel + 1;
+  noteMixed(base, begins_deep, ends_deep);
+}
+
+// The texels of the surface that begins at `base`, and of its copies at both ends. Of a surface of
+// two px between two silhouettes, both are what there is.
+void SurfaceRowBuilder::noteMixed(uint32_t base, bool begins_deep, bool ends_deep) {
+  const uint32_t first = base + 1;
+  const uint32_t last = made_.texel_count - 2;
+  const uint32_t count = last + 1 - first;
+  if (count < 2 || (count == 2 && begins_deep && ends_deep)) return;
+  const uint32_t* const texels = made_.texels.data();
+  for (const uint32_t at : {base, first}) {
+    if (begins_deep) made_.mixed.add(at, texels[first], texels[first + 1]);
+  }
+  for (const uint32_t at : {last, last + 1}) {
+    if (ends_deep) made_.mixed.add(at, texels[last], texels[last - 1]);
+  }
 }
 
 // The fewest straight runs that stay within the tolerance of every facet, one after the other. As
@@ -258,15 +282,16 @@ void SurfaceRowBuilder::addSilhouettes(uint32_t layer) {
     const uint8_t* const links = goes_left ? scratch.to_right.data() : scratch.to_left.data();
     for (uint32_t x = 0; x < width_; ++x) {
       x = findOther(links, x, width_, uint8_t(layer + 1));
-      if (x >= width_ || links[x] > layer) continue;
-      if (links[x] > 0 && hasFault(SweepFault::kGoesOnBehind)) continue;
-      addSilhouette(layer, travel, x, links[x]);
+      const uint8_t link = x < width_ && !isSilhouette(links[x]) ? links[x] : uint8_t{0};
+      if (x >= width_ || link > layer) continue;
+      if (link > 0 && hasFault(SweepFault::kGoesOnBehind)) continue;
+      addSilhouette(layer, travel, x, link);
     }
   }
 }
 
 // Rays that enter `column` pass behind its facet. Their far side is the surface that they were over
-// before, half a px away from the edge; at the border of the image, the facet itself.
+// before; at the border of the image, the facet itself.
 void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t column,
                                       uint8_t link) {
   const bool goes_left = travel == Travel::kLeft;
@@ -282,13 +307,33 @@ void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t co
   const float own = goes_left ? scratch.right[column] : scratch.left[column];
   const float high = link == 0 ? own : std::min(own, edgeBefore(link - 1U));
   const float low = is_over ? edgeBefore(layer) : 0;
-  const size_t far_column = is_border ? column : size_t(before);
-  const int32_t half_px = goes_left ? kSubtexelSteps / 2 : -kSubtexelSteps / 2;
-  const bool has_far_side = link == 0 && (is_border || is_over);
-  const int32_t texel =
-      has_far_side ? (layer == 0 ? made_.nearest_texel : scratch.texel)[far_column] + half_px : -1;
-  made_.layers[layer].silhouettes[size_t(travel)].add(goes_left ? float(column + 1) : float(column),
-                                                      low, high, texel);
+  Steps& silhouettes = made_.layers[layer].silhouettes[size_t(travel)];
+  const float edge_px = goes_left ? float(column + 1) : float(column);
+  if (link > 0 || !(is_border || is_over)) {
+    silhouettes.add(edge_px, low, high, -1);
+    return;
+  }
+  const auto texelOf = [&](size_t at) {
+    return (layer == 0 ? made_.nearest_texel : scratch.texel)[at];
+  };
+  const bool is_deep = is_border || own * (1.0F - abi::kDeepStep) > low;
+  if (is_deep || !(low < high)) {
+    silhouettes.add(edge_px, low, high, texelOf(is_border ? column : size_t(before)));
+    return;
+  }
+  const int32_t between = addBetween(texelOf(size_t(before)), texelOf(column));
+  silhouettes.add(edge_px, low, high, between, kSubtexelSteps / (high - low));
+}
+
+// Texels from that of a far side to that of the near one.
+int32_t SurfaceRowBuilder::addBetween(int32_t far_texel, int32_t near_texel) {
+  const uint32_t base = made_.texel_count;
+  for (const int32_t from : {far_texel, near_texel, near_texel}) {
+    const size_t index = size_t(from / kSubtexelSteps);
+    made_.texels[made_.texel_count] = made_.texels[index];
+    made_.texel_layer[made_.texel_count++] = made_.texel_layer[index];
+  }
+  return int32_t(base) * kSubtexelSteps;
 }
 
 }  // namespace viewloom

@@ -23,7 +23,7 @@ struct RowSource {
 class SurfaceRowBuilder {
  public:
   // The surfaces at height `y_px` of the source, straight within `tolerance`, 1/m; until the next.
-  const SurfaceRow& build(const RowSource& source, double y_px, float tolerance);
+  SurfaceRow& build(const RowSource& source, double y_px, float tolerance);
 
  private:
   struct LayerScratch {
@@ -46,6 +46,7 @@ class SurfaceRowBuilder {
   const uint32_t* colorRow(const RowSource& source, uint32_t layer, int y,
                            AlignedArray<uint32_t>& copy) const;
   void followSurface(uint32_t layer, uint32_t column);
+  void noteMixed(uint32_t base, bool begins_deep, bool ends_deep);
   void followPiece(Surface& surface, uint32_t layer, uint32_t first, uint32_t last);
   void followFallingFacet(Surface& surface, uint32_t layer, uint32_t column);
   uint32_t findFalling(uint32_t layer, uint32_t first, uint32_t last) const;
@@ -53,6 +54,7 @@ class SurfaceRowBuilder {
               float end_inv_z);
   void addSilhouettes(uint32_t layer);
   void addSilhouette(uint32_t layer, Travel travel, uint32_t column, uint8_t link);
+  int32_t addBetween(int32_t far_texel, int32_t near_texel);
 
   uint32_t width_ = 0;
   uint32_t layer_count_ = 0;

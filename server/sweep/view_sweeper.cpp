@@ -2,6 +2,7 @@
 #include "sweep/view_sweeper.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/check.h"
 #include "shared/ycbcr.h"
@@ -73,11 +74,15 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
   const SweptTiles& group = plan.groupOf(index);
   const uint32_t tile_row = plan.tileRow(index);
   const double y_px = group.first_px + group.step_px * tile_row;
-  const SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance);
+  SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance);
   row_.reserve(width_px, row.pieceCountMax());
+  // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
+  const float inv_z_near =
+      std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   for (const uint32_t tile : group.tiles) {
     if (!takes(tile)) continue;
     const SweepView& view = plan.viewOf(tile);
+    row.cleanMixedTexels(std::min(std::abs(view.eye_px_m) * inv_z_near, 1.0F));
     paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
     colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
              rowOf(tile, tile_row));

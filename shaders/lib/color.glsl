@@ -27,45 +27,77 @@ vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color
 // the sample, whatever the last bits of its position.
 const float kSubtexelSteps = 256.0;
 
+// The sample of a column and the one beside it, between which colour is looked up along an axis.
+struct AxisTaps {
+  int toward;     // -1 or 1: where the other lies
+  float share;    // of the other
+  uint link;      // to the other
+  bool is_inner;  // the own sample stands beside a deep silhouette, the other further in
+};
+
+// `low_edge`: of the two along the axis. `offset`: of the point from the own sample, px. `clean`:
+// see surfaceColorPerFacet.
+AxisTaps tapsAlong(uint links, uint low_edge, float offset, float clean) {
+  const bool deep_low = isDeepEdge(links, low_edge);
+  const bool deep_high = isDeepEdge(links, low_edge + 1u);
+  const uint inner_link = linkOfEdge(links, deep_low ? low_edge + 1u : low_edge);
+  const bool is_inner = deep_low != deep_high && inner_link > 0u;
+  const int towards_point = offset >= 0.0 ? 1 : -1;
+  const int toward = is_inner ? (deep_low ? 1 : -1) : towards_point;
+  const float share = clamp(offset * float(toward), 0.0, 1.0);
+  const uint link = linkOfEdge(links, toward > 0 ? low_edge + 1u : low_edge);
+  return AxisTaps(toward, is_inner ? mix(share, 1.0, clean) : share, link, is_inner);
+}
+
+// The same for the other sample, whose links are known now.
+float shareOfOther(AxisTaps taps, uint other_links, uint low_edge, float offset, float clean) {
+  const bool is_deep = isDeepEdge(other_links, taps.toward > 0 ? low_edge + 1u : low_edge);
+  // Of a surface of two px between two silhouettes, both are what there is.
+  const float plain = clamp(offset * float(taps.toward), 0.0, 1.0);
+  return is_deep ? (taps.is_inner ? plain : plain * (1.0 - clean)) : taps.share;
+}
+
 // Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around
 // the point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a
-// branch would cost as much. `links`: of the facet.
+// branch would cost as much. `links`: of the facet. `clean`, by axis: how far the samples on the far
+// side of deep silhouettes give way to those one px further in, 0..1.
 vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
                           Extent extent, uint color_format, uint layer, ivec2 cell, uint links,
-                          vec2 point) {
+                          vec2 point, vec2 clean) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * kSubtexelSteps) / kSubtexelSteps;
-  const vec2 share = min(abs(offset), vec2(0.5));
-  const ivec2 toward = ivec2(offset.x >= 0.0 ? 1 : -1, offset.y >= 0.0 ? 1 : -1);
-  const uint edge_x = toward.x > 0 ? kEdgeRight : kEdgeLeft;
-  const uint edge_y = toward.y > 0 ? kEdgeBottom : kEdgeTop;
-  const uint link_x = linkOfEdge(links, edge_x);
-  const uint link_y = linkOfEdge(links, edge_y);
+  const AxisTaps taps_x = tapsAlong(links, kEdgeLeft, offset.x, clean.x);
+  const AxisTaps taps_y = tapsAlong(links, kEdgeTop, offset.y, clean.y);
+  const uint link_x = taps_x.link;
+  const uint link_y = taps_y.link;
+  const ivec2 step_x = ivec2(link_x > 0u ? taps_x.toward : 0, 0);
+  const ivec2 step_y = ivec2(0, link_y > 0u ? taps_y.toward : 0);
+  const uint layer_x = link_x > 0u ? link_x - 1u : layer;
+  const uint layer_y = link_y > 0u ? link_y - 1u : layer;
+  const uint links_x = loadLinks(layers, layer_x, extent, cell + step_x);
+  const uint links_y = loadLinks(layers, layer_y, extent, cell + step_y);
+  const vec2 share = vec2(shareOfOther(taps_x, links_x, kEdgeLeft, offset.x, clean.x),
+                          shareOfOther(taps_y, links_y, kEdgeTop, offset.y, clean.y));
   // The fourth is reached through either neighbour.
-  const bool through_x = link_x > 0u;
-  const uint via = through_x ? link_x : link_y;
-  const ivec2 via_cell = cell + (through_x  ? ivec2(toward.x, 0)
-                                 : via > 0u ? ivec2(0, toward.y)
-                                            : ivec2(0));
-  const uint via_layer = via > 0u ? via - 1u : layer;
-  const uint via_links = loadLinks(layers, via_layer, extent, via_cell);
-  const uint link_xy = via > 0u ? linkOfEdge(via_links, through_x ? edge_y : edge_x) : 0u;
+  const uint edge_x = taps_x.toward > 0 ? kEdgeRight : kEdgeLeft;
+  const uint edge_y = taps_y.toward > 0 ? kEdgeBottom : kEdgeTop;
+  const uint through_x = link_x > 0u ? linkOfEdge(links_x, edge_y) : 0u;
+  const uint through_y = link_x == 0u && link_y > 0u ? linkOfEdge(links_y, edge_x) : 0u;
+  const uint link_xy = max(through_x, through_y);
 
   const vec2 other = 1.0 - share;
-  const uint own = uint(cell.y * extent.size_px.x + cell.x);
-  const uint step_x = uint(toward.x);
-  const uint step_y = uint(toward.y * extent.size_px.x);
+  const int own = cell.y * extent.size_px.x + cell.x;
+  const int down = taps_y.toward * extent.size_px.x;
   const vec4 weights =
       vec4(other.x * other.y, link_x > 0u ? share.x * other.y : 0.0,
            link_y > 0u ? other.x * share.y : 0.0, link_xy > 0u ? share.x * share.y : 0.0);
-  const uvec4 tap_layers =
-      uvec4(layer, link_x > 0u ? link_x - 1u : layer, link_y > 0u ? link_y - 1u : layer,
-            link_xy > 0u ? link_xy - 1u : layer);
-  const uvec4 taps = uvec4(own, link_x > 0u ? own + step_x : own, link_y > 0u ? own + step_y : own,
-                           link_xy > 0u ? own + step_x + step_y : own);
+  const uvec4 tap_layers = uvec4(layer, layer_x, layer_y, link_xy > 0u ? link_xy - 1u : layer);
+  const ivec4 taps = ivec4(own, link_x > 0u ? own + taps_x.toward : own,
+                           link_y > 0u ? own + down : own,
+                           link_xy > 0u ? own + taps_x.toward + down : own);
   const uint count = uint(extent.size_px.x * extent.size_px.y);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
-    sum += weights[i] * loadTexel(color, tap_layers[i], count, color_format, taps[i]);
+    sum += weights[i] * loadTexel(color, tap_layers[i], count, color_format, uint(taps[i]));
   }
   return sum * (1.0 / (weights.x + weights.y + weights.z + weights.w));
 }

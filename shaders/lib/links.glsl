@@ -15,7 +15,7 @@ struct EdgeSide {
 
 // What links do to the facets on one side.
 struct EdgeLinks {
-  uvec4 link[kLayerCountMax];  // 0 = silhouette, 1 + layer of the other side
+  uvec4 link[kLayerCountMax];  // 0 = silhouette, 1 + layer of the other side, kDeepEdge
   vec4
       forward_high[kLayerCountMax];  // facet_high of what links from here or deeper lead forward to
 };
@@ -29,6 +29,11 @@ bvec4 both(bvec4 a, bvec4 b) {
 bvec4 mayLink(vec4 a, vec4 b, vec2 kappa) {
   const vec4 tolerance = max(vec4(kappa.x), kappa.y * max(a, b));
   return both(greaterThanEqual(min(a, b), vec4(0.0)), lessThanEqual(abs(a - b), tolerance));
+}
+
+// Which silhouettes `far` would be the far side of, if nothing is linked.
+bvec4 isDeepBehind(vec4 far, vec4 near) {
+  return both(greaterThanEqual(far, vec4(0.0)), greaterThan(near * (1.0 - kDeepStep), far));
 }
 
 // The layer nearest to each value among those of the other side not linked to their own layer.
@@ -80,8 +85,12 @@ void linkAcross(EdgeSide here, EdgeSide there, vec2 kappa, out EdgeLinks links_h
   bvec4 taken[kLayerCountMax];  // linked to their own layer
   for (uint i = 0u; i < kLayerCount; ++i) {
     taken[i] = mayLink(here.at[i], there.at[i], kappa);
-    links_here.link[i] = mix(uvec4(0u), uvec4(i + 1u), taken[i]);
-    links_there.link[i] = links_here.link[i];
+    const bvec4 deep_here = isDeepBehind(here.at[i], there.at[i]);
+    const bvec4 deep_there = isDeepBehind(there.at[i], here.at[i]);
+    links_here.link[i] =
+        mix(mix(uvec4(0u), uvec4(kDeepEdge), deep_here), uvec4(i + 1u), taken[i]);
+    links_there.link[i] =
+        mix(mix(uvec4(0u), uvec4(kDeepEdge), deep_there), uvec4(i + 1u), taken[i]);
     links_here.forward_high[i] = vec4(kNoSurface);
     links_there.forward_high[i] = vec4(kNoSurface);
   }

@@ -87,7 +87,18 @@ uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 
 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.
 uint linkOfEdge(uint links, uint edge) {
-  return (links >> (edge * kLinkBits)) & 7u;
+  const uint link = (links >> (edge * kLinkBits)) & 7u;
+  return link == kDeepEdge ? 0u : link;
+}
+
+// Whether the facet is the far side of a deep silhouette there.
+bool isDeepEdge(uint links, uint edge) {
+  return ((links >> (edge * kLinkBits)) & 7u) == kDeepEdge;
+}
+
+// A silhouette made a link.
+uint withLink(uint links, uint edge, uint link) {
+  return (links & ~(7u << (edge * kLinkBits))) | (link << (edge * kLinkBits));
 }
 
 // Largest step between two facets that are one surface, 1/m.

@@ -50,6 +50,11 @@ struct Walk {
   bool has_far_side;
   ivec2 far_cell;
   uint far_layer;
+  // Where the ray passed it, across which axis, and how far up the step between the far side and the
+  // near one, 0..1; 0 where the silhouette is deep.
+  float far_t;
+  uint far_axis;
+  float far_share;
   uint visits;
 };
 
@@ -72,6 +77,9 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   result.has_far_side = false;
   result.far_cell = start.cell;
   result.far_layer = 0u;
+  result.far_t = 0.0;
+  result.far_axis = kAxisNone;
+  result.far_share = 0.0;
   result.visits = 0u;
 
   uint layer = 0u;
@@ -212,6 +220,9 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
         result.has_far_side = true;
         result.far_cell = (at.cell ^ flip) - stepOfAxis(at.axis, direction);
         result.far_layer = layer;
+        result.far_t = at.t;
+        result.far_axis = at.axis;
+        result.far_share = crossing.far_share;
       }
       has_passed = true;
       in_front = false;

@@ -56,6 +56,7 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
 struct Crossing {
   uint hit_layer;     // whose surface it hits; kNoLayer
   bool has_far_side;  // passes behind `layer`, from over a surface of it or from the beginning
+  float far_share;    // how far up the step from that surface, 0..1; 0 if it is deep
 };
 
 const uint kNoLayer = kLayerCountMax;
@@ -73,7 +74,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   const ivec2 from_cell = leaving ? before : at.cell;
   const ivec2 to_cell = leaving ? at.cell : before;
-  Crossing result = Crossing(kNoLayer, false);
+  Crossing result = Crossing(kNoLayer, false, 0.0);
   uint from = layer;
   for (;;) {
     if (isNever(scene, 3u)) break;
@@ -94,6 +95,11 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
       const bool is_hit = is_linked && (!leads_forward || front > -slack);
       if (is_hit || (crosses && hasFault(kFaultBehindIsHit))) result.hit_layer = layer;
       result.has_far_side = !is_linked && facet.x != kNoFacet;
+      const float far = point.z - front;
+      const float near =
+          facetAtPoint(loadFacet(scene.layers, layer, scene.extent, at.cell), at.cell, point.xy);
+      const bool is_deep = !crosses || near * (1.0 - kDeepStep) > far;
+      result.far_share = is_deep ? 0.0 : clamp(front / max(near - far, 1e-30), 0.0, 1.0);
     }
     if (!leaving || result.hit_layer != kNoLayer || from == scene.layer_count) break;
   }

@@ -78,12 +78,17 @@ VIEWLOOM_ABI_CONST uint kForwardLinkFlag = 0x80000000u;
 VIEWLOOM_ABI_CONST float kNoSurface = -1.0f;
 
 // Edges of a facet, in the order of its link word (3 bits each: 0 = silhouette, 1 + k = linked to
-// layer k of the neighbouring column).
+// layer k of the neighbouring column, kDeepEdge).
 VIEWLOOM_ABI_CONST uint kEdgeLeft = 0u;
 VIEWLOOM_ABI_CONST uint kEdgeRight = 1u;
 VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
 VIEWLOOM_ABI_CONST uint kEdgeBottom = 3u;
 VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
+// The far side of a deep silhouette: beyond it the same layer is nearer by more than kDeepStep, as a
+// share of the nearer inv_z. Two things then, of which a sample beside the edge may show a bit of
+// both; what steps by less may be one that is steep.
+VIEWLOOM_ABI_CONST uint kDeepEdge = 7u;
+VIEWLOOM_ABI_CONST float kDeepStep = 0.15f;
 // Set in the link word of every facet that exists.
 VIEWLOOM_ABI_CONST uint kFacetExists = 0x1000u;
 

@@ -55,14 +55,15 @@ uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
 
-vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point) {
+// `clean`: of lib/color.glsl, where colour has the size of depth.
+vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point, vec2 clean) {
   if (kColorIsScaled) {
     const ColorSizes sizes = ColorSizes(extras.color_size_px, extras.color_stride);
     return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, sizes,
                               kColorFormat, layer, cell, point, scene.kappa);
   }
   return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
-                              links, point);
+                              links, point, clean);
 }
 
 uint classOf(Walk walk) {
@@ -73,7 +74,8 @@ uint classOf(Walk walk) {
 
 // A ray that never sees the image continues the border next to where it goes.
 Walk walkBeside(WalkStart start) {
-  return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0u);
+  return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0.0, kAxisNone,
+              0.0, 0u);
 }
 
 // Codes 0..255 of a blend of texels.
@@ -88,21 +90,40 @@ struct Light {
   bool is_known;
 };
 
+// Where the far side of a silhouette is looked up: in the middle of its column, towards the near side
+// as far as the ray was up the step, if that is not deep.
+vec2 farPoint(Ray ray, Walk walk) {
+  const vec2 passed = (ray.start + walk.far_t * ray.extent).xy;
+  const vec2 middle = vec2(walk.far_cell) + 0.5;
+  const vec2 along = middle + walk.far_share * sign(ray.extent.xy);
+  return walk.far_axis == kAxisX   ? vec2(along.x, passed.y)
+         : walk.far_axis == kAxisY ? vec2(passed.x, along.y)
+                                   : middle;
+}
+
 // Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
-// passed behind, or the image's border, goes on; else there is nothing. A sample next to a
-// silhouette may hold some of the other side: half a px back along the ray it counts half.
+// passed behind, or the image's border, goes on; else there is nothing.
 Light opaqueLight(Scene scene, Ray ray, Walk walk) {
   const vec3 point = ray.start + walk.t * ray.extent;
-  const bool is_far_side = walk.ends_behind && walk.has_far_side;
+  const bool is_far_side = !walk.is_hit && walk.ends_behind && walk.has_far_side;
   const bool is_border = walk.leaves && scene.fills_border;
   const uint layer = walk.is_hit ? walk.layer : is_far_side ? walk.far_layer : 0u;
-  const ivec2 cell = !walk.is_hit && is_far_side ? walk.far_cell : walk.cell;
-  const float half_px = is_far_side ? 0.5 * min(ray.pace.x, ray.pace.y) : 0.0;
-  const vec2 at = walk.is_hit ? point.xy : vec2(cell) + 0.5 - half_px * ray.extent.xy;
-  const uint links = loadLinks(scene.layers, layer, scene.extent, cell);
+  const ivec2 cell = is_far_side ? walk.far_cell : walk.cell;
+  const vec2 at = walk.is_hit     ? point.xy
+                  : is_far_side ? farPoint(ray, walk)
+                                : vec2(cell) + 0.5;
+  const uint own_links = loadLinks(scene.layers, layer, scene.extent, cell);
+  const ivec2 direction = mix(ivec2(1), ivec2(-1), lessThan(ray.extent.xy, vec2(0.0)));
+  const uint near_edge = edgeOfAxis(walk.far_axis, direction, true);
+  const uint links = is_far_side && walk.far_share > 0.0
+                         ? withLink(own_links, near_edge, layer + 1u)
+                         : own_links;
   const bool is_known = walk.is_hit || walk.ends_behind || is_border;
-  const vec4 color = surfaceColor(scene, layer, cell, links, at);
-  return Light(color, is_known && (links & kFacetExists) != 0u);
+  // A view moves what is nearest by the extent of its rays: from the source's own place the source is
+  // seen as it is, from a px beside it none of the samples that may be mixed.
+  const vec2 clean = min(abs(ray.extent.xy), vec2(1.0));
+  const vec4 color = surfaceColor(scene, layer, cell, links, at, clean);
+  return Light(color, is_known && (own_links & kFacetExists) != 0u);
 }
 
 // A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
@@ -127,6 +148,8 @@ void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
       walk.far_cell = is_further ? inside : walk.far_cell;
       walk.far_layer = is_further ? layer : walk.far_layer;
       walk.has_far_side = is_further || walk.has_far_side;
+      walk.far_axis = is_further ? kAxisNone : walk.far_axis;
+      walk.far_share = is_further ? 0.0 : walk.far_share;
       furthest = is_further ? inv_z : furthest;
     }
     ++probe;

@@ -19,6 +19,8 @@ constexpr double kFocal_px = 1.25 * kWidth;  // of the analytic scenes
 constexpr double kTolerance_px = 0.05;
 // sRGB-encoded; binary16 and the fits of the sRGB curve: half an 8-bit step.
 constexpr float kColorTolerance = 0.5f / 255;
+// Of a place between two samples: positions have 1/256 px.
+constexpr double kShareTolerance = 1.0 / 256;
 using ColorOf = std::function<LinearColor(int column, int row)>;  // premultiplied linear light
 
 constexpr LinearColor kRed = {1, 0, 0, 1};
@@ -120,19 +122,56 @@ TEST_F(FillTest, behindEachPoleTheWallGoesOnFromTheSideTheRayCameFrom) {
   }
 }
 
-TEST_F(FillTest, aMixedSampleBesideASilhouetteCountsHalf) {
-  const auto with_mixed_edges = [](int column, int) -> LinearColor {
-    const bool is_beside = isPole(column - 1) || isPole(column + 1);
-    return isPole(column) ? LinearColor{1, 1, 1, 1} : is_beside ? LinearColor{1, 1, 0, 1} : kGreen;
-  };
+// Samples of the wall beside the poles hold half of the poles' white.
+LinearColor mixedBesidePoles(int column, int) {
+  const bool is_beside = isPole(column - 1) || isPole(column + 1);
+  return isPole(column) ? LinearColor{1, 1, 1, 1} : is_beside ? LinearColor{1, 1, 0, 1} : kGreen;
+}
+
+TEST_F(FillTest, aMixedSampleBesideADeepSilhouetteGivesWayToTheNextOne) {
   constexpr double kEye_x_m = 0.1;
-  const TracedView view = trace(polesBeforeWall(), with_mixed_edges, kEye_x_m);
+  const TracedView view = trace(polesBeforeWall(), mixedBesidePoles, kEye_x_m);
+  int wall_count = 0;
+  for (size_t i = 0; i < view.records.size(); ++i) {
+    const bool is_pole = view.records[i].inv_z > 0.5f;
+    const bool is_wall = view.records[i].ray_class <= abi::kClassHitAssumed && !is_pole;
+    const bool is_hidden = view.records[i].ray_class == abi::kClassHidden;
+    if (!is_wall && !is_hidden) continue;
+    EXPECT_TRUE(isAlike(view.srgb[i], kGreen)) << "column " << i % kWidth << ", red "
+                                               << view.srgb[i][0];
+    wall_count += is_wall;
+  }
+  EXPECT_GT(wall_count, kWidth * kHeight / 2);
+}
+
+TEST_F(FillTest, fromItsOwnPlaceTheSourceKeepsItsMixedSamples) {
+  const TracedView view = trace(polesBeforeWall(), mixedBesidePoles, 0);
+  for (size_t i = 0; i < view.records.size(); ++i) {
+    const LinearColor own = mixedBesidePoles(int(i % kWidth), 0);
+    EXPECT_TRUE(isAlike(view.srgb[i], own)) << "column " << i % kWidth;
+  }
+}
+
+// A step of 10 % is one thing that is steep: what shows between its sides is between their colours.
+TEST_F(FillTest, behindAShallowStepColorGoesFromSideToSide) {
+  constexpr int kEdge = 8;
+  constexpr double kNear = 0.5;
+  constexpr double kFar = 0.45;
+  const oracle::Scene scene =
+      oracle::stepScene({0, 0, kNear}, {0, 0, kFar}, kEdge, false, kWidth, kHeight);
+  constexpr double kEye_x_m = -1;  // the step is 4 px wide
+  const TracedView view = trace(
+      scene, [](int column, int) { return column < kEdge ? kRed : kBlue; }, kEye_x_m);
+  int between_count = 0;
   forEachHidden(view, [&](int column, const LinearColor& srgb) {
-    const bool enters_behind = column + 0.5 + kFocal_px * kEye_x_m * kWall > kWidth;
-    if (enters_behind) return;
-    EXPECT_TRUE(isAlike(srgb, {float(linearFrom(0.5)), 1, 0, 1}))
-        << "column " << column << ": red " << srgb[0];
+    const double inv_z_at_edge = (kEdge - (column + 0.5)) / (kFocal_px * kEye_x_m);
+    if (inv_z_at_edge > kNear || inv_z_at_edge < kFar) return;  // came in behind the near side
+    ++between_count;
+    const double near_share = (inv_z_at_edge - kFar) / (kNear - kFar);
+    EXPECT_NEAR(srgb[0], 1 - near_share, kShareTolerance) << "column " << column;
+    EXPECT_NEAR(srgb[2], near_share, kShareTolerance) << "column " << column;
   });
+  EXPECT_GE(between_count, 4 * kHeight);
 }
 
 TEST_F(FillTest, whoEntersTheImageBehindTheGroundSeesTheGroundAtItsBorder) {

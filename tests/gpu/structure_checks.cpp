@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "gpu/footprint.h"
+#include "shared/structure_abi.h"
 
 namespace viewloom {
 namespace {
@@ -25,7 +26,8 @@ int expectedLink(const OracleSource& source, const FacetAt& at, int edge) {
   for (; next.layer < source.layerCount(); ++next.layer) {
     if (source.linked(at, next)) return 1 + next.layer;
   }
-  return 0;
+  next.layer = at.layer;
+  return source.deepBehind(at, next) ? int(abi::kDeepEdge) : 0;
 }
 
 // Whether a link of the column leads from this layer or a deeper one to one before this layer.
@@ -34,7 +36,7 @@ bool leadsForward(const OracleSource& source, const FacetAt& at) {
     for (int edge = 0; edge < 4; ++edge) {
       const FacetAt from{layer, at.column, at.row};
       const int link = source.exists(from) ? expectedLink(source, from, edge) : 0;
-      if (link > 0 && link - 1 < at.layer) return true;
+      if (link > 0 && link != int(abi::kDeepEdge) && link - 1 < at.layer) return true;
     }
   }
   return false;

@@ -164,4 +164,14 @@ bool OracleSource::linked(const FacetAt& a, const FacetAt& b) const {
   return nearestUnlinked(a, b) == b && nearestUnlinked(b, a) == a;
 }
 
+bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
+  if (!exists(far) || !exists(near)) return false;
+  FacetAt there = near;
+  for (there.layer = 0; there.layer < layerCount(); ++there.layer) {
+    if (linked(far, there)) return false;
+  }
+  constexpr float kDeepStep = 0.15F;
+  return invZAtEdge(near, far) * (1.0F - kDeepStep) > invZAtEdge(far, near);
+}
+
 }  // namespace viewloom::oracle

@@ -88,6 +88,10 @@ class OracleSource {
   // Whether two facets in columns that share an edge are one connected surface there.
   bool linked(const FacetAt& a, const FacetAt& b) const;
 
+  // Whether `far` is the far side of a deep silhouette towards the column of `near`, of the same
+  // layer: linked to nothing there, and further away by more than 15 % of the nearer inv_z.
+  bool deepBehind(const FacetAt& far, const FacetAt& near) const;
+
  private:
   float slope(const FacetAt& at, int step_x, int step_y) const;
   float differenceTo(const FacetAt& from, int step_x, int step_y, FacetAt& neighbour) const;

@@ -26,7 +26,8 @@ uint pixelOf(ViewParams view, Run run, uint i, float bound) {
   const Address unused[kLayerCountMax] = Address[](uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
   const uint links = loadLinks(unused, layer, extent, cell);
   const vec4 color =
-      surfaceColorPerFacet(unused, unused, extent, kColorRgba8, layer, cell, links, point);
+      surfaceColorPerFacet(unused, unused, extent, kColorRgba8, layer, cell, links, point,
+                           vec2(0.0));
   return is_hit ? packCodes(color.rgb) : hit.x;
 }
 
