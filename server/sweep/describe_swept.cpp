@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sweep/packed_codes.h"
 
@@ -51,6 +52,19 @@ abi::RayRecord recordOf(const RowToDescribe& described, uint32_t p, uint8_t ray_
           .visits = 0};
 }
 
+// As applyEdgeBlends does it.
+void blendLinear(const EdgeBlends& blends, float* rgba) {
+  std::vector<float> others;
+  for (uint32_t i = 0; i < blends.count; ++i) {
+    const float* const other = rgba + 4 * size_t(blends.at[i].other);
+    others.insert(others.end(), other, other + 4);
+  }
+  for (size_t i = 0; i < others.size(); ++i) {
+    float& channel = rgba[4 * size_t(blends.at[i / 4].px) + i % 4];
+    channel = std::lerp(channel, others[i], blends.at[i / 4].share);
+  }
+}
+
 }  // namespace
 
 void describeSwept(const RowToDescribe& described, size_t at_px, const TraceOutputs& outputs,
@@ -65,6 +79,7 @@ void describeSwept(const RowToDescribe& described, size_t at_px, const TraceOutp
     if (outputs.linear) writeLinear(described, p, atlas.linear.data() + 4 * at);
     if (outputs.records) atlas.records[at] = recordOf(described, p, ray_class);
   }
+  if (outputs.linear) blendLinear(described.swept.blends, atlas.linear.data() + 4 * at_px);
 }
 
 }  // namespace viewloom

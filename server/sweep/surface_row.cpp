@@ -22,17 +22,19 @@ void Runs::reserve(uint32_t run_count) {
 
 void Steps::reserve(uint32_t step_count) {
   for (auto* values : {&edge_px, &low_inv_z, &high_inv_z}) values->reserve(step_count + kSlack);
-  texel.reserve(step_count + kSlack);
+  for (auto* values : {&texel, &near_texel}) values->reserve(step_count + kSlack);
   texel_per_inv_z.reserve(step_count + kSlack);
 }
 
-void Steps::add(float edge, float low, float high, int32_t texel_at, float texel_per_inv_z_at) {
-  if (!(low < high)) return;
-  edge_px[count] = edge;
-  low_inv_z[count] = low;
-  high_inv_z[count] = high;
-  texel_per_inv_z[count] = texel_per_inv_z_at;
-  texel[count++] = texel_at;
+void Step::addTo(Steps& steps) const {
+  if (!(low_inv_z < high_inv_z)) return;
+  const uint32_t at = steps.count++;
+  steps.edge_px[at] = edge_px;
+  steps.low_inv_z[at] = low_inv_z;
+  steps.high_inv_z[at] = high_inv_z;
+  steps.texel[at] = texel;
+  steps.texel_per_inv_z[at] = texel_per_inv_z;
+  steps.near_texel[at] = near_texel;
 }
 
 void MixedTexels::reserve(uint32_t texel_count) {

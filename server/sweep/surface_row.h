@@ -40,9 +40,22 @@ struct Steps {
   AlignedArray<int32_t> texel;
   // How far it moves from there with the inv_z above `low`.
   AlignedArray<float> texel_per_inv_z;
+  // Of silhouettes: where the near side's last px lies; -1 if it goes on in front of the edge.
+  AlignedArray<int32_t> near_texel;
 
   void reserve(uint32_t step_count);
-  void add(float edge, float low, float high, int32_t texel_at, float texel_per_inv_z_at = 0);
+};
+
+// One of Steps.
+struct Step {
+  float edge_px = 0;
+  float low_inv_z = 0;
+  float high_inv_z = 0;
+  int32_t texel = -1;
+  float texel_per_inv_z = 0;
+  int32_t near_texel = -1;
+
+  void addTo(Steps& steps) const;
 };
 
 // Texels on the far side of deep silhouettes, as they are and as the next one further in.

@@ -2,9 +2,9 @@
 #include "sweep/surface_row_builder.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
+
+#include "sweep/link_bytes.h"
 
 namespace viewloom {
 namespace {
@@ -19,22 +19,6 @@ FiveRows rowsAround(const DepthColumns& columns, int y) {
     }
   }
   return rows;
-}
-
-// The first of the bytes from `first` on that is not `value`; `end` if there is none before.
-uint32_t findOther(const uint8_t* bytes, uint32_t first, uint32_t end, uint8_t value) {
-  const uint64_t pattern = 0x0101010101010101U * value;
-  for (uint32_t x = first; x < end; x += 8) {
-    uint64_t word = 0;
-    std::memcpy(&word, bytes + x, sizeof word);
-    word ^= pattern;
-    if (word != 0) return std::min(x + uint32_t(std::countr_zero(word)) / 8, end);
-  }
-  return end;
-}
-
-bool isSilhouette(uint8_t link) {
-  return link == 0 || link == abi::kDeepEdge;
 }
 
 }  // namespace
@@ -266,74 +250,13 @@ void SurfaceRowBuilder::addRun(Surface& surface, uint32_t layer, float begin_px,
   if (before >= 0 && !hasFault(SweepFault::kBridges)) {
     // Whoever comes over the lower side meets the higher one at the edge.
     const Travel travel = before > begin_inv_z ? Travel::kLeft : Travel::kRight;
-    made_.layers[layer].bridges[size_t(travel)].add(
-        begin_px, std::min(before, begin_inv_z), std::max(before, begin_inv_z),
-        int32_t(begin_px) * kSubtexelSteps + surface.texel_offset);
+    const Step bridge = {.edge_px = begin_px,
+                         .low_inv_z = std::min(before, begin_inv_z),
+                         .high_inv_z = std::max(before, begin_inv_z),
+                         .texel = int32_t(begin_px) * kSubtexelSteps + surface.texel_offset};
+    bridge.addTo(made_.layers[layer].bridges[size_t(travel)]);
   }
   surface.before_inv_z = end_inv_z;
-}
-
-// Where rays pass behind the layer: surfaces begin, for those that come from the left, or end; or
-// it goes on from a nearer layer, which the ray has been behind before.
-void SurfaceRowBuilder::addSilhouettes(uint32_t layer) {
-  const LayerScratch& scratch = layers_[layer];
-  for (const Travel travel : {Travel::kLeft, Travel::kRight}) {
-    const bool goes_left = travel == Travel::kLeft;
-    const uint8_t* const links = goes_left ? scratch.to_right.data() : scratch.to_left.data();
-    for (uint32_t x = 0; x < width_; ++x) {
-      x = findOther(links, x, width_, uint8_t(layer + 1));
-      const uint8_t link = x < width_ && !isSilhouette(links[x]) ? links[x] : uint8_t{0};
-      if (x >= width_ || link > layer) continue;
-      if (link > 0 && hasFault(SweepFault::kGoesOnBehind)) continue;
-      addSilhouette(layer, travel, x, link);
-    }
-  }
-}
-
-// Rays that enter `column` pass behind its facet. Their far side is the surface that they were over
-// before; at the border of the image, the facet itself.
-void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t column,
-                                      uint8_t link) {
-  const bool goes_left = travel == Travel::kLeft;
-  const LayerScratch& scratch = layers_[layer];
-  const int64_t before = goes_left ? int64_t{column} + 1 : int64_t{column} - 1;
-  const auto edgeBefore = [&](uint32_t of_layer) {
-    return goes_left ? layers_[of_layer].left[size_t(before)]
-                     : layers_[of_layer].right[size_t(before)];
-  };
-  const bool is_border = before < 0 || before >= int64_t{width_};
-  if (is_border && hasFault(SweepFault::kEntryInFront)) return;
-  const bool is_over = !is_border && inv_z_[layer][before] >= 0;
-  const float own = goes_left ? scratch.right[column] : scratch.left[column];
-  const float high = link == 0 ? own : std::min(own, edgeBefore(link - 1U));
-  const float low = is_over ? edgeBefore(layer) : 0;
-  Steps& silhouettes = made_.layers[layer].silhouettes[size_t(travel)];
-  const float edge_px = goes_left ? float(column + 1) : float(column);
-  if (link > 0 || !(is_border || is_over)) {
-    silhouettes.add(edge_px, low, high, -1);
-    return;
-  }
-  const auto texelOf = [&](size_t at) {
-    return (layer == 0 ? made_.nearest_texel : scratch.texel)[at];
-  };
-  const bool is_deep = is_border || own * (1.0F - abi::kDeepStep) > low;
-  if (is_deep || !(low < high)) {
-    silhouettes.add(edge_px, low, high, texelOf(is_border ? column : size_t(before)));
-    return;
-  }
-  const int32_t between = addBetween(texelOf(size_t(before)), texelOf(column));
-  silhouettes.add(edge_px, low, high, between, kSubtexelSteps / (high - low));
-}
-
-// Texels from that of a far side to that of the near one.
-int32_t SurfaceRowBuilder::addBetween(int32_t far_texel, int32_t near_texel) {
-  const uint32_t base = made_.texel_count;
-  for (const int32_t from : {far_texel, near_texel, near_texel}) {
-    const size_t index = size_t(from / kSubtexelSteps);
-    made_.texels[made_.texel_count] = made_.texels[index];
-    made_.texel_layer[made_.texel_count++] = made_.texel_layer[index];
-  }
-  return int32_t(base) * kSubtexelSteps;
 }
 
 }  // namespace viewloom

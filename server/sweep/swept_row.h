@@ -15,6 +15,22 @@ struct SweepView {
   float eye_px_m = 0;
 };
 
+// A px that the surface of the px beside it covers in part, or the other way round.
+struct EdgeBlend {
+  int32_t px;
+  int32_t other;
+  float share;  // of the other's colour, 0..0.5
+};
+
+struct EdgeBlends {
+  uint32_t count = 0;
+  AlignedArray<EdgeBlend> at;
+  AlignedArray<uint32_t> other_color;
+
+  void reserve(uint32_t blend_count);
+  void add(const EdgeBlend& blend) { at[count++] = blend; }
+};
+
 // One row of a view on its way, and what came of it. Thread-safety: none; one a thread.
 struct SweptRow {
   // By px.
@@ -29,6 +45,7 @@ struct SweptRow {
   AlignedArray<float> fill_rank;          // the larger, the better the far side
   AlignedArray<int32_t> fill_texel;
   AlignedArray<uint8_t> block_has_hole;
+  EdgeBlends blends;
   // By run, bridge or silhouette.
   AlignedArray<int32_t> from;
   AlignedArray<int32_t> to;

@@ -8,6 +8,8 @@
 #include "shared/ycbcr.h"
 #include "sweep/color_kernels.h"
 #include "sweep/describe_swept.h"
+#include "sweep/edge_blends.h"
+#include "sweep/edge_blends.h"
 
 namespace viewloom {
 namespace {
@@ -84,8 +86,11 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
     const SweepView& view = plan.viewOf(tile);
     row.cleanMixedTexels(std::min(std::abs(view.eye_px_m) * inv_z_near, 1.0F));
     paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
+    uint32_t* const rgba = rowOf(tile, tile_row);
     colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
-             rowOf(tile, tile_row));
+             rgba);
+    findEdgeBlends(row, view, width_px, row_);
+    applyEdgeBlends(row_.blends, rgba);
     if (piece.outputs.wantsOnlyColor()) continue;
     describeSwept({.row = row,
                    .view = view,

@@ -24,9 +24,12 @@ vec3 rootsOfRgb11(uint rgb) {
   return vec3(rgb & 2047u, (rgb >> 11) & 2047u, rgb >> 22) / kRootSteps;
 }
 
+vec3 rootsFromLinear(vec3 light) {
+  return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.4));
+}
+
 uint rgb11FromLinear(vec3 light) {
-  const vec3 roots = pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.4));
-  const uvec3 steps = uvec3(roots * kRootSteps + 0.5);
+  const uvec3 steps = uvec3(rootsFromLinear(light) * kRootSteps + 0.5);
   return steps.r | (steps.g << 11) | (steps.b << 22);
 }
 

@@ -45,6 +45,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
+#include "lib/edge_blend.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/walk.glsl"
 
@@ -84,11 +85,25 @@ vec3 codesOfBlend(vec3 blend) {
   return kColorFormat == kColorRgb11 ? codesFromRoots(blend) : codesFromLinear(blend);
 }
 
+// The background as texels are held.
+vec3 blendOfBackground() {
+  const vec3 codes = vec3(uvec3(push.fill, push.fill >> 8, push.fill >> 16) & 255u);
+  if (kColorFormat == kColorRgba8) return codes;
+  const vec3 light = linearFromSrgb(codes / 255.0);
+  return kColorFormat == kColorRgb11 ? rootsFromLinear(light) : light;
+}
+
 // What a px shows; if nothing is known, the background. In what texels hold (lib/color.glsl).
 struct Light {
   vec4 color;  // premultiplied
   bool is_known;
 };
+
+// A view moves what is nearest by the extent of its rays: from the source's own place the source is
+// seen as it is, from a px beside it none of the samples that may be mixed. By axis.
+vec2 cleanShare(Ray ray) {
+  return min(abs(ray.extent.xy), vec2(1.0));
+}
 
 // Where the far side of a silhouette is looked up: in the middle of its column, towards the near side
 // as far as the ray was up the step, if that is not deep.
@@ -119,10 +134,7 @@ Light opaqueLight(Scene scene, Ray ray, Walk walk) {
                          ? withLink(own_links, near_edge, layer + 1u)
                          : own_links;
   const bool is_known = walk.is_hit || walk.ends_behind || is_border;
-  // A view moves what is nearest by the extent of its rays: from the source's own place the source is
-  // seen as it is, from a px beside it none of the samples that may be mixed.
-  const vec2 clean = min(abs(ray.extent.xy), vec2(1.0));
-  const vec4 color = surfaceColor(scene, layer, cell, links, at, clean);
+  const vec4 color = surfaceColor(scene, layer, cell, links, at, cleanShare(ray));
   return Light(color, is_known && (own_links & kFacetExists) != 0u);
 }
 
@@ -160,7 +172,7 @@ void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
 // Semitransparent ones are composited front to back: each surface is walked on from, behind it.
 Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   vec3 light = vec3(0.0);
-  const vec3 background = linearFromSrgb(unpackUnorm4x8(push.fill).rgb);
+  const vec3 background = blendOfBackground();
   float transmittance = 1.0;
   Walk walk = first;
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
@@ -177,9 +189,15 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   }
 }
 
-void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction) {
-  const vec3 codes = codesOfBlend(light.color.rgb);
-  band[index] = light.is_known ? packCodes(codes) : push.fill | kOpaqueCode;
+void storeColor(uint index, Seen seen) {
+  const vec3 codes = codesOfBlend(seen.color);
+  band[index] = packCodes(codes);
+  if ((kWanted & kWantLinear) != 0u) {
+    Vec4Ref(extras.linear).at[index] = vec4(clamp(codes / 255.0, 0.0, 1.0), 1.0);
+  }
+}
+
+void storeOthers(uint index, Walk walk, Ray ray, vec3 eye, vec3 direction) {
   if (kWanted == 0u) return;
   const vec3 point = ray.start + walk.t * ray.extent;
   const uint ray_class = classOf(walk);
@@ -187,20 +205,32 @@ void store(uint index, Light light, Walk walk, Ray ray, vec3 eye, vec3 direction
     FloatRef(extras.depth).at[index] = walk.is_hit ? viewInvZ(eye, direction, point) : 0.0;
   }
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
-  if ((kWanted & kWantLinear) != 0u) {
-    const vec3 srgb = light.is_known ? codes / 255.0 : unpackUnorm4x8(push.fill).rgb;
-    Vec4Ref(extras.linear).at[index] = vec4(clamp(srgb, 0.0, 1.0), 1.0);
-  }
   if ((kWanted & kWantRecords) != 0u) {
     RecordsRef(extras.records).at[index] =
         RayRecord(point.x, point.y, point.z, ray_class, walk.layer, walk.visits);
   }
 }
 
-// A run of px of one row of one view, and where it lies in the band.
+Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
+  const vec2 px_per_inv_z = ray.extent.xy / (ray.extent.z == 0.0 ? 1.0 : ray.extent.z);
+  Seen seen;
+  seen.color = light.is_known ? light.color.rgb : background;
+  seen.inv_z = walk.is_hit ? ray.start.z + walk.t * ray.extent.z : kNoSurface;
+  seen.cell = walk.cell;
+  seen.layer = walk.layer;
+  seen.at_sky = ray.start.xy - ray.start.z * px_per_inv_z;
+  seen.px_per_inv_z = px_per_inv_z;
+  seen.clean = cleanShare(ray).x;
+  return seen;
+}
+
+// A run of px of one row of one view, and where it lies in the band. Between two runs of a row each
+// is traced with one px more, which the other stores.
 struct Run {
   uint first_x;
   uint count;
+  uint lead;   // px of another run at the beginning, 0 or 1
+  uint trail;  // and at the end
   float tile_y;
   uint first_index;
 };
@@ -226,6 +256,10 @@ float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
 void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   const vec3 near_eye = view.eye * scene.inv_z_near;
   const float bound = boundOfRun(scene, view, near_eye, run);
+  const vec3 background = blendOfBackground();
+  // A px is stored when the next one is known, and the edge between them.
+  Seen before;
+  vec3 own_before = vec3(0.0);
   uint i = 0u;
   for (;;) {
     if (isNever(scene, 5u)) break;
@@ -239,11 +273,20 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
       walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
     const Light light =
         kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
-    store(run.first_index + i, light, walk, ray, view.eye, direction);
-    count(counts, classOf(walk));
+    Seen seen = seenOf(ray, walk, light, background);
+    const vec3 own = seen.color;
+    if (i > 0u) blendAcross(scene, before, seen, own_before, own);
+    if (i > run.lead) storeColor(run.first_index + i - 1u, before);
+    if (i >= run.lead && i + run.trail < run.count) {
+      storeOthers(run.first_index + i, walk, ray, view.eye, direction);
+      count(counts, classOf(walk));
+    }
+    before = seen;
+    own_before = own;
     ++i;
     if (i == run.count) break;
   }
+  if (run.trail == 0u) storeColor(run.first_index + i - 1u, before);
 }
 
 void main() {
@@ -273,8 +316,11 @@ void main() {
     scene.fills_border = (push.fill & kFillBorder) != 0u;
     scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
     Run run;
-    run.first_x = run_in_tile * kPixelsPerInvocation;
-    run.count = min(kPixelsPerInvocation, tile_size.x - run.first_x);
+    const uint first_x = run_in_tile * kPixelsPerInvocation;
+    run.lead = min(first_x, 1u);
+    run.trail = first_x + kPixelsPerInvocation < tile_size.x ? 1u : 0u;
+    run.first_x = first_x - run.lead;
+    run.count = min(first_x + kPixelsPerInvocation, tile_size.x) + run.trail - run.first_x;
     run.tile_y = float(row - push.padding_top_px - tile_row * tile_size.y) + 0.5;
     run.first_index = gl_WorkGroupID.y * push.atlas_width_px + column * tile_size.x + run.first_x;
     traceRun(scene, view, run, counts);

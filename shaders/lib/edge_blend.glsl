@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Px that a silhouette covers in part (shaders/README.md, Edges): of two neighbours in a row of a
+// view, the one in which the edge lies takes some of the other's colour.
+#ifndef VIEWLOOM_LIB_EDGE_BLEND_GLSL_
+#define VIEWLOOM_LIB_EDGE_BLEND_GLSL_
+
+#include "lib/ray.glsl"
+#include "lib/structure_access.glsl"
+#include "lib/walk_edges.glsl"
+
+// Columns of the source that an edge is looked for in between two px. Whose px are wider sees no
+// more than single samples anyway.
+const uint kEdgeColumnsMax = 16u;
+
+// What a px shows, and where.
+struct Seen {
+  vec3 color;   // as texels have it
+  float inv_z;  // of the hit; kNoSurface without one
+  ivec2 cell;
+  uint layer;
+  vec2 at_sky;          // where its ray is at inv_z = 0, px
+  vec2 px_per_inv_z;    // and how it moves from there
+  float clean;          // as opaqueLight has it: how much the view differs from the source's own
+};
+
+vec2 placeAt(Seen seen, float inv_z) {
+  return seen.at_sky + inv_z * seen.px_per_inv_z;
+}
+
+// How far the edge of the near px's surface lies from it towards the other px, 0..1; 2 if there is
+// none between.
+float edgeBetween(Scene scene, Seen near, Seen other, bool is_sought) {
+  const vec2 from = placeAt(near, near.inv_z);
+  const vec2 way = placeAt(other, near.inv_z) - from;
+  const bvec2 is_up = greaterThan(way, vec2(0.0));
+  const ivec2 direction = mix(ivec2(-1), ivec2(1), is_up);
+  const vec2 pace = 1.0 / max(abs(way), vec2(1e-20));
+  ivec2 cell = near.cell;
+  uint layer = near.layer;
+  bool is_found = false;
+  bool cross_x = true;
+  uint column = 0u;
+  for (;;) {
+    if (isNever(scene, 7u)) break;
+    const vec2 ahead = abs(vec2(cell) + vec2(is_up) - from) * pace;
+    cross_x = ahead.x <= ahead.y;
+    const float exit_t = cross_x ? ahead.x : ahead.y;
+    const uint edge = edgeOfAxis(cross_x ? kAxisX : kAxisY, direction, true);
+    const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, cell), edge);
+    const ivec2 next = cell + stepOfAxis(cross_x ? kAxisX : kAxisY, direction);
+    const bool leaves = any(lessThan(next, ivec2(0))) ||
+                        any(greaterThanEqual(next, scene.extent.size_px));
+    const bool ends = exit_t >= 1.0 || leaves || link == 0u;
+    is_found = is_sought && exit_t < 1.0 && !leaves && link == 0u;
+    cell = ends ? cell : next;
+    layer = ends ? layer : link - 1u;
+    ++column;
+    if (!is_sought || ends || column == kEdgeColumnsMax) break;
+  }
+  // Seen where the surface is at its edge.
+  const float edge_px = cross_x ? float(cell.x) + (is_up.x ? 1.0 : 0.0)
+                                : float(cell.y) + (is_up.y ? 1.0 : 0.0);
+  const vec2 place = cross_x ? vec2(edge_px, from.y) : vec2(from.x, edge_px);
+  const float inv_z =
+      facetAtPoint(loadFacet(scene.layers, layer, scene.extent, cell), cell, place);
+  const vec2 own = placeAt(near, inv_z);
+  const vec2 beside = placeAt(other, inv_z) - own;
+  const float share = cross_x ? (edge_px - own.x) / (beside.x == 0.0 ? 1.0 : beside.x)
+                              : (edge_px - own.y) / (beside.y == 0.0 ? 1.0 : beside.y);
+  return is_found ? clamp(share, 0.0, 1.0) : 2.0;
+}
+
+// `own_a`, `own_b`: colours before any blend.
+void blendAcross(Scene scene, inout Seen a, inout Seen b, vec3 own_a, vec3 own_b) {
+  const bool a_is_near = a.inv_z > b.inv_z;
+  const bool is_sought = a.inv_z != b.inv_z;
+  Seen near = a;
+  Seen other = b;
+  if (!a_is_near) {
+    near = b;
+    other = a;
+  }
+  const float apart = edgeBetween(scene, near, other, is_sought);
+  const float near_loses = near.clean * max(0.5 - apart, 0.0);
+  const float other_loses = apart <= 1.0 ? near.clean * max(apart - 0.5, 0.0) : 0.0;
+  const float a_loses = a_is_near ? near_loses : other_loses;
+  const float b_loses = a_is_near ? other_loses : near_loses;
+  a.color = mix(a.color, own_b, a_loses);
+  b.color = mix(b.color, own_a, b_loses);
+}
+
+#endif  // VIEWLOOM_LIB_EDGE_BLEND_GLSL_
