@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "shared/trace_abi.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sweep/edge_blends.cpp"
 #include <hwy/foreach_target.h>
@@ -15,9 +17,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
+// Texels between a px and the edge of what it shows: kEdgeColumnsMax of
+// shaders/lib/edge_blend.glsl.
+constexpr int32_t kEdgeReach = int32_t(abi::kEdgeColumnsMax) * kSubtexelSteps;
+
 // Notes the edges that lie between two px of the row, and where: swept.covering_count of them, in
-// swept.covering which, in swept.from the px on the near side, in swept.inv_z_at how far from it the
-// edge is, px.
+// swept.covering which, in swept.from the px on the near side, in swept.inv_z_at how far from it
+// the edge is, px.
 HWY_INLINE void projectEdges(const Steps& steps, Travel travel, const SweepView& view,
                              uint32_t width_px, SweptRow& swept) {
   const bool is_right_end = travel == Travel::kLeft;
@@ -30,34 +36,46 @@ HWY_INLINE void projectEdges(const Steps& steps, Travel travel, const SweepView&
     const Vec p = hn::Mul(hn::Sub(u, set(view.start_px)), set(1 / view.step_px));
     const Vec own = is_right_end ? hn::Floor(p) : hn::Ceil(p);
     const Vec other = is_right_end ? hn::Add(own, set(1)) : hn::Sub(own, set(1));
-    const Mask inside = hn::And(hn::Ge(hn::Min(own, other), set(0)),
-                                hn::Le(hn::Max(own, other), last));
-    const auto exists = hn::And(hn::RebindMask(kInts, inside),
-                                hn::Gt(hn::LoadU(kInts, steps.near_texel.data() + k),
-                                       hn::Set(kInts, -1)));
+    const Mask inside =
+        hn::And(hn::Ge(hn::Min(own, other), set(0)), hn::Le(hn::Max(own, other), last));
+    const auto exists =
+        hn::And(hn::RebindMask(kInts, inside),
+                hn::Gt(hn::LoadU(kInts, steps.near_texel.data() + k), hn::Set(kInts, -1)));
     const auto counts = hn::And(exists, hn::FirstN(kInts, steps.count - k));
     const size_t at = swept.covering_count;
     const Vec apart = hn::Abs(hn::Sub(p, own));
     hn::CompressStore(apart, hn::RebindMask(kFloats, counts), kFloats, swept.inv_z_at.data() + at);
     hn::CompressStore(hn::ConvertTo(kInts, own), counts, kInts, swept.from.data() + at);
-    swept.covering_count += uint32_t(hn::CompressStore(hn::Iota(kInts, int32_t(k)), counts, kInts,
-                                                       swept.covering.data() + at));
+    swept.covering_count += uint32_t(
+        hn::CompressStore(hn::Iota(kInts, int32_t(k)), counts, kInts, swept.covering.data() + at));
   }
+}
+
+// Whether a px shows the surface that ends at the edge, not too far from it. Places among the
+// texels of a surface, and of no other, are those in the source, moved.
+bool showsSurfaceOf(const Steps& steps, size_t edge, Travel travel, const SweepView& view,
+                    const SweptRow& swept, int32_t px) {
+  const float inv_z = swept.inv_z[size_t(px)];
+  if (inv_z < 0) return false;
+  const float place_px = view.start_px + view.step_px * float(px) + view.eye_px_m * inv_z;
+  const float end_px = steps.edge_px[edge] + (travel == Travel::kLeft ? -0.5F : 0.5F);
+  const int32_t texel_from_end = swept.texel[size_t(px)] - steps.near_texel[edge];
+  const float from_end = kSubtexelSteps * (place_px - end_px);
+  return std::abs(from_end - float(texel_from_end)) < kSubtexelSteps / 2 &&
+         std::abs(texel_from_end) <= kEdgeReach;
 }
 
 // Of the edges noted, those that are seen: the px on the near side shows the surface that ends
 // there, and the one beyond something further back.
-void blendSeen(const SurfaceRow& row, const Steps& steps, Travel travel, const SweepView& view, SweptRow& swept) {
-  // A px beside the edge shows a place about a px of the view from it; slopes may stretch that.
-  const int32_t reach = int32_t((2 * view.step_px + 2) * kSubtexelSteps);
+void blendSeen(const SurfaceRow& row, const Steps& steps, Travel travel, const SweepView& view,
+               SweptRow& swept) {
   for (uint32_t i = 0; i < swept.covering_count; ++i) {
     const int32_t own = swept.from[i];
     const int32_t other = travel == Travel::kLeft ? own + 1 : own - 1;
-    if (swept.inv_z[size_t(own)] < 0) continue;
-    if (std::abs(swept.texel[size_t(own)] - steps.near_texel[size_t(swept.covering[i])]) > reach) {
-      continue;
-    }
     if (swept.inv_z[size_t(other)] >= swept.inv_z[size_t(own)]) continue;
+    const size_t edge = size_t(swept.covering[i]);
+    if (!showsSurfaceOf(steps, edge, travel, view, swept, own)) continue;
+    if (showsSurfaceOf(steps, edge, travel, view, swept, other)) continue;
     const float apart = swept.inv_z_at[i];
     if (apart < 0.5F)
       swept.blends.add({.px = own, .other = other, .share = row.clean * (0.5F - apart)});

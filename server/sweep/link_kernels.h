@@ -12,8 +12,8 @@
 namespace viewloom {
 
 // Links between the columns of a row: 0 = silhouette, 1 + k = linked to layer k of the column on
-// the right (left), abi::kDeepEdge. uint8[width] each; 1 + its own layer where there is no facet: nothing begins or
-// ends there.
+// the right (left), abi::kDeepEdge. uint8[width] each; 1 + its own layer where there is no facet:
+// nothing begins or ends there.
 void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left);
 

@@ -59,8 +59,8 @@ float shareOfOther(AxisTaps taps, uint other_links, uint low_edge, float offset,
 
 // Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around
 // the point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a
-// branch would cost as much. `links`: of the facet. `clean`, by axis: how far the samples on the far
-// side of deep silhouettes give way to those one px further in, 0..1.
+// branch would cost as much. `links`: of the facet. `clean`, by axis: how far the samples on the
+// far side of deep silhouettes give way to those one px further in, 0..1.
 vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
                           Extent extent, uint color_format, uint layer, ivec2 cell, uint links,
                           vec2 point, vec2 clean) {

@@ -8,10 +8,6 @@
 #include "lib/structure_access.glsl"
 #include "lib/walk_edges.glsl"
 
-// Columns of the source that an edge is looked for in between two px. Whose px are wider sees no
-// more than single samples anyway.
-const uint kEdgeColumnsMax = 16u;
-
 // What a px shows, and where.
 struct Seen {
   vec3 color;   // as texels have it
@@ -28,7 +24,8 @@ vec2 placeAt(Seen seen, float inv_z) {
 }
 
 // How far the edge of the near px's surface lies from it towards the other px, 0..1; 2 if there is
-// none between.
+// none between: what ends beside something nearer has no edge of its own, and one that is turned
+// away is not seen.
 float edgeBetween(Scene scene, Seen near, Seen other, bool is_sought) {
   const vec2 from = placeAt(near, near.inv_z);
   const vec2 way = placeAt(other, near.inv_z) - from;
@@ -37,37 +34,37 @@ float edgeBetween(Scene scene, Seen near, Seen other, bool is_sought) {
   const vec2 pace = 1.0 / max(abs(way), vec2(1e-20));
   ivec2 cell = near.cell;
   uint layer = near.layer;
-  bool is_found = false;
-  bool cross_x = true;
+  float apart = 2.0;
   uint column = 0u;
   for (;;) {
     if (isNever(scene, 7u)) break;
-    const vec2 ahead = abs(vec2(cell) + vec2(is_up) - from) * pace;
-    cross_x = ahead.x <= ahead.y;
-    const float exit_t = cross_x ? ahead.x : ahead.y;
-    const uint edge = edgeOfAxis(cross_x ? kAxisX : kAxisY, direction, true);
+    const vec2 edges = vec2(cell) + vec2(is_up);
+    const vec2 ahead = abs(edges - from) * pace;
+    const bool cross_x = ahead.x <= ahead.y;
+    const uint axis = cross_x ? kAxisX : kAxisY;
+    const vec2 place = from + min(ahead.x, ahead.y) * way;
+    const uint edge = edgeOfAxis(axis, direction, true);
     const uint link = linkOfEdge(loadLinks(scene.layers, layer, scene.extent, cell), edge);
-    const ivec2 next = cell + stepOfAxis(cross_x ? kAxisX : kAxisY, direction);
-    const bool leaves = any(lessThan(next, ivec2(0))) ||
-                        any(greaterThanEqual(next, scene.extent.size_px));
-    const bool ends = exit_t >= 1.0 || leaves || link == 0u;
-    is_found = is_sought && exit_t < 1.0 && !leaves && link == 0u;
-    cell = ends ? cell : next;
-    layer = ends ? layer : link - 1u;
+    const ivec2 next = cell + stepOfAxis(axis, direction);
+    const ivec2 beyond = clamp(next, ivec2(0), scene.extent.size_px - 1);
+    // Both px as they see what lies as near as the surface at its edge.
+    const float inv_z =
+        facetAtPoint(loadFacet(scene.layers, layer, scene.extent, cell), cell, place);
+    const float inv_z_beyond =
+        facetAtPoint(loadFacet(scene.layers, layer, scene.extent, beyond), beyond, place);
+    const vec2 own = placeAt(near, inv_z);
+    const vec2 beside = placeAt(other, inv_z) - own;
+    const vec2 shares = (edges - own) / mix(beside, vec2(1e-20), equal(beside, vec2(0.0)));
+    const float share = cross_x ? shares.x : shares.y;
+    const bool is_edge = link == 0u && beyond == next && inv_z_beyond < inv_z;
+    const bool is_between = is_sought && share < 1.0;
+    apart = is_between && is_edge && share >= 0.0 ? share : 2.0;
+    cell = next;
+    layer = link - 1u;
     ++column;
-    if (!is_sought || ends || column == kEdgeColumnsMax) break;
+    if (!is_between || link == 0u || column == kEdgeColumnsMax) break;
   }
-  // Seen where the surface is at its edge.
-  const float edge_px = cross_x ? float(cell.x) + (is_up.x ? 1.0 : 0.0)
-                                : float(cell.y) + (is_up.y ? 1.0 : 0.0);
-  const vec2 place = cross_x ? vec2(edge_px, from.y) : vec2(from.x, edge_px);
-  const float inv_z =
-      facetAtPoint(loadFacet(scene.layers, layer, scene.extent, cell), cell, place);
-  const vec2 own = placeAt(near, inv_z);
-  const vec2 beside = placeAt(other, inv_z) - own;
-  const float share = cross_x ? (edge_px - own.x) / (beside.x == 0.0 ? 1.0 : beside.x)
-                              : (edge_px - own.y) / (beside.y == 0.0 ? 1.0 : beside.y);
-  return is_found ? clamp(share, 0.0, 1.0) : 2.0;
+  return apart;
 }
 
 // `own_a`, `own_b`: colours before any blend.

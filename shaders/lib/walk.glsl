@@ -50,7 +50,7 @@ struct Walk {
   bool has_far_side;
   ivec2 far_cell;
   uint far_layer;
-  // Where the ray passed it, across which axis, and how far up the step between the far side and the
+  // Where the ray passed it, across which axis, and how far up the step from the far side to the
   // near one, 0..1; 0 where the silhouette is deep.
   float far_t;
   uint far_axis;

@@ -84,8 +84,8 @@ VIEWLOOM_ABI_CONST uint kEdgeRight = 1u;
 VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
 VIEWLOOM_ABI_CONST uint kEdgeBottom = 3u;
 VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
-// The far side of a deep silhouette: beyond it the same layer is nearer by more than kDeepStep, as a
-// share of the nearer inv_z. Two things then, of which a sample beside the edge may show a bit of
+// The far side of a deep silhouette: beyond it the same layer is nearer by more than kDeepStep, as
+// a share of the nearer inv_z. Two things then, of which a sample beside the edge may show a bit of
 // both; what steps by less may be one that is steep.
 VIEWLOOM_ABI_CONST uint kDeepEdge = 7u;
 VIEWLOOM_ABI_CONST float kDeepStep = 0.15f;

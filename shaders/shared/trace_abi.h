@@ -28,6 +28,10 @@ struct ViewParams {
 VIEWLOOM_ABI_CONST float kInvZNearMin = 1e-12f;  // 1/m
 VIEWLOOM_ABI_CONST float kInvZNearMargin = 1.0001f;
 
+// Columns of the source that an edge is looked for in between two px of a view. Whose px are wider
+// shows single samples anyway.
+VIEWLOOM_ABI_CONST uint kEdgeColumnsMax = 16u;
+
 // A plain ray runs from the near bound, in front of its eye, to infinity. It is no longer than this
 // in px, so that positions along it keep 1/256 px with a few roundings of binary32.
 VIEWLOOM_ABI_CONST float kPlainExtentMax_px = 16384.0f;
@@ -59,10 +63,10 @@ struct RayRecord {
 // Where a band goes beside its colour, and what few rays need. Addresses of planes that are not
 // wanted are 0.
 struct TraceExtras {
-  Address depth;     // float[rows][width]: 1/Z of the view, 1/m
-  Address mask;      // uint8[rows][width]: kClass...
-  Address linear;    // vec4[rows][width]: colour before rounding, sRGB-encoded floats
-  Address records;   // RayRecord[rows][width]
+  Address depth;    // float[rows][width]: 1/Z of the view, 1/m
+  Address mask;     // uint8[rows][width]: kClass...
+  Address linear;   // vec4[rows][width]: colour before rounding, sRGB-encoded floats
+  Address records;  // RayRecord[rows][width]
   // uint[kCounterSets][kCounterStride]: rays by class, added to; the sum over the sets counts
   Address counters;
   // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels

@@ -137,8 +137,8 @@ TEST_F(FillTest, aMixedSampleBesideADeepSilhouetteGivesWayToTheNextOne) {
     const bool is_wall = view.records[i].ray_class <= abi::kClassHitAssumed && !is_pole;
     const bool is_hidden = view.records[i].ray_class == abi::kClassHidden;
     if (!is_wall && !is_hidden) continue;
-    EXPECT_TRUE(isAlike(view.srgb[i], kGreen)) << "column " << i % kWidth << ", red "
-                                               << view.srgb[i][0];
+    EXPECT_TRUE(isAlike(view.srgb[i], kGreen))
+        << "column " << i % kWidth << ", red " << view.srgb[i][0];
     wall_count += is_wall;
   }
   EXPECT_GT(wall_count, kWidth * kHeight / 2);

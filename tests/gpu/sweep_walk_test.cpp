@@ -154,16 +154,16 @@ class SweepWalkTest : public GpuTest {
 };
 
 // A thousandth of a px leaves both with facets alone, and silhouettes where they are: the rest is
-// rounding of light and of positions. What goes on behind silhouettes and borders is a choice: the
-// walk takes the row of px that the ray is in, the sweep blends between rows. Bounds are 2 to 3 dB
-// below what was measured: 57.0, 34.9 and 44.3 dB at the least, and no px of another class.
+// rounding of light and of positions, and edges that one method takes for turned away. At borders
+// the walk takes the row of px that the ray is in, the sweep blends between rows.
+// Measured: 55.4, 38.4 and 45.3 dB at the least, and no px of another class.
 TEST_F(SweepWalkTest, showsWhatTheWalkShowsOfFacets) {
   for (DisplaySpec spec : {test::smallQuilt({640, 200}), smallStereo(), wideQuilt()}) {
     spec.tolerance_px = 0.001;
     for (const uint32_t layer_count : {1U, 2U, 4U}) {
       const Difference difference = compare(layer_count, spec);
       EXPECT_GE(difference.hit_psnr_db, 55);
-      EXPECT_GE(difference.hidden_psnr_db, 32);
+      EXPECT_GE(difference.hidden_psnr_db, 36);
       EXPECT_GE(difference.outside_psnr_db, 42);
       EXPECT_LE(difference.class_share, kTiedShareMax);
       EXPECT_LE(difference.coverage_share, kTiedShareMax);

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a px shows of what its ray met. The includer has `push`, `extras` and the constants of
+// trace/walk_views.comp.
+#ifndef VIEWLOOM_LIB_RAY_LIGHT_GLSL_
+#define VIEWLOOM_LIB_RAY_LIGHT_GLSL_
+
+#include "lib/color.glsl"
+#include "lib/ray.glsl"
+#include "lib/walk.glsl"
+
+// Light that is left after semitransparent surfaces and is not worth another surface.
+const float kTransmittanceMin = 1.0 / 255.0;
+
+// `clean`: of lib/color.glsl, where colour has the size of depth.
+vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point, vec2 clean) {
+  if (kColorIsScaled) {
+    const ColorSizes sizes = ColorSizes(extras.color_size_px, extras.color_stride);
+    return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, sizes,
+                              kColorFormat, layer, cell, point, scene.kappa);
+  }
+  return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
+                              links, point, clean);
+}
+
+// Codes 0..255 of a blend of texels.
+vec3 codesOfBlend(vec3 blend) {
+  if (kColorFormat == kColorRgba8) return blend;
+  return kColorFormat == kColorRgb11 ? codesFromRoots(blend) : codesFromLinear(blend);
+}
+
+// The background as texels are held.
+vec3 blendOfBackground() {
+  const vec3 codes = vec3(uvec3(push.fill, push.fill >> 8, push.fill >> 16) & 255u);
+  if (kColorFormat == kColorRgba8) return codes;
+  const vec3 light = linearFromSrgb(codes / 255.0);
+  return kColorFormat == kColorRgb11 ? rootsFromLinear(light) : light;
+}
+
+// What a px shows; if nothing is known, the background. In what texels hold (lib/color.glsl).
+struct Light {
+  vec4 color;  // premultiplied
+  bool is_known;
+};
+
+// A view moves what is nearest by the extent of its rays: from the source's own place the source is
+// seen as it is, from a px beside it none of the samples that may be mixed. By axis.
+vec2 cleanShare(Ray ray) {
+  return min(abs(ray.extent.xy), vec2(1.0));
+}
+
+// Where the far side of a silhouette is looked up: in the middle of its column, towards the near
+// side as far as the ray was up the step, if that is not deep.
+vec2 farPoint(Ray ray, Walk walk) {
+  const vec2 passed = (ray.start + walk.far_t * ray.extent).xy;
+  const vec2 middle = vec2(walk.far_cell) + 0.5;
+  const vec2 along = middle + walk.far_share * sign(ray.extent.xy);
+  return walk.far_axis == kAxisX   ? vec2(along.x, passed.y)
+         : walk.far_axis == kAxisY ? vec2(passed.x, along.y)
+                                   : middle;
+}
+
+// Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
+// passed behind, or the image's border, goes on; else there is nothing.
+Light opaqueLight(Scene scene, Ray ray, Walk walk) {
+  const vec3 point = ray.start + walk.t * ray.extent;
+  const bool is_far_side = !walk.is_hit && walk.ends_behind && walk.has_far_side;
+  const bool is_border = walk.leaves && scene.fills_border;
+  const uint layer = walk.is_hit ? walk.layer : is_far_side ? walk.far_layer : 0u;
+  const ivec2 cell = is_far_side ? walk.far_cell : walk.cell;
+  const vec2 at = walk.is_hit     ? point.xy
+                  : is_far_side ? farPoint(ray, walk)
+                                : vec2(cell) + 0.5;
+  const uint own_links = loadLinks(scene.layers, layer, scene.extent, cell);
+  const ivec2 direction = mix(ivec2(1), ivec2(-1), lessThan(ray.extent.xy, vec2(0.0)));
+  const uint near_edge = edgeOfAxis(walk.far_axis, direction, true);
+  const uint links = is_far_side && walk.far_share > 0.0
+                         ? withLink(own_links, near_edge, layer + 1u)
+                         : own_links;
+  const bool is_known = walk.is_hit || walk.ends_behind || is_border;
+  const vec4 color = surfaceColor(scene, layer, cell, links, at, cleanShare(ray));
+  return Light(color, is_known && (own_links & kFacetExists) != 0u);
+}
+
+// A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
+// furthest surface at distances that double, both ways along the ray: soft edges may be wide.
+const uint kFarSideProbes = 8u;  // up to 128 px away
+
+void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
+  const bool has_none = !walk.is_hit && walk.ends_behind && !walk.has_far_side;
+  const bool is_sought = has_none && behind.behind_count > 0u;
+  const uint layer = is_sought ? behind.behind_count - 1u : 0u;
+  const vec2 along = ray.extent.xy * min(ray.pace.x, ray.pace.y);
+  const vec2 from = vec2(behind.cell) + 0.5;
+  float furthest = scene.inv_z_near;
+  uint probe = 0u;
+  for (;;) {
+    if (isNever(scene, 6u)) break;
+    for (int side = -1; side <= 1; side += 2) {
+      const ivec2 cell = ivec2(floor(from + float(side * (1 << int(probe))) * along));
+      const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
+      const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
+      const bool is_further = is_sought && inv_z >= 0.0 && inv_z < furthest;
+      walk.far_cell = is_further ? inside : walk.far_cell;
+      walk.far_layer = is_further ? layer : walk.far_layer;
+      walk.has_far_side = is_further || walk.has_far_side;
+      walk.far_axis = is_further ? kAxisNone : walk.far_axis;
+      walk.far_share = is_further ? 0.0 : walk.far_share;
+      furthest = is_further ? inv_z : furthest;
+    }
+    ++probe;
+    if (!is_sought || probe == kFarSideProbes) break;
+  }
+}
+
+// Semitransparent ones are composited front to back: each surface is walked on from, behind it.
+Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
+  vec3 light = vec3(0.0);
+  const vec3 background = blendOfBackground();
+  float transmittance = 1.0;
+  Walk walk = first;
+  WalkStart behind = WalkStart(0.0, first.cell, 0u);
+  for (;;) {
+    findFarSide(scene, ray, behind, walk);
+    const Light seen = opaqueLight(scene, ray, walk);
+    const vec4 last = vec4(seen.is_known ? seen.color.rgb : background, 1.0);
+    const vec4 color = walk.is_hit ? seen.color : last;
+    light += transmittance * color.rgb;
+    transmittance *= 1.0 - color.a;
+    if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(vec4(light, 1.0), true);
+    behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
+    walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
+  }
+}
+
+#endif  // VIEWLOOM_LIB_RAY_LIGHT_GLSL_
