@@ -35,7 +35,7 @@ abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes) {
           .reciprocal = coefficients.reciprocal,
           .ray_distance = coefficients.ray_distance,
           .has_invalid = coefficients.has_invalid,
-          .invalid_is_far = coefficients.invalid_is_far};
+          .invalid_inv_z = coefficients.invalid_is_far != 0 ? 0.0F : abi::kNoSurface};
 }
 
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,

@@ -131,7 +131,7 @@ struct DepthPlane {
   uint reciprocal;
   uint ray_distance;
   uint has_invalid;
-  uint invalid_is_far;
+  float invalid_inv_z;  // 0, or kNoSurface. Chosen between on the device, 0 would get a sign there.
 };
 
 struct DepthPlanes {

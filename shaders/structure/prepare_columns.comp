@@ -57,7 +57,7 @@ vec4 linearise(DepthPlane plane, vec4 depth_sample, vec4 ray_length, bvec4 exist
   const bvec4 is_nothing = both(equal(value, vec4(0.0)), bvec4(is_reciprocal));
   const bvec4 is_good =
       both(greaterThanEqual(value, vec4(0.0)), lessThanEqual(inv_z, vec4(plane.inv_z_max)));
-  const vec4 invalid = vec4(plane.invalid_is_far != 0u ? 0.0 : kNoSurface);
+  const vec4 invalid = vec4(plane.invalid_inv_z);
   const vec4 valid = mix(vec4(kNoSurface), inv_z, is_good);
   bad_count += countOf(both(both(exists, not(is_invalid)), both(not(is_nothing), not(is_good))));
   return mix(vec4(kNoSurface), mix(valid, invalid, is_invalid), exists);

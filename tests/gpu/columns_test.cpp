@@ -31,8 +31,8 @@ constexpr int kRayUlps = 3;
 constexpr double kStatsShare = 4.0 / (1 << 23);
 
 int ulpsApart(float a, float b) {
-  if (a == b) return 0;
-  if ((a < 0) != (b < 0)) return std::numeric_limits<int>::max();
+  // A zero with a sign would be taken for a facet with a link.
+  if (std::signbit(a) != std::signbit(b)) return std::numeric_limits<int>::max();
   return std::abs(std::bit_cast<int32_t>(a) - std::bit_cast<int32_t>(b));
 }
 
@@ -61,6 +61,7 @@ DepthFormat formatOf(DepthMeaning meaning, PlaneEncoding encoding) {
   format.near_z_m = encoding == PlaneEncoding::kDepthU16 ? 0.4 : 0.3;
   format.far_z_m = 40;
   if (is_metric) format.invalid_value = 7;
+  format.invalid_is_far = is_metric && encoding == PlaneEncoding::kDepthF32;
   return format;
 }
 
