@@ -9,4 +9,5 @@ set(VIEWLOOM_SHADERS
   structure/build_blocks.comp
   structure/build_level.comp
   structure/flatten_entries.comp
-  trace/walk_views.comp)
+  trace/walk_views.comp
+  trace/pack_band.comp)

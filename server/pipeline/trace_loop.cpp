@@ -21,9 +21,12 @@ TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
       pictures_(pictures),
       tracer_(links.device),
       swept_atlases_(slot_count, on_slot_return) {
-  for (const bool depth : {false, true}) {
-    for (const bool mask : {false, true}) {
-      rings_.push_back({{.outputs = {.depth = depth, .mask = mask}}, {slot_count, on_slot_return}});
+  for (const ColorForm color : {ColorForm::kRgba, ColorForm::kYcbcr444, ColorForm::kYcbcr420}) {
+    for (const bool depth : {false, true}) {
+      for (const bool mask : {false, true}) {
+        rings_.push_back({{.outputs = {.color = color, .depth = depth, .mask = mask}},
+                          {slot_count, on_slot_return}});
+      }
     }
   }
 }
@@ -119,7 +122,9 @@ bool TraceLoop::begin(AtlasJob& job) {
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
   run->method = *method;
-  if (*method == TraceMethod::kWalk) run->planes.color = ColorForm::kRgba;
+  if (*method == TraceMethod::kWalk) {
+    run->planes.color = tracer_.colorForm(run->planes.color);
+  }
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);
   begun_.push_back(std::move(run));

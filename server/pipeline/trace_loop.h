@@ -19,8 +19,9 @@
 
 namespace viewloom {
 
-// Slots are kept apart by the planes they trace: without and with depth, without and with mask.
-inline constexpr uint32_t kSlotRingCount = 4;
+// Slots are kept apart by the planes they trace: without and with depth, without and with mask, and
+// by the form of their colour.
+inline constexpr uint32_t kSlotRingCount = 12;
 
 // Thread-safety: offer() from any thread; the rest is the GPU loop's, and after its end anyone's.
 class TraceLoop {

@@ -53,9 +53,9 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   const YcbcrLayout layout(job.layout->size_px, outputs.color);
   ycbcr.resize(layout.sizeBytes());
   if (!clears) return;
-  std::fill_n(ycbcr.begin(), layout.lumaBytes(), abi::lumaOf(kOpaqueBlack));
-  static_assert(abi::cbOf(kOpaqueBlack) == abi::crOf(kOpaqueBlack));
-  std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(kOpaqueBlack));
+  std::fill_n(ycbcr.begin(), layout.lumaBytes(), abi::lumaOf(0, 0, 0));
+  static_assert(abi::cbOf(0, 0, 0) == abi::crOf(0, 0, 0));
+  std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
 }
 
 // Rows of an atlas on their way.

@@ -15,24 +15,31 @@ namespace viewloom::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
+// abi::lumaOf and its like, of a px.
+template <typename Formula>
+uint32_t apply(Formula formula, uint32_t rgba) {
+  return formula(float(rgba & 0xff), float(rgba >> 8 & 0xff), float(rgba >> 16 & 0xff));
+}
+
 void Ycbcr444(const uint32_t* rgba, size_t width_px, uint8_t* luma, uint8_t* cb, uint8_t* cr) {
   for (size_t x = 0; x < width_px; ++x) {
-    luma[x] = uint8_t(abi::lumaOf(rgba[x]));
-    cb[x] = uint8_t(abi::cbOf(rgba[x]));
-    cr[x] = uint8_t(abi::crOf(rgba[x]));
+    luma[x] = uint8_t(apply(abi::lumaOf, rgba[x]));
+    cb[x] = uint8_t(apply(abi::cbOf, rgba[x]));
+    cr[x] = uint8_t(apply(abi::crOf, rgba[x]));
   }
 }
 
 void Ycbcr420(const YcbcrRows420& rows, size_t width_px) {
   for (size_t x = 0; x < width_px; ++x) {
-    rows.upper_luma[x] = uint8_t(abi::lumaOf(rows.upper_rgba[x]));
-    rows.lower_luma[x] = uint8_t(abi::lumaOf(rows.lower_rgba[x]));
+    rows.upper_luma[x] = uint8_t(apply(abi::lumaOf, rows.upper_rgba[x]));
+    rows.lower_luma[x] = uint8_t(apply(abi::lumaOf, rows.lower_rgba[x]));
   }
   for (size_t x = 0; x < width_px; x += 2) {
     const uint32_t* const upper = rows.upper_rgba + x;
     const uint32_t* const lower = rows.lower_rgba + x;
     const auto mean = [&](auto of) {
-      const uint32_t sum = of(upper[0]) + of(upper[1]) + of(lower[0]) + of(lower[1]);
+      const uint32_t sum =
+          apply(of, upper[0]) + apply(of, upper[1]) + apply(of, lower[0]) + apply(of, lower[1]);
       return uint8_t(abi::meanChroma(sum, uint32_t(x / 2)));
     };
     rows.cb[x / 2] = mean(abi::cbOf);

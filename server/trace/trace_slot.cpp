@@ -17,6 +17,11 @@ std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
 }
 
+uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
+  return form == ColorForm::kRgba ? size_px.area() * sizeof(uint32_t)
+                                  : YcbcrLayout(size_px, form).sizeBytes();
+}
+
 }  // namespace
 
 bool TraceSlotShape::holds(const TraceSlotShape& other) const {
@@ -25,9 +30,8 @@ bool TraceSlotShape::holds(const TraceSlotShape& other) const {
 }
 
 ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
-    : readback_(device, {.size_bytes = size_bytes,
-                         .intent = MemoryIntent::kReadback,
-                         .debug_name = name}),
+    : readback_(device,
+                {.size_bytes = size_bytes, .intent = MemoryIntent::kReadback, .debug_name = name}),
       is_direct_(device.info().shares_memory) {
   if (!is_direct_) device_only_ = Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
 }
@@ -40,7 +44,12 @@ void ReadablePlane::recordReadback(vk::CommandBuffer commands, uint64_t size_byt
 
 TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_(shape) {
   const uint64_t area_px = uint64_t{shape.width_px} * shape.row_count_max;
-  color_ = ReadablePlane(device, area_px * sizeof(uint32_t), "band color");
+  const SizePx largest_px = {shape.width_px, shape.row_count_max};
+  color_ = ReadablePlane(device, colorBytesOf(largest_px, shape.outputs.color), "band color");
+  if (shape.outputs.color != ColorForm::kRgba) {
+    unpacked_ = Buffer(device, {.size_bytes = colorBytesOf(largest_px, ColorForm::kRgba),
+                                .debug_name = "band rgba"});
+  }
   depth_ = planeIf(shape.outputs.depth, device, area_px * sizeof(float), "band depth");
   // Filled in words: rounded up to whole ones.
   mask_ = planeIf(shape.outputs.mask, device, (area_px + 3) / 4 * 4, "band mask");
@@ -50,9 +59,9 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
   const uint64_t params_bytes =
       kTilesOffset_bytes + uint64_t{shape.tile_count_max} * sizeof(abi::ViewParams);
-  upload_ = Buffer(device, {.size_bytes = params_bytes,
-                            .intent = MemoryIntent::kUpload,
-                            .debug_name = "trace upload"});
+  upload_ = Buffer(
+      device,
+      {.size_bytes = params_bytes, .intent = MemoryIntent::kUpload, .debug_name = "trace upload"});
   params_ = Buffer(device, {.size_bytes = params_bytes, .debug_name = "trace params"});
 }
 
@@ -61,27 +70,35 @@ uint64_t TraceSlot::sizeBytes() const {
   for (const ReadablePlane* plane : {&color_, &depth_, &mask_, &linear_, &records_, &counters_}) {
     total_bytes += plane->bytes().size();
   }
-  return total_bytes + 2 * upload_.sizeBytes();
+  return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {
-  return readAs<uint32_t>(color_, area_px_);
+  return readAs<uint32_t>(color_, shape_.outputs.color == ColorForm::kRgba ? band_px_.area() : 0);
+}
+
+std::span<const uint8_t> TraceSlot::ycbcr() const {
+  return readAs<uint8_t>(color_, shape_.outputs.color == ColorForm::kRgba ? 0 : colorBytes());
+}
+
+uint64_t TraceSlot::colorBytes() const {
+  return colorBytesOf(band_px_, shape_.outputs.color);
 }
 
 std::span<const float> TraceSlot::depth() const {
-  return readAs<float>(depth_, area_px_);
+  return readAs<float>(depth_, band_px_.area());
 }
 
 std::span<const uint8_t> TraceSlot::mask() const {
-  return readAs<uint8_t>(mask_, area_px_);
+  return readAs<uint8_t>(mask_, band_px_.area());
 }
 
 std::span<const float> TraceSlot::linear() const {
-  return readAs<float>(linear_, area_px_ * 4);
+  return readAs<float>(linear_, band_px_.area() * 4);
 }
 
 std::span<const abi::RayRecord> TraceSlot::records() const {
-  return readAs<abi::RayRecord>(records_, area_px_);
+  return readAs<abi::RayRecord>(records_, band_px_.area());
 }
 
 Coverage TraceSlot::coverage() const {

@@ -57,7 +57,9 @@ class TraceSlot {
   uint64_t sizeBytes() const;
 
   // Once the band's submission is done. Rows from the top, packed.
+  // Of the two forms of colour, the one that is not asked for is empty.
   std::span<const uint32_t> color() const;  // uint32_t[rows][width]: R, G, B, 255 in memory order
+  std::span<const uint8_t> ycbcr() const;   // as YcbcrLayout of the band
   std::span<const float> depth() const;     // float[rows][width], 1/m
   std::span<const uint8_t> mask() const;    // uint8_t[rows][width], RayClass
   std::span<const float> linear() const;    // float[rows][width][4], sRGB-encoded
@@ -67,9 +69,16 @@ class TraceSlot {
  private:
   friend class ViewTracer;
 
+  uint64_t colorBytes() const;
+  // Where the walk stores colour.
+  const Buffer& rgba() const {
+    return shape_.outputs.color == ColorForm::kRgba ? color_.target() : unpacked_;
+  }
+
   TraceSlotShape shape_;
-  uint64_t area_px_ = 0;  // of the band in it
+  SizePx band_px_;  // of the band in it
   ReadablePlane color_;
+  Buffer unpacked_;  // RGBA of colour that is read back in another form
   ReadablePlane depth_;
   ReadablePlane mask_;
   ReadablePlane linear_;

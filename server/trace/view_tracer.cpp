@@ -77,7 +77,13 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 
 }  // namespace
 
-ViewTracer::ViewTracer(const Device& device) : device_(&device) {}
+ViewTracer::ViewTracer(const Device& device) : device_(&device), packer_(device) {}
+
+// A software device has nothing to read back, and packing px costs it more than converting them
+// costs the encoder (shaders/README.md, Bands for the encoder).
+ColorForm ViewTracer::colorForm(ColorForm wanted) const {
+  return device_->info().is_software ? ColorForm::kRgba : wanted;
+}
 
 const ComputePass& ViewTracer::pass(const Variant& variant) {
   std::lock_guard lock(mutex_);
@@ -131,8 +137,8 @@ std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& struct
            .size_bytes = sizeof(abi::TraceExtras)},
           {.binding = abi::kBindingBand,
            .kind = DescriptorKind::kStorage,
-           .buffer = slot.color_.target().handle(),
-           .size_bytes = slot.color_.target().sizeBytes()},
+           .buffer = slot.rgba().handle(),
+           .size_bytes = slot.rgba().sizeBytes()},
           structure.structure().asTexels(abi::kBindingStructure),
           structure.structure().asHalfTexels(abi::kBindingStructureHalves),
           structure.color().asTexels(abi::kBindingColor)};
@@ -165,7 +171,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
                  slot.shape_.row_count_max >= rows.row_count &&
                  slot.shape_.tile_count_max >= job.tiles.size());
-  slot.area_px_ = uint64_t{layout.size_px.width} * rows.row_count;
+  slot.band_px_ = {layout.size_px.width, rows.row_count};
+  const uint64_t area_px = slot.band_px_.area();
   const abi::TraceExtras extras = describeExtras(structure, slot);
   const size_t tiles_bytes = job.tiles.size() * sizeof(abi::ViewParams);
   std::memcpy(slot.upload_.mapped().data(), &extras, sizeof extras);
@@ -189,7 +196,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
                       vk::BufferCopy{.size = kTilesOffset_bytes + tiles_bytes});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
-    recordClear(commands, slot.color_, kOpaqueBlack);
+    commands.fillBuffer(slot.rgba().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
     for (const ReadablePlane* plane : {&slot.depth_, &slot.mask_, &slot.linear_, &slot.records_}) {
       recordClear(commands, *plane, 0);
     }
@@ -199,14 +206,18 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   walk.recordDescriptors(commands, describeBindings(structure, slot, tiles_bytes));
   walk.record(commands, describeBand(structure, job, rows),
               (invocations + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize, rows.row_count);
+  const ColorForm form = slot.shape_.outputs.color;
+  if (form != ColorForm::kRgba) {
+    packer_.record(commands, slot.rgba(), slot.color_.target(), slot.band_px_, form);
+  }
   if (timer) timer->recordEnd(commands);
 
   recordComputeToTransfer(commands);
-  slot.color_.recordReadback(commands, slot.area_px_ * sizeof(uint32_t));
-  slot.depth_.recordReadback(commands, slot.area_px_ * sizeof(float));
-  slot.mask_.recordReadback(commands, slot.area_px_);
-  slot.linear_.recordReadback(commands, slot.area_px_ * 4 * sizeof(float));
-  slot.records_.recordReadback(commands, slot.area_px_ * sizeof(abi::RayRecord));
+  slot.color_.recordReadback(commands, slot.colorBytes());
+  slot.depth_.recordReadback(commands, area_px * sizeof(float));
+  slot.mask_.recordReadback(commands, area_px);
+  slot.linear_.recordReadback(commands, area_px * 4 * sizeof(float));
+  slot.records_.recordReadback(commands, area_px * sizeof(abi::RayRecord));
   slot.counters_.recordReadback(commands, kCounterCount * sizeof(uint32_t));
   recordTransferToHost(commands);
   recordComputeToHost(commands);

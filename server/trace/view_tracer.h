@@ -10,6 +10,7 @@
 #include "gpu/compute_pass.h"
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
+#include "trace/band_packer.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
 
@@ -19,6 +20,10 @@ namespace viewloom {
 class ViewTracer {
  public:
   explicit ViewTracer(const Device& device);
+
+  // The form in which colour leaves the device best: the one that is wanted, where it has to be
+  // read back.
+  ColorForm colorForm(ColorForm wanted) const;
 
   // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows and the
   // tiles. The structure's build is done, not only recorded: its stats choose the kernel. `timer`
@@ -52,6 +57,7 @@ class ViewTracer {
   const Device* device_;
   std::mutex mutex_;  // guards passes_
   std::map<Variant, std::unique_ptr<ComputePass>> passes_;
+  BandPacker packer_;
 };
 
 }  // namespace viewloom

@@ -92,6 +92,16 @@ struct TracePush {
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
 
+// A band's colour, packed as planes of Y'CbCr.
+struct PackPush {
+  uint width_px;
+  uint row_count;
+  uint luma_stride;  // bytes, a multiple of 32
+};
+
+VIEWLOOM_ABI_CONST uint kBindingPlanes = 12u;  // storage, written
+VIEWLOOM_ABI_CONST uint kPackGroupSize = 64u;
+
 // Specialisation constants of walk_views.comp.
 VIEWLOOM_ABI_CONST uint kTraceGroupSize = 64u;
 VIEWLOOM_ABI_CONST uint kWantDepth = 1u;
@@ -103,6 +113,7 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 static_assert(sizeof(ViewParams) == 56);
 static_assert(sizeof(TraceExtras) == 60);
 static_assert(sizeof(TracePush) == 96);
+static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(RayRecord) == 24);
 #endif
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/band_packer.h"
+
+#include "gpu/barrier.h"
+#include "shaders/pack_band.h"
+#include "shared/trace_abi.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kPixelsPerInvocation = 8;  // of a row
+static_assert(YcbcrLayout::kPadding_px % kPixelsPerInvocation == 0);
+
+constexpr DescriptorSlot kSlots[] = {{abi::kBindingBand, DescriptorKind::kStorage},
+                                     {abi::kBindingPlanes, DescriptorKind::kStorage}};
+
+Descriptor storage(uint32_t binding, const Buffer& buffer) {
+  return {.binding = binding,
+          .kind = DescriptorKind::kStorage,
+          .buffer = buffer.handle(),
+          .size_bytes = buffer.sizeBytes()};
+}
+
+}  // namespace
+
+const ComputePass& BandPacker::pass(ColorForm form) {
+  std::lock_guard lock(mutex_);
+  std::unique_ptr<ComputePass>& made = passes_[form];
+  if (!made) {
+    const uint32_t is_420 = form == ColorForm::kYcbcr420;
+    made = std::make_unique<ComputePass>(*device_,
+                                         ComputePassOptions{.spirv = pack_band_spirv,
+                                                            .push_bytes = sizeof(abi::PackPush),
+                                                            .specialization = {&is_420, 1},
+                                                            .descriptors = kSlots,
+                                                            .debug_name = "pack band"});
+  }
+  return *made;
+}
+
+void BandPacker::record(vk::CommandBuffer commands, const Buffer& rgba, const Buffer& planes,
+                        SizePx size_px, ColorForm form) {
+  const YcbcrLayout layout(size_px, form);
+  const Descriptor bindings[] = {storage(abi::kBindingBand, rgba),
+                                 storage(abi::kBindingPlanes, planes)};
+  const ComputePass& pack = pass(form);
+  recordComputeBarrier(commands);
+  pack.recordDescriptors(commands, bindings);
+  const uint32_t invocations = layout.luma_stride / kPixelsPerInvocation;
+  pack.record(commands,
+              abi::PackPush{.width_px = size_px.width,
+                            .row_count = size_px.height,
+                            .luma_stride = layout.luma_stride},
+              (invocations + abi::kPackGroupSize - 1) / abi::kPackGroupSize,
+              layout.chroma_row_count);
+}
+
+}  // namespace viewloom
