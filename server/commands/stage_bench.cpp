@@ -74,13 +74,16 @@ class StageBench {
     trace_slot_ = std::make_unique<TraceSlot>(
         device, TraceSlotShape{.width_px = layout_->size_px.width,
                                .row_count_max = bandRowCount(encoding_),
-                               .tile_count_max = layout_->columns * layout_->rows});
+                               .tile_count_max = layout_->columns * layout_->rows,
+                               .outputs = {.color = tracer_.colorForm(directForm(encoding_))}});
   }
 
   void repeat() {
+    encoded_bytes_ = 0;
     if (plan_) {
       samples_["sweep source"].push_back(timed([&] { sweep_source_.prepare(frame_, workers_); }));
       samples_["sweep"].push_back(timed([&] { sweep(); }));
+      samples_["encode"].push_back(timed([&] { encodeSwept(); }));
     }
     samples_["upload"].push_back(timed([&] { structure_.upload(*frame_); }));
     samples_["build"].push_back(timed([&] { build(); }));
@@ -91,19 +94,18 @@ class StageBench {
     double submit_ms = 0;
     double encode_ms = 0;
     ray_count_ = 0;
-    encoded_bytes_ = 0;
     for (uint32_t row = 0; row < layout_->size_px.height; row += bandRowCount(encoding_)) {
       const BandRows rows = {row, std::min(bandRowCount(encoding_), layout_->size_px.height - row)};
       const double band_ms = timed([&] { trace(rows); });
       const std::span<const GpuPassTime> passes = trace_timer_.results();
       trace_ms += passes.empty() ? band_ms : static_cast<double>(passes[0].duration_ns) * 1e-6;
       submit_ms += band_ms;
-      encode_ms += timed([&] { encode(rows); });
+      if (!plan_) encode_ms += timed([&] { encodeTraced(rows); });
       ray_count_ += trace_slot_->coverage().rayCount();
     }
     samples_["trace"].push_back(trace_ms);
     samples_["readback"].push_back(submit_ms - trace_ms);
-    samples_["encode"].push_back(encode_ms);
+    if (!plan_) samples_["encode"].push_back(encode_ms);
   }
 
   void forgetSamples() {
@@ -132,7 +134,8 @@ class StageBench {
       report.sweep_source_ms = medianOf(samples_.at("sweep source"));
       report.sweep_ms = medianOf(samples_.at("sweep"));
       report.swept_frame_bytes = structure_.shape().staged_bytes + sweep_source_.sizeBytes();
-      report.swept_atlas_bytes = swept_atlas_.color.size() * sizeof(uint32_t);
+      report.swept_atlas_bytes =
+          swept_atlas_.color.size() * sizeof(uint32_t) + swept_atlas_.ycbcr.size();
     }
     for (const auto& [name, values] : build_passes_) report.build_pass_ms[name] = medianOf(values);
     return report;
@@ -176,7 +179,7 @@ class StageBench {
                 .plan = &*plan_,
                 .source = sweep_source_.rowSource(),
                 .inv_z_max = static_cast<float>(sweep_source_.measured().stats.inv_z_max)},
-               {}, workers_, sweepers_, swept_atlas_);
+               {.color = sweptForm()}, workers_, sweepers_, swept_atlas_);
   }
 
   void trace(BandRows rows) {
@@ -186,17 +189,26 @@ class StageBench {
     timeline_.wait(recorder_.submit(timeline_));
   }
 
-  void encode(BandRows rows) {
-    const auto bytes = std::as_bytes(trace_slot_->color());
-    const EncodedBand band =
-        encoder_.encode({.plane = AtlasPlane::kColor,
-                         .first_row = rows.first_row,
-                         .row_count = rows.row_count,
-                         .width_px = layout_->size_px.width,
-                         .bytes = {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()},
-                         .stride_bytes = size_t{4} * layout_->size_px.width},
-                        encoding_, *layout_);
-    encoded_bytes_ += band.bytes->size();
+  ColorForm sweptForm() const { return plan_->colorForm(directForm(encoding_)); }
+
+  void encodeSwept() {
+    const BandPixels atlas =
+        colorPixels(swept_atlas_.color, swept_atlas_.ycbcr, layout_->size_px, sweptForm());
+    for (uint32_t row = 0; row < atlas.row_count; row += bandRowCount(encoding_)) {
+      encode(rowsOf(atlas, row, bandRowCount(encoding_)));
+    }
+  }
+
+  void encodeTraced(BandRows rows) {
+    BandPixels band =
+        colorPixels(trace_slot_->color(), trace_slot_->ycbcr(),
+                    {layout_->size_px.width, rows.row_count}, trace_slot_->shape().outputs.color);
+    band.first_row = rows.first_row;
+    encode(band);
+  }
+
+  void encode(const BandPixels& pixels) {
+    encoded_bytes_ += encoder_.encode(pixels, encoding_, *layout_).bytes->size();
   }
 
   const FramePtr frame_;

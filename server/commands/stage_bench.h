@@ -29,7 +29,7 @@ struct StageReport {
   uint64_t swept_atlas_bytes = 0;
   double trace_ms = 0;     // on the device; all of the submissions without timestamps
   double readback_ms = 0;  // the rest of the trace's submissions: clearing, copying, waiting
-  double encode_ms = 0;    // one thread
+  double encode_ms = 0;    // one thread; of the sweep, where there is one
   uint64_t encoded_bytes = 0;
   double stored_nodes_per_px = 0;     // above the facets, of one layer
   double effective_nodes_per_px = 0;  // what a walk has a use for, of the nearest layer

@@ -19,6 +19,16 @@ BandPixels planarPixels(std::span<const uint8_t> planes, SizePx size_px, ColorFo
           .chroma_stride_bytes = layout.chroma_stride};
 }
 
+BandPixels colorPixels(std::span<const uint32_t> rgba, std::span<const uint8_t> planes,
+                       SizePx size_px, ColorForm form) {
+  if (form != ColorForm::kRgba) return planarPixels(planes, size_px, form);
+  return {.plane = AtlasPlane::kColor,
+          .row_count = size_px.height,
+          .width_px = size_px.width,
+          .bytes = {reinterpret_cast<const uint8_t*>(rgba.data()), rgba.size_bytes()},
+          .stride_bytes = size_t{size_px.width} * sizeof(uint32_t)};
+}
+
 BandPixels rowsOf(const BandPixels& pixels, uint32_t row, uint32_t row_count) {
   const auto subrows = [](std::span<const uint8_t> plane, size_t first, size_t count,
                           size_t stride_bytes) {

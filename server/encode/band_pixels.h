@@ -31,6 +31,10 @@ struct BandPixels {
 // The colour of `size_px`, from row 0, in planes that lie as YcbcrLayout says. `form`: not kRgba.
 BandPixels planarPixels(std::span<const uint8_t> planes, SizePx size_px, ColorForm form);
 
+// The same in any form, of the two the one that is there; RGBA without gaps.
+BandPixels colorPixels(std::span<const uint32_t> rgba, std::span<const uint8_t> planes,
+                       SizePx size_px, ColorForm form);
+
 // Up to `row_count` of the rows from `row` on, even for 4:2:0; rows have whole strides of bytes.
 BandPixels rowsOf(const BandPixels& pixels, uint32_t row, uint32_t row_count);
 

@@ -15,17 +15,6 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
 }
 
-// All rows of an image, from row 0. Of the two forms of colour, the one that is asked for is there.
-BandPixels colorOf(std::span<const uint32_t> rgba, std::span<const uint8_t> ycbcr, SizePx size_px,
-                   ColorForm form) {
-  if (form != ColorForm::kRgba) return planarPixels(ycbcr, size_px, form);
-  return {.plane = AtlasPlane::kColor,
-          .row_count = size_px.height,
-          .width_px = size_px.width,
-          .bytes = bytesOf(rgba),
-          .stride_bytes = size_t{size_px.width} * sizeof(uint32_t)};
-}
-
 }  // namespace
 
 struct EncodePool::StripPlanes {
@@ -90,7 +79,7 @@ void EncodePool::serve(TracedStrip strip, Worker& worker) {
   const TraceSlot& slot = strip.trace->slot;
   run.noteTraced(slot.coverage(), links_.clock.nowNs());
   const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};
-  BandPixels color = colorOf(slot.color(), {}, size_px, ColorForm::kRgba);
+  BandPixels color = colorPixels(slot.color(), slot.ycbcr(), size_px, run.planes.color);
   color.first_row = run.firstRow(strip.strip);
   encode(run, {color, slot.depth(), slot.mask()}, worker.encoder);
   strip.trace.reset();  // room for the next strip before the atlas goes out
@@ -112,7 +101,7 @@ void EncodePool::serve(SweepPart part, Worker& worker) {
   const auto rowsOfStrip = [&]<typename T>(const std::vector<T>& plane) {
     return plane.empty() ? std::span<const T>() : std::span<const T>(plane).subspan(first, count);
   };
-  const BandPixels color = rowsOf(colorOf(atlas.color, atlas.ycbcr, size_px, run->planes.color),
+  const BandPixels color = rowsOf(colorPixels(atlas.color, atlas.ycbcr, size_px, run->planes.color),
                                   run->firstRow(part.index), run->rowCount(part.index));
   encode(*run, {color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)}, worker.encoder);
   part.sweep.reset();  // room for the next sweep before the atlas goes out
