@@ -11,14 +11,16 @@
 namespace viewloom {
 namespace {
 
-// With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring px instead of
-// neighbouring views, and an invocation then takes one px.
+// With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring runs of a view
+// instead of neighbouring views.
 constexpr uint32_t kColumnsForViewLanes = 5;
-constexpr uint32_t kPixelsWithPixelLanes = 1;
-constexpr uint32_t kPixelsWithViewLanes = 8;
+// A run traces a px more at both of its ends.
+constexpr uint32_t kPixelsOnHardware = 8;
 // A software device pays more for an invocation than for a ray, and has few lanes to fill; as long
-// as the px still share a bound where they start, which is found in a few nodes of 32 px.
-constexpr uint32_t kPixelsOnSoftware = 32;
+// as the px still share a bound where they start, which is found in a few nodes of 32 px. Lanes
+// that are runs of one view have more in common if these are shorter.
+constexpr uint32_t kPixelsOnSoftware[] = {60, 32, 16};
+constexpr uint32_t kPixelsOnSoftwareInLanes = 16;
 constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
@@ -44,10 +46,14 @@ bool colorIsScaled(const FrameShape& shape) {
 // Of one view, neighbours in a row. Views see about what the source sees.
 uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
                      const AtlasLayout& layout) {
-  const uint64_t run_width_px =
-      uint64_t{kPixelsOnSoftware} * structure.shape().depth_px.width / layout.tile_size_px.width;
-  return device.is_software && run_width_px <= kRunWidthMax_px ? kPixelsOnSoftware
-                                                               : kPixelsWithViewLanes;
+  if (!device.is_software) return kPixelsOnHardware;
+  if (layout.columns < kColumnsForViewLanes) return kPixelsOnSoftwareInLanes;
+  for (const uint32_t pixels : kPixelsOnSoftware) {
+    const uint64_t run_width_px =
+        uint64_t{pixels} * structure.shape().depth_px.width / layout.tile_size_px.width;
+    if (run_width_px <= kRunWidthMax_px) return pixels;
+  }
+  return kPixelsOnHardware;
 }
 
 bool hasUnusedPixels(const TraceJob& job) {
@@ -179,8 +185,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
   std::memcpy(slot.upload_.mapped().data() + kTilesOffset_bytes, job.tiles.data(), tiles_bytes);
 
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
-  const uint32_t pixels =
-      lanes_are_views ? pixelsOfRun(device_->info(), structure, layout) : kPixelsWithPixelLanes;
+  const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
   const ComputePass& walk =
       pass({.reads_by_address = structure.readsByAddress(),
             .wanted = wantedFlags(slot.shape_.outputs),

@@ -67,6 +67,12 @@ float edgeBetween(Scene scene, Seen near, Seen other, bool is_sought) {
   return apart;
 }
 
+// Whether two neighbours are far enough apart for an edge: one thing is not linked to another that
+// is nearer to it than this.
+bool mayBeEdge(Scene scene, float a, float b) {
+  return abs(a - b) > kEdgeStepShare * connectionTolerance(scene.kappa.x, scene.kappa.y, max(a, b));
+}
+
 // `own_a`, `own_b`: colours before any blend.
 void blendAcross(Scene scene, inout Seen a, inout Seen b, vec3 own_a, vec3 own_b) {
   const bool a_is_near = a.inv_z > b.inv_z;

@@ -130,40 +130,85 @@ float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
   return startBound(scene, low_px, high_px);
 }
 
+// A px of a run, traced.
+struct Traced {
+  Ray ray;
+  Walk walk;
+  vec3 direction;
+  Seen seen;
+};
+
+Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
+                  vec3 background) {
+  Traced traced;
+  traced.direction = rayDirection(view, vec2(float(run.first_x + i) + 0.5, run.tile_y));
+  const vec2 size_px = vec2(scene.extent.size_px);
+  const Ray ray = kRaysArePlain
+                      ? makePlainRay(near_eye, traced.direction, size_px, scene.inv_z_near)
+                      : makeAnyRay(near_eye, traced.direction, size_px, scene.inv_z_near);
+  const WalkStart start = startOf(scene, ray, bound);
+  Walk walk = walkBeside(start);
+  if (ray.t_begin < ray.t_end)
+    walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
+  const Light light =
+      kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
+  traced.ray = ray;
+  traced.walk = walk;
+  traced.seen = seenOf(ray, walk, light, background);
+  return traced;
+}
+
+bool isOwn(Run run, uint i) {
+  return i >= run.lead && i + run.trail < run.count;
+}
+
 void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   const vec3 near_eye = view.eye * scene.inv_z_near;
   const float bound = boundOfRun(scene, view, near_eye, run);
   const vec3 background = blendOfBackground();
-  // A px is stored when the next one is known, and the edge between them.
-  Seen before;
-  vec3 own_before = vec3(0.0);
+  // Bit i: an edge may lie between px i and i + 1.
+  uvec2 edges = uvec2(0u);
+  float inv_z_before = 0.0;
   uint i = 0u;
   for (;;) {
     if (isNever(scene, 5u)) break;
-    const vec3 direction = rayDirection(view, vec2(float(run.first_x + i) + 0.5, run.tile_y));
-    const vec2 size_px = vec2(scene.extent.size_px);
-    const Ray ray = kRaysArePlain ? makePlainRay(near_eye, direction, size_px, scene.inv_z_near)
-                                  : makeAnyRay(near_eye, direction, size_px, scene.inv_z_near);
-    const WalkStart start = startOf(scene, ray, bound);
-    Walk walk = walkBeside(start);
-    if (ray.t_begin < ray.t_end)
-      walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
-    const Light light =
-        kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
-    Seen seen = seenOf(ray, walk, light, background);
-    const vec3 own = seen.color;
-    if (i > 0u) blendAcross(scene, before, seen, own_before, own);
-    if (i > run.lead) storeColor(run.first_index + i - 1u, before);
-    if (i >= run.lead && i + run.trail < run.count) {
-      storeOthers(run.first_index + i, walk, ray, view.eye, direction);
-      count(counts, classOf(walk));
+    const Traced px = tracePixel(scene, view, run, i, near_eye, bound, background);
+    if (isOwn(run, i)) {
+      storeColor(run.first_index + i, px.seen);
+      storeOthers(run.first_index + i, px.walk, px.ray, view.eye, px.direction);
+      count(counts, classOf(px.walk));
     }
-    before = seen;
-    own_before = own;
+    const bool may_be_edge = i > 0u && mayBeEdge(scene, inv_z_before, px.seen.inv_z);
+    const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
+    edges |= i > 32u ? uvec2(0u, bit) : uvec2(bit, 0u);
+    inv_z_before = px.seen.inv_z;
     ++i;
     if (i == run.count) break;
   }
-  if (run.trail == 0u) storeColor(run.first_index + i - 1u, before);
+
+  // Few px lie at edges: they are traced once more, which costs less than to look at all.
+  uvec2 pixels = edges | (edges << 1u) | uvec2(0u, edges.x >> 31u);
+  Seen before;
+  vec3 own_before = vec3(0.0);
+  for (;;) {
+    if (isNever(scene, 8u) || (pixels.x | pixels.y) == 0u) break;
+    const uint px_index = pixels.x != 0u ? uint(findLSB(pixels.x)) : 32u + uint(findLSB(pixels.y));
+    Seen seen =
+        tracePixel(scene, view, run, px_index, near_eye, bound, background).seen;
+    const vec3 own = seen.color;
+    const uint edge_word = px_index > 32u ? edges.y : edges.x;
+    const bool has_edge = px_index > 0u && (edge_word >> ((px_index - 1u) & 31u) & 1u) != 0u;
+    if (has_edge) {
+      blendAcross(scene, before, seen, own_before, own);
+      if (isOwn(run, px_index - 1u)) storeColor(run.first_index + px_index - 1u, before);
+    }
+    if (isOwn(run, px_index)) storeColor(run.first_index + px_index, seen);
+    before = seen;
+    own_before = own;
+    pixels = pixels.x != 0u ? uvec2(pixels.x & (pixels.x - 1u), pixels.y)
+                            : uvec2(0u, pixels.y & (pixels.y - 1u));
+    if ((pixels.x | pixels.y) == 0u) break;
+  }
 }
 
 void main() {
