@@ -10,4 +10,5 @@ set(VIEWLOOM_SHADERS
   structure/build_level.comp
   structure/flatten_entries.comp
   trace/walk_views.comp
+  trace/merge_sources.comp
   trace/pack_band.comp)

@@ -49,6 +49,10 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                  "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
       ->check(CLI::Range(1, 4))
       ->group("What");
+  app.add_option("--sources", options.synthetic.source_count,
+                 "Cameras side by side that see the synthetic scene, 1..8 [1]")
+      ->check(CLI::Range(1, 8))
+      ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene; 0 = without end")
       ->check(CLI::NonNegativeNumber)

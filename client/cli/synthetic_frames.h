@@ -10,6 +10,7 @@ namespace viewloom::cli {
 struct SyntheticFeedOptions {
   SizePx size_px{960, 540};
   uint32_t layer_count = 2;
+  uint32_t source_count = 1;
   double duration_s = 0;  // 0 = without end
 };
 

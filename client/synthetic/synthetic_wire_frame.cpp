@@ -45,6 +45,11 @@ void setCamera(const Camera& from, v1::Camera& to) {
 WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_time_ns) {
   WireFrame frame;
   frame.header.set_capture_time_ns(capture_time_ns);
+  addSyntheticSource(options, frame);
+  return frame;
+}
+
+void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame) {
   v1::Source& source = *frame.header.add_sources();
   setCamera(options.camera.value_or(syntheticCamera(options.size_px)), *source.mutable_camera());
   for (SyntheticLayer& from : renderSyntheticFrame(options)) {
@@ -56,7 +61,6 @@ WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_ti
     addPlane(v1::PLANE_KIND_DEPTH, v1::PLANE_ENCODING_DEPTH_F32, options.size_px,
              std::move(depth_bytes), layer, frame);
   }
-  return frame;
 }
 
 }  // namespace viewloom

@@ -9,5 +9,7 @@ namespace viewloom {
 
 // RGBA8 sRGB colour and binary32 planar depth in every layer. The number is left to the publisher.
 WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_time_ns);
+// As one more source of the frame.
+void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame);
 
 }  // namespace viewloom

@@ -40,14 +40,24 @@ OfflineRenderer::OfflineRenderer(const Device& device)
 
 void OfflineRenderer::build(const Frame& frame) {
   structure_.reset();
-  structure_.emplace(device_, shapeOf(frame));
+  structure_.emplace(device_, shapesOf(frame));
   structure_->upload(frame);
-  builder_.record(recorder_.begin(), *structure_, nullptr);
+  sources_.clear();
+  for (const SourceFormat& source : frame.format.sources) {
+    sources_.push_back({source.camera, source.layers.front().depth.size_px});
+  }
+  structure_->recordBuild(recorder_.begin(), builder_);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
+std::vector<SourceStats> OfflineRenderer::stats() const {
+  std::vector<SourceStats> stats;
+  for (const StructureSlot* source : structure_->sources()) stats.push_back(source->stats());
+  return stats;
+}
+
 void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot) {
-  tracer_.recordBand(recorder_.begin(), *structure_, job, rows, slot, nullptr);
+  tracer_.recordBand(recorder_.begin(), structure_->sources(), job, rows, slot, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
@@ -56,23 +66,22 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
     const std::function<void(uint32_t done_rows, uint32_t row_count)>& on_progress) {
   VIEWLOOM_CHECK(structure_.has_value());
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, AtlasLimits{}));
-  const Camera& source_camera = structure_->sourceCamera();
-  const SizePx source_px = structure_->layout().size_px;
-  absl::StatusOr<AtlasLayout> layout =
-      makeAtlasLayout(spec, {.source_intrinsics = source_camera.intrinsics,
-                             .source_size_px = source_px,
-                             .focal_distance_m = contentFocalDistance(structure_->stats())});
+  const Camera& source_camera = sources_.front().camera;
+  absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
+      spec, {.source_intrinsics = source_camera.intrinsics,
+             .source_size_px = sources_.front().size_px,
+             .focal_distance_m = contentFocalDistance(structure_->firstSource().stats())});
   if (!layout.ok()) return layout.status();
 
   RenderedAtlas atlas;
   atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
   reserve(outputs, atlas);
-  const TraceJob job =
-      makeTraceJob(atlas.layout, spec, displayPose(spec, source_camera), source_camera, source_px);
+  const TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, source_camera), sources_);
   const SizePx size_px = atlas.layout->size_px;
   TraceSlot slot(device_, {.width_px = size_px.width,
                            .row_count_max = std::min(kBandRows, size_px.height),
                            .tile_count_max = atlas.layout->columns * atlas.layout->rows,
+                           .source_count = job.source_count,
                            .outputs = outputs});
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
     const uint32_t row_count = std::min(kBandRows, size_px.height - row);

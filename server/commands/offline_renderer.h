@@ -11,7 +11,7 @@
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/timeline.h"
-#include "structure/structure_builder.h"
+#include "structure/frame_structure.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
@@ -40,7 +40,8 @@ class OfflineRenderer {
       const DisplaySpec& spec, const TraceOutputs& outputs,
       const std::function<void(uint32_t done_rows, uint32_t row_count)>& on_progress);
 
-  SourceStats stats() const { return structure_->stats(); }
+  // Of each source.
+  std::vector<SourceStats> stats() const;
 
  private:
   void traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot);
@@ -50,7 +51,8 @@ class OfflineRenderer {
   CommandRecorder recorder_;
   StructureBuilder builder_;
   ViewTracer tracer_;
-  std::optional<StructureSlot> structure_;
+  std::optional<FrameStructure> structure_;
+  std::vector<SeenSource> sources_;
 };
 
 }  // namespace viewloom

@@ -106,7 +106,9 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   json["device"] = device.info().name;
   json["files"] = *names;
   json["coverage"] = coverageJson(atlas->coverage);
-  json["source"] = sourceJson(renderer.stats());
+  const std::vector<SourceStats> stats = renderer.stats();
+  json["source"] = sourceJson(stats.front());
+  for (size_t i = 1; i < stats.size(); ++i) json["more_sources"].push_back(sourceJson(stats[i]));
   if (!frame->deep.empty()) json["deep"] = deepJson(frame->deep);
   json["visits"] = {{"mean", visits.mean}, {"p99", visits.p99}, {"max", visits.max}};
   if (!arguments.compare.truth.empty()) {

@@ -191,15 +191,13 @@ absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits)
     return invalidField("header.sources", strCat("has ", source_count, " entries, must have 1..",
                                                  limits.source_count_max));
   }
-  if (source_count > 1) {
-    return fieldError(absl::StatusCode::kUnimplemented, "header.sources",
-                      strCat("has ", source_count, " entries; only one is served yet"));
-  }
-  VIEWLOOM_RETURN_IF_ERROR(
-      withFieldPrefix(validateSource(format.sources[0], limits), "header.sources[0]"));
   uint64_t held_bytes = 0;
-  for (const LayerFormat& layer : format.sources[0].layers) {
-    held_bytes += heldBytes(layer.color) + heldBytes(layer.depth);
+  for (size_t i = 0; i < source_count; ++i) {
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateSource(format.sources[i], limits),
+                                             strCat("header.sources[", i, "]")));
+    for (const LayerFormat& layer : format.sources[i].layers) {
+      held_bytes += heldBytes(layer.color) + heldBytes(layer.depth);
+    }
   }
   if (held_bytes > limits.frame_bytes_max) {
     return overLimit("header", strCat("declares ", held_bytes, " bytes of planes, at most ",

@@ -32,7 +32,7 @@ uint64_t decodedBytes(const PlaneFormat& plane);
 
 // The whole header. Errors name the field as in proto
 // ("header.sources[0].layers[1].planes[0].size"): INVALID_ARGUMENT for what can never be,
-// RESOURCE_EXHAUSTED for what is over these limits, UNIMPLEMENTED for more than one source.
+// RESOURCE_EXHAUSTED for what is over these limits.
 absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits);
 
 }  // namespace viewloom

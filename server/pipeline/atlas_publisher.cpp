@@ -78,7 +78,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->sequence = links_.broadcaster.atlasCount(display_id) + 1;
     atlas->frame_number = run.job.structure->frame_number;
     atlas->capture_time_ns = run.job.structure->capture_time_ns;
-    atlas->source_camera = run.job.structure->source_camera;
+    atlas->source_camera = run.job.structure->sources.front().camera;
     atlas->display_pose = displayPose(output.display->spec, atlas->source_camera);
     atlas->layout = run.picture->layout;
     atlas->encoding = output.display->encoding;

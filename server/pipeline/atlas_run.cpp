@@ -48,7 +48,8 @@ uint32_t AtlasRun::rowCount(uint32_t strip) const {
 TraceSlotShape AtlasRun::stripShape() const {
   return {.width_px = picture->layout->size_px.width,
           .row_count_max = strip_row_count,
-          .tile_count_max = static_cast<uint32_t>(picture->tiles.size()),
+          .tile_count_max = static_cast<uint32_t>(picture->tilesOf(0).size()),
+          .source_count = picture->source_count,
           .outputs = planes};
 }
 

@@ -72,7 +72,7 @@ bool GpuLoop::submitBuild() {
   }
   WalkedForm& form = *request->build->walked;
   try {
-    builder_.record(form.recorder.begin(), form.slot, nullptr);
+    form.structure.recordBuild(form.recorder.begin(), builder_);
     request->timeline_value.set_value(form.recorder.submit(timeline_));
   } catch (const std::exception&) {
     // Who waits may be the first to tell of it: let it be told what happened.

@@ -24,12 +24,13 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                                              const ResidentStructure& source) {
   Entry& entry = entries_[display.picture_key];
   if (entry.defaults != source.defaults) entry.jobs.clear();
-  // Who stands in the source's place sees the same wherever that is.
-  const bool is_aimed = !display.spec.world_pose || entry.source_camera == source.source_camera;
+  // Who stands in the place of the only source sees the same wherever that is.
+  const bool stands_in_only =
+      !display.spec.world_pose && source.sources.size() == 1 && entry.sources.size() == 1;
+  const bool is_aimed = stands_in_only || entry.sources == source.sources;
   if (!entry.jobs.empty() && is_aimed) return entry.jobs.front();
   if (std::shared_ptr<TraceJob>* free = findFree(entry.jobs)) {
-    aimTraceJob(**free, displayPose(display.spec, source.source_camera), source.source_camera,
-                source.defaults.source_size_px);
+    aimTraceJob(**free, displayPose(display.spec, source.sources.front().camera), source.sources);
     std::swap(entry.jobs.front(), *free);
   } else {
     auto job = makeJob(display, source, entry);
@@ -37,7 +38,7 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
     entry.jobs.insert(entry.jobs.begin(), *std::move(job));
   }
   entry.defaults = source.defaults;
-  entry.source_camera = source.source_camera;
+  entry.sources = source.sources;
   return entry.jobs.front();
 }
 
@@ -54,8 +55,8 @@ absl::StatusOr<std::shared_ptr<TraceJob>> PictureCache::makeJob(const ActiveDisp
     layout = std::make_shared<AtlasLayout>(*std::move(made));
   }
   return std::make_shared<TraceJob>(
-      makeTraceJob(std::move(layout), display.spec, displayPose(display.spec, source.source_camera),
-                   source.source_camera, source.defaults.source_size_px));
+      makeTraceJob(std::move(layout), display.spec,
+                   displayPose(display.spec, source.sources.front().camera), source.sources));
 }
 
 void PictureCache::keepOnly(const std::vector<ActiveDisplayPtr>& displays) {

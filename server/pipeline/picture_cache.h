@@ -31,7 +31,7 @@ class PictureCache {
   struct Entry {
     StreamDefaults defaults;
     std::vector<std::shared_ptr<TraceJob>> jobs;  // of these defaults; the last aimed is in front
-    Camera source_camera;                         // that it is aimed at
+    std::vector<SeenSource> sources;              // that it is aimed at
   };
 
   absl::StatusOr<std::shared_ptr<TraceJob>> makeJob(const ActiveDisplay& display,

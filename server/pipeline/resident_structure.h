@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "display/atlas_layout.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 #include "pipeline/structure_build.h"
+#include "trace/trace_job.h"
 
 namespace viewloom {
 
@@ -21,10 +23,10 @@ struct ResidentStructure {
   std::shared_ptr<StructureBuild> build;
   uint64_t serial = 0;  // counts the structures of the server, from 1
   uint64_t frame_number = 0;
-  int64_t capture_time_ns = 0;  // the publisher's clock
-  Camera source_camera;
+  int64_t capture_time_ns = 0;      // the publisher's clock
+  std::vector<SeenSource> sources;  // a display without a place in the world stands in the first
   StreamDefaults defaults;
-  SourceStats stats;
+  SourceStats stats;  // of the first source
   FrameTimes times;
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration

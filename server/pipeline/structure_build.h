@@ -5,35 +5,36 @@
 #include <memory>
 
 #include "gpu/command_recorder.h"
-#include "structure/structure_slot.h"
+#include "structure/frame_structure.h"
 #include "sweep/sweep_source.h"
 
 namespace viewloom {
 
 // What the walk needs of a frame, on the device, with the commands that build it.
 struct WalkedForm {
-  WalkedForm(const Device& device, const FrameShape& shape)
-      : slot(device, shape), recorder(device) {}
+  WalkedForm(const Device& device, const std::vector<FrameShape>& shapes)
+      : structure(device, shapes), recorder(device) {}
 
-  StructureSlot slot;
+  FrameStructure structure;
   CommandRecorder recorder;
 };
 
 // Owner decides which thread has it: the structure loop's until the structure is resident, then
 // the GPU loop's, which may build the walked form late; `swept` does not change then.
 struct StructureBuild {
-  explicit StructureBuild(FrameShape frame_shape) : shape(std::move(frame_shape)) {}
+  explicit StructureBuild(std::vector<FrameShape> source_shapes)
+      : shapes(std::move(source_shapes)) {}
 
-  const FrameShape shape;
-  bool is_swept = false;  // the frame in hand has the form for sweeps
-  SweepSource swept;      // keeps the last frame that was swept until the next one comes
+  const std::vector<FrameShape> shapes;  // of the frame's sources
+  bool is_swept = false;                 // the frame in hand has the form for sweeps
+  SweepSource swept;  // keeps the last frame that was swept until the next one comes
   // Allocated when a display of such frames first needs it; holds the frame in hand if is_walked.
   std::unique_ptr<WalkedForm> walked;
   bool is_walked = false;
 
   // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
   void allocateWalked(const Device& device) {
-    if (!walked) walked = std::make_unique<WalkedForm>(device, shape);
+    if (!walked) walked = std::make_unique<WalkedForm>(device, shapes);
   }
 };
 

@@ -15,7 +15,9 @@ ResidentStructure describe(const Frame& frame) {
   structure.frame_number = frame.format.number;
   structure.capture_time_ns = frame.format.capture_time_ns;
   structure.times = frame.times;
-  structure.source_camera = source.camera;
+  for (const SourceFormat& seen : frame.format.sources) {
+    structure.sources.push_back({seen.camera, seen.layers.front().depth.size_px});
+  }
   structure.defaults.source_intrinsics = source.camera.intrinsics;
   structure.defaults.source_size_px = source.layers.front().depth.size_px;
   return structure;
@@ -81,10 +83,10 @@ bool StructureLoop::serve(PipelineStream& stream) {
 
 std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
                                                         const Frame& frame) const {
-  const FrameShape shape = shapeOf(frame);
+  const std::vector<FrameShape> shapes = shapesOf(frame);
   std::shared_ptr<StructureBuild> slot =
-      stream.slots.take([&](const StructureBuild& free) { return free.shape == shape; },
-                        [&] { return std::make_unique<StructureBuild>(shape); });
+      stream.slots.take([&](const StructureBuild& free) { return free.shapes == shapes; },
+                        [&] { return std::make_unique<StructureBuild>(shapes); });
   if (!slot) return nullptr;
   // A GPU walks everything: there the walk is faster than the CPU beside it.
   slot->is_swept = links_.device.info().is_software && canSweep(frame);
@@ -105,7 +107,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->serial = ++last_serial_;
 
   const int64_t started_ns = links_.clock.nowNs();
-  if (slot->is_walked) slot->walked->slot.upload(*offered.frame);
+  if (slot->is_walked) slot->walked->structure.upload(*offered.frame);
   const int64_t uploaded_ns = links_.clock.nowNs();
   // Takes the frame over; else its planes go back to their pool.
   if (slot->is_swept) slot->swept.prepare(offered.frame, workers_);
@@ -115,7 +117,8 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->upload_ns = uploaded_ns - started_ns;
   structure->build_ns = structure->built_at_ns - uploaded_ns;
 
-  structure->stats = slot->is_swept ? slot->swept.measured().stats : slot->walked->slot.stats();
+  structure->stats =
+      slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.firstSource().stats();
   structure->stream_is_walked = stream.is_walked;
   if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
   structure->defaults.focal_distance_m = *stream.focal_distance_m;
@@ -135,7 +138,7 @@ void StructureLoop::count(const ResidentStructure& structure) const {
   links_.metrics.observeStage(Stage::kBuild, structure.build_ns);
   links_.directory.noteResident(structure.stream, structure.frame_number,
                                 structure.defaults.source_size_px,
-                                structure.build->shape.layerCount(), structure.stats);
+                                structure.build->shapes.front().layerCount(), structure.stats);
 }
 
 }  // namespace viewloom

@@ -64,6 +64,7 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
   ring.largest.width_px = std::max(ring.largest.width_px, shape.width_px);
   ring.largest.row_count_max = std::max(ring.largest.row_count_max, shape.row_count_max);
   ring.largest.tile_count_max = std::max(ring.largest.tile_count_max, shape.tile_count_max);
+  ring.largest.source_count = std::max(ring.largest.source_count, shape.source_count);
   return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }
@@ -165,8 +166,8 @@ AtlasRunPtr TraceLoop::soonestRun() const {
 // A structure that nobody has walked so far: the device has no newer work to do.
 void TraceLoop::buildForWalk(StructureBuild& build) {
   build.allocateWalked(links_.device);
-  build.walked->slot.upload(build.swept.frame());
-  builder_.record(build.walked->recorder.begin(), build.walked->slot, nullptr);
+  build.walked->structure.upload(build.swept.frame());
+  build.walked->structure.recordBuild(build.walked->recorder.begin(), builder_);
   timeline_.wait(build.walked->recorder.submit(timeline_));
   build.is_walked = true;
 }
@@ -185,9 +186,9 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
 
 void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
   const uint32_t strip = run->next_strip++;
-  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->walked->slot,
-                     *run->picture, {run->firstRow(strip), run->rowCount(strip)}, trace->slot,
-                     nullptr);
+  tracer_.recordBand(trace->recorder.begin(),
+                     run->job.structure->build->walked->structure.sources(), *run->picture,
+                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
   const uint64_t value = trace->recorder.submit(timeline_);
   encoders_.push(TracedStrip{run, strip, std::move(trace), value});
   if (run->next_strip == run->stripCount()) finish(run);

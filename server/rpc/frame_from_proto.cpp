@@ -152,24 +152,23 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
 }
 
 absl::Status validateSourceCount(uint32_t source_count, const FrameLimits& limits) {
-  if (source_count == 0 || source_count > limits.source_count_max) {
-    return invalidField("sources", absl::StrCat("has ", source_count, " entries, must have 1"));
-  }
-  if (source_count == 1) return absl::OkStatus();
-  return fieldError(absl::StatusCode::kUnimplemented, "sources",
-                    absl::StrCat("has ", source_count, " entries, only one is served yet"));
+  if (source_count > 0 && source_count <= limits.source_count_max) return absl::OkStatus();
+  return invalidField("sources", absl::StrCat("has ", source_count, " entries, must have 1..",
+                                              limits.source_count_max));
 }
 
 absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
                                             const FrameLimits& limits) {
   VIEWLOOM_RETURN_IF_ERROR(
       validateSourceCount(static_cast<uint32_t>(proto.sources_size()), limits));
-  auto source = sourceFromProto(proto.sources(0), limits);
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(source.status(), "sources[0]"));
   FrameFormat format;
+  for (int i = 0; i < proto.sources_size(); ++i) {
+    auto source = sourceFromProto(proto.sources(i), limits);
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(source.status(), absl::StrCat("sources[", i, "]")));
+    format.sources.push_back(*std::move(source));
+  }
   format.number = proto.number();
   format.capture_time_ns = proto.capture_time_ns();
-  format.sources.push_back(*std::move(source));
   format.exposure_ev = proto.exposure_ev();
   return format;
 }

@@ -23,9 +23,9 @@ bool isPlainColor(const PlaneFormat& color, PlaneEncoding decoded_encoding) {
 
 }  // namespace
 
-FrameShape shapeOf(const Frame& frame) {
-  const SourceFormat& source = frame.format.sources.front();
-  const std::vector<LayerPlanes>& planes = frame.sources.front();
+FrameShape shapeOf(const Frame& frame, size_t source_index) {
+  const SourceFormat& source = frame.format.sources[source_index];
+  const std::vector<LayerPlanes>& planes = frame.sources[source_index];
   FrameShape shape;
   shape.depth_px = source.layers.front().depth.size_px;
   bool all_plain = frame.format.exposure_ev == 0;
@@ -38,14 +38,22 @@ FrameShape shapeOf(const Frame& frame) {
   shape.color_storage = all_plain    ? ColorStorage::kRgba8Srgb
                         : all_opaque ? ColorStorage::kRgb11Root
                                      : ColorStorage::kRgba16fLinear;
-  const std::vector<StagedLayer> staged = stagedLayers(frame);
+  const std::vector<StagedLayer> staged = stagedLayers(frame, source_index);
   shape.staged_depth_bytes = alignedEnd(staged.back().depth.offset, staged.back().depth.size_bytes);
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
   return shape;
 }
 
-std::vector<StagedLayer> stagedLayers(const Frame& frame) {
-  const std::vector<LayerPlanes>& layers = frame.sources.front();
+std::vector<FrameShape> shapesOf(const Frame& frame) {
+  std::vector<FrameShape> shapes;
+  for (size_t source = 0; source < frame.sources.size(); ++source) {
+    shapes.push_back(shapeOf(frame, source));
+  }
+  return shapes;
+}
+
+std::vector<StagedLayer> stagedLayers(const Frame& frame, size_t source) {
+  const std::vector<LayerPlanes>& layers = frame.sources[source];
   std::vector<StagedLayer> staged(layers.size());
   uint64_t offset = 0;
   const auto stage = [&](StagedPlane& plane, uint64_t size_bytes) {

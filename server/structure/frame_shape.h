@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a frame decides the size of its GPU resources: frames of one shape share slots.
+// What of a frame's source decides the size of its GPU resources: those of one shape share slots.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@ enum class ColorStorage : uint8_t {
   kRgba16fLinear  // linear BT.709, premultiplied, 8 bytes a px: everything else
 };
 
+// Of one source.
 struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
@@ -28,13 +29,15 @@ struct FrameShape {
   bool operator==(const FrameShape&) const = default;
 };
 
-FrameShape shapeOf(const Frame& frame);
+FrameShape shapeOf(const Frame& frame, size_t source = 0);
+// Of all sources of a frame.
+std::vector<FrameShape> shapesOf(const Frame& frame);
 
 // Device and host memory one slot of this shape takes at most, bytes; to check before anything is
 // allocated.
 uint64_t structureBytes(const FrameShape& shape);
 
-// Where each plane of the frame lies in the upload, bytes.
+// Where each plane of a source lies in the upload, bytes.
 struct StagedPlane {
   uint64_t offset = 0;
   uint64_t size_bytes = 0;
@@ -45,6 +48,6 @@ struct StagedLayer {
   StagedPlane color;
 };
 
-std::vector<StagedLayer> stagedLayers(const Frame& frame);
+std::vector<StagedLayer> stagedLayers(const Frame& frame, size_t source = 0);
 
 }  // namespace viewloom

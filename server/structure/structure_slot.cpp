@@ -121,22 +121,22 @@ Descriptor StructureSlot::stagingDescriptor() const {
           .texels = staging_texels_.handle()};
 }
 
-void StructureSlot::upload(const Frame& frame) {
-  staged_ = stagedLayers(frame);
-  source_camera_ = frame.format.sources.front().camera;
+void StructureSlot::upload(const Frame& frame, size_t source) {
+  staged_ = stagedLayers(frame, source);
+  source_camera_ = frame.format.sources[source].camera;
   std::byte* const staging = staging_.mapped().data();
   for (uint32_t i = 0; i < staged_.size(); ++i) {
-    const LayerPlanes& planes = frame.sources.front()[i];
+    const LayerPlanes& planes = frame.sources[source][i];
     std::byte* const color =
         color_is_in_place_ ? color_.mapped(i).data() : staging + staged_[i].color.offset;
     std::memcpy(staging + staged_[i].depth.offset, planes.depth->data(), planes.depth->size());
     std::memcpy(color, planes.color->data(), planes.color->size());
   }
-  describe(frame);
+  describe(frame, source);
 }
 
-void StructureSlot::describe(const Frame& frame) {
-  const SourceFormat& source = frame.format.sources.front();
+void StructureSlot::describe(const Frame& frame, size_t source_index) {
+  const SourceFormat& source = frame.format.sources[source_index];
   const Intrinsics& intrinsics = source.camera.intrinsics;
   depth_planes_ = {.samples = addressWords(staging_.address()),
                    .focal_px = abi::vec2(intrinsics.focal_px),
@@ -146,8 +146,9 @@ void StructureSlot::describe(const Frame& frame) {
   for (size_t i = 0; i < staged_.size(); ++i) {
     const uint32_t layer = uint32_t(i);
     depth_planes_.planes[i] = describeDepth(source.layers[i].depth, staged_[i].depth.offset);
-    abi::ConvertColorPush color = describeConversion(
-        source.layers[i].color, frame.sources.front()[i].color_encoding, frame.format.exposure_ev);
+    abi::ConvertColorPush color =
+        describeConversion(source.layers[i].color, frame.sources[source_index][i].color_encoding,
+                           frame.format.exposure_ev);
     color.from = addressWords(staging_.address() + staged_[i].color.offset);
     color.to = addressWords(color_.address(layer));
     color.to_format = colorFormat(shape_.color_storage);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GPU resources of one structure, reused from frame to frame.
+// The GPU resources of one source's structure, reused from frame to frame.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ class StructureSlot {
   // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
   StructureSlot(const Device& device, const FrameShape& shape);
 
-  // Copies the planes into mapped memory. The frame has this slot's shape.
-  void upload(const Frame& frame);
+  // Copies the planes of a source into mapped memory. It has this slot's shape.
+  void upload(const Frame& frame, size_t source = 0);
 
   const FrameShape& shape() const { return shape_; }
   const StructureLayout& layout() const { return layout_; }
-  // Of the uploaded frame.
+  // Of the uploaded source.
   const Camera& sourceCamera() const { return source_camera_; }
   // Once the build's submission is done.
   SourceStats stats() const;
@@ -60,7 +60,7 @@ class StructureSlot {
  private:
   // Undivided arrays, or all of them divided.
   StructureSlot(const Device& device, const FrameShape& shape, bool is_divided);
-  void describe(const Frame& frame);
+  void describe(const Frame& frame, size_t source);
 
   FrameShape shape_;
   StructureLayout layout_;

@@ -38,6 +38,7 @@ SweepView sweepView(const abi::ViewParams& tile) {
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
+  if (job.source_count != 1) return std::nullopt;
   const SizePx tile_px = job.layout->tile_size_px;
   const bool is_swept = std::all_of(job.tiles.begin(), job.tiles.end(), [&](const auto& tile) {
     return tile.is_used == 0 || canSweep(tile, tile_px, inv_z_max);

@@ -19,6 +19,7 @@ uint32_t pieceCount(size_t count, uint32_t per_piece) {
 }  // namespace
 
 bool canSweep(const Frame& frame) {
+  if (frame.sources.size() != 1) return false;
   const std::vector<LayerPlanes>& planes = frame.sources.front();
   const std::vector<LayerFormat>& layers = frame.format.sources.front().layers;
   const SizePx size_px = layers.front().depth.size_px;

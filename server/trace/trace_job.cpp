@@ -53,19 +53,18 @@ bool isPlainTile(const abi::ViewParams& tile, SizePx tile_px, float inv_z_near) 
 
 }  // namespace
 
-bool eyesAreInPlane(const TraceJob& job, double inv_z_max) {
+bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max) {
   // Poses that ought to cancel leave a few roundings. An eye so close to the plane, in units of the
   // nearest depth, moves no ray by more than 2^-16 px, kPlainExtentMax_px times as much.
   constexpr double kInPlaneMax = 0x1p-30;
-  return std::all_of(job.tiles.begin(), job.tiles.end(), [&](const abi::ViewParams& tile) {
+  return std::all_of(tiles.begin(), tiles.end(), [&](const abi::ViewParams& tile) {
     return tile.is_used == 0 || std::abs(tile.eye.z * inv_z_max) <= kInPlaneMax;
   });
 }
 
-bool raysArePlain(const TraceJob& job, double inv_z_max) {
+bool raysArePlain(std::span<const abi::ViewParams> tiles, SizePx tile_px, double inv_z_max) {
   const float inv_z_near = std::max(float(inv_z_max), abi::kInvZNearMin) * abi::kInvZNearMargin;
-  const SizePx tile_px = job.layout->tile_size_px;
-  return std::all_of(job.tiles.begin(), job.tiles.end(), [&](const abi::ViewParams& tile) {
+  return std::all_of(tiles.begin(), tiles.end(), [&](const abi::ViewParams& tile) {
     return tile.is_used == 0 || isPlainTile(tile, tile_px, inv_z_near);
   });
 }
@@ -97,28 +96,36 @@ abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
 }
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
-                      const Pose& display_pose, const Camera& source_camera, SizePx source_px) {
+                      const Pose& display_pose, std::span<const SeenSource> sources) {
   TraceJob job;
   job.layout = std::move(layout);
   job.tolerance_px = spec.tolerance_px;
   job.outside_fill = spec.outside_fill;
   job.background_rgb = spec.background_rgb;
-  aimTraceJob(job, display_pose, source_camera, source_px);
+  aimTraceJob(job, display_pose, sources);
   return job;
 }
 
-void aimTraceJob(TraceJob& job, const Pose& display_pose, const Camera& source_camera,
-                 SizePx source_px) {
+TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
+                      const Pose& display_pose, const Camera& source_camera, SizePx source_px) {
+  const SeenSource source{source_camera, source_px};
+  return makeTraceJob(std::move(layout), spec, display_pose, std::span(&source, 1));
+}
+
+void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSource> sources) {
   const AtlasLayout& layout = *job.layout;
+  job.source_count = uint32_t(sources.size());
   job.tiles.clear();
-  job.tiles.reserve(size_t{layout.columns} * layout.rows);
-  for (uint32_t row = 0; row < layout.rows; ++row) {
-    for (uint32_t column = 0; column < layout.columns; ++column) {
-      const uint32_t view = layout.viewAt(column, row);
-      job.tiles.push_back(view < layout.views.size()
-                              ? makeViewParams(layout.views[view], display_pose, source_camera,
-                                               source_px, job.tolerance_px)
-                              : abi::ViewParams{});
+  job.tiles.reserve(sources.size() * layout.columns * layout.rows);
+  for (const SeenSource& source : sources) {
+    for (uint32_t row = 0; row < layout.rows; ++row) {
+      for (uint32_t column = 0; column < layout.columns; ++column) {
+        const uint32_t view = layout.viewAt(column, row);
+        job.tiles.push_back(view < layout.views.size()
+                                ? makeViewParams(layout.views[view], display_pose, source.camera,
+                                                 source.size_px, job.tolerance_px)
+                                : abi::ViewParams{});
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "display/atlas_layout.h"
@@ -30,30 +31,46 @@ struct TraceOutputs {
   bool operator==(const TraceOutputs&) const = default;
 };
 
+// A source as views see it.
+struct SeenSource {
+  Camera camera;   // intrinsics in px of the depth planes
+  SizePx size_px;  // of the depth planes
+
+  bool operator==(const SeenSource&) const = default;
+};
+
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
   double tolerance_px = 0;
-  // Row-major from the top left; is_used = 0 where no view stands
+  // Row-major from the top left; is_used = 0 where no view stands. The same for each source, one
+  // after the other.
   std::vector<abi::ViewParams> tiles;
+  uint32_t source_count = 1;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
+
+  std::span<const abi::ViewParams> tilesOf(uint32_t source) const {
+    const size_t count = tiles.size() / source_count;
+    return {tiles.data() + source * count, count};
+  }
 };
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
+                      const Pose& display_pose, std::span<const SeenSource> sources);
+TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, const Camera& source_camera, SizePx source_px);
-// Sees a source from elsewhere, in the memory that the job has. `display_pose`: where the display
+// Sees sources from elsewhere, in the memory that the job has. `display_pose`: where the display
 // stands in the world; the views' poses are relative to it.
-void aimTraceJob(TraceJob& job, const Pose& display_pose, const Camera& source_camera,
-                 SizePx source_px);
+void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSource> sources);
 
-// Whether all rays of a job are plain (shaders/shared/trace_abi.h) for a source whose largest inv_z
-// is this, 1/m: then a cheaper kernel serves them.
-bool raysArePlain(const TraceJob& job, double inv_z_max);
-// Whether all its eyes are in the source's plane, as are those of a display that stands in the
+// Whether all rays of these tiles are plain (shaders/shared/trace_abi.h) for a source whose largest
+// inv_z is this, 1/m: then a cheaper kernel serves them.
+bool raysArePlain(std::span<const abi::ViewParams> tiles, SizePx tile_px, double inv_z_max);
+// Whether all their eyes are in the source's plane, as are those of a display that stands in the
 // place of its source's camera: then a cheaper kernel serves them.
-bool eyesAreInPlane(const TraceJob& job, double inv_z_max);
+bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max);
 
-// Where the display of a spec stands: its own world pose, else the source's.
+// Where the display of a spec stands: its own world pose, else that of the (first) source.
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera);
 
 // One view as a kernel takes it. The tolerance: an error dw in inv_z, seen from an eye at b (source

@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "gpu/barrier.h"
 #include "shaders/walk_views.h"
+#include "trace/band_params.h"
 
 namespace viewloom {
 namespace {
@@ -33,11 +34,6 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingBand, DescriptorKind::kStorage}};
 
-uint32_t wantedFlags(const TraceOutputs& outputs) {
-  return (outputs.depth ? abi::kWantDepth : 0) | (outputs.mask ? abi::kWantMask : 0) |
-         (outputs.linear ? abi::kWantLinear : 0) | (outputs.records ? abi::kWantRecords : 0);
-}
-
 bool colorIsScaled(const FrameShape& shape) {
   return std::any_of(shape.color_px.begin(), shape.color_px.end(),
                      [&](const SizePx& color_px) { return color_px != shape.depth_px; });
@@ -60,16 +56,6 @@ bool hasUnusedPixels(const TraceJob& job) {
   const AtlasLayout& layout = *job.layout;
   return layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
          layout.views.size() < size_t{layout.columns} * layout.rows;
-}
-
-// Sides of up to 16384 px, and counts of tiles, in 16 bits each.
-uint32_t packSize(SizePx size) {
-  return size.width | size.height << 16;
-}
-
-// 0xRRGGBB as the band has it.
-uint32_t redFirst(uint32_t rgb) {
-  return (rgb >> 16 & 0xff) | (rgb & 0xff00) | (rgb & 0xff) << 16;
 }
 
 abi::Address addressOf(const ReadablePlane& plane) {
@@ -104,7 +90,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.lanes_are_views,
                                   variant.color_is_scaled,
                                   variant.rays_are_plain,
-                                  variant.eyes_in_plane};
+                                  variant.eyes_in_plane,
+                                  variant.is_one_of_several};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -116,44 +103,53 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
 }
 
 abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, const TraceSlot& slot) {
-  abi::TraceExtras extras{.depth = addressOf(slot.depth_),
-                          .mask = addressOf(slot.mask_),
-                          .linear = addressOf(slot.linear_),
-                          .records = addressOf(slot.records_),
-                          .counters = addressOf(slot.counters_),
-                          .color_size_px = {},
-                          .color_stride = structure.colorStride()};
+  abi::TraceExtras extras{
+      .depth = addressOf(slot.depth_),
+      .mask = addressOf(slot.mask_),
+      .linear = addressOf(slot.linear_),
+      .records = addressOf(slot.records_),
+      .counters = addressOf(slot.counters_),
+      .color_size_px = {},
+      .color_stride = structure.colorStride(),
+      .focal_px = abi::vec2(structure.sourceCamera().intrinsics.focal_px),
+      .principal_px = abi::vec2(structure.sourceCamera().intrinsics.principal_px)};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
   }
   return extras;
 }
 
-std::vector<Descriptor> ViewTracer::describeBindings(const StructureSlot& structure,
-                                                     const TraceSlot& slot, uint64_t tiles_bytes) {
-  return {structure.measuredDescriptor(),
-          {.binding = abi::kBindingViews,
+void ViewTracer::fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                            TraceSlot& slot) {
+  std::byte* const to = slot.upload_.mapped().data();
+  for (uint32_t source = 0; source < structures.size(); ++source) {
+    const abi::TraceExtras extras = describeExtras(*structures[source], slot);
+    const std::span<const abi::ViewParams> tiles = job.tilesOf(source);
+    std::memcpy(to + TraceSlot::extrasOffset(source), &extras, sizeof extras);
+    std::memcpy(to + TraceSlot::tilesOffset(source, job.source_count, tiles.size()), tiles.data(),
+                tiles.size_bytes());
+  }
+}
+
+std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t source,
+                                                   const TraceSlot& slot) {
+  const std::span<const abi::ViewParams> tiles = job.tilesOf(source);
+  return {{.binding = abi::kBindingViews,
            .kind = DescriptorKind::kStorage,
            .buffer = slot.params_.handle(),
-           .offset_bytes = kTilesOffset_bytes,
-           .size_bytes = tiles_bytes},
+           .offset_bytes = TraceSlot::tilesOffset(source, job.source_count, tiles.size()),
+           .size_bytes = tiles.size_bytes()},
           {.binding = abi::kBindingExtras,
            .kind = DescriptorKind::kUniform,
            .buffer = slot.params_.handle(),
-           .size_bytes = sizeof(abi::TraceExtras)},
-          {.binding = abi::kBindingBand,
-           .kind = DescriptorKind::kStorage,
-           .buffer = slot.rgba().handle(),
-           .size_bytes = slot.rgba().sizeBytes()},
-          structure.structure().asTexels(abi::kBindingStructure),
-          structure.structure().asHalfTexels(abi::kBindingStructureHalves),
-          structure.color().asTexels(abi::kBindingColor)};
+           .offset_bytes = TraceSlot::extrasOffset(source),
+           .size_bytes = sizeof(abi::TraceExtras)}};
 }
 
-abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const TraceJob& job,
-                                        BandRows rows) {
-  const AtlasLayout& layout = *job.layout;
-  const uint32_t border = job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
+abi::TracePush ViewTracer::describeBand(const Walk& walk, BandRows rows) {
+  const AtlasLayout& layout = *walk.job.layout;
+  const StructureSlot& structure = walk.structure;
+  const uint32_t border = walk.job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
   abi::TracePush push{.layers = {},
                       .color = {},
                       .source_size_px = packSize(structure.shape().depth_px),
@@ -163,7 +159,7 @@ abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const Tr
                       .tile_size_px = packSize(layout.tile_size_px),
                       .tile_grid = packSize({layout.columns, layout.rows}),
                       .padding_top_px = layout.padding_top_px,
-                      .fill = redFirst(job.background_rgb) | border};
+                      .fill = redFirst(walk.job.background_rgb) | border};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     push.color[i] = addressWords(structure.color().address(i));
@@ -171,34 +167,56 @@ abi::TracePush ViewTracer::describeBand(const StructureSlot& structure, const Tr
   return push;
 }
 
-void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& structure,
-                            const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
-  const AtlasLayout& layout = *job.layout;
-  VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
-                 slot.shape_.row_count_max >= rows.row_count &&
-                 slot.shape_.tile_count_max >= job.tiles.size());
-  slot.band_px_ = {layout.size_px.width, rows.row_count};
-  const uint64_t area_px = slot.band_px_.area();
-  const abi::TraceExtras extras = describeExtras(structure, slot);
-  const size_t tiles_bytes = job.tiles.size() * sizeof(abi::ViewParams);
-  std::memcpy(slot.upload_.mapped().data(), &extras, sizeof extras);
-  std::memcpy(slot.upload_.mapped().data() + kTilesOffset_bytes, job.tiles.data(), tiles_bytes);
-
+void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
+  const AtlasLayout& layout = *walk.job.layout;
+  const StructureSlot& structure = walk.structure;
+  const std::span<const abi::ViewParams> tiles = walk.job.tilesOf(walk.source);
+  const double inv_z_max = structure.stats().inv_z_max;
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
-  const ComputePass& walk =
+  const bool is_one_of_several = walk.job.source_count > 1;
+  const ComputePass& walk_views =
       pass({.reads_by_address = structure.readsByAddress(),
-            .wanted = wantedFlags(slot.shape_.outputs),
+            .wanted = is_one_of_several ? 0 : wantedFlags(walk.slot.shape_.outputs),
             .color_format = colorFormat(structure.shape().color_storage),
             .pixels_per_invocation = pixels,
             .lanes_are_views = lanes_are_views,
             .color_is_scaled = colorIsScaled(structure.shape()),
-            .rays_are_plain = raysArePlain(job, structure.stats().inv_z_max),
-            .eyes_in_plane = eyesAreInPlane(job, structure.stats().inv_z_max)});
+            .rays_are_plain = raysArePlain(tiles, layout.tile_size_px, inv_z_max),
+            .eyes_in_plane = eyesAreInPlane(tiles, inv_z_max),
+            .is_one_of_several = is_one_of_several});
+  std::vector<Descriptor> descriptors = describeParams(walk.job, walk.source, walk.slot);
+  for (const Descriptor& descriptor :
+       {structure.measuredDescriptor(), walk.target,
+        structure.structure().asTexels(abi::kBindingStructure),
+        structure.structure().asHalfTexels(abi::kBindingStructureHalves),
+        structure.color().asTexels(abi::kBindingColor)}) {
+    descriptors.push_back(descriptor);
+  }
+  walk_views.recordDescriptors(commands, descriptors);
+  walk_views.record(commands, describeBand(walk, rows),
+                    groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
+                    rows.row_count);
+}
+
+void ViewTracer::recordBand(vk::CommandBuffer commands,
+                            std::span<const StructureSlot* const> structures, const TraceJob& job,
+                            BandRows rows, TraceSlot& slot, GpuTimer* timer) {
+  const AtlasLayout& layout = *job.layout;
+  VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
+                 slot.shape_.row_count_max >= rows.row_count &&
+                 slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
+                 slot.shape_.source_count >= job.source_count);
+  VIEWLOOM_CHECK(structures.size() == job.source_count);
+  slot.band_px_ = {layout.size_px.width, rows.row_count};
+  const uint64_t area_px = slot.band_px_.area();
+  fillParams(structures, job, slot);
 
   if (timer) timer->recordBegin(commands, "trace");
-  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = kTilesOffset_bytes + tiles_bytes});
+  commands.copyBuffer(
+      slot.upload_.handle(), slot.params_.handle(),
+      vk::BufferCopy{.size = TraceSlot::tilesOffset(job.source_count, job.source_count,
+                                                    job.tilesOf(0).size())});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
     commands.fillBuffer(slot.rgba().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
@@ -207,10 +225,12 @@ void ViewTracer::recordBand(vk::CommandBuffer commands, const StructureSlot& str
     }
   }
   recordTransferToCompute(commands);
-  const uint32_t invocations = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
-  walk.recordDescriptors(commands, describeBindings(structure, slot, tiles_bytes));
-  walk.record(commands, describeBand(structure, job, rows),
-              (invocations + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize, rows.row_count);
+  if (job.source_count == 1) {
+    const Descriptor band = wholeBuffer(abi::kBindingBand, slot.rgba());
+    recordWalk(commands, {*structures[0], job, 0, slot, band}, rows);
+  } else {
+    recordMerged(commands, structures, job, rows, slot);
+  }
   const ColorForm form = slot.shape_.outputs.color;
   if (form != ColorForm::kRgba) {
     packer_.record(commands, slot.rgba(), slot.color_.target(), slot.band_px_, form);

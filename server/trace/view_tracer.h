@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "gpu/compute_pass.h"
 #include "gpu/gpu_timer.h"
@@ -25,12 +26,17 @@ class ViewTracer {
   // read back.
   ColorForm colorForm(ColorForm wanted) const;
 
-  // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows and the
-  // tiles. The structure's build is done, not only recorded: its stats choose the kernel. `timer`
-  // was reset in this recording; nullptr = untimed. The first band of a new variant compiles its
-  // pipeline.
+  // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows, the
+  // tiles and the sources, of which the job has as many as there are structures. Their build is
+  // done, not only recorded: its stats choose the kernels. `timer` was reset in this recording;
+  // nullptr = untimed. The first band of a new variant compiles its pipeline.
+  void recordBand(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                  const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer);
   void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
-                  BandRows rows, TraceSlot& slot, GpuTimer* timer);
+                  BandRows rows, TraceSlot& slot, GpuTimer* timer) {
+    const StructureSlot* const structures[] = {&structure};
+    recordBand(commands, structures, job, rows, slot, timer);
+  }
 
  private:
   // What the pipeline is specialised to.
@@ -43,21 +49,37 @@ class ViewTracer {
     uint32_t color_is_scaled;
     uint32_t rays_are_plain;
     uint32_t eyes_in_plane;
+    uint32_t is_one_of_several;
 
     auto operator<=>(const Variant&) const = default;
   };
 
+  // One of the structures of a job, and where its answers go.
+  struct Walk {
+    const StructureSlot& structure;
+    const TraceJob& job;
+    uint32_t source;
+    const TraceSlot& slot;
+    Descriptor target;
+  };
+
   static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceSlot& slot);
-  static std::vector<Descriptor> describeBindings(const StructureSlot& structure,
-                                                  const TraceSlot& slot, uint64_t tiles_bytes);
-  static abi::TracePush describeBand(const StructureSlot& structure, const TraceJob& job,
-                                     BandRows rows);
+  static void fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                         TraceSlot& slot);
+  static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t source,
+                                                const TraceSlot& slot);
+  static abi::TracePush describeBand(const Walk& walk, BandRows rows);
+  void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
+  void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                    const TraceJob& job, BandRows rows, TraceSlot& slot);
   const ComputePass& pass(const Variant& variant);
+  const ComputePass& mergePass(uint32_t wanted);
 
   const Device* device_;
-  std::mutex mutex_;  // guards passes_
+  std::mutex mutex_;  // guards what follows
   std::map<Variant, std::unique_ptr<ComputePass>> passes_;
   BandPacker packer_;
+  std::map<uint32_t, std::unique_ptr<ComputePass>> merge_passes_;  // by abi::kWant... flags
 };
 
 }  // namespace viewloom

@@ -45,6 +45,7 @@ struct Walk {
   float t;            // of the hit; the ray's end without
   ivec2 cell;         // of the hit; the last column without
   uint layer;         // of the hit
+  float passed_t;     // where it first passed behind known surface; 2 = never
   // Passed behind a silhouette: the column before the last one, and the layer there, whose surface
   // the ray was in front of. Behind that layer from the beginning: the first column.
   bool has_far_side;
@@ -258,6 +259,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     }
     if (!goes_on) break;
   }
+  result.passed_t = first_passed_t;
   result.is_assumed = result.is_hit && first_passed_t < result.t;
   return result;
 }

@@ -28,6 +28,12 @@ VIEWLOOM_ABI_CONST uint kFaultBehindIsHit = 19u;    // passing behind a silhouet
 VIEWLOOM_ABI_CONST uint kFaultLinks = 20u;          // connected surfaces have cracks
 VIEWLOOM_ABI_CONST uint kFaultEntryInFront = 21u;   // whoever enters from the side is in front
 VIEWLOOM_ABI_CONST uint kFaultErrorIgnored = 22u;   // every plane is taken, whatever its error
+// In the merge of several sources.
+VIEWLOOM_ABI_CONST uint kFaultFarthestHit = 32u;     // the farthest hit wins
+VIEWLOOM_ABI_CONST uint kFaultWeightsSwapped = 33u;  // what should count little counts much
+VIEWLOOM_ABI_CONST uint kFaultHiddenWins = 34u;      // one source that is hidden hides all
+VIEWLOOM_ABI_CONST uint kFaultNoRefuting = 35u;      // assumed hits in free space stand
+VIEWLOOM_ABI_CONST uint kFaultNoBlend = 36u;         // the nearest hit alone counts
 
 VIEWLOOM_ABI_END
 

@@ -62,6 +62,7 @@ VIEWLOOM_ABI_CONST uint kBindingExtras = 9u;        // uniform: TraceExtras
 VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint per px
 // Texels of one uint: all layers of the structure, for who needs half a word
 VIEWLOOM_ABI_CONST uint kBindingStructureHalves = 11u;
+VIEWLOOM_ABI_CONST uint kBindingAnswers = 13u;  // storage: RayAnswer per px of each source
 
 // Specialisation constants that every kernel has, before its own.
 // 0: reads go by address: the structure is larger than a texel binding, and divided by layer.

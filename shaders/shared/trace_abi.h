@@ -59,9 +59,10 @@ struct RayRecord {
   float y_px;
   float inv_z;     // of the hit, in the source; 1/m
   uint ray_class;  // kClass...
-  uint layer;      // of the hit
+  uint layer;      // of the hit; of several sources also which, above kRecordSourceShift
   uint visits;     // nodes and facets looked at
 };
+VIEWLOOM_ABI_CONST uint kRecordSourceShift = 8u;
 
 // Where a band goes beside its colour, and what few rays need. Addresses of planes that are not
 // wanted are 0.
@@ -76,6 +77,44 @@ struct TraceExtras {
   // from layer to layer.
   uint color_size_px[kLayerCountMax];
   uint color_stride;
+  // The source's pinhole, px of its depth planes: for what several sources are weighed by.
+  vec2 focal_px;
+  vec2 principal_px;
+};
+
+// What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
+// view, 1/m: comparable between sources, larger is nearer.
+struct RayAnswer {
+  uint ray_class;      // kClass...
+  uint layer;          // of the hit
+  uint visits;         // nodes and facets looked at
+  float view_inv_z;    // of the hit; where the source knows the ray no further without one
+  float tolerance;     // by which the hit may be off
+  float entry_inv_z;   // from where on the source knows the ray
+  float passed_inv_z;  // where the ray first passed behind a surface; kNeverPassed
+  float weight;        // of the hit's colour among those of other sources
+  uvec2 light;  // four binary16: codes 0..255 before they are rounded, and 1 where they are known
+  float x_px;   // of the hit, in the source
+  float y_px;
+  float inv_z;  // of the hit, in the source; 1/m
+};
+
+VIEWLOOM_ABI_CONST float kNeverPassed = -1.0f;
+// In place of a 1/Z: of who knows nothing of the ray.
+VIEWLOOM_ABI_CONST float kKnownNowhere = 1e30f;
+
+// Push constants of merge_sources.comp. Rows of a band, in pieces: answers of one piece are in
+// memory at a time.
+struct MergePush {
+  uint atlas_width_px;
+  uint first_row;     // of the piece, in the atlas
+  uint band_row;      // of the piece, in the band
+  uint tile_size_px;  // width | height << 16
+  uint tile_grid;     // columns | rows << 16
+  uint padding_top_px;
+  uint fill;  // background, red in the low byte
+  uint source_count;
+  uint answers_stride;  // from one source's answers to the next
 };
 
 // A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with
@@ -104,6 +143,15 @@ struct PackPush {
 
 VIEWLOOM_ABI_CONST uint kBindingPlanes = 12u;  // storage, written
 VIEWLOOM_ABI_CONST uint kPackGroupSize = 64u;
+// Hits of two sources are never one surface if their 1/Z differs by more than so much of it: where
+// an eye is close to what the source saw from afar, kappa alone would join all there is.
+VIEWLOOM_ABI_CONST float kToleranceShareMax = 0.125f;
+// Hits of several sources, where a walk asks each on its own: by how much the angle between the
+// lines of sight of a view and a source counts as none, rad. A source that stands where the view
+// does then has 1e8 times the weight of one that is 1 rad away: its own colours, to the last code.
+VIEWLOOM_ABI_CONST float kAngleMin_rad = 1e-4f;
+// A surface that a source sees edge on still has so much of its weight.
+VIEWLOOM_ABI_CONST float kDensityMin = 1e-6f;
 
 // Specialisation constants of walk_views.comp.
 VIEWLOOM_ABI_CONST uint kTraceGroupSize = 64u;
@@ -114,7 +162,9 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 56);
-static_assert(sizeof(TraceExtras) == 60);
+static_assert(sizeof(TraceExtras) == 76);
+static_assert(sizeof(RayAnswer) == 52);
+static_assert(sizeof(MergePush) == 36);
 static_assert(sizeof(TracePush) == 96);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(RayRecord) == 24);

@@ -22,6 +22,8 @@ layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
 layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
 // All eyes are in the source's plane, or as good as that (server/trace/trace_job.h).
 layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
+// Several sources: each answers on its own, and merge_sources.comp makes px of the answers.
+layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
 const bool kSeesThrough = kColorFormat == kColorRgba16f;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
@@ -36,6 +38,9 @@ layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];
 };
+layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
+  RayAnswer answers[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
   RayRecord at[];
 };
@@ -46,6 +51,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
 #include "lib/edge_blend.glsl"
+#include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/walk.glsl"
@@ -62,8 +68,8 @@ uint classOf(Walk walk) {
 
 // A ray that never sees the image continues the border next to where it goes.
 Walk walkBeside(WalkStart start) {
-  return Walk(false, false, false, true, 1.0, start.cell, 0u, false, start.cell, 0u, 0.0, kAxisNone,
-              0.0, 0u);
+  return Walk(false, false, false, true, 1.0, start.cell, 0u, 2.0, false, start.cell, 0u, 0.0,
+              kAxisNone, 0.0, 0u);
 }
 
 void storeColor(uint index, Seen seen) {
@@ -136,6 +142,7 @@ struct Traced {
   Walk walk;
   vec3 direction;
   Seen seen;
+  bool is_known;  // its colour; else the background
 };
 
 Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
@@ -148,13 +155,13 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
                       : makeAnyRay(near_eye, traced.direction, size_px, scene.inv_z_near);
   const WalkStart start = startOf(scene, ray, bound);
   Walk walk = walkBeside(start);
-  if (ray.t_begin < ray.t_end)
-    walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
+  if (ray.t_begin < ray.t_end) walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
   const Light light =
       kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
   traced.ray = ray;
   traced.walk = walk;
   traced.seen = seenOf(ray, walk, light, background);
+  traced.is_known = light.is_known;
   return traced;
 }
 
@@ -173,12 +180,18 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   for (;;) {
     if (isNever(scene, 5u)) break;
     const Traced px = tracePixel(scene, view, run, i, near_eye, bound, background);
-    if (isOwn(run, i)) {
+    if (kIsOneOfSeveral) {
+      const vec4 codes = vec4(codesOfBlend(px.seen.color), px.is_known ? 1.0 : 0.0);
+      answers[run.first_index + i] =
+          answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), view, px.ray, px.direction,
+                   px.walk, classOf(px.walk), codes);
+    } else if (isOwn(run, i)) {
       storeColor(run.first_index + i, px.seen);
       storeOthers(run.first_index + i, px.walk, px.ray, view.eye, px.direction);
       count(counts, classOf(px.walk));
     }
-    const bool may_be_edge = i > 0u && mayBeEdge(scene, inv_z_before, px.seen.inv_z);
+    const bool may_be_edge =
+        !kIsOneOfSeveral && i > 0u && mayBeEdge(scene, inv_z_before, px.seen.inv_z);
     const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
     edges |= i > 32u ? uvec2(0u, bit) : uvec2(bit, 0u);
     inv_z_before = px.seen.inv_z;
@@ -193,8 +206,7 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   for (;;) {
     if (isNever(scene, 8u) || (pixels.x | pixels.y) == 0u) break;
     const uint px_index = pixels.x != 0u ? uint(findLSB(pixels.x)) : 32u + uint(findLSB(pixels.y));
-    Seen seen =
-        tracePixel(scene, view, run, px_index, near_eye, bound, background).seen;
+    Seen seen = tracePixel(scene, view, run, px_index, near_eye, bound, background).seen;
     const vec3 own = seen.color;
     const uint edge_word = px_index > 32u ? edges.y : edges.x;
     const bool has_edge = px_index > 0u && (edge_word >> ((px_index - 1u) & 31u) & 1u) != 0u;
@@ -239,22 +251,15 @@ void main() {
     scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
     Run run;
     const uint first_x = run_in_tile * kPixelsPerInvocation;
-    run.lead = min(first_x, 1u);
-    run.trail = first_x + kPixelsPerInvocation < tile_size.x ? 1u : 0u;
+    const bool has_trail = first_x + kPixelsPerInvocation < tile_size.x;
+    run.lead = kIsOneOfSeveral ? 0u : min(first_x, 1u);
+    run.trail = has_trail && !kIsOneOfSeveral ? 1u : 0u;
     run.first_x = first_x - run.lead;
     run.count = min(first_x + kPixelsPerInvocation, tile_size.x) + run.trail - run.first_x;
     run.tile_y = float(row - push.padding_top_px - tile_row * tile_size.y) + 0.5;
     run.first_index = gl_WorkGroupID.y * push.atlas_width_px + column * tile_size.x + run.first_x;
     traceRun(scene, view, run, counts);
   }
-  // One atomic instruction for all classes, a lane each.
-  const uvec3 sums = subgroupAdd(counts);
-  const uint counter_set = gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y;
-  uint ray_class = kClassHit + gl_SubgroupInvocationID;
-  do {
-    const uint sum = ray_class < kClassCount ? countOf(sums, ray_class) : 0u;
-    const uint counter = counter_set * kCounterStride + ray_class;
-    if (sum > 0u) atomicAdd(UintRef(extras.counters).at[counter], sum);
-    ray_class += gl_SubgroupSize;
-  } while (ray_class < kClassCount);
+  if (kIsOneOfSeveral) return;
+  addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);
 }

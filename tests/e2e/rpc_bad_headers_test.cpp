@@ -112,7 +112,12 @@ const std::vector<BadHeader> kSizes = {
 const std::vector<BadHeader> kCounts = {
     {"number 0", [](auto& h) { h.set_number(0); }, kInvalid, "header.number"},
     {"no source", [](auto& h) { h.clear_sources(); }, kInvalid, "header.sources"},
-    {"two sources", [](auto& h) { *h.add_sources() = h.sources(0); }, kLater, "header.sources"},
+    {"a second source without camera",
+     [](auto& h) {
+       *h.add_sources() = h.sources(0);
+       h.mutable_sources(1)->clear_camera();
+     },
+     kInvalid, "header.sources[1].camera.projection"},
     {"nine sources",
      [](auto& h) {
        for (int i = 0; i < 8; ++i) *h.add_sources() = h.sources(0);

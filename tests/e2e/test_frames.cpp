@@ -25,25 +25,45 @@ LayerFormat layerFormat(SizePx size_px) {
   return layer;
 }
 
-}  // namespace
-
-FramePtr syntheticFrame(uint64_t number, SizePx size_px, uint32_t layer_count, double time_s) {
+std::shared_ptr<Frame> emptyFrame(uint64_t number) {
   auto frame = std::make_shared<Frame>();
   frame->format.number = number;
   frame->format.capture_time_ns = static_cast<int64_t>(1000 * number);
-  SourceFormat& source = frame->format.sources.emplace_back();
-  source.camera = syntheticCamera(size_px);
-  std::vector<LayerPlanes>& planes = frame->sources.emplace_back();
-  const SyntheticOptions options{.size_px = size_px,
-                                 .layer_count = layer_count,
-                                 .time_s = time_s,
-                                 .camera = {},
-                                 .thread_count = 1};
+  return frame;
+}
+
+void addSource(const SyntheticOptions& options, Frame& frame) {
+  const SizePx size_px = options.size_px;
+  SourceFormat& source = frame.format.sources.emplace_back();
+  source.camera = options.camera.value_or(syntheticCamera(size_px));
+  std::vector<LayerPlanes>& planes = frame.sources.emplace_back();
   for (SyntheticLayer& layer : renderSyntheticFrame(options)) {
     source.layers.push_back(layerFormat(size_px));
     planes.push_back({.color = std::make_shared<const std::vector<uint8_t>>(std::move(layer.color)),
                       .color_encoding = PlaneEncoding::kRgba8,
                       .depth = floatBytes(layer.depth_m)});
+  }
+}
+
+}  // namespace
+
+FramePtr syntheticFrame(uint64_t number, SizePx size_px, uint32_t layer_count, double time_s) {
+  const std::shared_ptr<Frame> frame = emptyFrame(number);
+  addSource({.size_px = size_px,
+             .layer_count = layer_count,
+             .time_s = time_s,
+             .camera = {},
+             .thread_count = 1},
+            *frame);
+  return frame;
+}
+
+FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m, SizePx size_px) {
+  const std::shared_ptr<Frame> frame = emptyFrame(number);
+  for (const double place_m : places_m) {
+    Camera camera = syntheticCamera(size_px);
+    camera.pose.position_m.x = place_m;
+    addSource({.size_px = size_px, .layer_count = 1, .camera = camera, .thread_count = 1}, *frame);
   }
   return frame;
 }

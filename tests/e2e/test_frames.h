@@ -2,6 +2,8 @@
 // Decoded frames of the synthetic scene, as the pipeline takes them.
 #pragma once
 
+#include <vector>
+
 #include "display/display_spec.h"
 #include "frame/frame.h"
 
@@ -10,6 +12,10 @@ namespace viewloom::test {
 // Layers of the synthetic scene at time_s, numbered `number`.
 FramePtr syntheticFrame(uint64_t number, SizePx size_px = {160, 90}, uint32_t layer_count = 2,
                         double time_s = 0);
+
+// Of one layer, seen from so many places along x, m: a source each.
+FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m,
+                            SizePx size_px = {160, 90});
 
 // A small quilt of 4x2 views, complete.
 DisplaySpec smallQuilt(SizePx size_px = {320, 200});

@@ -55,6 +55,11 @@ std::ostream& operator<<(std::ostream& out, const TrueScore& score) {
 TrueView::TrueView(const truth::Instant& instant, const ViewOfSource& cameras)
     : known_(truth::knownFrom(instant, cameras.source, cameras.source_px, cameras.view,
                               cameras.view_px)) {
+  for (const Camera& source : cameras.more_sources) {
+    const std::vector<uint8_t> known =
+        truth::knownFrom(instant, source, cameras.source_px, cameras.view, cameras.view_px);
+    for (size_t i = 0; i < known_.size(); ++i) known_[i] = std::min(known_[i], known[i]);
+  }
   const truth::Picture picture =
       truth::takePicture(instant, cameras.view, {.size_px = cameras.view_px});
   image_ = scored(picture);
@@ -84,6 +89,22 @@ TrueScore TrueView::score(const ScoredImage& got, const std::vector<uint8_t>& se
 
 double TrueView::share(uint8_t known) const {
   return double(std::count(known_.begin(), known_.end(), known)) / double(known_.size());
+}
+
+ScoredImage meanView(const RenderedAtlas& atlas, uint32_t view, SizePx size_px, size_t fineness) {
+  const TileOrigin origin = atlas.layout->tileOrigin(view);
+  ScoredImage image{.size_px = size_px, .rgb = {}};
+  for (size_t i = 0; i < 3 * size_px.area(); ++i) {
+    const size_t x_px = origin.x_px + i / 3 % size_px.width * fineness;
+    const size_t y_px = origin.y_px + i / 3 / size_px.width * fineness;
+    double sum = 0;
+    for (size_t j = 0; j < fineness * fineness; ++j) {
+      const size_t px = (y_px + j / fineness) * atlas.layout->size_px.width + x_px + j % fineness;
+      sum += linearFromSrgb(double{atlas.linear[4 * px + i % 3]});
+    }
+    image.rgb.push_back(float(srgbFromLinear(sum / double(fineness * fineness))));
+  }
+  return image;
 }
 
 ScoredImage scored(const truth::Picture& picture) {

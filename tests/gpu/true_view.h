@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "commands/offline_renderer.h"
 #include "scoring/image_score.h"
 #include "support/truth/picture.h"
 
@@ -14,7 +15,7 @@ namespace viewloom {
 
 // PSNR in dB; NaN where there is no such px.
 struct TrueScore {
-  double covered_db = 0;  // of px that see what the source's first layer holds
+  double covered_db = 0;  // of px that see what the first layer of some source holds
   double full_db = 0;     // of all
   double hidden_db = 0;   // of px that see what its second or third layer holds
 
@@ -28,6 +29,7 @@ struct ViewOfSource {
   SizePx source_px;
   Camera view;
   SizePx view_px;
+  std::vector<Camera> more_sources = {};  // of the same size
 };
 
 class TrueView {
@@ -49,6 +51,9 @@ class TrueView {
   ScoredImage image_;
   std::vector<uint8_t> is_inside_;
 };
+
+// A view that was traced so many times finer, of this size averaged over the px.
+ScoredImage meanView(const RenderedAtlas& atlas, uint32_t view, SizePx size_px, size_t fineness);
 
 // The first layer, sRGB-encoded.
 ScoredImage scored(const truth::Picture& picture);

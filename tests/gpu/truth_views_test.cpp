@@ -92,8 +92,8 @@ Value valueOrThrow(absl::StatusOr<Value> value) {
   return *std::move(value);
 }
 
-// The mean light of the rays through each px, or that of the ray through its centre.
-ScoredImage viewIn(const RenderedAtlas& atlas, uint32_t view, bool is_mean) {
+// The light of the ray through each px's centre.
+ScoredImage centerView(const RenderedAtlas& atlas, uint32_t view) {
   const TileOrigin origin = atlas.layout->tileOrigin(view);
   const auto light = [&](size_t x, size_t y, size_t channel) {
     const size_t px = (origin.y_px + y) * atlas.layout->size_px.width + origin.x_px + x;
@@ -102,12 +102,7 @@ ScoredImage viewIn(const RenderedAtlas& atlas, uint32_t view, bool is_mean) {
   ScoredImage image{.size_px = kView_px, .rgb = {}};
   for (size_t i = 0; i < 3 * kView_px.area(); ++i) {
     const size_t x = i / 3 % kView_px.width * kFine, y = i / 3 / kView_px.width * kFine;
-    double sum = 0;
-    for (size_t j = 0; is_mean && j < kFine * kFine; ++j) {
-      sum += light(x + j % kFine, y + j / kFine, i % 3) / double(kFine * kFine);
-    }
-    if (!is_mean) sum = light(x + kFine / 2, y + kFine / 2, i % 3);
-    image.rgb.push_back(float(srgbFromLinear(sum)));
+    image.rgb.push_back(float(srgbFromLinear(light(x + kFine / 2, y + kFine / 2, i % 3))));
   }
   return image;
 }
@@ -156,11 +151,11 @@ class TruthViewsTest : public GpuTest {
 
   void checkView(const RenderedAtlas& atlas, uint32_t view, uint32_t layer_count, bool is_blended,
                  const Bounds& bounds) {
-    const ScoredImage mean = viewIn(atlas, view, true);
+    const ScoredImage mean = meanView(atlas, view, kView_px, kFine);
     const TrueScore score = truths_[view].score(mean);
     const TrueScore inside = truths_[view].scoreInside(mean);
     std::cout << score << "; away from edges " << inside << "; a ray a px "
-              << truths_[view].score(viewIn(atlas, view, false)) << "\n";
+              << truths_[view].score(centerView(atlas, view)) << "\n";
     if (layer_count < kLayers) return;
     EXPECT_LE(score.gapDb(), is_blended ? bounds.blended_gap_max_db : bounds.gap_max_db);
     if (is_blended) return;

@@ -122,10 +122,16 @@ FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& lay
 
 TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
                const Camera& source_camera, SizePx source_px) {
+  const SeenSource source{source_camera, source_px};
+  return jobOf(views, tolerance_px, std::span(&source, 1));
+}
+
+TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
+               std::span<const SeenSource> sources) {
   DisplaySpec spec;
   spec.tolerance_px = tolerance_px;
   return makeTraceJob(std::make_shared<const AtlasLayout>(rowOfViews(views)), spec, Pose{},
-                      source_camera, source_px);
+                      sources);
 }
 
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot) {
@@ -133,7 +139,8 @@ oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& s
 }
 
 oracle::OracleSource sourceOf(const oracle::Scene& scene, double connection_tolerance) {
-  return {oracle::canonicalPlanes(scene.planes), scene.pinhole,
+  return {oracle::canonicalPlanes(scene.planes),
+          scene.pinhole,
           {float(connection_tolerance), scene.kappa.relative}};
 }
 
@@ -218,8 +225,7 @@ std::vector<abi::uvec2> WalkUnderTest::cells(const StructureSlot& slot, uint32_t
 std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot,
                                              const std::vector<oracle::OutputView>& views,
                                              double tolerance_px) {
-  const TraceJob job =
-      jobOf(views, tolerance_px, slot.sourceCamera(), slot.shape().depth_px);
+  const TraceJob job = jobOf(views, tolerance_px, slot.sourceCamera(), slot.shape().depth_px);
   const AtlasLayout& layout = *job.layout;
   TraceSlot traced(device_, {.width_px = layout.size_px.width,
                              .row_count_max = layout.size_px.height,

@@ -30,6 +30,8 @@ FramePtr frameOf(const oracle::Scene& scene, const std::vector<LinearColor>& lay
 // Views of one size, side by side.
 TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
                const Camera& source_camera, SizePx source_px);
+TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
+               std::span<const SeenSource> sources);
 
 // What the oracle sees of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);

@@ -68,7 +68,8 @@ bool fitsAtlasPass(const Device& device, const BenchLoad& load) {
                   [&](const SizePx& color_px) { return color_px == shape.depth_px; });
   const uint64_t depth_bytes = structureLayout(shape.depth_px).invZBytes() * shape.layerCount();
   return shape.color_storage == ColorStorage::kRgba8Srgb && is_per_px &&
-         raysArePlain(load.job, load.source.inv_z_max) && depth_bytes <= limits.storage_bytes_max &&
+         raysArePlain(load.job.tiles, load.job.layout->tile_size_px, load.source.inv_z_max) &&
+         depth_bytes <= limits.storage_bytes_max &&
          depth_bytes / sizeof(float) <= limits.texel_count_max;
 }
 

@@ -176,6 +176,9 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
   EXPECT_EQ(runCommand(command + " list --json streams >/dev/null"), 0);
   EXPECT_EQ(runCommand(command + " publish --synthetic --size 64x36 --seconds 0.2 -q --stream t"),
             0);
+  EXPECT_EQ(runCommand(command + " publish --synthetic --sources 2 --size 64x36 --seconds 0.2 -q"
+                                 " --stream two"),
+            0);
 }
 
 TEST_F(ClientWithViewloomd, theCommandPublishesRealFiles) {

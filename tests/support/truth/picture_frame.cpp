@@ -31,15 +31,11 @@ SharedBytes floatBytes(const std::vector<float>& samples) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
 }
 
-}  // namespace
-
-FramePtr frameOf(const Picture& picture, uint32_t layer_count) {
+void addSource(const Picture& picture, uint32_t layer_count, Frame& frame) {
   VIEWLOOM_CHECK(layer_count >= 1 && layer_count <= picture.layers.size());
-  auto frame = std::make_shared<Frame>();
-  frame->format.number = 1;
-  SourceFormat& source = frame->format.sources.emplace_back();
+  SourceFormat& source = frame.format.sources.emplace_back();
   source.camera = picture.camera;
-  std::vector<LayerPlanes>& planes = frame->sources.emplace_back();
+  std::vector<LayerPlanes>& planes = frame.sources.emplace_back();
   for (uint32_t i = 0; i < layer_count; ++i) {
     LayerFormat& layer = source.layers.emplace_back();
     layer.color = {.kind = PlaneKind::kColor, .size_px = picture.size_px};
@@ -53,6 +49,18 @@ FramePtr frameOf(const Picture& picture, uint32_t layer_count) {
                       .color_encoding = PlaneEncoding::kRgba8,
                       .depth = floatBytes(picture.layers[i].depth_m)});
   }
+}
+
+}  // namespace
+
+FramePtr frameOf(const Picture& picture, uint32_t layer_count) {
+  return frameOf(std::vector<Picture>{picture}, layer_count);
+}
+
+FramePtr frameOf(const std::vector<Picture>& pictures, uint32_t layer_count) {
+  auto frame = std::make_shared<Frame>();
+  frame->format.number = 1;
+  for (const Picture& picture : pictures) addSource(picture, layer_count, *frame);
   return frame;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "frame/frame.h"
 #include "support/truth/picture.h"
@@ -11,5 +12,7 @@ namespace viewloom::truth {
 
 // One source with the first layer_count layers: opaque 8-bit sRGB and binary32 planar depth.
 FramePtr frameOf(const Picture& picture, uint32_t layer_count);
+// A source for each picture.
+FramePtr frameOf(const std::vector<Picture>& pictures, uint32_t layer_count);
 
 }  // namespace viewloom::truth

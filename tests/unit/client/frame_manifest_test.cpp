@@ -71,6 +71,15 @@ TEST_F(FrameManifestTest, makesAFrameWithEveryPlaneDescribed) {
   EXPECT_EQ(planes[1].bytes_count(), frame->planes[1]->size());
 }
 
+TEST_F(FrameManifestTest, takesSourcesOneAfterTheOther) {
+  const std::string one =
+      R"({"camera": {"fov": {}}, "layers": [)" + layer("color.png", "depth.png") + "]}";
+  const auto frame = load(R"({"sources": [)" + one + "," + one + "," + one + "]}");
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_EQ(frame->header.sources_size(), 3);
+  EXPECT_EQ(frame->planes.size(), 6U);
+}
+
 TEST_F(FrameManifestTest, numbersAFrameWithoutANumberOne) {
   std::string json = source(layer("color.png", "depth.png"));
   json.replace(json.find(R"("number": "7", )"), 15, "");

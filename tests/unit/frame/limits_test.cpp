@@ -71,6 +71,26 @@ TEST(ValidateFrame, acceptsWhatIsWhole) {
   EXPECT_TRUE(validateFrame(goodFrame(), {}).ok());
 }
 
+TEST(ValidateFrame, takesSourcesOfSeveralSizes) {
+  FrameFormat frame = goodFrame();
+  frame.sources.resize(8, frame.sources[0]);
+  for (LayerFormat& layer : frame.sources[3].layers) resize(layer.depth, {7, 5});
+  EXPECT_TRUE(validateFrame(frame, {}).ok());
+}
+
+TEST(ValidateFrame, addsUpTheBytesOfAllSources) {
+  FrameFormat frame = goodFrame();
+  uint64_t one_source_bytes = 0;
+  for (const LayerFormat& layer : frame.sources[0].layers) {
+    one_source_bytes += layer.color.wire_bytes + layer.depth.wire_bytes;
+  }
+  frame.sources.push_back(frame.sources[0]);
+  EXPECT_TRUE(validateFrame(frame, {.frame_bytes_max = 2 * one_source_bytes}).ok());
+  const absl::Status status = validateFrame(frame, {.frame_bytes_max = 2 * one_source_bytes - 1});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+  EXPECT_EQ(fieldOf(status), "header");
+}
+
 TEST(ValidateFrame, namesTheFieldOfABadFrame) {
   expectRefusals({
       {"number 0", [](auto& f) { f.number = 0; }, kInvalid, "header.number"},
@@ -78,8 +98,12 @@ TEST(ValidateFrame, namesTheFieldOfABadFrame) {
       {"NaN exposure", [](auto& f) { f.exposure_ev = kNan; }, kInvalid, "header.exposure_ev"},
       {"no source", [](auto& f) { f.sources.clear(); }, kInvalid, "header.sources"},
       {"nine sources", [](auto& f) { f.sources.resize(9); }, kInvalid, "header.sources"},
-      {"two sources", [](auto& f) { f.sources.push_back(f.sources[0]); },
-       absl::StatusCode::kUnimplemented, "header.sources"},
+      {"a second source without layers",
+       [](auto& f) {
+         f.sources.push_back(f.sources[0]);
+         f.sources[1].layers.clear();
+       },
+       kInvalid, "header.sources[1].layers"},
       {"no layer", [](auto& f) { f.sources[0].layers.clear(); }, kInvalid,
        "header.sources[0].layers"},
       {"five layers", [](auto& f) { f.sources[0].layers.resize(5, goodLayer()); }, kInvalid,

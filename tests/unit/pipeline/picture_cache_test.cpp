@@ -21,11 +21,11 @@ ActiveDisplay someDisplay() {
 
 ResidentStructure seenFrom(double x_m) {
   ResidentStructure structure;
-  structure.source_camera = {.pose = {.position_m = {x_m, 0, 0}},
-                             .intrinsics = {.focal_px = {50, 50}, .principal_px = {32, 32}}};
-  structure.defaults = {.source_intrinsics = structure.source_camera.intrinsics,
-                        .source_size_px = {64, 64},
-                        .focal_distance_m = 2};
+  const Camera camera{.pose = {.position_m = {x_m, 0, 0}},
+                      .intrinsics = {.focal_px = {50, 50}, .principal_px = {32, 32}}};
+  structure.sources = {{camera, {64, 64}}};
+  structure.defaults = {
+      .source_intrinsics = camera.intrinsics, .source_size_px = {64, 64}, .focal_distance_m = 2};
   return structure;
 }
 
@@ -71,12 +71,25 @@ TEST_F(PictureCacheTest, aPictureThatWasLetGoIsUsedAgain) {
 TEST_F(PictureCacheTest, anotherLensMakesAnotherLayout) {
   const PicturePtr before = get(seenFrom(0));
   ResidentStructure zoomed = seenFrom(0);
-  zoomed.source_camera.intrinsics.focal_px = {80, 80};
-  zoomed.defaults.source_intrinsics = zoomed.source_camera.intrinsics;
+  zoomed.sources.front().camera.intrinsics.focal_px = {80, 80};
+  zoomed.defaults.source_intrinsics = zoomed.sources.front().camera.intrinsics;
   const PicturePtr after = get(zoomed);
   EXPECT_NE(before->layout, after->layout);
   EXPECT_NE(before->layout->views.front().camera.intrinsics,
             after->layout->views.front().camera.intrinsics);
+}
+
+TEST_F(PictureCacheTest, aimsAtEverySource) {
+  ResidentStructure two = seenFrom(0);
+  two.sources.push_back(seenFrom(0.5).sources.front());
+  const PicturePtr both = get(two);
+  ASSERT_EQ(both->source_count, 2U);
+  ASSERT_EQ(both->tiles.size(), 2 * get(seenFrom(0))->tiles.size());
+  EXPECT_GT(both->tilesOf(0)[0].eye.x, both->tilesOf(1)[0].eye.x);
+  two.sources[1].camera.pose.position_m.x = 1;
+  const PicturePtr moved = get(two);
+  EXPECT_EQ(moved->tilesOf(0)[0].eye.x, both->tilesOf(0)[0].eye.x);
+  EXPECT_LT(moved->tilesOf(1)[0].eye.x, both->tilesOf(1)[0].eye.x);
 }
 
 TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {

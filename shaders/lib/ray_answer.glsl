@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one source tells of a ray, so that it can be compared with what others tell
+// (shaders/README.md, Several sources).
+#ifndef VIEWLOOM_LIB_RAY_ANSWER_GLSL_
+#define VIEWLOOM_LIB_RAY_ANSWER_GLSL_
+
+#include "lib/ray.glsl"
+#include "lib/walk.glsl"
+
+// Of a source; px of its depth planes.
+struct Pinhole {
+  vec2 focal_px;
+  vec2 principal_px;
+};
+
+// Lengths of a ray by which it may be followed back to where it enters the image: no less than a
+// millionth of the way from the eye to the near bound is left out.
+const float kBeforeMax = 1e6;
+
+// Homogeneous image coordinates (px * Z, px * Z, Z) in metres, y down.
+vec3 metricPoint(Pinhole pinhole, vec3 point) {
+  return vec3((point.xy - pinhole.principal_px * point.z) / pinhole.focal_px, point.z);
+}
+
+// Px of the source per px of the view, in area, on the plane through a hit with the slopes of its
+// facet. In image coordinates around the hit, the plane is g P = 1 with g = (slope, inv_z), and the
+// ray meets it in P = eye + s direction; so a step along the tile moves the hit in the image by s /
+// Z (d - direction (g d) / (g direction)).
+float samplingDensity(ViewParams view, vec3 direction, vec2 slope, vec3 point, float z_per_s) {
+  const vec3 along = vec3(direction.xy - point.xy * direction.z, direction.z);
+  const vec3 step_x =
+      vec3(view.direction_dx.xy - point.xy * view.direction_dx.z, view.direction_dx.z);
+  const vec3 step_y =
+      vec3(view.direction_dy.xy - point.xy * view.direction_dy.z, view.direction_dy.z);
+  const vec3 g = vec3(slope, point.z);
+  const float towards = dot(g, along);
+  const float share = abs(towards) > 1e-30 ? 1.0 / towards : 0.0;
+  const vec2 moved_x = step_x.xy - along.xy * (dot(g, step_x) * share);
+  const vec2 moved_y = step_y.xy - along.xy * (dot(g, step_y) * share);
+  return abs(moved_x.x * moved_y.y - moved_x.y * moved_y.x) / max(z_per_s * z_per_s, 1e-30);
+}
+
+// How much the colour of a hit counts among others: the less the nearer the source looks from the
+// side of the view, and the fewer samples it has there; more samples than px are worth no more.
+float colorWeight(Pinhole pinhole, ViewParams view, vec3 point, float density) {
+  const vec3 from_source = metricPoint(pinhole, vec3(point.xy, 1.0));
+  const vec3 from_view = from_source - point.z * metricPoint(pinhole, view.eye);
+  const vec3 turn = normalize(from_source) - normalize(from_view);
+  return clamp(density, kDensityMin, 1.0) / (dot(turn, turn) + kAngleMin_rad * kAngleMin_rad);
+}
+
+// Where the ray enters the image, also where that is nearer than anything the source has: from
+// there on the source has seen what is free. kKnownNowhere where that is before the view's eye.
+float entryInvZ(ViewParams view, Ray ray, vec3 direction, vec2 size_px) {
+  const bvec2 goes_back = lessThan(ray.extent.xy, vec2(0.0));
+  const vec2 t_in = -mix(ray.start.xy, size_px - ray.start.xy, goes_back) * ray.pace;
+  const float t = clamp(max(t_in.x, t_in.y), -kBeforeMax, ray.t_begin);
+  const float entry = viewInvZ(view.eye, direction, ray.start + t * ray.extent);
+  return entry > 0.0 && entry < kKnownNowhere ? entry : kKnownNowhere;
+}
+
+// `light`: codes 0..255 before they are rounded, and whether they are known.
+RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 direction,
+                   Walk walk, uint ray_class, vec4 light) {
+  const vec3 point = ray.start + walk.t * ray.extent;
+  const bool is_seen = ray.t_begin < ray.t_end;
+  const uvec2 facet = loadFacet(scene.layers, walk.layer, scene.extent, walk.cell);
+  RayAnswer answer;
+  answer.ray_class = ray_class;
+  answer.layer = walk.layer;
+  answer.visits = walk.visits;
+  answer.view_inv_z = viewInvZ(view.eye, direction, point);
+  // What is off by kappa in the source's 1/Z is off by kappa Z^2 metres, and as far in the view.
+  const float z_per_s = point.z > 0.0 ? answer.view_inv_z / point.z : abs(direction.z);
+  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, point.z);
+  answer.tolerance = min(kappa * z_per_s * z_per_s, kToleranceShareMax * answer.view_inv_z);
+  // A ray that is never seen is known nowhere.
+  answer.entry_inv_z =
+      is_seen ? entryInvZ(view, ray, direction, vec2(scene.extent.size_px)) : kNeverPassed;
+  const vec3 passed = ray.start + walk.passed_t * ray.extent;
+  answer.passed_inv_z = walk.passed_t <= 1.0 ? viewInvZ(view.eye, direction, passed) : kNeverPassed;
+  if (!is_seen) answer.view_inv_z = kKnownNowhere;
+  const float density = samplingDensity(view, direction, unpackSlopes(facet.y), point, z_per_s);
+  answer.weight = walk.is_hit ? colorWeight(pinhole, view, point, density) : 0.0;
+  answer.light = uvec2(packHalf2x16(light.rg), packHalf2x16(light.ba));
+  answer.x_px = point.x;
+  answer.y_px = point.y;
+  answer.inv_z = point.z;
+  return answer;
+}
+
+#endif  // VIEWLOOM_LIB_RAY_ANSWER_GLSL_
