@@ -87,9 +87,11 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   const vec2 other = 1.0 - share;
   const int own = cell.y * extent.size_px.x + cell.x;
   const int down = taps_y.toward * extent.size_px.x;
-  const vec4 weights =
+  vec4 weights =
       vec4(other.x * other.y, link_x > 0u ? share.x * other.y : 0.0,
            link_y > 0u ? other.x * share.y : 0.0, link_xy > 0u ? share.x * share.y : 0.0);
+  // Samples further in stand for the own one along both axes, and nothing leads to the fourth.
+  if (weights.x + weights.y + weights.z + weights.w <= 0.0) weights.y = 1.0;
   const uvec4 tap_layers = uvec4(layer, layer_x, layer_y, link_xy > 0u ? link_xy - 1u : layer);
   const ivec4 taps = ivec4(own, link_x > 0u ? own + taps_x.toward : own,
                            link_y > 0u ? own + down : own,
