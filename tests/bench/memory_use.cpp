@@ -54,7 +54,7 @@ class Walk {
     const FramePtr input = decodedCopy(frame);
     use.frame_input_bytes = planeBytes(*input);
     const uint64_t before_bytes = gpuMemoryBytes();
-    WalkedForm form(device_, shapeOf(*input));
+    WalkedForm form(device_, shapesOf(*input));
     use.structure_bytes = gpuMemoryBytes() - before_bytes;
     StripTrace strip(device_, stripShape(job_));
     const uint64_t held_bytes = gpuMemoryBytes() - before_bytes;
@@ -66,7 +66,7 @@ class Walk {
       const uint64_t device_bytes = device_.info().is_software ? 0 : held_bytes;
       use.peak_bytes = uint64_t(heap.peakBytes()) + device_bytes;
     }
-    const WalkedForm further_form(device_, shapeOf(*input));
+    const WalkedForm further_form(device_, shapesOf(*input));
     const StripTrace further_strip(device_, stripShape(job_));
     use.further_frame_bytes = gpuMemoryBytes() - before_bytes - held_bytes;
     return use;
@@ -74,14 +74,14 @@ class Walk {
 
  private:
   void build(const Frame& frame, WalkedForm& form) {
-    form.slot.upload(frame);
-    builder_.record(form.recorder.begin(), form.slot, nullptr);
+    form.structure.upload(frame);
+    form.structure.recordBuild(form.recorder.begin(), builder_);
     timeline_.wait(form.recorder.submit(timeline_));
   }
 
   // The first strip: all others go through the same slot.
   void trace(const WalkedForm& form, StripTrace& strip) {
-    tracer_.recordBand(strip.recorder.begin(), form.slot, job_,
+    tracer_.recordBand(strip.recorder.begin(), form.structure.firstSource(), job_,
                        {0, strip.slot.shape().row_count_max}, strip.slot, nullptr);
     timeline_.wait(strip.recorder.submit(timeline_));
   }
