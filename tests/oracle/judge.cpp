@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "oracle/answer_text.h"
+#include "oracle/nearby.h"
 
 namespace viewloom::oracle {
 namespace {
@@ -19,19 +20,8 @@ constexpr double kRoundingUlps = 16;
 constexpr double kUlp = 1.0 / (1 << 23);
 constexpr size_t kWorstCount = 6;
 
-// Eight directions stand for a circle: at this multiple of its radius their octagon encloses it,
-// 1 / cos(pi / 8).
-constexpr double kOctagonRadius = 1.0824;
-
-// Of the tolerance, by which rays are moved; an octave apart, since what is met changes by scales.
-constexpr double kMovedShares[] = {1, 0.5, 0.25, 0.125};
-
 // Where a ray is compared with a surface on its way.
 constexpr double kStepsPerPx = 4;
-
-bool isHit(RayClass ray_class) {
-  return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
-}
 
 bool namesLayer(const OracleHit& hit, int layer) {
   return hit.facet.layer == layer || hit.linked_facet.layer == layer;
@@ -54,19 +44,6 @@ FacetAt followLinks(const OracleSource& source, FacetAt from, int column, int ro
   }
   return from;
 }
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool holds(double value, double slack) const {
-    return value >= low - slack && value <= high + slack;
-  }
-};
 
 }  // namespace
 
@@ -143,22 +120,9 @@ bool Judge::matches(const OracleAnswer& oracle, const TestedAnswer& tested) cons
 // position. A surface off by dw in 1/Z moves the picture along the epipolar line, so moved pictures
 // also stand for surfaces that are off by as much as the tolerance allows.
 std::vector<OracleAnswer> Judge::answersOfMovedRays(const ViewRay& ray) const {
-  const double straight = tolerance_.output_px * kOctagonRadius;
-  const double slanted = straight * std::sqrt(0.5);
-  const glm::dvec2 moves_px[] = {{0, 0},
-                                 {straight, 0},
-                                 {-straight, 0},
-                                 {0, straight},
-                                 {0, -straight},
-                                 {slanted, slanted},
-                                 {slanted, -slanted},
-                                 {-slanted, slanted},
-                                 {-slanted, -slanted}};
-  std::vector<OracleAnswer> answers;
-  for (const double share : kMovedShares) {
-    for (const glm::dvec2& move_px : moves_px) {
-      answers.push_back(traceOracle(source_, ray.movedBy(share * move_px.x, share * move_px.y)));
-    }
+  std::vector<OracleAnswer> answers = {traceOracle(source_, ray.ray)};
+  for (const glm::dvec2& move_px : movesWithin(tolerance_.output_px)) {
+    answers.push_back(traceOracle(source_, ray.movedBy(move_px.x, move_px.y)));
   }
   const ProjectedRay own = projectRay(source_.pinhole(), ray.ray);
   for (const double sign : {-1.0, 1.0}) {

@@ -9,6 +9,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "oracle/nearby.h"
+
 namespace viewloom::oracle {
 namespace {
 
@@ -17,13 +19,7 @@ constexpr double kShareTolerance = 0.02;
 constexpr double kInvZShareTolerance = 1e-3;
 // Whether two hits are one is decided within so much of the tolerance.
 constexpr double kSlacks[] = {1, 0.98, 1.02};
-constexpr double kMovedShares[] = {1, 0.5, 0.25, 0.125};
-constexpr double kOctagonRadius = 1.0824;  // 1 / cos(pi / 8), as in judge.cpp
 constexpr size_t kWorstCount = 6;
-
-bool isHit(RayClass ray_class) {
-  return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
-}
 
 bool isExact(const MergedAnswer& tested, const MergedAnswer& own) {
   if (tested.ray_class != own.ray_class) return false;
@@ -35,16 +31,6 @@ bool isExact(const MergedAnswer& tested, const MergedAnswer& own) {
   }
   return is_exact;
 }
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
 
 // Whether the place and every share lie where they may when each source that has one is anywhere
 // among its answers.
@@ -175,14 +161,10 @@ std::vector<std::vector<SourceAnswer>> MergeJudge::answersNearby(const ViewRay& 
   const std::vector<SourceAnswer> own = answersTo(ray);
   std::vector<std::vector<SourceAnswer>> nearby = {own};
   const double output_px = tolerances_.front().output_px;
-  for (const double share : kMovedShares) {
-    for (int eighth = 0; eighth < 8; ++eighth) {
-      const double angle = eighth * std::acos(-1.0) / 4;
-      const double radius = share * kOctagonRadius * output_px;
-      ViewRay moved = ray;
-      moved.ray = ray.movedBy(radius * std::cos(angle), radius * std::sin(angle));
-      nearby.push_back(answersTo(moved));
-    }
+  for (const glm::dvec2& move_px : movesWithin(output_px)) {
+    ViewRay moved = ray;
+    moved.ray = ray.movedBy(move_px.x, move_px.y);
+    nearby.push_back(answersTo(moved));
   }
   for (size_t i = 0; i < sources_.size(); ++i) {
     const JudgeTolerance& tolerance = tolerances_[i];

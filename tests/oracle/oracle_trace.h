@@ -20,6 +20,10 @@ struct Ray {
 
 enum class RayClass { kHit, kHitAssumed, kHidden, kOutside, kEmpty };
 
+inline bool isHit(RayClass ray_class) {
+  return ray_class == RayClass::kHit || ray_class == RayClass::kHitAssumed;
+}
+
 const char* nameOf(RayClass ray_class);
 std::ostream& operator<<(std::ostream& out, RayClass ray_class);
 
