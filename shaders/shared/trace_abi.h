@@ -31,9 +31,9 @@ VIEWLOOM_ABI_CONST float kInvZNearMargin = 1.0001f;
 // Columns of the source that an edge is looked for in between two px of a view. Whose px are wider
 // shows single samples anyway.
 VIEWLOOM_ABI_CONST uint kEdgeColumnsMax = 16u;
-// Two px between which one is looked for see inv_z further apart than this share of kappa: the most
-// that is linked steps by all of it, and slopes may bring the two nearer.
-VIEWLOOM_ABI_CONST float kEdgeStepShare = 1.0f;
+// Two px between which one is looked for see inv_z further apart than this times kappa, the least
+// step of an edge. Where slopes bring them nearer than that, the edge is left as it is.
+VIEWLOOM_ABI_CONST float kEdgeStepKappas = 1.0f;
 
 // A plain ray runs from the near bound, in front of its eye, to infinity. It is no longer than this
 // in px, so that positions along it keep 1/256 px with a few roundings of binary32.
