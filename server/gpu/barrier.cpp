@@ -13,8 +13,10 @@ struct Scope {
 };
 
 const Scope kComputeWrites{Stage::eComputeShader, Access::eShaderWrite};
-const Scope kComputeUses{Stage::eComputeShader, Access::eShaderRead | Access::eUniformRead |
-                                                    Access::eShaderWrite};
+// Groups of a dispatch may be what a shader has written.
+const Scope kComputeUses{Stage::eComputeShader | Stage::eDrawIndirect,
+                         Access::eShaderRead | Access::eUniformRead | Access::eShaderWrite |
+                             Access::eIndirectCommandRead};
 const Scope kTransferWrites{Stage::eAllTransfer, Access::eTransferWrite};
 const Scope kTransferUses{Stage::eAllTransfer, Access::eTransferRead | Access::eTransferWrite};
 const Scope kHostReads{Stage::eHost, Access::eHostRead};

@@ -52,11 +52,11 @@ vk::raii::Buffer makeBuffer(const Device& device, const BufferOptions& options) 
                                                   device.info().limits.allocation_bytes_max));
   }
   using Usage = vk::BufferUsageFlagBits;
-  return {
-      device.handle(),
-      {.size = options.size_bytes,
-       .usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst |
-                Usage::eUniformBuffer | Usage::eUniformTexelBuffer | Usage::eShaderDeviceAddress}};
+  return {device.handle(),
+          {.size = options.size_bytes,
+           .usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst |
+                    Usage::eUniformBuffer | Usage::eUniformTexelBuffer | Usage::eIndirectBuffer |
+                    Usage::eShaderDeviceAddress}};
 }
 
 vk::raii::DeviceMemory makeMemory(const Device& device, const vk::MemoryRequirements& needs,

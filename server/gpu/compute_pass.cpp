@@ -30,9 +30,10 @@ vk::raii::DescriptorSetLayout makeSlots(const Device& device,
                         .descriptorCount = 1,
                         .stageFlags = vk::ShaderStageFlagBits::eCompute});
   }
-  return {device.handle(), {.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
-                            .bindingCount = static_cast<uint32_t>(bindings.size()),
-                            .pBindings = bindings.data()}};
+  return {device.handle(),
+          {.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
+           .bindingCount = static_cast<uint32_t>(bindings.size()),
+           .pBindings = bindings.data()}};
 }
 
 vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes,
@@ -43,7 +44,8 @@ vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes,
   return {device.handle(),
           {.setLayoutCount = 1,
            .pSetLayouts = &slots,
-           .pushConstantRangeCount = push_bytes > 0 ? 1u : 0u, .pPushConstantRanges = &range}};
+           .pushConstantRangeCount = push_bytes > 0 ? 1u : 0u,
+           .pPushConstantRanges = &range}};
 }
 
 vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& options,
@@ -96,29 +98,40 @@ void ComputePass::recordDescriptors(vk::CommandBuffer commands,
   for (size_t i = 0; i < descriptors.size(); ++i) {
     const Descriptor& descriptor = descriptors[i];
     buffers[i] = vk::DescriptorBufferInfo{.buffer = descriptor.buffer,
-                  .offset = descriptor.offset_bytes,
-                  .range = descriptor.size_bytes};
+                                          .offset = descriptor.offset_bytes,
+                                          .range = descriptor.size_bytes};
     const bool is_texels = descriptor.kind == DescriptorKind::kTexels;
-    writes[i] = vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
-                 .descriptorCount = 1,
-                 .descriptorType = typeOf(descriptor.kind),
-                 .pBufferInfo = is_texels ? nullptr : &buffers[i],
-                 .pTexelBufferView = is_texels ? &descriptor.texels : nullptr};
+    writes[i] =
+        vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
+                               .descriptorCount = 1,
+                               .descriptorType = typeOf(descriptor.kind),
+                               .pBufferInfo = is_texels ? nullptr : &buffers[i],
+                               .pTexelBufferView = is_texels ? &descriptor.texels : nullptr};
   }
   commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, *layout_, 0,
                                 static_cast<uint32_t>(descriptors.size()), writes.data(),
                                 *device_->handle().getDispatcher());
 }
 
-void ComputePass::record(vk::CommandBuffer commands, std::span<const std::byte> push,
-                         uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+void ComputePass::recordState(vk::CommandBuffer commands, std::span<const std::byte> push) const {
   VIEWLOOM_CHECK(push.size() == push_bytes_);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   if (!push.empty()) {
     commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, 0,
                            static_cast<uint32_t>(push.size()), push.data());
   }
+}
+
+void ComputePass::record(vk::CommandBuffer commands, std::span<const std::byte> push,
+                         uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+  recordState(commands, push);
   commands.dispatch(groups_x, groups_y, groups_z);
+}
+
+void ComputePass::recordIndirect(vk::CommandBuffer commands, std::span<const std::byte> push,
+                                 const Buffer& groups, uint64_t offset_bytes) const {
+  recordState(commands, push);
+  commands.dispatchIndirect(groups.handle(), offset_bytes);
 }
 
 }  // namespace viewloom

@@ -8,6 +8,7 @@
 #include <span>
 #include <type_traits>
 
+#include "gpu/buffer.h"
 #include "gpu/descriptor.h"
 
 namespace viewloom {
@@ -32,6 +33,10 @@ class ComputePass {
   void record(vk::CommandBuffer commands, std::span<const std::byte> push, uint32_t groups_x,
               uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
+  // The same, with as many groups as three words of a buffer say when the device gets there.
+  void recordIndirect(vk::CommandBuffer commands, std::span<const std::byte> push,
+                      const Buffer& groups, uint64_t offset_bytes) const;
+
   // The descriptors of the next dispatch; slots that the shader does not use may be left out.
   void recordDescriptors(vk::CommandBuffer commands, std::span<const Descriptor> descriptors) const;
 
@@ -43,7 +48,17 @@ class ComputePass {
     record(commands, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
+  template <typename Push>
+  requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
+      (!std::is_convertible_v<Push, std::span<const std::byte>>)void recordIndirect(
+          vk::CommandBuffer commands, const Push& push, const Buffer& groups,
+          uint64_t offset_bytes) const {
+    recordIndirect(commands, std::as_bytes(std::span(&push, 1)), groups, offset_bytes);
+  }
+
  private:
+  void recordState(vk::CommandBuffer commands, std::span<const std::byte> push) const;
+
   const Device* device_;
   uint32_t push_bytes_;
   vk::raii::DescriptorSetLayout slots_;
