@@ -5,6 +5,7 @@ set(VIEWLOOM_SHADERS
   structure/prepare_columns.comp
   structure/measure_depth.comp
   structure/settle_tolerance.comp
+  structure/smooth_columns.comp
   structure/build_facets.comp
   structure/build_blocks.comp
   structure/build_level.comp

@@ -54,6 +54,7 @@ Json sourceJson(const SourceStats& stats) {
   Json json;
   json["depth_step"] = stats.depth_step;
   json["noise_sigma"] = stats.noise_sigma;
+  json["smoothing_reach"] = stats.smoothing_reach;
   json["connection_tolerance"] = stats.connection_tolerance;
   json["bad_samples"] = stats.bad_samples_count;
   json["unsorted_columns"] = stats.unsorted_columns_count;

@@ -46,8 +46,9 @@ struct SourceStats {
   uint64_t unsorted_columns_count = 0;
   double inv_z_min = 0;
   double inv_z_max = 0;
-  double inv_z_near = 0;  // 98th percentile of 1/Z
-  double inv_z_far = 0;   // 2nd percentile of 1/Z
+  double inv_z_near = 0;       // 98th percentile of 1/Z
+  double inv_z_far = 0;        // 2nd percentile of 1/Z
+  double smoothing_reach = 0;  // how far coarse samples may have been moved; 0: they are fine
 };
 
 }  // namespace viewloom

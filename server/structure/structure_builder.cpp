@@ -42,6 +42,7 @@ void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
 std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
   return {slot.measuredDescriptor(),
           slot.structure().asTexels(abi::kBindingStructure),
+          slot.structure().asHalfTexels(abi::kBindingStructureHalves),
           slot.invZ().asTexels(abi::kBindingInvZ),
           slot.invZ().asStorage(abi::kBindingInvZOut),
           slot.structure().asStorage(abi::kBindingStructureOut),
@@ -81,6 +82,7 @@ class Recording {
 
   void prepare();
   void measure();
+  void smooth();
   void buildFacets() { overNodes(passes_.build_facets, abi::kLevelFirst, 1); }
   void buildBlocks() { overNodes(passes_.build_blocks, abi::kLevelFirst, 1); }
   void buildLevels();
@@ -132,6 +134,20 @@ void Recording::measure() {
   dispatch(passes_.settle_tolerance, slot_.buildPush(), 1, 1, 1);
 }
 
+// The device has settled whether there is anything to do, and for which passes.
+void Recording::smooth() {
+  abi::BuildPush push = slot_.buildPush();
+  for (uint32_t pass = 0; pass < abi::kSmoothingPassCount; ++pass) {
+    push.level = pass;
+    passes_.smooth_columns.recordDescriptors(commands_, bindings_);
+    passes_.smooth_columns.recordIndirect(commands_, push, slot_.measured(),
+                                          pass < abi::kFirstShortPass
+                                              ? offsetof(abi::MeasuredHead, long_groups)
+                                              : offsetof(abi::MeasuredHead, short_groups));
+    recordComputeBarrier(commands_);
+  }
+}
+
 void Recording::buildLevels() {
   const uint32_t layer_count = slot_.shape().layerCount();
   for (uint32_t level = abi::kLevelFirst + 1; level <= abi::kLevelLast; ++level) {
@@ -174,6 +190,7 @@ void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& s
   });
   stage("columns", [&] { recording.prepare(); });
   stage("measure", [&] { recording.measure(); });
+  stage("smooth", [&] { recording.smooth(); });
   stage("facets", [&] { recording.buildFacets(); });
   stage("blocks", [&] { recording.buildBlocks(); });
   stage("levels", [&] { recording.buildLevels(); });

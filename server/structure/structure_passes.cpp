@@ -9,12 +9,14 @@
 #include "shaders/measure_depth.h"
 #include "shaders/prepare_columns.h"
 #include "shaders/settle_tolerance.h"
+#include "shaders/smooth_columns.h"
 #include "shared/structure_abi.h"
 
 namespace viewloom {
 namespace {
 
 constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
                                      {abi::kBindingInvZ, DescriptorKind::kTexels},
                                      {abi::kBindingSamples, DescriptorKind::kTexels},
                                      {abi::kBindingInvZOut, DescriptorKind::kStorage},
@@ -41,6 +43,8 @@ ComputePass makePass(const Device& device, const StructureVariant& variant,
 StructurePasses::StructurePasses(const Device& device, const StructureVariant& variant)
     : measure_depth(makePass(device, variant, measure_depth_spirv, {}, "measure depth")),
       settle_tolerance(makePass(device, variant, settle_tolerance_spirv, {}, "settle tolerance")),
+      smooth_columns(
+          makePass(device, variant, smooth_columns_spirv, {variant.layer_count}, "smooth columns")),
       build_facets(
           makePass(device, variant, build_facets_spirv, {variant.layer_count}, "build facets")),
       build_blocks(

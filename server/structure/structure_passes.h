@@ -22,6 +22,7 @@ struct StructurePasses {
 
   ComputePass measure_depth;
   ComputePass settle_tolerance;
+  ComputePass smooth_columns;
   ComputePass build_facets;
   ComputePass build_blocks;
   ComputePass build_level;

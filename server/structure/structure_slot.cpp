@@ -180,7 +180,8 @@ SourceStats StructureSlot::stats() const {
           .inv_z_min = has_surface ? std::bit_cast<float>(measured.inv_z_min_bits) : 0.0F,
           .inv_z_max = has_surface ? std::bit_cast<float>(measured.inv_z_max_bits) : 0.0F,
           .inv_z_near = measured.inv_z_near,
-          .inv_z_far = measured.inv_z_far};
+          .inv_z_far = measured.inv_z_far,
+          .smoothing_reach = measured.smoothing_reach};
 }
 
 }  // namespace viewloom

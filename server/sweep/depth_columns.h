@@ -9,6 +9,7 @@
 #include "frame/frame.h"
 #include "shared/structure_abi.h"
 #include "sweep/aligned_array.h"
+#include "sweep/surface_row.h"
 
 namespace viewloom {
 
@@ -27,6 +28,12 @@ struct ColumnCounts {
   void add(const ColumnCounts& other);
 };
 
+// How coarse columns are smoothed (shaders/README.md, Coarse depth).
+struct Smoothing {
+  float reach = 0;  // 1/m; 0 = not at all
+  uint32_t first_pass = 0;
+};
+
 // float inv_z[layer][row][column], 1/m, nearest layer first, abi::kNoSurface where there is none:
 // what prepare_columns.comp makes (shaders/README.md, Source).
 // Thread-safety: rows may be prepared by several threads at a time, others than are read.
@@ -37,13 +44,18 @@ class DepthColumns {
   void beginFrame(const Frame& frame);
   ColumnCounts prepareRows(uint32_t first, uint32_t count);
 
+  // Once all rows are prepared: each pass over all rows before the next, from `first_pass` on.
+  // Returns the range of what the last pass makes.
+  void beginSmoothing(const Smoothing& smoothing);
+  ColumnCounts smoothRows(uint32_t pass, uint32_t first, uint32_t count);
+
   SizePx sizePx() const { return size_px_; }
   uint32_t layerCount() const { return layer_count_; }
   // Floats from row to row.
   uint32_t pitch() const { return pitch_; }
   // From column 0 on; row -kGuardRows .. height + kGuardRows - 1.
   const float* row(uint32_t layer, int y) const { return inv_z_.data() + offset(layer, y); }
-  uint64_t sizeBytes() const { return inv_z_.sizeBytes(); }
+  uint64_t sizeBytes() const;
 
  private:
   struct Plane {
@@ -57,12 +69,19 @@ class DepthColumns {
                pitch_ +
            kGuardColumns;
   }
-  void clearGuard();
+  size_t floatCount() const;
+  void clearGuard(float* inv_z) const;
+  // Those of all layers, of an array like inv_z_.
+  template <typename Float>
+  ByLayer<Float*> rowsAt(Float* inv_z, int y) const;
 
   SizePx size_px_;
   uint32_t layer_count_ = 0;
   uint32_t pitch_ = 0;
   AlignedArray<float> inv_z_;
+  // What passes of smoothing leave, in turn; the last one leaves it in inv_z_.
+  std::array<AlignedArray<float>, 2> halves_;
+  Smoothing smoothing_;
   std::array<Plane, abi::kLayerCountMax> planes_;
   abi::vec3 format_step_{0};
   Intrinsics intrinsics_;

@@ -29,16 +29,23 @@ float depthQuantile(std::span<const uint32_t> bins, float surface_count, float s
   return 0;
 }
 
-// The end of the bin that holds the quantile, counted from bin `first`.
-float noiseQuantile(std::span<const uint32_t> bins, uint32_t first, float share) {
-  const float total = float(std::accumulate(bins.begin() + first, bins.end(), uint64_t{0}));
-  float below = 0;
+// The end of the bin that holds the quantile, counted from bin `first`; without so many zeros.
+float noiseQuantile(std::span<const uint32_t> bins, uint32_t first, float zero_count, float share) {
+  const float total =
+      float(std::accumulate(bins.begin() + first, bins.end(), uint64_t{0})) - zero_count;
+  float below = -zero_count;
   for (uint32_t bin = first; bin < bins.size() && total > 0; ++bin) {
     below += float(bins[bin]);
     if (below < share * total) continue;
     return bin == 0 ? 0 : abi::binStart(bin + 1, abi::kNoiseMantissaBits);
   }
   return 0;
+}
+
+// Of surfaces: the sky is neither rounded nor noisy.
+float surfaceSigma(const ColumnHistograms& histograms) {
+  const float sky_count = float(std::min(histograms.depth[0], histograms.noise[0]));
+  return noiseQuantile(histograms.noise, 0, sky_count, 0.5F) / abi::kMedianPerSigma;
 }
 
 }  // namespace
@@ -73,18 +80,26 @@ void ColumnHistograms::add(const ColumnHistograms& other) {
 
 MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCounts& counts,
                               float given_kappa) {
-  const float step = noiseQuantile(histograms.noise, 1, abi::kStepQuantile);
-  const float sigma = noiseQuantile(histograms.noise, 0, 0.5F) / abi::kMedianPerSigma;
+  const float step = noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile);
   const float surface_count =
       float(std::accumulate(histograms.depth.begin(), histograms.depth.end(), uint64_t{0}));
+  const auto quantile = [&](float share) {
+    return depthQuantile(histograms.depth, surface_count, share);
+  };
+  const float inv_z_near = quantile(abi::kNearQuantile);
+  const float surface_sigma = surfaceSigma(histograms);
+  const Smoothing smoothing = {
+      .reach = abi::smoothingReach(step, noiseQuantile(histograms.noise, 1, 0, 0.5F), surface_sigma,
+                                   inv_z_near),
+      .first_pass = abi::firstSmoothingPass(step, surface_sigma)};
+  const bool is_noisy = smoothing.reach > 0 && smoothing.first_pass > 0;
+  const float sigma = std::max(noiseQuantile(histograms.noise, 0, 0, 0.5F) / abi::kMedianPerSigma,
+                               is_noisy ? surface_sigma : 0);
   const bool is_given = given_kappa > 0;
   const Kappa kappa = {
       .absolute =
           is_given ? given_kappa : std::max(abi::kKappaSteps * step, abi::kKappaSigmas * sigma),
       .relative = is_given ? 0 : abi::kKappaRelative};
-  const auto quantile = [&](float share) {
-    return depthQuantile(histograms.depth, surface_count, share);
-  };
   const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
   return {.stats = {.depth_step = step,
                     .noise_sigma = sigma,
@@ -93,9 +108,11 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCo
                     .unsorted_columns_count = counts.unsorted_columns_count,
                     .inv_z_min = has_surface ? counts.inv_z_min : 0.0F,
                     .inv_z_max = has_surface ? counts.inv_z_max : 0.0F,
-                    .inv_z_near = quantile(abi::kNearQuantile),
-                    .inv_z_far = quantile(abi::kFarQuantile)},
-          .kappa = kappa};
+                    .inv_z_near = inv_z_near,
+                    .inv_z_far = quantile(abi::kFarQuantile),
+                    .smoothing_reach = smoothing.reach},
+          .kappa = kappa,
+          .smoothing = smoothing};
 }
 
 }  // namespace viewloom

@@ -29,6 +29,7 @@ struct ColumnHistograms {
 struct MeasuredColumns {
   SourceStats stats;
   Kappa kappa;
+  Smoothing smoothing;
 };
 
 // `given_kappa`: the publisher's connection tolerance, 1/m; 0 = measured.

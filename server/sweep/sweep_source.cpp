@@ -59,6 +59,25 @@ void SweepSource::prepare(FramePtr frame, WorkerPool& workers) {
   }
   measured_ = settleColumns(histograms[0], counts[0],
                             float(frame_->format.sources.front().connection_tolerance));
+  if (measured_.smoothing.reach > 0) smooth(workers);
+}
+
+void SweepSource::smooth(WorkerPool& workers) {
+  const uint32_t height = columns_.sizePx().height;
+  const uint32_t last_pass = abi::kSmoothingPassCount - 1;
+  columns_.beginSmoothing(measured_.smoothing);
+  std::vector<ColumnCounts> ranges(workers.workerCount());
+  for (uint32_t pass = measured_.smoothing.first_pass; pass <= last_pass; ++pass) {
+    workers.forEach(pieceCount(height, kRowsPerPiece), [&](uint32_t piece, uint32_t worker) {
+      const uint32_t first = piece * kRowsPerPiece;
+      const ColumnCounts range =
+          columns_.smoothRows(pass, first, std::min(kRowsPerPiece, height - first));
+      if (pass == last_pass) ranges[worker].add(range);
+    });
+  }
+  for (size_t worker = 1; worker < ranges.size(); ++worker) ranges[0].add(ranges[worker]);
+  measured_.stats.inv_z_min = ranges[0].inv_z_min;
+  measured_.stats.inv_z_max = ranges[0].inv_z_max;
 }
 
 RowSource SweepSource::rowSource() const {

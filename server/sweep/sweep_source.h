@@ -25,6 +25,8 @@ class SweepSource {
   uint64_t sizeBytes() const { return columns_.sizeBytes(); }
 
  private:
+  void smooth(WorkerPool& workers);
+
   FramePtr frame_;
   DepthColumns columns_;
   MeasuredColumns measured_;

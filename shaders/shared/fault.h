@@ -20,6 +20,7 @@ VIEWLOOM_ABI_CONST uint kFaultHoleIsSurface = 3u;     // blocks do not notice th
 VIEWLOOM_ABI_CONST uint kFaultBoxTooSmall = 4u;
 VIEWLOOM_ABI_CONST uint kFaultChildForgotten = 5u;    // a level leaves one node below it out
 VIEWLOOM_ABI_CONST uint kFaultErrorUnderstated = 6u;  // planes state a quarter of their error
+VIEWLOOM_ABI_CONST uint kFaultGapPassed = 7u;       // smoothing moves layers through each other
 // In the walk.
 VIEWLOOM_ABI_CONST uint kFaultLayerDropped = 16u;   // only layer 0 is walked
 VIEWLOOM_ABI_CONST uint kFaultPlaneOff = 17u;       // planes are evaluated a px aside

@@ -18,6 +18,7 @@ namespace viewloom::abi {
 using uint = uint32_t;
 using Address = glm::uvec2;  // a buffer device address: x = low, y = high 32 bits
 using glm::uvec2;
+using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;

@@ -29,6 +29,21 @@ VIEWLOOM_ABI_CONST float kStepQuantile = 0.01f;
 VIEWLOOM_ABI_CONST float kFarQuantile = 0.02f;
 VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 
+// What is coarse is smoothed (shaders/README.md, Coarse depth).
+// px of disparity between infinity and the near percentile from the outermost eye of a wide cone.
+VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;
+// Half a step shows when it moves a px by more than the default tolerance of 0.25 px.
+VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
+// Noise shows when its sigma moves a px by more than one.
+VIEWLOOM_ABI_CONST float kShownSigmas = kWideSpan_px;
+// Depth of fewer steps, or of more noise, is none: flat things one behind the other step, too.
+VIEWLOOM_ABI_CONST float kFewestSteps = 32.0f;
+// Second differences of a surface that is rounded to steps are one or two steps, or 0: the median
+// of those that are not 0 lies no higher than that, by a bin.
+VIEWLOOM_ABI_CONST float kStepsMedian = 2.2f;
+// Noise has a step as well, the least of its differences; its sigma is tens of these.
+VIEWLOOM_ABI_CONST float kStepsOfNoise = 2.0f;
+
 VIEWLOOM_ABI_FUNCTION uint logBin(float value, uint mantissa_bits, uint bin_count) {
   const int bin =
       int(floatBitsToUint(value) >> (23u - mantissa_bits)) - int(kLeastExponent << mantissa_bits);
@@ -48,6 +63,24 @@ VIEWLOOM_ABI_FUNCTION uint depthBin(float inv_z) {
 // Bin 0 also holds 0.
 VIEWLOOM_ABI_FUNCTION uint noiseBin(float difference) {
   return logBin(difference, kNoiseMantissaBits, kNoiseHistogramBinCount);
+}
+
+// How far smoothing may move a sample, 1/m; 0 = it does not. `step_median`: of differences that are
+// not 0.
+VIEWLOOM_ABI_FUNCTION float smoothingReach(float depth_step, float step_median, float noise_sigma,
+                                           float inv_z_near) {
+  const bool is_stepped = depth_step > 0.0f && step_median <= kStepsMedian * depth_step &&
+                          kFewestSteps * depth_step <= inv_z_near;
+  if (is_stepped) return kShownSteps * depth_step > inv_z_near ? 0.5f * depth_step : 0.0f;
+  const bool is_noisy = noise_sigma > kStepsOfNoise * depth_step &&
+                        kFewestSteps * noise_sigma <= inv_z_near &&
+                        kShownSigmas * noise_sigma > inv_z_near;
+  return is_noisy ? 2.0f * noise_sigma : 0.0f;
+}
+
+// Noise has no plateaus: the passes that span them are left out.
+VIEWLOOM_ABI_FUNCTION uint firstSmoothingPass(float depth_step, float noise_sigma) {
+  return noise_sigma > kStepsOfNoise * depth_step ? kFirstShortPass : 0u;
 }
 
 VIEWLOOM_ABI_END

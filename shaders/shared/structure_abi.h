@@ -113,6 +113,21 @@ VIEWLOOM_ABI_FUNCTION uint invZIndex(uint pitch, uint x, int y) {
   return uint(y + kBlockPx) * pitch + x;
 }
 
+// Coarse depth is smoothed in passes, each over neighbours half as far away (shaders/README.md).
+VIEWLOOM_ABI_CONST uint kSmoothingPassCount = 8u;
+VIEWLOOM_ABI_CONST uint kFirstShortPass = 4u;  // of those that noise takes
+
+VIEWLOOM_ABI_FUNCTION int smoothingStride(uint pass) {
+  return pass < 5u ? 32 >> pass : 1;
+}
+
+// A pair of neighbours of one plane, all within `reach` of it, bends by no more than 2 reaches;
+// what bends, or rises from one to the other, by more than that counts less, down to nothing here.
+// Powers of two, so that no kernel rounds otherwise than another.
+VIEWLOOM_ABI_CONST float kPairReaches = 4.0f;
+VIEWLOOM_ABI_CONST float kSmoothingShare = 0.125f;  // of each of four pairs
+VIEWLOOM_ABI_CONST float kSmoothingGapShare = 0.25f;  // of the way to the next layer, at most
+
 // How a depth sample is stored.
 VIEWLOOM_ABI_CONST uint kDepthSampleF32 = 0u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF16 = 1u;
@@ -150,7 +165,7 @@ struct BuildPush {
   uint width_px;
   uint height_px;
   uint layer_count;
-  uint level;         // build_level.comp
+  uint level;         // build_level.comp; the pass of smooth_columns.comp
   float given_kappa;  // 1/m; 0 = measured
   // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m. Of the
   // coarsest layer in each term.
@@ -172,6 +187,12 @@ struct MeasuredHead {
   float kappa_rel;
   float inv_z_far;   // 2nd percentile of layer 0, 1/m
   float inv_z_near;  // 98th percentile of layer 0, 1/m
+  float smoothing_reach;  // how far smoothing may move a sample, 1/m
+  uint first_smoothing_pass;
+  // Groups of smooth_columns.comp, before kFirstShortPass and from there on: none where depth is
+  // fine.
+  uvec3 long_groups;
+  uvec3 short_groups;
 };
 
 struct Measured {
@@ -208,7 +229,7 @@ struct ConvertColorPush {
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 104);
-static_assert(offsetof(Measured, noise_histogram) == 40 + 4 * kDepthHistogramBinCount);
+static_assert(offsetof(Measured, noise_histogram) == 72 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 44);
 #endif
 

@@ -12,10 +12,7 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
-// Four columns, side by side.
-struct Columns {
-  vec4 inv_z[kLayerCountMax];
-};
+#include "lib/columns.glsl"
 
 float loadAt(uint layer, int x, int y) {
   const uint area = invZArea(push.width_px, push.height_px);
@@ -43,17 +40,6 @@ Columns shifted(Columns left, Columns middle, Columns right, int shift) {
                                     : vec4(m.zw, r.xy);
   }
   return result;
-}
-
-// The surface of each column whose inv_z is nearest; kNoSurface where there is none.
-vec4 nearestIn(Columns columns, vec4 inv_z) {
-  vec4 nearest = columns.inv_z[0];
-  for (uint i = 1u; i < kLayerCount; ++i) {
-    const vec4 other = columns.inv_z[i];
-    const bvec4 is_nearer = lessThan(abs(other - inv_z), abs(nearest - inv_z));
-    nearest = mix(nearest, mix(nearest, other, is_nearer), greaterThanEqual(other, vec4(0.0)));
-  }
-  return nearest;
 }
 
 vec4 minmod(vec4 a, vec4 b) {

@@ -25,13 +25,13 @@ float depthQuantile(MeasuredRef measured, float count, float share) {
   return 0.0;
 }
 
-// The end of the bin that holds the quantile, counted from bin `first`.
-float noiseQuantile(MeasuredRef measured, uint first, float share) {
-  float total = 0.0;
+// The end of the bin that holds the quantile, counted from bin `first`; without so many zeros.
+float noiseQuantile(MeasuredRef measured, uint first, float zero_count, float share) {
+  float total = -zero_count;
   for (uint bin = first; bin < kNoiseHistogramBinCount; ++bin) {
     total += float(measured.value.noise_histogram[bin]);
   }
-  float below = 0.0;
+  float below = -zero_count;
   for (uint bin = first; bin < kNoiseHistogramBinCount && total > 0.0; ++bin) {
     below += float(measured.value.noise_histogram[bin]);
     if (below >= share * total) return bin == 0u ? 0.0 : binStart(bin + 1u, kNoiseMantissaBits);
@@ -47,11 +47,33 @@ float surfaceCount(MeasuredRef measured) {
   return float(count);
 }
 
+// Smoothing, where depth is so coarse that it shows.
+float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_near) {
+  const float step_median = noiseQuantile(measured, 1u, 0.0, 0.5);
+  // The sky is neither rounded nor noisy.
+  const float sky_count =
+      min(float(measured.value.depth_histogram[0]), float(measured.value.noise_histogram[0]));
+  const float noise_sigma = noiseQuantile(measured, 0u, sky_count, 0.5) / kMedianPerSigma;
+  const float reach = smoothingReach(depth_step, step_median, noise_sigma, inv_z_near);
+  const uint first_pass = firstSmoothingPass(depth_step, noise_sigma);
+  const uint blocks_x = (push.width_px + uint(kBlockPx) - 1u) / uint(kBlockPx);
+  const uvec3 groups = uvec3((blocks_x + kNodeGroupSize - 1u) / kNodeGroupSize,
+                             (push.height_px + uint(kBlockPx) - 1u) / uint(kBlockPx),
+                             1u);
+  measured.value.head.smoothing_reach = reach;
+  measured.value.head.first_smoothing_pass = first_pass;
+  measured.value.head.long_groups = reach > 0.0 && first_pass == 0u ? groups : uvec3(0u);
+  measured.value.head.short_groups = reach > 0.0 ? groups : uvec3(0u);
+  return reach > 0.0 && first_pass > 0u ? noise_sigma : 0.0;
+}
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
-  const float depth_step = noiseQuantile(measured, 1u, kStepQuantile);
-  const float noise_sigma = noiseQuantile(measured, 0u, 0.5) / kMedianPerSigma;
   const float surface_count = surfaceCount(measured);
+  const float inv_z_near = depthQuantile(measured, surface_count, kNearQuantile);
+  const float depth_step = noiseQuantile(measured, 1u, 0.0, kStepQuantile);
+  const float noise_sigma = max(noiseQuantile(measured, 0u, 0.0, 0.5) / kMedianPerSigma,
+                                settleSmoothing(measured, depth_step, inv_z_near));
   const float given = push.given_kappa;
   measured.value.head.depth_step = depth_step;
   measured.value.head.noise_sigma = noise_sigma;
@@ -59,5 +81,5 @@ void main() {
       given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
   measured.value.head.inv_z_far = depthQuantile(measured, surface_count, kFarQuantile);
-  measured.value.head.inv_z_near = depthQuantile(measured, surface_count, kNearQuantile);
+  measured.value.head.inv_z_near = inv_z_near;
 }

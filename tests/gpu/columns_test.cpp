@@ -139,6 +139,7 @@ void expectSameStats(const SourceStats& swept, const SourceStats& device) {
   expectClose(swept.depth_step, device.depth_step, "depth_step");
   expectClose(swept.noise_sigma, device.noise_sigma, "noise_sigma");
   expectClose(swept.connection_tolerance, device.connection_tolerance, "connection_tolerance");
+  expectClose(swept.smoothing_reach, device.smoothing_reach, "smoothing_reach");
   expectClose(swept.inv_z_near, device.inv_z_near, "inv_z_near");
   expectClose(swept.inv_z_far, device.inv_z_far, "inv_z_far");
 }
@@ -222,6 +223,18 @@ TEST_F(ColumnsTest, areTheDevicesOnScenesOfTheOracle) {
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(unsorted_count_, 0u);
+  printCounts();
+}
+
+// Kinds of CPU and device that round the reach otherwise move what is at its end.
+TEST_F(ColumnsTest, areTheDevicesWhereDepthIsCoarse) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const oracle::Scene scene = oracle::coarseScene(seed, 201, 101, 1 + int(seed / 2));
+    SCOPED_TRACE(scene.name);
+    expectTheDevices(frameOf(scene));
+    EXPECT_GT(source_.measured().stats.smoothing_reach, 0);
+    if (HasFatalFailure()) return;
+  }
   printCounts();
 }
 

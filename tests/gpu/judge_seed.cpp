@@ -45,8 +45,7 @@ JudgedSeed judgeSweptSeed(SweepUnderTest& sweep, uint64_t seed) {
   std::vector<oracle::OutputView> views;
   for (int i = 0; i < 3; ++i) views.push_back(oracle::randomView(random, 0, 24, 18));
   sweep.prepare(frameOf(scene));
-  const oracle::OracleSource source =
-      sourceOf(scene, sweep.source().measured().stats.connection_tolerance);
+  const oracle::OracleSource source = sourceOf(scene, sweep.source().measured().stats);
   const double tolerance_px = kTolerances_px[seed % 3];
   return {describe(seed, scene, source), Complaints(),
           judgeTraced(sweep.trace(views, tolerance_px), source, views, tolerance_px, "soak")};

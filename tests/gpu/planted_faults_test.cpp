@@ -23,8 +23,8 @@ struct Findings {
   double visits_mean = 0;   // on a smooth scene
 };
 
-void lookAtScene(WalkUnderTest& walk, uint64_t seed, Findings& findings) {
-  const oracle::Scene scene = oracle::randomScene(seed);
+void lookAtScene(WalkUnderTest& walk, uint64_t seed, const oracle::Scene& scene,
+                 Findings& findings) {
   const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
   const oracle::OracleSource source = sourceOf(scene, *slot);
   StructureImage image = walk.readBack(*slot);
@@ -42,7 +42,12 @@ Findings lookAt(const Device& device) {
   constexpr std::array<uint64_t, 10> kSeeds = {12, 20, 21, 22, 27, 34, 35, 36, 49, 50};
   WalkUnderTest walk(device);
   Findings findings;
-  for (const uint64_t seed : kSeeds) lookAtScene(walk, seed, findings);
+  for (const uint64_t seed : kSeeds) {
+    lookAtScene(walk, seed, oracle::randomScene(seed), findings);
+  }
+  for (const uint64_t seed : {2, 3}) {
+    lookAtScene(walk, seed, oracle::coarseScene(seed, 101, 40, 2), findings);
+  }
 
   // A pole over a smooth surface: a walk that descended at it has to climb again.
   oracle::Scene scene = oracle::smoothScene(256, 64, 1);
@@ -92,6 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                     PlantedFault{abi::kFaultChildForgotten, "childForgotten", FoundBy::kStructure},
                     PlantedFault{abi::kFaultErrorUnderstated, "errorUnderstated",
                                  FoundBy::kStructure},
+                    PlantedFault{abi::kFaultGapPassed, "gapPassed", FoundBy::kStructure},
                     PlantedFault{abi::kFaultSlopeSign, "slopeSignInTheWalk", FoundBy::kWalk},
                     PlantedFault{abi::kFaultCrossLinks, "crossLinksInTheWalk", FoundBy::kWalk},
                     PlantedFault{abi::kFaultLayerDropped, "layerDropped", FoundBy::kWalk},

@@ -33,6 +33,35 @@ TEST_F(StructureTest, isTheOraclesOnEveryKindAndSizeOfScene) {
   }
 }
 
+TEST_F(StructureTest, isTheOraclesWhereDepthIsCoarse) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const oracle::Scene scene = oracle::coarseScene(seed, 201, 101, 1 + int(seed / 2));
+    const SourceStats stats = walk_.build(*frameOf(scene))->stats();
+    EXPECT_GT(stats.smoothing_reach, 0) << scene.name;
+    const Complaints complaints = check(scene);
+    EXPECT_TRUE(complaints.empty()) << "seed " << seed << " " << scene.name << "\n"
+                                    << complaints.text();
+  }
+}
+
+TEST_F(StructureTest, leavesFineDepthAsItIs) {
+  const oracle::Scene scene = oracle::smoothScene(201, 101, 2);
+  EXPECT_EQ(walk_.build(*frameOf(scene))->stats().smoothing_reach, 0);
+}
+
+// Two things, one behind the other, each without any slope: as few steps as coarse depth has.
+TEST_F(StructureTest, leavesFlatThingsAsTheyAre) {
+  for (const float behind : {0.5f, 0.95f}) {
+    oracle::Scene scene = oracle::smoothScene(201, 101, 1);
+    for (int row = 0; row < 101; ++row) {
+      for (int column = 0; column < 201; ++column) {
+        scene.planes.at(0, column, row) = column / 20 % 2 == 0 ? 1.0f : behind;
+      }
+    }
+    EXPECT_EQ(walk_.build(*frameOf(scene))->stats().smoothing_reach, 0) << behind;
+  }
+}
+
 TEST_F(StructureTest, isTheOraclesOverSeveralRoots) {
   for (uint64_t seed = 1000; seed < 1004; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed, 333, 201, 2);

@@ -26,8 +26,7 @@ JudgedViews judge(SweepUnderTest& sweep, const oracle::Scene& scene,
                   const std::vector<oracle::OutputView>& views, double tolerance_px,
                   const std::string& where) {
   sweep.prepare(frameOf(scene));
-  const oracle::OracleSource source =
-      sourceOf(scene, sweep.source().measured().stats.connection_tolerance);
+  const oracle::OracleSource source = sourceOf(scene, sweep.source().measured().stats);
   return judgeTraced(sweep.trace(views, tolerance_px), source, views, tolerance_px, where);
 }
 
@@ -57,7 +56,7 @@ TEST(Sweep, fromItsOwnPoseASourceSeesItself) {
   for (uint64_t seed = 0; seed < 56; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed);
     sweep.prepare(frameOf(scene));
-    const oracle::OracleSource source = sourceOf(scene, 0.0);
+    const oracle::OracleSource source = sourceOf(scene, SourceStats());
     const TracedView traced = sweep.trace({oracle::ownView(scene)}, 0.25).front();
     expectSeesItself(traced, source, "seed " + std::to_string(seed) + " " + scene.name);
   }

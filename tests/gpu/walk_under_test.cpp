@@ -8,6 +8,7 @@
 #include <glm/gtc/type_precision.hpp>
 
 #include "gpu/barrier.h"
+#include "oracle/smooth_planes.h"
 
 namespace viewloom {
 namespace {
@@ -135,13 +136,16 @@ TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px
 }
 
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot) {
-  return sourceOf(scene, slot.stats().connection_tolerance);
+  return sourceOf(scene, slot.stats());
 }
 
-oracle::OracleSource sourceOf(const oracle::Scene& scene, double connection_tolerance) {
-  return {oracle::canonicalPlanes(scene.planes),
+oracle::OracleSource sourceOf(const oracle::Scene& scene, const SourceStats& stats) {
+  const oracle::Coarseness coarseness = {.reach = float(stats.smoothing_reach),
+                                         .step = float(stats.depth_step),
+                                         .sigma = float(stats.noise_sigma)};
+  return {oracle::smoothedPlanes(oracle::canonicalPlanes(scene.planes), coarseness),
           scene.pinhole,
-          {float(connection_tolerance), scene.kappa.relative}};
+          {float(stats.connection_tolerance), scene.kappa.relative}};
 }
 
 std::vector<TracedView> splitByView(const AtlasLayout& layout,

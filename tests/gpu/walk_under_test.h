@@ -36,8 +36,8 @@ TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px
 // What the oracle sees of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);
 
-// The same with a connection tolerance that was found otherwise, 1/m.
-oracle::OracleSource sourceOf(const oracle::Scene& scene, double connection_tolerance);
+// The same with what was measured otherwise.
+oracle::OracleSource sourceOf(const oracle::Scene& scene, const SourceStats& stats);
 
 // One view as it was traced, [row][column].
 struct TracedView {

@@ -232,4 +232,31 @@ Scene smoothScene(int width, int height, int layer_count) {
   return scene;
 }
 
+Scene coarseScene(uint64_t seed, int width, int height, int layer_count) {
+  constexpr float kStep = 1.0f / 200;
+  constexpr double kSigma = 1.0 / 150;
+  Random random(seed);
+  Scene scene = smoothScene(width, height, layer_count);
+  const bool is_noisy = seed % 2 == 1;
+  scene.name = is_noisy ? "noisy" : "rounded";
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const bool is_block = column / 24 % 3 == 1 && row / 16 % 2 == 1;
+      const bool is_close = column / 40 % 2 == 1;
+      for (int layer = 0; layer < layer_count; ++layer) {
+        float& inv_z = scene.planes.at(layer, column, row);
+        if (is_close) inv_z = scene.planes.at(0, column, row) - float(layer) * 1.5f * kStep;
+      }
+      if (is_block) scene.planes.at(0, column, row) += 0.2f;
+      for (int layer = 0; layer < layer_count; ++layer) {
+        float& inv_z = scene.planes.at(layer, column, row);
+        inv_z =
+            is_noisy ? inv_z + float(kSigma * random.normal()) : std::round(inv_z / kStep) * kStep;
+        if (random.chance(0.002)) inv_z = kNoSurface;
+      }
+    }
+  }
+  return scene;
+}
+
 }  // namespace viewloom::oracle

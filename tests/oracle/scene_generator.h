@@ -40,4 +40,8 @@ Scene randomScene(uint64_t seed, int width, int height, int layer_count);
 // A smooth, slightly curved surface that fills the image.
 Scene smoothScene(int width, int height, int layer_count);
 
+// The same with blocks before it and layers close behind each other in places; rounded to codes, or
+// with noise (odd seeds), so coarse that it is smoothed.
+Scene coarseScene(uint64_t seed, int width, int height, int layer_count);
+
 }  // namespace viewloom::oracle

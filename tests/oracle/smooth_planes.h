@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coarse depth as shaders/README.md smooths it, by definition alone.
+#pragma once
+
+#include "oracle/oracle_source.h"
+
+namespace viewloom::oracle {
+
+// What was measured of a source, 1/m.
+struct Coarseness {
+  float reach = 0;  // 0 = fine
+  float step = 0;
+  float sigma = 0;
+};
+
+InvZPlanes smoothedPlanes(const InvZPlanes& canonical_planes, const Coarseness& coarseness);
+
+}  // namespace viewloom::oracle
