@@ -8,9 +8,16 @@ namespace viewloom::fidelity {
 
 std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
                                       const std::vector<test::TrueView>& views,
-                                      ScoreTransfer transfer) {
+                                      ScoreTransfer transfer, const CoarseDepth* coarse) {
   OfflineRenderer renderer(device);
-  renderer.build(*valueOrThrow(loadManifestFrame(frameManifest(set), {})).frame);
+  Frame frame = *valueOrThrow(loadManifestFrame(frameManifest(set), {})).frame;
+  if (coarse != nullptr) {
+    PlaneFormat& format = frame.format.sources[0].layers[0].depth;
+    format.encoding = coarse->encoding;
+    format.depth = coarse->format;
+    frame.sources[0][0].depth = coarse->samples;
+  }
+  renderer.build(frame);
 
   CamerasSpec cameras = {.tile_size_px = set.size_px, .columns = 1};
   for (const test::TrueView& view : views) {

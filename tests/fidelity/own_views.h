@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "commands/rendered_view.h"
+#include "fidelity/coarse_depth.h"
 #include "gpu/device.h"
 #include "support/data_sets.h"
 
@@ -13,6 +14,6 @@ namespace viewloom::fidelity {
 // In the order of `views`. Throws std::runtime_error when the files cannot be read.
 std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
                                       const std::vector<test::TrueView>& views,
-                                      ScoreTransfer transfer);
+                                      ScoreTransfer transfer, const CoarseDepth* coarse = nullptr);
 
 }  // namespace viewloom::fidelity

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fidelity/coarse_depth.h"
 #include "fidelity/rivals.h"
 #include "gpu/device.h"
 
@@ -16,9 +17,12 @@ namespace viewloom::fidelity {
 struct Trial {
   test::DataSet set;
   ScoreTransfer transfer = ScoreTransfer::kSrgb;
-  uint32_t border_px = 0;  // left out on every side
-  double cut_px = 0;       // of the mask and of the cut mesh
+  uint32_t border_px = 0;                            // left out on every side
+  double cut_px = 0;                                 // of the mask, which knows the true depth
+  double mesh_cut_px = 0;                            // of the cut mesh
+  std::optional<CoarseDepth> coarse = std::nullopt;  // given in place of the set's depth
 };
+// Both sets as they are, then each with coarser depth and the outermost view alone.
 // Throws std::runtime_error when the files under `data` cannot be read.
 std::vector<Trial> loadTrials(const std::filesystem::path& data);
 
