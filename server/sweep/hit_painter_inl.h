@@ -52,14 +52,17 @@ struct Place {
   IntVec texel;
 };
 
-// Hits of a layer. `passed`: where rays passed behind the layer before it, and only beyond that can
-// hit this one; nullptr for the nearest layer.
+// Hits of a layer. Only beyond where they passed behind the layer before it can rays hit a deeper
+// one, and not beyond where they met a far side.
 class HitPainter {
  public:
-  HitPainter(SweptRow& swept, const float* passed, SweepFault planted_fault)
-      : swept_(swept),
-        passed_(planted_fault == SweepFault::kPassedIgnored ? nullptr : passed),
-        last_wins_(planted_fault == SweepFault::kLastWins) {}
+  HitPainter(SweptRow& swept, uint32_t layer, SweepFault planted_fault)
+      : swept_(swept), last_wins_(planted_fault == SweepFault::kLastWins) {
+    if (layer > 0 && layer < swept.passed_layer_count) met_ = swept.met_inv_z[layer].data();
+    if (layer == 0 || planted_fault == SweepFault::kPassedIgnored) return;
+    passed_ = swept.passed_inv_z[layer - 1].data();
+    marks_ = swept.passed_vectors[layer - 1].data();
+  }
 
   // at(px as floats): their inv_z and texels.
   template <class At>
@@ -71,7 +74,7 @@ class HitPainter {
     if (passed_ == nullptr)
       forVectors(from, to, paint_vector);
     else
-      forMarkedVectors(swept_.passed_vectors.data(), from, to, paint_vector);
+      forMarkedVectors(marks_, from, to, paint_vector);
   }
 
  private:
@@ -83,13 +86,18 @@ class HitPainter {
     if (passed_ != nullptr) {
       is_nearer = hn::And(is_nearer, hn::Le(inv_z, hn::Load(kFloats, passed_ + begin)));
     }
+    if (met_ != nullptr) {
+      is_nearer = hn::And(is_nearer, hn::Gt(inv_z, hn::Load(kFloats, met_ + begin)));
+    }
     hn::Store(hn::IfThenElse(is_nearer, inv_z, before), kFloats, inv_z_row);
     hn::Store(hn::IfThenElse(hn::RebindMask(kInts, is_nearer), texel, hn::Load(kInts, texel_row)),
               kInts, texel_row);
   }
 
   SweptRow& swept_;
-  const float* passed_;
+  const float* passed_ = nullptr;
+  const uint64_t* marks_ = nullptr;
+  const float* met_ = nullptr;
   const bool last_wins_;
 };
 

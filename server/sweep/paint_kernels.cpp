@@ -51,26 +51,54 @@ HWY_INLINE Mask reaches(const float* passed_before, int32_t first, Vec inv_z, Ma
   return hn::And(inside, hn::Le(inv_z, reach));
 }
 
-// Where rays first pass behind a layer; returns whether any does. `passed_before`: behind the layer
-// before it; nullptr for the nearest.
-HWY_INLINE bool paintPassed(const Steps& steps, const SweepView& view, SweptRow& swept,
-                            const float* passed_before, uint32_t width_px, float* passed) {
+// Where rays first pass behind a layer, and where they meet the far side of what they passed last;
+// returns whether any passes. Steps in the order in which rays come to them: who passes one has
+// come out from behind those before, or met the far side before that.
+HWY_INLINE bool paintPassed(const Steps& steps, const SweepView& view, uint32_t layer,
+                            uint32_t width_px, SweptRow& swept) {
   const uint32_t lanes = uint32_t(hn::Lanes(kFloats));
-  for (size_t p = 0; p < width_px; p += lanes) hn::Store(set(-1), kFloats, passed + p);
-  std::fill_n(swept.passed_vectors.data(), width_px / (64 * lanes) + 1, uint64_t{0});
-  for (uint32_t i = 0; i < swept.covering_count; ++i) {
-    const size_t k = size_t(swept.covering[i]);
+  const float* const passed_before = layer == 0 ? nullptr : swept.passed_inv_z[layer - 1].data();
+  float* const passed = swept.passed_inv_z[layer].data();
+  float* const met = swept.met_inv_z[layer].data();
+  uint64_t* const marks = swept.passed_vectors[layer].data();
+  for (size_t p = 0; p < width_px; p += lanes) {
+    hn::Store(set(-1), kFloats, passed + p);
+    hn::Store(set(-1), kFloats, met + p);
+  }
+  std::fill_n(marks, width_px / (64 * lanes) + 1, uint64_t{0});
+  const uint32_t count = swept.covering_count;
+  const float px_per_inv_z = std::abs(view.eye_px_m);
+  for (uint32_t i = 0; i < count; ++i) {
+    const size_t k = size_t(swept.covering[view.eye_px_m > 0 ? count - 1 - i : i]);
     const EdgeLine line(steps, k, view);
+    // Who passes it further up comes out before.
+    const Vec meets_up_to = set(steps.low_inv_z[k] + steps.behind_px[k] / px_per_inv_z);
     forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
       const Vec inv_z = line.invZ(p);
       const Mask passes = reaches(passed_before, first, inv_z, inside);
       const Vec before = hn::Load(kFloats, passed + first);
       hn::Store(hn::Max(before, hn::IfThenElse(passes, inv_z, before)), kFloats, passed + first);
+      const Vec met_before = hn::Load(kFloats, met + first);
+      const Vec far = hn::IfThenElse(hn::Le(inv_z, meets_up_to), line.low, set(-1));
+      const Mask is_new = hn::And(passes, hn::Le(met_before, inv_z));
+      hn::Store(hn::IfThenElse(is_new, far, met_before), kFloats, met + first);
       const uint32_t vector = uint32_t(first) / lanes;
-      swept.passed_vectors[vector / 64] |= uint64_t{1} << (vector % 64);
+      marks[vector / 64] |= uint64_t{1} << (vector % 64);
     });
   }
-  return swept.covering_count > 0;
+  return count > 0;
+}
+
+// Takes back what of the nearest layer lies beyond its far side.
+HWY_INLINE void dropBeyondFarSide(uint32_t width_px, SweptRow& swept) {
+  const float* const met = swept.met_inv_z[0].data();
+  float* const inv_z_row = swept.inv_z.data();
+  forMarkedVectors(swept.passed_vectors[0].data(), 0, int32_t(width_px),
+                   [&](int32_t begin, Vec /*p*/, Mask /*inside*/) {
+                     const Vec inv_z = hn::Load(kFloats, inv_z_row + begin);
+                     const Mask is_hit = hn::Gt(inv_z, hn::Load(kFloats, met + begin));
+                     hn::Store(hn::IfThenElse(is_hit, inv_z, set(-1)), kFloats, inv_z_row + begin);
+                   });
 }
 
 // What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
@@ -79,10 +107,10 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
                uint32_t width_px, SweptRow& swept) {
   const int32_t lanes = int32_t(hn::Lanes(kFloats));
   const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
-  // Behind a layer that no ray passes, none passes another.
-  for (uint32_t i = 0; i < row.layer_count && i <= swept.passed_layer_count; ++i) {
+  for (uint32_t i = 0; i < swept.passed_layer_count; ++i) {
     const Steps& steps = row.layers[i].silhouettes[travel];
     const float* const passed_before = i == 0 ? nullptr : swept.passed_inv_z[i - 1].data();
+    const float* const met = swept.met_inv_z[i].data();
     projectSteps(steps, view, float(width_px), swept);
     const float rank = 2 * fill.inv_z_max * (float(i) - float(abi::kLayerCountMax));
     for (uint32_t n = 0; n < swept.covering_count; ++n) {
@@ -100,8 +128,9 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
         int32_t* const texels = swept.fill_texel.data() + first;
         const Vec own = hn::Sub(set(rank), inv_z);
         const Vec before = hn::Load(kFloats, ranks);
-        const Mask is_better =
-            hn::And(reaches(passed_before, first, inv_z, inside), hn::Gt(own, before));
+        const Mask passes = hn::And(reaches(passed_before, first, inv_z, inside),
+                                    hn::Gt(inv_z, hn::Load(kFloats, met + first)));
+        const Mask is_better = hn::And(passes, hn::Gt(own, before));
         hn::Store(hn::IfThenElse(is_better, own, before), kFloats, ranks);
         hn::Store(hn::IfThenElse(hn::RebindMask(kInts, is_better), texel, hn::Load(kInts, texels)),
                   kInts, texels);
@@ -110,32 +139,51 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
   }
 }
 
+// Where rays pass behind layers, and where what they hit of each ends: at the far side of it, or of
+// a deeper one. Behind a layer that no ray passes, none passes another.
+HWY_INLINE void findPassed(const SurfaceRow& row, const SweepView& view, size_t travel,
+                           uint32_t width_px, SweptRow& swept) {
+  for (uint32_t i = 0; i < row.layer_count; ++i) {
+    const Steps& steps = row.layers[i].silhouettes[travel];
+    projectSteps(steps, view, float(width_px), swept);
+    if (!paintPassed(steps, view, i, width_px, swept)) break;
+    swept.passed_layer_count = i + 1;
+  }
+  for (uint32_t i = swept.passed_layer_count; i > 1; --i) {
+    float* const met = swept.met_inv_z[i - 2].data();
+    const float* const met_deeper = swept.met_inv_z[i - 1].data();
+    forMarkedVectors(swept.passed_vectors[i - 1].data(), 0, int32_t(width_px),
+                     [&](int32_t first, Vec /*p*/, Mask /*inside*/) {
+                       const Vec here = hn::Load(kFloats, met + first);
+                       const Vec deeper = hn::Load(kFloats, met_deeper + first);
+                       hn::Store(hn::Max(here, deeper), kFloats, met + first);
+                     });
+  }
+}
+
 // Hits of all layers, and where rays pass behind them; false: behind none.
 bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
                  uint32_t width_px, SweptRow& swept) {
   const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
   const float width = float(width_px);
-  const float* passed_before = nullptr;
+  const bool crosses_edges = view.eye_px_m != 0;
+  const bool is_dropped = fill.planted_fault == SweepFault::kLayerDropped;
   swept.passed_layer_count = 0;
-  for (uint32_t i = 0; i < row.layer_count; ++i) {
+  if (crosses_edges) findPassed(row, view, travel, width_px, swept);
+  const uint32_t hit_count =
+      is_dropped ? 1 : std::min(swept.passed_layer_count + 1, row.layer_count);
+  for (uint32_t i = 0; i < hit_count; ++i) {
     const LayerSurfaces& layer = row.layers[i];
-    if (i > 0 && fill.planted_fault == SweepFault::kLayerDropped) return true;
-    const HitPainter painter(swept, passed_before, fill.planted_fault);
+    const HitPainter painter(swept, i, fill.planted_fault);
     projectRuns(layer.runs, view, width, swept);
     paintRuns(layer.runs, swept, painter);
-    if (view.eye_px_m == 0) return false;  // crosses no edge
+    if (!crosses_edges) break;
     projectSteps(layer.bridges[travel], view, width, swept);
     paintBridges(layer.bridges[travel], view, swept, painter);
-    if (i > 0 && i + 1 == row.layer_count) return true;
-    projectSteps(layer.silhouettes[travel], view, width, swept);
-    float* const passed = swept.passed_inv_z[i].data();
-    if (!paintPassed(layer.silhouettes[travel], view, swept, passed_before, width_px, passed)) {
-      return i > 0;
-    }
-    swept.passed_layer_count = i + 1;
-    passed_before = passed;
+    // Of one layer only the nearest counts, which either lies beyond or does not.
+    if (i == 0 && swept.passed_layer_count > 0) dropBeyondFarSide(width_px, swept);
   }
-  return true;
+  return swept.passed_layer_count > 0;
 }
 
 struct RayEnd {
@@ -165,7 +213,8 @@ HWY_INLINE void fillHoles(const SurfaceRow& row, const SweepView& view, const Sw
                           size_t begin, size_t end, SweptRow& swept, Coverage& coverage) {
   for (size_t p = begin; p < end; ++p) {
     if (swept.inv_z[p] >= 0) continue;
-    const RayEnd ray_end = endOf(row, view, float(p));
+    RayEnd ray_end = endOf(row, view, float(p));
+    if (swept.has_passed && swept.met_inv_z[0][p] >= 0) ray_end.ray_class = abi::kClassHidden;
     swept.class_of_hole[p] = uint8_t(ray_end.ray_class);
     const int32_t last = row.nearest_texel[ray_end.column];
     if (ray_end.ray_class == abi::kClassHidden) {

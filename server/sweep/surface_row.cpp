@@ -23,7 +23,7 @@ void Runs::reserve(uint32_t run_count) {
 void Steps::reserve(uint32_t step_count) {
   for (auto* values : {&edge_px, &low_inv_z, &high_inv_z}) values->reserve(step_count + kSlack);
   for (auto* values : {&texel, &near_texel}) values->reserve(step_count + kSlack);
-  texel_per_inv_z.reserve(step_count + kSlack);
+  for (auto* values : {&texel_per_inv_z, &behind_px}) values->reserve(step_count + kSlack);
 }
 
 void Step::addTo(Steps& steps) const {
@@ -35,6 +35,7 @@ void Step::addTo(Steps& steps) const {
   steps.texel[at] = texel;
   steps.texel_per_inv_z[at] = texel_per_inv_z;
   steps.near_texel[at] = near_texel;
+  steps.behind_px[at] = behind_px;
 }
 
 void MixedTexels::reserve(uint32_t texel_count) {

@@ -42,6 +42,9 @@ struct Steps {
   AlignedArray<float> texel_per_inv_z;
   // Of silhouettes: where the near side's last px lies; -1 if it goes on in front of the edge.
   AlignedArray<int32_t> near_texel;
+  // Of silhouettes: how far the layer goes on in front of `low` from the edge, px; behind that, who
+  // is as far back as `low` has met the far side. Negative: nothing is met.
+  AlignedArray<float> behind_px;
 
   void reserve(uint32_t step_count);
 };
@@ -54,6 +57,7 @@ struct Step {
   int32_t texel = -1;
   float texel_per_inv_z = 0;
   int32_t near_texel = -1;
+  float behind_px = -1;
 
   void addTo(Steps& steps) const;
 };

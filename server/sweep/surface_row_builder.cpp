@@ -46,12 +46,14 @@ void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
   made_.reserve(width_, layer_count_);
 }
 
-SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance) {
+SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance,
+                                     float px_per_inv_z) {
   const SizePx size_px = source.columns->sizePx();
   reserve(*source.columns);
   kappa_ = source.kappa;
   planted_fault_ = source.planted_fault;
   tolerance_ = tolerance;
+  px_per_inv_z_ = px_per_inv_z;
   made_.is_outside = !(y_px >= 0 && y_px < size_px.height);
   const int y = int(std::clamp(std::floor(y_px), 0.0, size_px.height - 1.0));
   // Without a sample above or below, its colour goes on.
@@ -142,7 +144,8 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
   uint32_t texel = base + 1;
   Surface surface = {
       .texel_offset = (int32_t(texel) - int32_t(column)) * kSubtexelSteps - kSubtexelSteps / 2,
-      .before_inv_z = abi::kNoSurface};
+      .before_inv_z = abi::kNoSurface,
+      .before_layer = layer};
   uint32_t* const texels = made_.texels.data();
   uint8_t* const texel_layer = made_.texel_layer.data();
   const bool begins_deep = layers_[layer].to_left[column] == abi::kDeepEdge;
@@ -254,8 +257,10 @@ void SurfaceRowBuilder::addRun(Surface& surface, uint32_t layer, float begin_px,
                          .low_inv_z = std::min(before, begin_inv_z),
                          .high_inv_z = std::max(before, begin_inv_z),
                          .texel = int32_t(begin_px) * kSubtexelSteps + surface.texel_offset};
-    bridge.addTo(made_.layers[layer].bridges[size_t(travel)]);
+    const uint32_t hit_layer = travel == Travel::kLeft ? surface.before_layer : layer;
+    bridge.addTo(made_.layers[hit_layer].bridges[size_t(travel)]);
   }
+  surface.before_layer = layer;
   surface.before_inv_z = end_inv_z;
 }
 

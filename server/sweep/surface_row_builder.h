@@ -23,7 +23,8 @@ struct RowSource {
 class SurfaceRowBuilder {
  public:
   // The surfaces at height `y_px` of the source, straight within `tolerance`, 1/m; until the next.
-  SurfaceRow& build(const RowSource& source, double y_px, float tolerance);
+  // Views move by at most `px_per_inv_z` along the row.
+  SurfaceRow& build(const RowSource& source, double y_px, float tolerance, float px_per_inv_z);
 
  private:
   struct LayerScratch {
@@ -37,6 +38,7 @@ class SurfaceRowBuilder {
   struct Surface {
     int32_t texel_offset;  // Runs::texel_offset
     float before_inv_z;    // where the run before ends; abi::kNoSurface: none
+    uint32_t before_layer;
   };
 
   bool hasFault(SweepFault fault) const { return planted_fault_ == fault; }
@@ -54,6 +56,9 @@ class SurfaceRowBuilder {
               float end_inv_z);
   void addSilhouettes(uint32_t layer);
   void addSilhouette(uint32_t layer, Travel travel, uint32_t column, uint8_t link);
+  bool isKnownBehind(uint32_t layer, Travel travel, uint32_t column) const;
+  float goesOnInFront(uint32_t layer, Travel travel, uint32_t column, float far_inv_z,
+                      float reach_px) const;
   int32_t addBetween(int32_t far_texel, int32_t near_texel);
 
   uint32_t width_ = 0;
@@ -64,6 +69,7 @@ class SurfaceRowBuilder {
   Kappa kappa_;
   SweepFault planted_fault_ = SweepFault::kNone;
   float tolerance_ = 0;
+  float px_per_inv_z_ = 0;
   bool some_fall_ = false;  // facets below the sky
   SurfaceRow made_;         // with room for the most there can be
 };

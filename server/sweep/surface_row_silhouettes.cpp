@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The silhouettes of a row: what SurfaceRowBuilder makes of the edges where nothing is linked.
 #include <algorithm>
+#include <cmath>
 
 #include "sweep/link_bytes.h"
 #include "sweep/surface_row_builder.h"
@@ -57,7 +58,52 @@ void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t co
   } else if (has_far_side) {
     step.texel = texelOf(is_border ? column : size_t(before));
   }
+  const bool goes_on = link == 0 && is_over && 0 < low && low < high;
+  if (goes_on && !isKnownBehind(layer, travel, column) && !hasFault(SweepFault::kFarSideEnds)) {
+    step.behind_px = goesOnInFront(layer, travel, column, low, (high - low) * px_per_inv_z_);
+  }
   step.addTo(silhouettes);
+}
+
+// Whether deeper layers hold on this side of a silhouette what is as far back as its far side, or
+// further: kKnownBehind of the structure, decided in the middle of the edge.
+bool SurfaceRowBuilder::isKnownBehind(uint32_t layer, Travel travel, uint32_t column) const {
+  const bool goes_left = travel == Travel::kLeft;
+  const auto atEdge = [&](uint32_t of_layer, uint32_t x, bool is_right) {
+    const float rise = 0.5F * layers_[of_layer].slope_x[x];
+    return std::max(inv_z_[of_layer][x] + (is_right ? rise : -rise), 0.0F);
+  };
+  const float far = atEdge(layer, goes_left ? column + 1 : column - 1, !goes_left);
+  for (uint32_t i = layer + 1; i < layer_count_; ++i) {
+    if (inv_z_[i][column] < 0) continue;
+    const float behind = atEdge(i, column, goes_left);
+    const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(behind, far));
+    if (behind - far <= kappa) return true;
+  }
+  return false;
+}
+
+// How far a layer is in front of a far side, from the edge of `column` where rays enter it on; no
+// further than in the image, and by `reach_px` far enough. What is closer to the far side than runs
+// stray from their facets does not count: rays hit the runs.
+float SurfaceRowBuilder::goesOnInFront(uint32_t layer, Travel travel, uint32_t column,
+                                       float far_inv_z, float reach_px) const {
+  constexpr float kRounding = 1.0F + 8.0F / 8388608.0F;
+  const float low_inv_z = (far_inv_z + tolerance_) * kRounding;
+  const LayerScratch& scratch = layers_[layer];
+  const bool goes_left = travel == Travel::kLeft;
+  const float* const entered = goes_left ? scratch.right.data() : scratch.left.data();
+  const float* const left = goes_left ? scratch.left.data() : scratch.right.data();
+  const uint32_t column_count = goes_left ? column + 1 : width_ - column;
+  for (uint32_t i = 0; i < column_count; ++i) {
+    const uint32_t x = goes_left ? column - i : column + i;
+    if (float(i) >= reach_px) return reach_px;
+    if (inv_z_[layer][x] < 0 || entered[x] <= low_inv_z) return float(i);
+    if (left[x] <= low_inv_z) {
+      return float(i) + (entered[x] - low_inv_z) / std::abs(scratch.slope_x[x]);
+    }
+  }
+  return float(column_count);
 }
 
 // Texels from that of a far side to that of the near one.

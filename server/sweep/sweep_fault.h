@@ -21,6 +21,7 @@ enum class SweepFault : uint8_t {
   kLayerDropped,   // only layer 0 is painted
   kPassedIgnored,  // deeper layers are hit before the one before them was passed
   kLastWins,       // what is painted last hides what is nearer
+  kFarSideEnds,    // far sides end at their silhouettes
 };
 
 }  // namespace viewloom

@@ -63,10 +63,10 @@ void SweepPlan::addTile(uint32_t index, const abi::ViewParams& tile) {
   });
   if (group == groups_.end()) {
     group = groups_.insert(
-        group,
-        {.first_px = first_px, .step_px = step_px, .tolerance = tile.inv_z_tolerance, .tiles = {}});
+        group, {.first_px = first_px, .step_px = step_px, .tolerance = tile.inv_z_tolerance});
   }
   group->tolerance = std::min(group->tolerance, tile.inv_z_tolerance);
+  group->px_per_inv_z = std::max(group->px_per_inv_z, std::abs(tile.eye.x));
   group->tiles.push_back(index);
 }
 

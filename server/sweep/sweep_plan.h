@@ -15,7 +15,8 @@ namespace viewloom {
 struct SweptTiles {
   double first_px = 0;  // row r of a tile looks along first + step r
   double step_px = 0;
-  float tolerance = 0;  // in inv_z, the least of the views', 1/m
+  float tolerance = 0;     // in inv_z, the least of the views', 1/m
+  float px_per_inv_z = 0;  // by which rays move, the most of any view
   std::vector<uint32_t> tiles;
 };
 

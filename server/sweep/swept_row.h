@@ -37,12 +37,14 @@ struct SweptRow {
   AlignedArray<float> inv_z;  // of the hit; negative without one
   // Where the ray first passed behind the layer, after those before it; else negative.
   ByLayer<AlignedArray<float>> passed_inv_z;
-  bool has_passed = false;                // else passed_inv_z says nothing
-  uint32_t passed_layer_count = 0;        // of which passed_inv_z says something
-  AlignedArray<uint64_t> passed_vectors;  // a bit for each vector in which rays pass
-  AlignedArray<int32_t> texel;            // 1/256 px; -1 = the background
-  AlignedArray<uint8_t> class_of_hole;    // abi::kClass..., where there is no hit
-  AlignedArray<float> fill_rank;          // the larger, the better the far side
+  // Where it met the far side of the layer, behind which nothing of it is hit; else negative.
+  ByLayer<AlignedArray<float>> met_inv_z;
+  ByLayer<AlignedArray<uint64_t>> passed_vectors;  // a bit for each vector in which rays pass
+  bool has_passed = false;                         // else these say nothing
+  uint32_t passed_layer_count = 0;                 // of which they say something
+  AlignedArray<int32_t> texel;                     // 1/256 px; -1 = the background
+  AlignedArray<uint8_t> class_of_hole;             // abi::kClass..., where there is no hit
+  AlignedArray<float> fill_rank;                   // the larger, the better the far side
   AlignedArray<int32_t> fill_texel;
   AlignedArray<uint8_t> block_has_hole;
   EdgeBlends blends;

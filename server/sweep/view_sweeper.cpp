@@ -9,7 +9,6 @@
 #include "sweep/color_kernels.h"
 #include "sweep/describe_swept.h"
 #include "sweep/edge_blends.h"
-#include "sweep/edge_blends.h"
 
 namespace viewloom {
 namespace {
@@ -76,7 +75,7 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
   const SweptTiles& group = plan.groupOf(index);
   const uint32_t tile_row = plan.tileRow(index);
   const double y_px = group.first_px + group.step_px * tile_row;
-  SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance);
+  SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance, group.px_per_inv_z);
   row_.reserve(width_px, row.pieceCountMax());
   // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
   const float inv_z_near =

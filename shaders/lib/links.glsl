@@ -15,7 +15,7 @@ struct EdgeSide {
 
 // What links do to the facets on one side.
 struct EdgeLinks {
-  uvec4 link[kLayerCountMax];  // 0 = silhouette, 1 + layer of the other side, kDeepEdge
+  uvec4 link[kLayerCountMax];  // 0 = silhouette, 1 + layer of the other side, or kind of silhouette
   vec4
       forward_high[kLayerCountMax];  // facet_high of what links from here or deeper lead forward to
 };
@@ -34,6 +34,25 @@ bvec4 mayLink(vec4 a, vec4 b, vec2 kappa) {
 // Which silhouettes `far` would be the far side of, if nothing is linked.
 bvec4 isDeepBehind(vec4 far, vec4 near) {
   return both(greaterThanEqual(far, vec4(0.0)), greaterThan(near * (1.0 - kDeepStep), far));
+}
+
+// Which silhouettes have their far side, `there`, known behind the near one, which is here: as far
+// back as that, or further, is `furthest` of the deeper layers here.
+bvec4 isKnownBehind(vec4 here, vec4 there, vec4 furthest, vec2 kappa) {
+  const vec4 tolerance = max(vec4(kappa.x), kappa.y * max(furthest, there));
+  const bvec4 is_near = both(greaterThanEqual(there, vec4(0.0)), greaterThan(here, there));
+  return both(is_near, lessThanEqual(furthest - there, tolerance));
+}
+
+// What the edge of a layer is called if it is linked to nothing: 0, or a kind of silhouette.
+uvec4 silhouetteOf(vec4 here, vec4 there, vec4 furthest, vec2 kappa) {
+  const uvec4 far = mix(uvec4(0u), uvec4(kDeepEdge), isDeepBehind(here, there));
+  return mix(far, uvec4(kKnownBehind), isKnownBehind(here, there, furthest, kappa));
+}
+
+// The furthest of two layers at an edge; what is not there is nearer than anything.
+vec4 furthestOf(vec4 one, vec4 other) {
+  return mix(one, min(one, other), greaterThanEqual(other, vec4(0.0)));
 }
 
 // The layer nearest to each value among those of the other side not linked to their own layer.
@@ -78,22 +97,44 @@ void linkToOthers(EdgeSide here, EdgeSide there, bvec4 taken[kLayerCountMax],
   }
 }
 
+// Links of a layer to itself, and what its silhouettes are. `furthest`: of the deeper layers.
+void linkWithin(EdgeSide here, EdgeSide there, uint layer, vec2 kappa,
+                inout bvec4 taken[kLayerCountMax], inout EdgeLinks links_here,
+                inout EdgeLinks links_there, inout vec4 furthest_here, inout vec4 furthest_there) {
+  const vec4 a = here.at[layer];
+  const vec4 b = there.at[layer];
+  const uvec4 own = uvec4(layer + 1u);
+  taken[layer] = mayLink(a, b, kappa);
+  links_here.link[layer] = mix(silhouetteOf(a, b, furthest_here, kappa), own, taken[layer]);
+  links_there.link[layer] = mix(silhouetteOf(b, a, furthest_there, kappa), own, taken[layer]);
+  links_here.forward_high[layer] = vec4(kNoSurface);
+  links_there.forward_high[layer] = vec4(kNoSurface);
+  furthest_here = furthestOf(furthest_here, a);
+  furthest_there = furthestOf(furthest_there, b);
+}
+
 // Calls for each layer stand one by one: loops of that size are not unrolled by all compilers, and
 // arrays that are then indexed at run time cost many times more.
 void linkAcross(EdgeSide here, EdgeSide there, vec2 kappa, out EdgeLinks links_here,
                 out EdgeLinks links_there) {
   bvec4 taken[kLayerCountMax];  // linked to their own layer
-  for (uint i = 0u; i < kLayerCount; ++i) {
-    taken[i] = mayLink(here.at[i], there.at[i], kappa);
-    const bvec4 deep_here = isDeepBehind(here.at[i], there.at[i]);
-    const bvec4 deep_there = isDeepBehind(there.at[i], here.at[i]);
-    links_here.link[i] =
-        mix(mix(uvec4(0u), uvec4(kDeepEdge), deep_here), uvec4(i + 1u), taken[i]);
-    links_there.link[i] =
-        mix(mix(uvec4(0u), uvec4(kDeepEdge), deep_there), uvec4(i + 1u), taken[i]);
-    links_here.forward_high[i] = vec4(kNoSurface);
-    links_there.forward_high[i] = vec4(kNoSurface);
+  const vec4 nothing = vec4(3.4e38);
+  vec4 furthest_here = nothing;
+  vec4 furthest_there = nothing;
+  if (kLayerCount > 3u) {
+    linkWithin(here, there, 3u, kappa, taken, links_here, links_there, furthest_here,
+               furthest_there);
   }
+  if (kLayerCount > 2u) {
+    linkWithin(here, there, 2u, kappa, taken, links_here, links_there, furthest_here,
+               furthest_there);
+  }
+  if (kLayerCount > 1u) {
+    linkWithin(here, there, 1u, kappa, taken, links_here, links_there, furthest_here,
+               furthest_there);
+  }
+  linkWithin(here, there, 0u, kappa, taken, links_here, links_there, furthest_here,
+             furthest_there);
   if (kLayerCount == 1u || hasFault(kFaultCrossLinks)) return;
   uvec4 wanted[kLayerCountMax];
   wanted[0] = nearestFree(there.at[0], here, taken, 0u, kappa);

@@ -88,12 +88,17 @@ uint loadLinks(Address layers[kLayerCountMax], uint layer, Extent extent, ivec2 
 // The link of an edge: 0 = silhouette, 1 + k = linked to layer k of the neighbouring column.
 uint linkOfEdge(uint links, uint edge) {
   const uint link = (links >> (edge * kLinkBits)) & 7u;
-  return link == kDeepEdge ? 0u : link;
+  return link >= kKnownBehind ? 0u : link;
 }
 
 // Whether the facet is the far side of a deep silhouette there.
 bool isDeepEdge(uint links, uint edge) {
   return ((links >> (edge * kLinkBits)) & 7u) == kDeepEdge;
+}
+
+// Whether the facet is the near side of a silhouette there, with the far side known behind it.
+bool isKnownBehind(uint links, uint edge) {
+  return ((links >> (edge * kLinkBits)) & 7u) == kKnownBehind;
 }
 
 // A silhouette made a link.

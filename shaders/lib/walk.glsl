@@ -31,6 +31,8 @@ const uint kStateUnknown = 0xffu;
 // may have raised.
 const float kRounding = 16.0 / 8388608.0;
 
+const uvec4 kLayers = uvec4(0u, 1u, 2u, 3u);
+
 struct WalkStart {
   float t;
   ivec2 cell;
@@ -94,12 +96,17 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   // Where the ray first passed behind this layer.
   bool has_passed = just_left;
   Place passed = at;
+  // How far back the far side of the silhouette lies that it passed behind last.
+  float far_inv_z = kNoSurface;
+  // Where nothing of a layer is hit any more: the ray met the far side of it, or of a deeper one.
+  vec4 over_t = vec4(2.0);
   float first_passed_t = just_left ? start.t : 2.0;
   // Of the last visit: its level, where the ray left it, how far in front it was there and before.
   uint own_level = 0u;
   float end_t = 0.0;
   float front_from = 0.0;
   float front_to = 0.0;
+  bool met_far = false;
 
   for (;;) {
     if (isNever(scene, 1u)) break;
@@ -172,15 +179,22 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       // passes to behind must look at the links.
       const bool meets_edge = is_decided && in_front && front_from <= 0.0;
       const bool passes = is_decided && !meets_edge;
-      const bool hits = passes && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
+      // Who is as far back as the far side while still behind what stands before it.
+      const float from_far = from_inv_z - far_inv_z;
+      const float far_to = far_inv_z - to_inv_z;
+      const float front_at_end = is_exact ? above_to : front_from;
+      met_far = passes && !in_front && front_from <= 0.0 && far_to >= 0.0 &&
+                front_from * far_to + front_at_end * from_far <= 0.0;
+      const bool hits =
+          passes && !met_far && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
       // Who comes out by less than rounding might meet the next facet as a step up.
       const float least_front = front_from > 0.0 ? 0.0 : kRounding * max(from_inv_z, to_inv_z);
-      in_front = passes ? front_to > least_front : in_front;
+      in_front = passes && !met_far ? front_to > least_front : in_front;
 
       // On to the next cell. Cells never go back, whatever the rounding of `to`.
       const ivec2 inside = clamp(ivec2(floor(to)), at.cell, end_cell);
       const ivec2 next = mix(inside, end_cell + 1, bvec2(cross_x, !cross_x));
-      const bool ends = is_last || any(greaterThan(next, last_cell));
+      const bool ends = is_last || met_far || any(greaterThan(next, last_cell));
       const bool steps = passes && !hits && !ends;
       const bool leads_forward =
           is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
@@ -212,7 +226,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     const Crossing crossing =
         meetEdge(scene, event, layer, Place(at.t, at.cell ^ flip, at.axis), direction, point,
                  ray.extent, inv_z_tolerance * nearness * nearness);
-    const bool hits_edge = crossing.hit_layer != kNoLayer;
+    const vec4 of_hit = vec4(equal(uvec4(crossing.hit_layer), kLayers));
+    const bool hits_edge = crossing.hit_layer != kNoLayer && at.t <= dot(of_hit, over_t);
     bool goes_on = (event == kMeetsEdge || event == kComesForward) && !hits_edge;
     if (event == kMeetsEdge && !hits_edge) {
       if (!has_passed) passed = at;
@@ -227,6 +242,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       }
       has_passed = true;
       in_front = false;
+      far_inv_z = crossing.far_inv_z;
     }
     // Where in the last block the ray hits, or ends.
     const float share = front_from > 0.0 ? front_from / (front_from - front_to) : 1.0;
@@ -244,6 +260,16 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       result.ends_behind = !in_front;
       result.cell = inside;
     }
+    // What was hit beyond the far side lies behind it.
+    if (event == kEnds && met_far) {
+      result.ends_behind = true;
+      result.is_hit = false;
+      result.t = ray.t_end;
+      const float from_far = ray.start.z + at.t * ray.extent.z - far_inv_z;
+      const float met_t = at.t - from_far / ray.extent.z;
+      const bvec4 ends_here = lessThanEqual(kLayers, uvec4(layer));
+      over_t = mix(over_t, min(over_t, vec4(met_t)), ends_here);
+    }
 
     // This layer is done; the next begins where the ray passed behind it.
     if (!goes_on && has_passed) {
@@ -256,6 +282,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       in_front = !just_left;
       level = just_left ? kLevelFacets : kLevelEntries;
       has_passed = just_left;
+      far_inv_z = kNoSurface;
     }
     if (!goes_on) break;
   }

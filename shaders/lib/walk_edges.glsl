@@ -57,6 +57,9 @@ struct Crossing {
   uint hit_layer;     // whose surface it hits; kNoLayer
   bool has_far_side;  // passes behind `layer`, from over a surface of it or from the beginning
   float far_share;    // how far up the step from that surface, 0..1; 0 if it is deep
+  // Of that surface here, if it is behind the ray, and nothing says that it ends here; else
+  // kNoSurface.
+  float far_inv_z;
 };
 
 const uint kNoLayer = kLayerCountMax;
@@ -74,11 +77,12 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   const ivec2 from_cell = leaving ? before : at.cell;
   const ivec2 to_cell = leaving ? at.cell : before;
-  Crossing result = Crossing(kNoLayer, false, 0.0);
+  Crossing result = Crossing(kNoLayer, false, 0.0, kNoSurface);
   uint from = layer;
   for (;;) {
     if (isNever(scene, 3u)) break;
-    const uint link = linkOfEdge(loadLinks(scene.layers, from, scene.extent, from_cell), edge);
+    const uint links = loadLinks(scene.layers, from, scene.extent, from_cell);
+    const uint link = linkOfEdge(links, edge);
     const bool is_linked = link > 0u && crosses && !hasFault(kFaultLinks);
     const bool leads_forward = is_linked && link - 1u < layer;
     const uint to_layer = is_linked ? link - 1u : layer;
@@ -96,6 +100,9 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
       if (is_hit || (crosses && hasFault(kFaultBehindIsHit))) result.hit_layer = layer;
       result.has_far_side = !is_linked && facet.x != kNoFacet;
       const float far = point.z - front;
+      const bool goes_on = result.has_far_side && crosses && front > 0.0 &&
+                           !isKnownBehind(links, edge);
+      result.far_inv_z = goes_on && !hasFault(kFaultFarSideEnds) ? far : kNoSurface;
       const float near =
           facetAtPoint(loadFacet(scene.layers, layer, scene.extent, at.cell), at.cell, point.xy);
       const bool is_deep = !crosses || near * (1.0 - kDeepStep) > far;

@@ -29,6 +29,7 @@ VIEWLOOM_ABI_CONST uint kFaultBehindIsHit = 19u;    // passing behind a silhouet
 VIEWLOOM_ABI_CONST uint kFaultLinks = 20u;          // connected surfaces have cracks
 VIEWLOOM_ABI_CONST uint kFaultEntryInFront = 21u;   // whoever enters from the side is in front
 VIEWLOOM_ABI_CONST uint kFaultErrorIgnored = 22u;   // every plane is taken, whatever its error
+VIEWLOOM_ABI_CONST uint kFaultFarSideEnds = 23u;    // far sides end at their silhouettes
 // In the merge of several sources.
 VIEWLOOM_ABI_CONST uint kFaultFarthestHit = 32u;     // the farthest hit wins
 VIEWLOOM_ABI_CONST uint kFaultWeightsSwapped = 33u;  // what should count little counts much

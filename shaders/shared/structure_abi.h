@@ -79,7 +79,7 @@ VIEWLOOM_ABI_CONST uint kForwardLinkFlag = 0x80000000u;
 VIEWLOOM_ABI_CONST float kNoSurface = -1.0f;
 
 // Edges of a facet, in the order of its link word (3 bits each: 0 = silhouette, 1 + k = linked to
-// layer k of the neighbouring column, kDeepEdge).
+// layer k of the neighbouring column, or a silhouette as below).
 VIEWLOOM_ABI_CONST uint kEdgeLeft = 0u;
 VIEWLOOM_ABI_CONST uint kEdgeRight = 1u;
 VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
@@ -90,6 +90,9 @@ VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
 // both; what steps by less may be one that is steep.
 VIEWLOOM_ABI_CONST uint kDeepEdge = 7u;
 VIEWLOOM_ABI_CONST float kDeepStep = 0.15f;
+// The near side of a silhouette, if a deeper layer holds on this side of the edge what is as far
+// back as the far side, or further: so that is known, and need not be thought to go on.
+VIEWLOOM_ABI_CONST uint kKnownBehind = 6u;
 // Set in the link word of every facet that exists.
 VIEWLOOM_ABI_CONST uint kFacetExists = 0x1000u;
 

@@ -122,7 +122,7 @@ double nearestForward(const StructureImage& structure, const OracleSource& sourc
   for (int count = 0; count < edge_count; ++count) {
     const int edge = count % 4;
     const int link = readLink(structure.layers[size_t(at.layer + count / 4)].links[index], edge);
-    if (link == 0 || link == int(abi::kDeepEdge) || link - 1 >= at.layer) continue;
+    if (link == 0 || link >= int(abi::kKnownBehind) || link - 1 >= at.layer) continue;
     const auto& [step_x, step_y] = kSteps[size_t(edge)];
     const FacetAt linked{link - 1, at.column + step_x, at.row + step_y};
     const double middle_x = at.column + 0.5 + 0.5 * step_x;

@@ -106,7 +106,8 @@ INSTANTIATE_TEST_SUITE_P(
                     PlantedFault{abi::kFaultBehindIsHit, "behindIsHit", FoundBy::kWalk},
                     PlantedFault{abi::kFaultLinks, "links", FoundBy::kWalk},
                     PlantedFault{abi::kFaultEntryInFront, "entryInFront", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk}),
+                    PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultFarSideEnds, "farSideEnds", FoundBy::kWalk}),
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 class NoFaultTest : public GpuTest {};

@@ -27,6 +27,7 @@ int expectedLink(const OracleSource& source, const FacetAt& at, int edge) {
     if (source.linked(at, next)) return 1 + next.layer;
   }
   next.layer = at.layer;
+  if (source.knownBehind(next, at)) return int(abi::kKnownBehind);
   return source.deepBehind(at, next) ? int(abi::kDeepEdge) : 0;
 }
 
@@ -36,7 +37,7 @@ bool leadsForward(const OracleSource& source, const FacetAt& at) {
     for (int edge = 0; edge < 4; ++edge) {
       const FacetAt from{layer, at.column, at.row};
       const int link = source.exists(from) ? expectedLink(source, from, edge) : 0;
-      if (link > 0 && link != int(abi::kDeepEdge) && link - 1 < at.layer) return true;
+      if (link > 0 && link < int(abi::kKnownBehind) && link - 1 < at.layer) return true;
     }
   }
   return false;

@@ -121,7 +121,7 @@ TEST(Sweep, staysOnSurfacesThatRaysGraze) {
     sweep.prepare(frameOf(scene));
     RowSource source = sweep.source().rowSource();
     source.kappa = {.absolute = 0, .relative = 0.02F};
-    const SurfaceRow& row = builder.build(source, 0.5, float(0.1 / eye_px_m));
+    const SurfaceRow& row = builder.build(source, 0.5, float(0.1 / eye_px_m), float(eye_px_m));
     swept.reserve(kViewWidth, row.pieceCountMax());
     float eye = float(eye_px_m);
     for (int nudge = 0; nudge < 10; ++nudge) eye = std::nextafter(eye, 0.0F);
@@ -166,7 +166,8 @@ INSTANTIATE_TEST_SUITE_P(Each, SweepFaultTest,
                                          PlantedFault{SweepFault::kGoesOnBehind, "goesOnBehind"},
                                          PlantedFault{SweepFault::kEntryInFront, "entryInFront"},
                                          PlantedFault{SweepFault::kLayerDropped, "layerDropped"},
-                                         PlantedFault{SweepFault::kLastWins, "lastWins"}),
+                                         PlantedFault{SweepFault::kLastWins, "lastWins"},
+                                         PlantedFault{SweepFault::kFarSideEnds, "farSideEnds"}),
                          [](const testing::TestParamInfo<PlantedFault>& fault) {
                            return fault.param.name;
                          });

@@ -2,90 +2,18 @@
 #include "oracle/brute_force.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
+
+#include "oracle/metric_planes.h"
 
 namespace viewloom::oracle {
 namespace {
 
 // Share of the seen part: far above rounding, far below the way through a column.
 constexpr double kJustBefore = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// A half space n . P + d >= 0 in metres.
-struct HalfSpace {
-  glm::dvec3 normal;
-  double distance = 0;
-};
-
-// The pyramid over a rectangle of the image, as four half spaces through the camera.
-struct Pyramid {
-  HalfSpace sides[4];
-};
-
-Pyramid pyramidOver(const Pinhole& pinhole, double left, double top, double right, double bottom) {
-  const auto ray = [&](double x, double y) {
-    return glm::dvec3((x - pinhole.principal_px.x) / pinhole.focal_px.x,
-                      -(y - pinhole.principal_px.y) / pinhole.focal_px.y, -1.0);
-  };
-  const glm::dvec3 corners[4] = {ray(left, top), ray(right, top), ray(right, bottom),
-                                 ray(left, bottom)};
-  const glm::dvec3 middle = ray(0.5 * (left + right), 0.5 * (top + bottom));
-  Pyramid pyramid;
-  for (int side = 0; side < 4; ++side) {
-    glm::dvec3 normal = glm::cross(corners[side], corners[(side + 1) % 4]);
-    if (glm::dot(normal, middle) < 0) normal = -normal;
-    pyramid.sides[side] = {normal, 0};
-  }
-  return pyramid;
-}
-
-// Distances along the ray between which it is inside; empty when begin >= end.
-struct Stretch {
-  double begin = 0;
-  double end = kInfinity;
-  bool empty() const { return !(begin < end); }
-};
-
-Stretch insideOf(const Pyramid& pyramid, const Ray& ray) {
-  Stretch stretch;
-  for (const HalfSpace& side : pyramid.sides) {
-    const double at_origin = glm::dot(side.normal, ray.origin_m) + side.distance;
-    const double per_step = glm::dot(side.normal, ray.direction);
-    if (per_step == 0) {
-      if (at_origin < 0) return {0, 0};
-      continue;
-    }
-    const double crossing = -at_origin / per_step;
-    if (per_step > 0) {
-      stretch.begin = std::max(stretch.begin, crossing);
-    } else {
-      stretch.end = std::min(stretch.end, crossing);
-    }
-  }
-  return stretch;
-}
-
-// The metric plane of a facet, n . P + d, positive on the camera's side of it.
-HalfSpace metricPlane(const OracleSource& source, const FacetAt& at) {
-  const Facet& f = source.facet(at);
-  const Pinhole& p = source.pinhole();
-  const double at_principal = source.planeInvZ(at, p.principal_px.x, p.principal_px.y);
-  // 1/Z = a x + b y + c times Z: 1 = a focal X - b focal Y + (a, b, c at the principal point) Z.
-  return {{-double(f.slope_x) * p.focal_px.x, double(f.slope_y) * p.focal_px.y, at_principal}, 1};
-}
-
-double sideAt(const HalfSpace& plane, const Ray& ray, double distance) {
-  if (distance == kInfinity) {
-    const double slope = glm::dot(plane.normal, ray.direction);
-    if (slope != 0) return slope;
-    return glm::dot(plane.normal, ray.origin_m) + plane.distance;
-  }
-  return glm::dot(plane.normal, ray.origin_m + distance * ray.direction) + plane.distance;
-}
 
 struct Event {
   double distance = kInfinity;
@@ -95,7 +23,10 @@ struct Event {
 class AllFacets {
  public:
   AllFacets(const OracleSource& source, const Ray& ray)
-      : source_(source), ray_(ray), behind_from_(size_t(source.layerCount()), kInfinity) {}
+      : source_(source),
+        ray_(ray),
+        behind_from_(size_t(source.layerCount()), kInfinity),
+        over_from_(size_t(source.layerCount()), kInfinity) {}
 
   OracleAnswer run() {
     const Stretch seen =
@@ -104,6 +35,7 @@ class AllFacets {
     if (seen.empty()) return answer;
     last_ = seen.end == kInfinity ? kInfinity : seen.end - kJustBefore * (seen.end - seen.begin);
     visitFacets([&](const FacetAt& at) { considerBegin(at); });
+    findWhatIsOver();
     visitFacets([&](const FacetAt& at) { considerFacet(at); });
     visitFacets([&](const FacetAt& at) {
       considerEdges(at, {-1, at.column + 1, at.row});
@@ -113,7 +45,7 @@ class AllFacets {
       const bool assumed = behind_from_[0] < first_->distance;
       answer.ray_class = assumed ? RayClass::kHitAssumed : RayClass::kHit;
       answer.hits.push_back(hitAt(*first_, assumed));
-    } else if (behind_at_end_) {
+    } else if (behind_at_end_ || isOver({0, 0, 0}, kInfinity)) {
       answer.ray_class = RayClass::kHidden;
     } else {
       answer.ray_class = seen.end == kInfinity ? RayClass::kEmpty : RayClass::kOutside;
@@ -157,6 +89,83 @@ class AllFacets {
     behind_from = std::min(behind_from, begin);
   }
 
+  // Columns on the ray, in its order.
+  std::vector<FacetAt> columnsMet() const {
+    std::vector<FacetAt> columns;
+    for (int row = 0; row < source_.height(); ++row) {
+      for (int column = 0; column < source_.width(); ++column) {
+        if (!inColumn({0, column, row}).empty()) columns.push_back({0, column, row});
+      }
+    }
+    std::sort(columns.begin(), columns.end(), [this](const FacetAt& a, const FacetAt& b) {
+      return inColumn(a).begin < inColumn(b).begin;
+    });
+    return columns;
+  }
+
+  double invZAt(double distance) const {
+    if (distance == kInfinity) return 0;
+    return -1 / (ray_.origin_m + distance * ray_.direction).z;
+  }
+
+  // Where the ray is as far back as the far side of a silhouette that it is still behind.
+  void findWhatIsOver() {
+    const std::vector<FacetAt> columns = columnsMet();
+    for (int layer = 0; layer < source_.layerCount(); ++layer) {
+      double far_inv_z = -1;  // none
+      for (size_t i = 0; i < columns.size(); ++i) {
+        const FacetAt at{layer, columns[i].column, columns[i].row};
+        const Stretch inside = inColumn(at);
+        if (i > 0) {
+          const FacetAt before{layer, columns[i - 1].column, columns[i - 1].row};
+          far_inv_z = farSideBehind(before, at, inside.begin, far_inv_z);
+        }
+        if (far_inv_z < 0) continue;
+        const double out = comesOut(at, inside);
+        const double far_z_m = 1 / far_inv_z;
+        const double over = (-far_z_m - ray_.origin_m.z) / ray_.direction.z;
+        if (invZAt(inside.end) <= far_inv_z && over <= out) {
+          double& over_from = over_from_[size_t(layer)];
+          over_from = std::min(over_from, std::max(over, inside.begin));
+          break;
+        }
+        if (out < inside.end) far_inv_z = -1;
+      }
+    }
+  }
+
+  // Where a ray that enters a column behind a facet leaves it; the column's end if it does not.
+  double comesOut(const FacetAt& at, const Stretch& inside) const {
+    if (!source_.exists(at)) return inside.begin;
+    const HalfSpace plane = metricPlane(source_, at);
+    if (sideAt(plane, ray_, inside.begin) > 0) return inside.begin;
+    if (sideAt(plane, ray_, inside.end) <= 0) return inside.end;
+    const double per_step = glm::dot(plane.normal, ray_.direction);
+    return -(glm::dot(plane.normal, ray_.origin_m) + plane.distance) / per_step;
+  }
+
+  // What is behind a layer once the ray has gone from column to column: as before, or what it
+  // passes; negative: nothing.
+  double farSideBehind(const FacetAt& before, const FacetAt& at, double distance,
+                       double far_inv_z) const {
+    if (!source_.exists(at) || countsFrom(at) > distance) return -1;
+    if (sideAt(metricPlane(source_, at), ray_, distance) > 0) return -1;
+    const bool counts_before = countsFrom(before) < distance;
+    if (!source_.exists(before)) return -1;
+    const bool is_over_it = sideAt(metricPlane(source_, before), ray_, distance) > 0;
+    if (!is_over_it) return counts_before ? far_inv_z : -1;
+    if (source_.knownBehind(before, at)) return -1;
+    const glm::dvec3 point = ray_.origin_m + distance * ray_.direction;
+    const Pinhole& p = source_.pinhole();
+    return source_.planeInvZ(before, p.principal_px.x - p.focal_px.x * point.x / point.z,
+                             p.principal_px.y + p.focal_px.y * point.y / point.z);
+  }
+
+  // Whether the ray has met the far side behind this layer, or a deeper one, before.
+  bool isOver(const FacetAt& at, double distance) const {
+    return *std::min_element(over_from_.begin() + at.layer, over_from_.end()) < distance;
+  }
+
   void considerFacet(const FacetAt& at) {
     const Stretch inside = inColumn(at);
     if (inside.empty()) return;
@@ -167,12 +176,12 @@ class AllFacets {
     const bool counts = countsFrom(at) <= inside.begin;
     if (counts && at_begin <= 0 && at_end <= 0 && last) behind_at_end_ = true;
     if (at_end > 0) {
-      if (counts && inside.end == kInfinity) offer({kInfinity, at});
+      if (counts && inside.end == kInfinity && !isOver(at, kInfinity)) offer({kInfinity, at});
       return;
     }
     if (at_begin <= 0) return;
     const double per_step = glm::dot(plane.normal, ray_.direction);
-    if (!counts) return;
+    if (!counts || isOver(at, inside.begin)) return;
     offer({-(glm::dot(plane.normal, ray_.origin_m) + plane.distance) / per_step, at});
   }
 
@@ -192,6 +201,7 @@ class AllFacets {
       const bool from_counts = countsFrom(from) < distance;
       if (from_counts && sideAt(metricPlane(source_, from), ray_, distance) <= 0) continue;
       if (sideAt(metricPlane(source_, to), ray_, distance) > 0) continue;
+      if (isOver(to, distance)) continue;
       offer({distance, to});
     }
   }
@@ -215,6 +225,8 @@ class AllFacets {
   double last_ = 0;  // a place in the last column
   // Where the ray first is behind each layer, having been behind those before it.
   std::vector<double> behind_from_;
+  // Where it meets the far side behind each layer: nothing of that is hit beyond.
+  std::vector<double> over_from_;
   bool behind_at_end_ = false;
 };
 

@@ -164,14 +164,31 @@ bool OracleSource::linked(const FacetAt& a, const FacetAt& b) const {
   return nearestUnlinked(a, b) == b && nearestUnlinked(b, a) == a;
 }
 
-bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
-  if (!exists(far) || !exists(near)) return false;
-  FacetAt there = near;
-  for (there.layer = 0; there.layer < layerCount(); ++there.layer) {
-    if (linked(far, there)) return false;
+bool OracleSource::isSilhouette(const FacetAt& at, const FacetAt& towards) const {
+  for (int layer = 0; layer < layerCount(); ++layer) {
+    if (linked(at, {layer, towards.column, towards.row})) return false;
   }
+  return true;
+}
+
+bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
+  if (!exists(far) || !exists(near) || !isSilhouette(far, near)) return false;
   constexpr float kDeepStep = 0.15F;
   return invZAtEdge(near, far) * (1.0F - kDeepStep) > invZAtEdge(far, near);
+}
+
+bool OracleSource::knownBehind(const FacetAt& far, const FacetAt& near) const {
+  if (!exists(far) || !exists(near) || !isSilhouette(near, far)) return false;
+  const float far_inv_z = invZAtEdge(far, near);
+  if (invZAtEdge(near, far) <= far_inv_z) return false;
+  for (int layer = near.layer + 1; layer < layerCount(); ++layer) {
+    const FacetAt deeper{layer, near.column, near.row};
+    if (!exists(deeper)) continue;
+    const float inv_z = invZAtEdge(deeper, far);
+    const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(inv_z, far_inv_z));
+    if (inv_z - far_inv_z <= kappa) return true;
+  }
+  return false;
 }
 
 }  // namespace viewloom::oracle

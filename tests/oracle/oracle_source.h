@@ -92,7 +92,14 @@ class OracleSource {
   // layer: linked to nothing there, and further away by more than 15 % of the nearer inv_z.
   bool deepBehind(const FacetAt& far, const FacetAt& near) const;
 
+  // Whether a deeper layer of the column of `near` holds at the edge what is as far back as `far`,
+  // of near's layer, which is linked to nothing there; or further, or no more than kappa in front
+  // of it.
+  bool knownBehind(const FacetAt& far, const FacetAt& near) const;
+
  private:
+  // Whether a facet is linked to nothing in the column of `towards`.
+  bool isSilhouette(const FacetAt& at, const FacetAt& towards) const;
   float slope(const FacetAt& at, int step_x, int step_y) const;
   float differenceTo(const FacetAt& from, int step_x, int step_y, FacetAt& neighbour) const;
   float oneSidedSlope(const FacetAt& at, int step_x, int step_y) const;

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ostream>
-
-#include <glm/geometric.hpp>
 
 namespace viewloom::oracle {
 namespace {
@@ -67,7 +66,11 @@ std::vector<Crossing> crossingsOf(const OracleSource& source, const ProjectedRay
 class Travel {
  public:
   Travel(const OracleSource& source, const ProjectedRay& ray, const SeenPart& seen, size_t limit)
-      : source_(source), ray_(ray), seen_(seen), limit_(limit) {}
+      : source_(source),
+        ray_(ray),
+        seen_(seen),
+        limit_(limit),
+        behind_(size_t(source.layerCount())) {}
 
   OracleAnswer run() {
     const std::vector<Crossing> crossings = crossingsOf(source_, ray_, seen_);
@@ -93,7 +96,19 @@ class Travel {
   }
 
  private:
+  // Of a layer that the ray is behind.
+  struct Behind {
+    // How far back the far side of the silhouette lies that it passed behind; none: nothing there.
+    std::optional<double> far_inv_z;
+    // The ray has met that far side: nothing of this layer and those before it is hit any more.
+    bool is_over = false;
+  };
+
   double front(const FacetAt& at, double s) const { return inFront(source_, at, ray_.at(s)); }
+  bool isOver(int layer) const {
+    return std::any_of(behind_.begin() + layer, behind_.end(),
+                       [](const Behind& behind) { return behind.is_over; });
+  }
 
   // Layers are in order: whoever has not been behind one is in front of all behind it.
   bool isBehind(const FacetAt& at, double s) const {
@@ -105,6 +120,7 @@ class Travel {
     std::vector<std::pair<double, OracleHit>> events;
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt at{layer, column.column, column.row};
+      goOnBehind(at, begin, end);
       if (!source_.exists(at)) continue;
       const double at_begin = front(at, begin);
       const double at_end = front(at, end);
@@ -117,10 +133,42 @@ class Travel {
     std::stable_sort(events.begin(), events.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
     for (const auto& [s, hit] : events) {
-      if (hit.facet.layer > behind_count_) continue;
+      if (hit.facet.layer > behind_count_ || isOver(hit.facet.layer)) continue;
       record(hit);
       passBehind(hit.facet.layer);
     }
+  }
+
+  // Through a column, while behind a layer: out of it, or to the far side before that.
+  void goOnBehind(const FacetAt& at, double begin, double end) {
+    Behind& behind = behind_[size_t(at.layer)];
+    if (!behind.far_inv_z || behind.is_over) return;
+    const double at_begin = source_.exists(at) ? front(at, begin) : 1;
+    const double at_end = source_.exists(at) ? front(at, end) : 1;
+    const auto aboveFar = [&](double s) {
+      const HomogeneousPoint point = ray_.at(s);
+      return point.h - *behind.far_inv_z * point.z;
+    };
+    const double far_begin = aboveFar(begin);
+    const double far_end = aboveFar(end);
+    if (at_begin <= 0 && far_end <= 0) {
+      const double out = at_end > 0 ? at_begin / (at_begin - at_end) : 1;
+      behind.is_over = far_begin <= 0 || far_begin / (far_begin - far_end) <= out;
+    }
+    if (at_begin > 0 || at_end > 0) behind.far_inv_z.reset();
+  }
+
+  // Passes behind the silhouette of a layer: what it was in front of before goes on behind it.
+  void passSilhouette(const FacetAt& before, const Column& to, int behind_count, double s) {
+    Behind& behind = behind_[size_t(before.layer)];
+    const bool is_over_it = source_.exists(before) && front(before, s) > 0;
+    const bool was_behind = source_.exists(before) && !is_over_it && before.layer <= behind_count;
+    if (was_behind) return;
+    behind.far_inv_z.reset();
+    if (!is_over_it) return;
+    const HomogeneousPoint point = ray_.at(s);
+    if (source_.knownBehind(before, {before.layer, to.column, to.row})) return;
+    behind.far_inv_z = source_.planeInvZ(before, point.u / point.z, point.v / point.z);
   }
 
   void crossEdge(const Column& from, const Column& to, double s) {
@@ -139,10 +187,10 @@ class Travel {
         const bool in_front = other > behind_count || front(previous, s) > 0;
         (in_front ? connected_in_front : connected_behind) = true;
       }
-      if (connected_in_front) {
-        record(hitAt(s, next, linked));
-      } else if (!connected_behind) {
+      if (connected_in_front && !isOver(layer)) record(hitAt(s, next, linked));
+      if (!connected_in_front && !connected_behind) {
         passes_behind = true;
+        passSilhouette({layer, from.column, from.row}, to, behind_count, s);
       }
       passBehind(layer);
     }
@@ -158,6 +206,8 @@ class Travel {
     if (answer_.hits.size() >= limit_) return;
     hit.assumed = been_behind_;
     answer_.hits.push_back(hit);
+    // Whoever looks for more begins anew, behind what it has hit.
+    std::fill(behind_.begin(), behind_.end(), Behind{});
   }
 
   OracleAnswer answer(const Column& last) {
@@ -166,6 +216,7 @@ class Travel {
       return answer_;
     }
     answer_.ray_class = seen_.ends_at_infinity ? RayClass::kEmpty : RayClass::kOutside;
+    if (isOver(0)) answer_.ray_class = RayClass::kHidden;
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt at{layer, last.column, last.row};
       if (isBehind(at, seen_.end)) answer_.ray_class = RayClass::kHidden;
@@ -178,7 +229,8 @@ class Travel {
   const SeenPart seen_;
   const size_t limit_;
   bool been_behind_ = false;
-  int behind_count_ = 0;  // of layers, from the first on, that the ray has been behind
+  int behind_count_ = 0;        // of layers, from the first on, that the ray has been behind
+  std::vector<Behind> behind_;  // by layer
   OracleAnswer answer_;
 };
 
@@ -202,54 +254,6 @@ const char* nameOf(RayClass ray_class) {
 
 std::ostream& operator<<(std::ostream& out, RayClass ray_class) {
   return out << nameOf(ray_class);
-}
-
-HomogeneousPoint ProjectedRay::at(double s) const {
-  const auto between = [s](double from, double to) { return (1 - s) * from + s * to; };
-  return {between(a.u, b.u), between(a.v, b.v), between(a.z, b.z), between(a.h, b.h)};
-}
-
-ProjectedRay projectRay(const Pinhole& pinhole, const Ray& ray) {
-  const auto project = [&](const glm::dvec3& p, double h) {
-    const double z = -p.z;
-    return HomogeneousPoint{pinhole.focal_px.x * p.x + pinhole.principal_px.x * z,
-                            -pinhole.focal_px.y * p.y + pinhole.principal_px.y * z, z, h};
-  };
-  return {project(ray.origin_m, 1), project(glm::normalize(ray.direction), 0)};
-}
-
-ProjectedRay movedBy(const ProjectedRay& ray, double x_px, double y_px, double inv_z) {
-  const auto move = [&](const HomogeneousPoint& p) {
-    return HomogeneousPoint{p.u + x_px * p.z, p.v + y_px * p.z, p.z, p.h + inv_z * p.z};
-  };
-  return {move(ray.a), move(ray.b)};
-}
-
-SeenPart seenPart(const OracleSource& source, const ProjectedRay& ray) {
-  const auto& [a, b] = ray;
-  SeenPart seen{0, 1, true};
-  const auto keepNonNegative = [&seen](double at_a, double at_b, bool is_infinity) {
-    if (at_a < 0 && at_b < 0) seen.end = -1;
-    if (at_a < 0 && at_b >= 0) seen.begin = std::max(seen.begin, at_a / (at_a - at_b));
-    if (at_a >= 0 && at_b < 0) {
-      const double s = at_a / (at_a - at_b);
-      if (s < seen.end) seen.ends_at_infinity = is_infinity;
-      seen.end = std::min(seen.end, s);
-    }
-  };
-  keepNonNegative(a.h, b.h, true);
-  keepNonNegative(a.u, b.u, false);
-  keepNonNegative(a.v, b.v, false);
-  keepNonNegative(source.width() * a.z - a.u, source.width() * b.z - b.u, false);
-  keepNonNegative(source.height() * a.z - a.v, source.height() * b.z - b.v, false);
-  return seen;
-}
-
-double inFront(const OracleSource& source, const FacetAt& at, const HomogeneousPoint& point) {
-  const Facet& f = source.facet(at);
-  return point.h -
-         (double(f.inv_z) * point.z + double(f.slope_x) * (point.u - (at.column + 0.5) * point.z) +
-          double(f.slope_y) * (point.v - (at.row + 0.5) * point.z));
 }
 
 OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, size_t hit_limit) {

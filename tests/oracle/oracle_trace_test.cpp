@@ -101,6 +101,48 @@ TEST(OracleTrace, comesOutFromBehindAPole) {
   EXPECT_NEAR(answer.hits[0].x_px, x_px + 0.25 * parallax_px, kPosition_px);
 }
 
+// A board before a wall on the left, behind which the wall ends: far hills on the right.
+Scene boardBeforeAWall(int board_px) {
+  Scene scene = planeScene({0, 0, 0.25}, 64, 1);
+  for (int column = 32; column < 64; ++column) {
+    scene.planes.at(0, column, 0) = column < 32 + board_px ? 1.0f : 0.05f;
+  }
+  return scene;
+}
+
+TEST(OracleTrace, theFarSideOfASilhouetteGoesOnBehindIt) {
+  const double eye_x_m = -0.1;
+  const Scene scene = boardBeforeAWall(8);
+  const double parallax_px = scene.pinhole.focal_px.x * eye_x_m;
+  ASSERT_LT(-parallax_px * 0.25,
+            8);  // who passes at the wall's own depth meets it behind the board
+  // From just behind the board's edge to just in front of where the wall is met at its other end.
+  const double x_px = 32 - 0.5 * parallax_px;
+  const Ray ray = lateralRay(scene, eye_x_m, x_px);
+  EXPECT_EQ(traceOracle(sourceOf(scene), ray).ray_class, RayClass::kHidden);
+  // Out again before that: what is seen beyond is assumed.
+  const Scene pole = boardBeforeAWall(1);
+  const OracleAnswer beyond = traceOracle(sourceOf(pole), lateralRay(pole, eye_x_m, x_px));
+  ASSERT_EQ(beyond.ray_class, RayClass::kHitAssumed);
+  EXPECT_NEAR(beyond.hits[0].inv_z, 0.05, kPosition_px);
+}
+
+TEST(OracleTrace, whatIsKnownBehindASilhouetteIsNotTakenToGoOn) {
+  const double eye_x_m = -0.1;
+  Scene scene = boardBeforeAWall(8);
+  InvZPlanes planes = makePlanes(64, 1, 2);
+  for (int column = 0; column < 64; ++column) {
+    planes.at(0, column, 0) = scene.planes.at(0, column, 0);
+    if (column >= 32 && column < 40) planes.at(1, column, 0) = 0.05f;
+  }
+  scene.planes = planes;
+  const double parallax_px = scene.pinhole.focal_px.x * eye_x_m;
+  const Ray ray = lateralRay(scene, eye_x_m, 32 - 0.5 * parallax_px);
+  const OracleAnswer hills = traceOracle(sourceOf(scene), ray);
+  ASSERT_EQ(hills.ray_class, RayClass::kHitAssumed);
+  EXPECT_NEAR(hills.hits[0].inv_z, 0.05, kPosition_px);
+}
+
 TEST(OracleTrace, endsAtTheSkyOrInNothing) {
   Scene scene = planeScene({0, 0, 0}, 8, 8);
   for (int row = 0; row < 8; ++row) {
