@@ -210,6 +210,8 @@ void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t f
     float end_inv_z = 0;
     const uint32_t end = findRunEnd(search, begin, &end_inv_z);
     addRun(surface, layer, float(begin), float(end), search.left[begin], end_inv_z);
+    // Who passes by the end of a surface passes by its last run.
+    layers_[layer].right[end - 1] = end_inv_z;
     begin = end;
   }
 }
