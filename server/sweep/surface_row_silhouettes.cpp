@@ -100,7 +100,9 @@ float SurfaceRowBuilder::goesOnInFront(uint32_t layer, Travel travel, uint32_t c
     if (float(i) >= reach_px) return reach_px;
     if (inv_z_[layer][x] < 0 || entered[x] <= low_inv_z) return float(i);
     if (left[x] <= low_inv_z) {
-      return float(i) + (entered[x] - low_inv_z) / std::abs(scratch.slope_x[x]);
+      // What falls below the sky falls faster than its edges say.
+      const float fall = std::max(std::abs(scratch.slope_x[x]), entered[x] - left[x]);
+      return float(i) + (entered[x] - low_inv_z) / fall;
     }
   }
   return float(column_count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of viewloom-oracle-soak on which the walk once differed from the oracle, and what each
-// was.
+// Scenes of viewloom-oracle-soak on which the walk or the sweep once differed from the oracle, and
+// what each was.
 #include <ostream>
 
 #include "gpu/judge_seed.h"
@@ -83,6 +83,18 @@ constexpr OnceDiffered kSeeds[] = {
     {9288, kSkims},
 };
 
+// Of the sweep. A ray passed by the end of a facet, but not by the run that stands for it, and was
+// neither in front of the one nor behind the other.
+constexpr const char* kPassesItsRun = "passes between a facet and the end of its run";
+// What goes on in front of a far side was measured from facets, or from a run along their slope.
+constexpr const char* kComesOutOverARun = "comes out over a run that strays from its facets";
+
+constexpr OnceDiffered kSweptSeeds[] = {
+    {150, kPassesItsRun},
+    {3311, kComesOutOverARun},
+    {4997, kComesOutOverARun},
+};
+
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
 
 TEST_P(SeedsThatDiffered, agreeWithTheOracle) {
@@ -91,11 +103,20 @@ TEST_P(SeedsThatDiffered, agreeWithTheOracle) {
   EXPECT_TRUE(judged.agrees()) << judged.text();
 }
 
+class SweptSeedsThatDiffered : public testing::TestWithParam<OnceDiffered> {};
+
+TEST_P(SweptSeedsThatDiffered, agreeWithTheOracle) {
+  SweepUnderTest sweep;
+  const JudgedSeed judged = judgeSweptSeed(sweep, GetParam().seed);
+  EXPECT_TRUE(judged.agrees()) << judged.text();
+}
+
 std::string nameOf(const testing::TestParamInfo<OnceDiffered>& once) {
   return "seed" + std::to_string(once.param.seed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, SeedsThatDiffered, testing::ValuesIn(kSeeds), nameOf);
+INSTANTIATE_TEST_SUITE_P(Each, SweptSeedsThatDiffered, testing::ValuesIn(kSweptSeeds), nameOf);
 
 }  // namespace
 }  // namespace viewloom
