@@ -6,10 +6,14 @@ set(VIEWLOOM_SHADERS
   structure/measure_depth.comp
   structure/settle_tolerance.comp
   structure/smooth_columns.comp
+  structure/fill_apron.comp
   structure/build_facets.comp
   structure/build_blocks.comp
   structure/build_level.comp
   structure/flatten_entries.comp
+  structure/color_apron.comp
+  trace/average_color.comp
   trace/walk_views.comp
+  trace/join_faces.comp
   trace/merge_sources.comp
   trace/pack_band.comp)

@@ -53,6 +53,10 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                  "Cameras side by side that see the synthetic scene, 1..8 [1]")
       ->check(CLI::Range(1, 8))
       ->group("What");
+  app.add_flag("--cube", options.synthetic.is_cube_map,
+               "The synthetic scene as a cube map: six square faces as high as --size")
+      ->excludes("--sources")
+      ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene; 0 = without end")
       ->check(CLI::NonNegativeNumber)

@@ -28,6 +28,13 @@ Camera cameraOf(uint32_t source, SizePx size_px) {
   return camera;
 }
 
+WireFrame cubeMapFrame(const SyntheticOptions& scene) {
+  WireFrame frame;
+  frame.header.set_capture_time_ns(captureTimeNs());
+  addSyntheticCubeMap(scene, frame);
+  return frame;
+}
+
 }  // namespace
 
 SyntheticFrames::SyntheticFrames(const SyntheticFeedOptions& options) : options_(options) {}
@@ -40,6 +47,7 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
                          .layer_count = options_.layer_count,
                          .time_s = elapsed_s,
                          .camera = {}};
+  if (options_.is_cube_map) return cubeMapFrame(scene);
   WireFrame frame = syntheticWireFrame(scene, captureTimeNs());
   for (uint32_t source = 1; source < options_.source_count; ++source) {
     scene.camera = cameraOf(source, options_.size_px);
@@ -49,8 +57,11 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
 }
 
 std::string SyntheticFrames::description() const {
-  return strCat("synthetic scene, ", options_.size_px.width, "x", options_.size_px.height, ", ",
-                options_.layer_count, options_.layer_count == 1 ? " layer" : " layers",
+  const uint32_t side_px = options_.size_px.height;
+  const SizePx size_px = options_.is_cube_map ? SizePx{side_px, side_px} : options_.size_px;
+  return strCat("synthetic scene, ", options_.is_cube_map ? "cube map of " : "", size_px.width, "x",
+                size_px.height, ", ", options_.layer_count,
+                options_.layer_count == 1 ? " layer" : " layers",
                 options_.source_count == 1 ? "" : strCat(", ", options_.source_count, " sources"));
 }
 

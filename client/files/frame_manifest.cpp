@@ -91,6 +91,7 @@ absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::pat
                         v1::Source& source, LoadedFrame& frame) {
   if (files.has_camera()) *source.mutable_camera() = files.camera();
   source.set_connection_tolerance(files.connection_tolerance());
+  source.set_cube_map(files.cube_map());
   if (files.has_deep()) return loadDeepSource(files, folder, source, frame);
   VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
   for (int i = 0; i < files.layers_size(); ++i) {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "frame/cube_map.h"
+
 namespace viewloom {
 namespace {
 
@@ -24,20 +26,39 @@ void addPlane(v1::PlaneKind kind, v1::PlaneEncoding encoding, SizePx size_px,
   frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(std::move(bytes)));
 }
 
-void setCamera(const Camera& from, v1::Camera& to) {
-  const glm::dvec3& position_m = from.pose.position_m;
-  to.mutable_pose()->mutable_position()->set_x(position_m.x);
-  to.mutable_pose()->mutable_position()->set_y(position_m.y);
-  to.mutable_pose()->mutable_position()->set_z(position_m.z);
-  const glm::dquat& orientation = from.pose.orientation;
-  to.mutable_pose()->mutable_orientation()->set_x(orientation.x);
-  to.mutable_pose()->mutable_orientation()->set_y(orientation.y);
-  to.mutable_pose()->mutable_orientation()->set_z(orientation.z);
-  to.mutable_pose()->mutable_orientation()->set_w(orientation.w);
-  to.mutable_intrinsics()->set_focal_x_px(from.intrinsics.focal_px.x);
-  to.mutable_intrinsics()->set_focal_y_px(from.intrinsics.focal_px.y);
-  to.mutable_intrinsics()->set_principal_x_px(from.intrinsics.principal_px.x);
-  to.mutable_intrinsics()->set_principal_y_px(from.intrinsics.principal_px.y);
+void setPose(const Pose& from, v1::Pose& to) {
+  to.mutable_position()->set_x(from.position_m.x);
+  to.mutable_position()->set_y(from.position_m.y);
+  to.mutable_position()->set_z(from.position_m.z);
+  to.mutable_orientation()->set_x(from.orientation.x);
+  to.mutable_orientation()->set_y(from.orientation.y);
+  to.mutable_orientation()->set_z(from.orientation.z);
+  to.mutable_orientation()->set_w(from.orientation.w);
+}
+
+void setIntrinsics(const Intrinsics& from, v1::Intrinsics& to) {
+  to.set_focal_x_px(from.focal_px.x);
+  to.set_focal_y_px(from.focal_px.y);
+  to.set_principal_x_px(from.principal_px.x);
+  to.set_principal_y_px(from.principal_px.y);
+}
+
+void addLayers(SizePx size_px, std::vector<SyntheticLayer> layers, v1::Source& source,
+               WireFrame& frame) {
+  for (SyntheticLayer& from : layers) {
+    v1::Layer& layer = *source.add_layers();
+    std::vector<uint8_t> depth_bytes(from.depth_m.size() * sizeof(float));
+    std::memcpy(depth_bytes.data(), from.depth_m.data(), depth_bytes.size());
+    addPlane(v1::PLANE_KIND_COLOR, v1::PLANE_ENCODING_RGBA8, size_px, std::move(from.color), layer,
+             frame);
+    addPlane(v1::PLANE_KIND_DEPTH, v1::PLANE_ENCODING_DEPTH_F32, size_px, std::move(depth_bytes),
+             layer, frame);
+  }
+}
+
+template <typename Value>
+void append(const std::vector<Value>& from, std::vector<Value>& to) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
 }  // namespace
@@ -51,16 +72,30 @@ WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_ti
 
 void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame) {
   v1::Source& source = *frame.header.add_sources();
-  setCamera(options.camera.value_or(syntheticCamera(options.size_px)), *source.mutable_camera());
-  for (SyntheticLayer& from : renderSyntheticFrame(options)) {
-    v1::Layer& layer = *source.add_layers();
-    std::vector<uint8_t> depth_bytes(from.depth_m.size() * sizeof(float));
-    std::memcpy(depth_bytes.data(), from.depth_m.data(), depth_bytes.size());
-    addPlane(v1::PLANE_KIND_COLOR, v1::PLANE_ENCODING_RGBA8, options.size_px, std::move(from.color),
-             layer, frame);
-    addPlane(v1::PLANE_KIND_DEPTH, v1::PLANE_ENCODING_DEPTH_F32, options.size_px,
-             std::move(depth_bytes), layer, frame);
+  const Camera camera = options.camera.value_or(syntheticCamera(options.size_px));
+  setPose(camera.pose, *source.mutable_camera()->mutable_pose());
+  setIntrinsics(camera.intrinsics, *source.mutable_camera()->mutable_intrinsics());
+  addLayers(options.size_px, renderSyntheticFrame(options), source, frame);
+}
+
+void addSyntheticCubeMap(const SyntheticOptions& options, WireFrame& frame) {
+  const uint32_t side_px = options.size_px.height;
+  v1::Source& source = *frame.header.add_sources();
+  source.set_cube_map(true);
+  const Pose pose = options.camera.value_or(Camera{}).pose;
+  setPose(pose, *source.mutable_camera()->mutable_pose());
+  std::vector<SyntheticLayer> stacked(options.layer_count);
+  SyntheticOptions of_face = options;
+  of_face.size_px = {side_px, side_px};
+  for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
+    of_face.camera = cubeFaceCamera(pose, face, side_px);
+    const std::vector<SyntheticLayer> layers = renderSyntheticFrame(of_face);
+    for (size_t i = 0; i < layers.size(); ++i) {
+      append(layers[i].color, stacked[i].color);
+      append(layers[i].depth_m, stacked[i].depth_m);
+    }
   }
+  addLayers({side_px, kCubeFaceCount * side_px}, std::move(stacked), source, frame);
 }
 
 }  // namespace viewloom

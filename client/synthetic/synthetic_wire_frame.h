@@ -11,5 +11,8 @@ namespace viewloom {
 WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_time_ns);
 // As one more source of the frame.
 void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame);
+// The same as a cube map, with faces as high as size_px. Of the camera, the pose alone counts;
+// without one it stands where the scene is meant to be seen from.
+void addSyntheticCubeMap(const SyntheticOptions& options, WireFrame& frame);
 
 }  // namespace viewloom

@@ -89,7 +89,8 @@ Json visitsJson(const Device& device, const Frame& frame, const DisplaySpec& spe
 
 Json memoryJson(const StageReport& report, const Config& config) {
   Json json;
-  json["per_stream_bytes"] = report.structure_bytes * config.pipeline.structure_slots;
+  json["per_stream_bytes"] =
+      report.structure_bytes * config.pipeline.structure_slots + report.build_bytes;
   json["per_set_of_display_planes_bytes"] = report.trace_slot_bytes * config.pipeline.trace_slots;
   if (report.sweep_ms) {
     json["per_swept_stream_bytes"] = report.swept_frame_bytes * config.pipeline.structure_slots;

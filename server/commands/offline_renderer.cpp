@@ -43,21 +43,17 @@ void OfflineRenderer::build(const Frame& frame) {
   structure_.emplace(device_, shapesOf(frame));
   structure_->upload(frame);
   sources_.clear();
-  for (const SourceFormat& source : frame.format.sources) {
-    sources_.push_back({source.camera, source.layers.front().depth.size_px});
-  }
+  for (const SourceFormat& source : frame.format.sources) sources_.push_back(seenSource(source));
   structure_->recordBuild(recorder_.begin(), builder_);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
 std::vector<SourceStats> OfflineRenderer::stats() const {
-  std::vector<SourceStats> stats;
-  for (const StructureSlot* source : structure_->sources()) stats.push_back(source->stats());
-  return stats;
+  return structure_->stats();
 }
 
 void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot) {
-  tracer_.recordBand(recorder_.begin(), structure_->sources(), job, rows, slot, nullptr);
+  tracer_.recordBand(recorder_.begin(), structure_->parts(), job, rows, slot, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
@@ -70,7 +66,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
       spec, {.source_intrinsics = source_camera.intrinsics,
              .source_size_px = sources_.front().size_px,
-             .focal_distance_m = contentFocalDistance(structure_->firstSource().stats())});
+             .focal_distance_m = contentFocalDistance(structure_->stats().front())});
   if (!layout.ok()) return layout.status();
 
   RenderedAtlas atlas;
@@ -81,7 +77,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   TraceSlot slot(device_, {.width_px = size_px.width,
                            .row_count_max = std::min(kBandRows, size_px.height),
                            .tile_count_max = atlas.layout->columns * atlas.layout->rows,
-                           .source_count = job.source_count,
+                           .walk_count = job.walk_count,
                            .outputs = outputs});
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
     const uint32_t row_count = std::min(kBandRows, size_px.height - row);

@@ -129,6 +129,7 @@ class StageBench {
                           .effective_nodes_per_px = perPixel(effective_node_count_, layout),
                           .structure_bytes_per_px = perPixel(layout.layerBytes(), layout),
                           .structure_bytes = structureBytes(structure_.shape()),
+                          .build_bytes = buildBytes(structure_.shape()),
                           .trace_slot_bytes = trace_slot_->sizeBytes()};
     if (plan_) {
       report.sweep_source_ms = medianOf(samples_.at("sweep source"));

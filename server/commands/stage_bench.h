@@ -35,6 +35,7 @@ struct StageReport {
   double effective_nodes_per_px = 0;  // what a walk has a use for, of the nearest layer
   double structure_bytes_per_px = 0;  // of one layer: facets, nodes, entries, links
   uint64_t structure_bytes = 0;       // one slot, host and device
+  uint64_t build_bytes = 0;           // what builds take beside it, shared by a stream's slots
   uint64_t trace_slot_bytes = 0;
 };
 

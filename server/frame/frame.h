@@ -33,11 +33,11 @@ enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity }
 // How depth samples become 1/Z; frame/depth.h makes of it what kernels compute with.
 struct DepthFormat {
   DepthMeaning meaning = DepthMeaning::kPlanar;
-  double scale = 1;    // metre or 1/m per unit of the sample
-  double offset = 0;   // after the scale
+  double scale = 1;      // metre or 1/m per unit of the sample
+  double offset = 0;     // after the scale
   double min_depth = 0;  // kWindow, as in XrCompositionLayerDepthInfoKHR
   double max_depth = 1;
-  double near_z_m = 0;   // may be +inf; near > far is reversed depth
+  double near_z_m = 0;  // may be +inf; near > far is reversed depth
   double far_z_m = 0;
   std::optional<double> invalid_value;
   bool invalid_is_far = false;
@@ -64,9 +64,11 @@ struct LayerFormat {
 };
 
 struct SourceFormat {
-  Camera camera;  // intrinsics in px of the depth planes
+  Camera camera;  // intrinsics in px of the depth planes; of a cube map, of its front face
   std::vector<LayerFormat> layers;  // 1..4, nearest first
   double connection_tolerance = 0;  // 1/m; 0 = measured
+  // Every plane holds six faces, one below the other (frame/cube_map.h).
+  bool is_cube_map = false;
 };
 
 // A frame without its bytes: what a header declares and validateFrame accepts.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/str_cat.h"
+#include "frame/cube_map.h"
 #include "frame/depth.h"
 
 namespace viewloom {
@@ -30,6 +31,19 @@ bool isColorEncoding(PlaneEncoding encoding) {
 
 std::string sizeText(SizePx size_px) {
   return strCat(size_px.width, "x", size_px.height);
+}
+
+// Six square faces, one below the other: only the side of one is limited.
+absl::Status validateCubeSize(SizePx size_px, uint32_t side_px_max) {
+  if (size_px.width == 0 || size_px.height != uint64_t{kCubeFaceCount} * size_px.width) {
+    return invalidField("size", strCat("is ", sizeText(size_px), ", must be N x ", kCubeFaceCount,
+                                       " N: the faces of a cube map, one below the other"));
+  }
+  if (size_px.width > side_px_max) {
+    return overLimit("size", strCat("has faces of ", size_px.width, " px, at most ", side_px_max,
+                                    " px a side are accepted"));
+  }
+  return absl::OkStatus();
 }
 
 absl::Status validateSize(SizePx size_px, uint32_t side_px_max) {
@@ -73,16 +87,22 @@ absl::Status validateWireBytes(const PlaneFormat& plane) {
   return absl::OkStatus();
 }
 
-absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, const FrameLimits& limits) {
+absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cube_map,
+                           const FrameLimits& limits) {
   if (plane.kind != kind || isColorEncoding(plane.encoding) != (kind == PlaneKind::kColor)) {
     return invalidField("encoding", kind == PlaneKind::kColor
                                         ? "is not one of RGBA8, RGB8, RGBA16F, JPEG"
                                         : "is not one of DEPTH_F32, DEPTH_F16, DEPTH_U16");
   }
-  VIEWLOOM_RETURN_IF_ERROR(validateSize(plane.size_px, limits.plane_side_px_max));
+  VIEWLOOM_RETURN_IF_ERROR(is_cube_map ? validateCubeSize(plane.size_px, limits.plane_side_px_max)
+                                       : validateSize(plane.size_px, limits.plane_side_px_max));
   VIEWLOOM_RETURN_IF_ERROR(validateStride(plane));
   VIEWLOOM_RETURN_IF_ERROR(validateWireBytes(plane));
-  if (kind == PlaneKind::kColor) return absl::OkStatus();
+  if (kind == PlaneKind::kColor) {
+    if (!is_cube_map || plane.alpha == AlphaMode::kOpaque) return absl::OkStatus();
+    return fieldError(absl::StatusCode::kUnimplemented, "alpha",
+                      "is not OPAQUE, which is not served yet for cube maps");
+  }
   return validateDepthFormat(plane.depth, plane.encoding, "depth");
 }
 
@@ -107,6 +127,12 @@ absl::Status validateAgreement(const SourceFormat& source, size_t layer) {
     return invalidField(strCat(planePath(layer, format, PlaneKind::kColor), ".encoding"),
                         "mixes RGBA16F with 8-bit colour within one source");
   }
+  if (source.is_cube_map && format.color.size_px != first.depth.size_px) {
+    return invalidField(
+        strCat(planePath(layer, format, PlaneKind::kColor), ".size"),
+        strCat("is ", sizeText(format.color.size_px), ", must be that of the cube map's depth, ",
+               sizeText(first.depth.size_px)));
+  }
   return absl::OkStatus();
 }
 
@@ -121,8 +147,8 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
     const LayerFormat& format = source.layers[layer];
     for (const PlaneKind kind : {PlaneKind::kColor, PlaneKind::kDepth}) {
       const PlaneFormat& plane = kind == PlaneKind::kColor ? format.color : format.depth;
-      VIEWLOOM_RETURN_IF_ERROR(
-          withFieldPrefix(validatePlane(plane, kind, limits), planePath(layer, format, kind)));
+      VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(
+          validatePlane(plane, kind, source.is_cube_map, limits), planePath(layer, format, kind)));
     }
     VIEWLOOM_RETURN_IF_ERROR(validateAgreement(source, layer));
   }

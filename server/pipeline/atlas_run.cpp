@@ -49,7 +49,7 @@ TraceSlotShape AtlasRun::stripShape() const {
   return {.width_px = picture->layout->size_px.width,
           .row_count_max = strip_row_count,
           .tile_count_max = static_cast<uint32_t>(picture->tilesOf(0).size()),
-          .source_count = picture->source_count,
+          .walk_count = picture->walk_count,
           .outputs = planes};
 }
 

@@ -20,7 +20,8 @@ struct PipelineOptions {
 };
 
 // Memory is bounded by streams x structure_slots_per_stream and by trace_slot_count; frames of the
-// same shape and displays of the same size reuse it.
+// same shape and displays of the same size reuse it. What builds alone need is shared by the slots
+// of a stream.
 // Thread-safety: all methods may be called from any thread.
 class Pipeline final : public FrameSink {
  public:

@@ -12,8 +12,8 @@ namespace viewloom {
 
 // What the walk needs of a frame, on the device, with the commands that build it.
 struct WalkedForm {
-  WalkedForm(const Device& device, const std::vector<FrameShape>& shapes)
-      : structure(device, shapes), recorder(device) {}
+  WalkedForm(const Device& device, const FrameBuildMemory& build_memory)
+      : structure(device, build_memory), recorder(device) {}
 
   FrameStructure structure;
   CommandRecorder recorder;
@@ -32,9 +32,14 @@ struct StructureBuild {
   std::unique_ptr<WalkedForm> walked;
   bool is_walked = false;
 
-  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
-  void allocateWalked(const Device& device) {
-    if (!walked) walked = std::make_unique<WalkedForm>(device, shapes);
+  // The walked form is to be built in this memory, whose shapes are these. Throws
+  // vk::OutOfDeviceMemoryError when the device cannot hold it.
+  void prepareWalked(const Device& device, const FrameBuildMemory& build_memory) {
+    if (walked) {
+      walked->structure.buildIn(build_memory);
+    } else {
+      walked = std::make_unique<WalkedForm>(device, build_memory);
+    }
   }
 };
 

@@ -10,16 +10,15 @@ namespace {
 
 // What the frame itself says.
 ResidentStructure describe(const Frame& frame) {
-  const SourceFormat& source = frame.format.sources.front();
   ResidentStructure structure;
   structure.frame_number = frame.format.number;
   structure.capture_time_ns = frame.format.capture_time_ns;
   structure.times = frame.times;
-  for (const SourceFormat& seen : frame.format.sources) {
-    structure.sources.push_back({seen.camera, seen.layers.front().depth.size_px});
+  for (const SourceFormat& source : frame.format.sources) {
+    structure.sources.push_back(seenSource(source));
   }
-  structure.defaults.source_intrinsics = source.camera.intrinsics;
-  structure.defaults.source_size_px = source.layers.front().depth.size_px;
+  structure.defaults.source_intrinsics = structure.sources.front().camera.intrinsics;
+  structure.defaults.source_size_px = structure.sources.front().size_px;
   return structure;
 }
 
@@ -92,7 +91,12 @@ std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
   slot->is_swept = links_.device.info().is_software && canSweep(frame);
   slot->is_walked = stream.is_walked->exchange(false) || !slot->is_swept;
   try {
-    if (slot->is_walked) slot->allocateWalked(links_.device);
+    if (slot->is_walked) {
+      if (!fits(stream.build_memory, shapes)) {
+        stream.build_memory = makeBuildMemory(links_.device, shapes);
+      }
+      slot->prepareWalked(links_.device, stream.build_memory);
+    }
   } catch (const vk::OutOfDeviceMemoryError&) {
     if (!slot->is_swept) throw;
     slot->is_walked = false;  // those who need it are told, the others are served
@@ -118,7 +122,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->build_ns = structure->built_at_ns - uploaded_ns;
 
   structure->stats =
-      slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.firstSource().stats();
+      slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.stats().front();
   structure->stream_is_walked = stream.is_walked;
   if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
   structure->defaults.focal_distance_m = *stream.focal_distance_m;

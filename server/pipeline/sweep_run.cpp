@@ -8,7 +8,7 @@ namespace viewloom {
 namespace {
 
 // So short that an atlas that is due sooner need not wait, long enough that threads seldom meet.
-constexpr uint32_t kRowsPerPiece = 8;
+constexpr uint32_t kRowsPerPiece = 16;
 
 uint32_t piecesOf(const SweepPlan& plan) {
   return (plan.rowCount() + kRowsPerPiece - 1) / kRowsPerPiece;

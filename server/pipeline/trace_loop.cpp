@@ -64,7 +64,7 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
   ring.largest.width_px = std::max(ring.largest.width_px, shape.width_px);
   ring.largest.row_count_max = std::max(ring.largest.row_count_max, shape.row_count_max);
   ring.largest.tile_count_max = std::max(ring.largest.tile_count_max, shape.tile_count_max);
-  ring.largest.source_count = std::max(ring.largest.source_count, shape.source_count);
+  ring.largest.walk_count = std::max(ring.largest.walk_count, shape.walk_count);
   return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }
@@ -163,9 +163,10 @@ AtlasRunPtr TraceLoop::soonestRun() const {
   return soonest == begun_.end() ? nullptr : *soonest;
 }
 
-// A structure that nobody has walked so far: the device has no newer work to do.
+// A structure that nobody has walked so far: the device has no newer work to do. The stream's next
+// frame may be on its way into the memory that its slots share.
 void TraceLoop::buildForWalk(StructureBuild& build) {
-  build.allocateWalked(links_.device);
+  build.prepareWalked(links_.device, makeBuildMemory(links_.device, build.shapes));
   build.walked->structure.upload(build.swept.frame());
   build.walked->structure.recordBuild(build.walked->recorder.begin(), builder_);
   timeline_.wait(build.walked->recorder.submit(timeline_));
@@ -186,9 +187,9 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
 
 void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
   const uint32_t strip = run->next_strip++;
-  tracer_.recordBand(trace->recorder.begin(),
-                     run->job.structure->build->walked->structure.sources(), *run->picture,
-                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
+  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->walked->structure.parts(),
+                     *run->picture, {run->firstRow(strip), run->rowCount(strip)}, trace->slot,
+                     nullptr);
   const uint64_t value = trace->recorder.submit(timeline_);
   encoders_.push(TracedStrip{run, strip, std::move(trace), value});
   if (run->next_strip == run->stripCount()) finish(run);

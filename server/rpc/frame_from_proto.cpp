@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/frame_from_proto.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "frame/cube_map.h"
 #include "rpc/enum_from_proto.h"
 #include "rpc/geometry_from_proto.h"
 
@@ -113,12 +115,24 @@ absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
   return LayerFormat{.color = *color, .depth = *depth, .depth_first = depth_first};
 }
 
-absl::Status cameraFromProto(const v1::Camera& proto, SizePx size_px, Camera& camera) {
+absl::Status projectionOfCubeMap(const v1::Camera& proto, SizePx plane_px, Camera& camera) {
+  if (proto.has_fov() || proto.has_intrinsics()) {
+    return invalidField(proto.has_fov() ? "fov" : "intrinsics",
+                        "is given; accepted: none, as each face of a cube map is 90 degrees wide");
+  }
+  // Of an empty plane, any: validateFrame refuses its size.
+  camera.intrinsics = cubeFaceIntrinsics(std::max(plane_px.width, 1U));
+  return absl::OkStatus();
+}
+
+absl::Status cameraFromProto(const v1::Source& source, SizePx size_px, Camera& camera) {
+  const v1::Camera& proto = source.camera();
   const auto pose = poseFromProto(proto.pose(), "pose");
   VIEWLOOM_RETURN_IF_ERROR(pose.status());
+  camera.pose = *pose;
+  if (source.cube_map()) return projectionOfCubeMap(proto, size_px, camera);
   const auto projection = projectionFromProto(proto);
   VIEWLOOM_RETURN_IF_ERROR(projection.status());
-  camera.pose = *pose;
   const auto* fov = std::get_if<Fov>(&*projection);
   if (fov == nullptr) {
     camera.intrinsics = std::get<Intrinsics>(*projection);
@@ -129,9 +143,6 @@ absl::Status cameraFromProto(const v1::Camera& proto, SizePx size_px, Camera& ca
 }
 
 absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const FrameLimits& limits) {
-  if (proto.cube_map()) {
-    return fieldError(absl::StatusCode::kUnimplemented, "cube_map", "is not served yet");
-  }
   const auto layer_count = static_cast<uint32_t>(proto.layers_size());
   if (layer_count == 0 || layer_count > limits.layer_count_max) {
     return invalidField("layers", absl::StrCat("has ", layer_count, " entries, must have 1..",
@@ -139,6 +150,7 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
   }
   SourceFormat source;
   source.connection_tolerance = proto.connection_tolerance();
+  source.is_cube_map = proto.cube_map();
   for (const v1::Layer& layer_proto : proto.layers()) {
     const auto layer = layerFromProto(layer_proto);
     VIEWLOOM_RETURN_IF_ERROR(
@@ -147,7 +159,7 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
   }
   const SizePx size_px = source.layers.front().depth.size_px;
   VIEWLOOM_RETURN_IF_ERROR(
-      withFieldPrefix(cameraFromProto(proto.camera(), size_px, source.camera), "camera"));
+      withFieldPrefix(cameraFromProto(proto, size_px, source.camera), "camera"));
   return source;
 }
 

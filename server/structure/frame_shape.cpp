@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "frame/cube_map.h"
+#include "structure/mean_color.h"
 #include "structure/structure_layout.h"
 
 namespace viewloom {
@@ -21,24 +23,49 @@ bool isPlainColor(const PlaneFormat& color, PlaneEncoding decoded_encoding) {
          color.primaries == ColorPrimaries::kBt709 && color.alpha == AlphaMode::kOpaque;
 }
 
+// Of a plane, or of its part that is a face, which then has an apron around it.
+SizePx structureSize(SizePx plane_px, const SourcePart& part) {
+  if (!part.face) return plane_px;
+  const SizePx face_px = cubeFaceSize(plane_px);
+  return {face_px.width + 2 * abi::kCubeApron_px, face_px.height + 2 * abi::kCubeApron_px};
+}
+
+// Of a layer.
+uint64_t meanBytes(const FrameShape& shape) {
+  return shape.depth_px.area() * sizeof(uint32_t);
+}
+
 }  // namespace
 
-FrameShape shapeOf(const Frame& frame, size_t source_index) {
-  const SourceFormat& source = frame.format.sources[source_index];
-  const std::vector<LayerPlanes>& planes = frame.sources[source_index];
+std::vector<SourcePart> partsOf(const FrameFormat& format) {
+  std::vector<SourcePart> parts;
+  for (size_t source = 0; source < format.sources.size(); ++source) {
+    if (!format.sources[source].is_cube_map) {
+      parts.push_back({source});
+      continue;
+    }
+    for (uint32_t face = 0; face < kCubeFaceCount; ++face) parts.push_back({source, face});
+  }
+  return parts;
+}
+
+FrameShape shapeOf(const Frame& frame, const SourcePart& part) {
+  const SourceFormat& source = frame.format.sources[part.source];
+  const std::vector<LayerPlanes>& planes = frame.sources[part.source];
   FrameShape shape;
-  shape.depth_px = source.layers.front().depth.size_px;
+  shape.depth_px = structureSize(source.layers.front().depth.size_px, part);
+  shape.is_cube_face = part.face.has_value();
   bool all_plain = frame.format.exposure_ev == 0;
   bool all_opaque = true;
   for (size_t i = 0; i < source.layers.size(); ++i) {
-    shape.color_px.push_back(source.layers[i].color.size_px);
+    shape.color_px.push_back(structureSize(source.layers[i].color.size_px, part));
     all_plain = all_plain && isPlainColor(source.layers[i].color, planes[i].color_encoding);
     all_opaque = all_opaque && source.layers[i].color.alpha == AlphaMode::kOpaque;
   }
   shape.color_storage = all_plain    ? ColorStorage::kRgba8Srgb
-                        : all_opaque ? ColorStorage::kRgb11Root
+                        : all_opaque ? ColorStorage::kRgb16Root
                                      : ColorStorage::kRgba16fLinear;
-  const std::vector<StagedLayer> staged = stagedLayers(frame, source_index);
+  const std::vector<StagedLayer> staged = stagedLayers(frame, part);
   shape.staged_depth_bytes = alignedEnd(staged.back().depth.offset, staged.back().depth.size_bytes);
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
   return shape;
@@ -46,37 +73,55 @@ FrameShape shapeOf(const Frame& frame, size_t source_index) {
 
 std::vector<FrameShape> shapesOf(const Frame& frame) {
   std::vector<FrameShape> shapes;
-  for (size_t source = 0; source < frame.sources.size(); ++source) {
-    shapes.push_back(shapeOf(frame, source));
-  }
+  for (const SourcePart& part : partsOf(frame.format)) shapes.push_back(shapeOf(frame, part));
   return shapes;
 }
 
-std::vector<StagedLayer> stagedLayers(const Frame& frame, size_t source) {
-  const std::vector<LayerPlanes>& layers = frame.sources[source];
+Camera cameraOf(const FrameFormat& format, const SourcePart& part) {
+  const SourceFormat& source = format.sources[part.source];
+  if (!part.face) return source.camera;
+  const uint32_t side_px = source.layers.front().depth.size_px.width;
+  return cubeFaceCamera(source.camera.pose, *part.face, side_px, abi::kCubeApron_px);
+}
+
+std::vector<StagedLayer> stagedLayers(const Frame& frame, const SourcePart& part) {
+  const std::vector<LayerPlanes>& layers = frame.sources[part.source];
   std::vector<StagedLayer> staged(layers.size());
   uint64_t offset = 0;
   const auto stage = [&](StagedPlane& plane, uint64_t size_bytes) {
     plane = {offset, size_bytes};
     offset = alignedEnd(offset, size_bytes);
   };
-  for (size_t i = 0; i < layers.size(); ++i) stage(staged[i].depth, layers[i].depth->size());
-  for (size_t i = 0; i < layers.size(); ++i) stage(staged[i].color, layers[i].color->size());
+  for (size_t i = 0; i < layers.size(); ++i) {
+    stage(staged[i].depth, layers[i].depth->size() / (part.face ? kCubeFaceCount : 1));
+  }
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const SizePx plane_px = frame.format.sources[part.source].layers[i].color.size_px;
+    const uint64_t texel_bytes = layers[i].color->size() / plane_px.area();
+    stage(staged[i].color, texel_bytes * structureSize(plane_px, part).area());
+  }
   return staged;
 }
 
 uint64_t structureBytes(const FrameShape& shape) {
   const StructureLayout layout = structureLayout(shape.depth_px);
-  uint64_t total_bytes = shape.staged_bytes;
+  uint64_t total_bytes = 0;
   uint64_t color_bytes = 0;
   for (const SizePx& color_px : shape.color_px) {
     color_bytes = std::max(color_bytes, colorBytes(shape.color_storage, color_px));
   }
   for (uint32_t i = 0; i < shape.layerCount(); ++i) {
     total_bytes += color_bytes;
-    total_bytes += layout.layerBytes() + layout.invZBytes();
+    if (shape.canAverageColor()) total_bytes += MeanColor::kReachesMax * meanBytes(shape);
+    total_bytes += layout.layerBytes();
   }
   return total_bytes;
+}
+
+uint64_t buildBytes(const FrameShape& shape) {
+  const uint64_t along_y_bytes = shape.canAverageColor() ? meanBytes(shape) : 0;
+  const uint64_t inv_z_bytes = structureLayout(shape.depth_px).invZBytes();
+  return shape.staged_bytes + shape.layerCount() * (inv_z_bytes + along_y_bytes);
 }
 
 }  // namespace viewloom

@@ -2,7 +2,9 @@
 // What of a frame's source decides the size of its GPU resources: those of one shape share slots.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -12,32 +14,62 @@ namespace viewloom {
 // How colour lies on the device.
 enum class ColorStorage : uint8_t {
   kRgba8Srgb,     // opaque sRGB BT.709 as it came, 4 bytes a px
-  kRgb11Root,     // roots of light, BT.709, 4 bytes a px: what else is opaque
+  kRgb16Root,     // roots of light, BT.709, 8 bytes a px: what else is opaque
   kRgba16fLinear  // linear BT.709, premultiplied, 8 bytes a px: everything else
 };
 
-// Of one source.
+// What one structure is made of: a source, or a face of one that is a cube map.
+struct SourcePart {
+  size_t source = 0;
+  std::optional<uint32_t> face = std::nullopt;
+};
+
+// All of a frame, in the order of its sources.
+std::vector<SourcePart> partsOf(const FrameFormat& format);
+
+// Of all layers; the means of a reach, and what they are made by way of, take 8 bytes each.
+inline constexpr uint64_t kAveragedSamplesMax = uint64_t{1} << 24;
+
+// Of one part. Sizes are those of its structure: of a face with its apron.
 struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
+  bool is_cube_face = false;
   ColorStorage color_storage = ColorStorage::kRgba8Srgb;
-  // Decoded planes of all layers in the upload, each aligned: depth, and colour after it.
+  // Decoded planes of all layers in the upload, each aligned: depth, and colour after it, which of
+  // a face has room for the apron.
   uint64_t staged_depth_bytes = 0;
   uint64_t staged_bytes = 0;
 
+  // Some plane is not of depth's size.
+  bool colorIsScaled() const {
+    return std::any_of(color_px.begin(), color_px.end(),
+                       [&](const SizePx& size_px) { return size_px != depth_px; });
+  }
+  // Whether walks may look colour up in means (structure/mean_color.h): not of light that is seen
+  // through, or of another size than depth; nor of the faces of a cube map, as each would be
+  // averaged otherwise, and seams would show; nor where means would take more than 128 MiB.
+  bool canAverageColor() const {
+    return color_storage != ColorStorage::kRgba16fLinear && !colorIsScaled() && !is_cube_face &&
+           depth_px.area() * layerCount() <= kAveragedSamplesMax;
+  }
   uint32_t layerCount() const { return uint32_t(color_px.size()); }
   bool operator==(const FrameShape&) const = default;
 };
 
-FrameShape shapeOf(const Frame& frame, size_t source = 0);
-// Of all sources of a frame.
+FrameShape shapeOf(const Frame& frame, const SourcePart& part = {});
+// Of all parts of a frame.
 std::vector<FrameShape> shapesOf(const Frame& frame);
 
-// Device and host memory one slot of this shape takes at most, bytes; to check before anything is
-// allocated.
+// Memory that a structure of this shape takes at most, bytes, and that builds take beside it, which
+// all of a stream share.
 uint64_t structureBytes(const FrameShape& shape);
+uint64_t buildBytes(const FrameShape& shape);
 
-// Where each plane of a source lies in the upload, bytes.
+// The pinhole of a part, px of its structure.
+Camera cameraOf(const FrameFormat& format, const SourcePart& part);
+
+// Where each plane of a part lies in the upload, bytes.
 struct StagedPlane {
   uint64_t offset = 0;
   uint64_t size_bytes = 0;
@@ -48,6 +80,6 @@ struct StagedLayer {
   StagedPlane color;
 };
 
-std::vector<StagedLayer> stagedLayers(const Frame& frame, size_t source = 0);
+std::vector<StagedLayer> stagedLayers(const Frame& frame, const SourcePart& part = {});
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structures of all sources of a frame, one slot each.
+// The structures of all sources of a frame, one slot each; of a cube map, one a face.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,40 @@ namespace viewloom {
 // Owner decides when it is free, as of a slot. Thread-safety: as StructureSlot.
 class FrameStructure {
  public:
-  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // Of all parts of a frame. Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  FrameStructure(const Device& device, const FrameBuildMemory& build_memory);
+  // Shares no memory with others.
   FrameStructure(const Device& device, const std::vector<FrameShape>& shapes);
 
-  // Copies the planes into mapped memory. The frame's sources have these shapes.
+  // The next upload and build take place there. It has the same shapes.
+  void buildIn(const FrameBuildMemory& build_memory);
+
+  // Copies the planes into mapped memory. The frame's parts have these shapes.
   void upload(const Frame& frame);
   // From uploaded planes to structures that can be traced.
   void recordBuild(vk::CommandBuffer commands, const StructureBuilder& builder) const;
 
-  std::span<const StructureSlot* const> sources() const { return sources_; }
-  const StructureSlot& firstSource() const { return *sources_.front(); }
+  // Of each part of the frame.
+  std::span<const StructureSlot* const> parts() const { return parts_; }
+  const StructureSlot& firstPart() const { return *parts_.front(); }
+
+  // Of each source, once the build's submission is done. Of a cube map: what is counted, of all
+  // faces; the range of all; the rest of the front one.
+  std::vector<SourceStats> stats() const;
 
  private:
+  // What a source is built of.
+  struct BuiltSource {
+    std::span<const StructureSlot* const> parts;
+    Buffer face_list;  // of a cube map: abi::CubeFaceList
+  };
+
+  // For the device, where the faces of cube maps lie.
+  void describeCubes() const;
+
   std::vector<std::unique_ptr<StructureSlot>> slots_;
-  std::vector<const StructureSlot*> sources_;  // the same
+  std::vector<const StructureSlot*> parts_;  // the same
+  std::vector<BuiltSource> sources_;
 };
 
 }  // namespace viewloom

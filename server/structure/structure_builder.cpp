@@ -5,6 +5,7 @@
 #include <span>
 
 #include "gpu/barrier.h"
+#include "shared/cube_abi.h"
 
 namespace viewloom {
 namespace {
@@ -30,6 +31,12 @@ class Timed {
   vk::CommandBuffer commands_;
   GpuTimer* timer_;
 };
+
+template <typename Record>
+void recordStage(vk::CommandBuffer commands, GpuTimer* timer, const char* name, Record&& record) {
+  const Timed timed(commands, timer, name);
+  record();
+}
 
 // All counters 0, and a minimum that anything is below.
 void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
@@ -175,29 +182,67 @@ const ComputePass& StructureBuilder::preparationFor(const PrepareVariant& varian
   return *pass;
 }
 
-void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& slot,
-                              GpuTimer* timer) const {
+const ApronPasses& StructureBuilder::apronPasses() const {
+  std::lock_guard lock(mutex_);
+  if (!apron_passes_) apron_passes_ = std::make_unique<ApronPasses>(*device_);
+  return *apron_passes_;
+}
+
+void StructureBuilder::recordColumns(vk::CommandBuffer commands, const StructureSlot& slot,
+                                     GpuTimer* timer) const {
   Recording recording(commands, slot, passesFor(variantOf(slot)),
                       preparationFor(preparationOf(slot)));
-  const auto stage = [&](const char* name, auto&& record) {
-    const Timed timed(commands, timer, name);
-    record();
-  };
-  stage("color", [&] {
+  recordStage(commands, timer, "color", [&] {
     recordClear(commands, slot.measured());
     recordColor(commands, slot);
     recordTransferToCompute(commands);
   });
-  stage("columns", [&] { recording.prepare(); });
-  stage("measure", [&] { recording.measure(); });
-  stage("smooth", [&] { recording.smooth(); });
-  stage("facets", [&] { recording.buildFacets(); });
-  stage("blocks", [&] { recording.buildBlocks(); });
-  stage("levels", [&] { recording.buildLevels(); });
+  recordStage(commands, timer, "columns", [&] { recording.prepare(); });
+  recordStage(commands, timer, "measure", [&] { recording.measure(); });
+  recordStage(commands, timer, "smooth", [&] { recording.smooth(); });
+}
+
+void StructureBuilder::recordSurfaces(vk::CommandBuffer commands, const StructureSlot& slot,
+                                      GpuTimer* timer) const {
+  Recording recording(commands, slot, passesFor(variantOf(slot)),
+                      preparationFor(preparationOf(slot)));
+  recordStage(commands, timer, "facets", [&] { recording.buildFacets(); });
+  recordStage(commands, timer, "blocks", [&] { recording.buildBlocks(); });
+  recordStage(commands, timer, "levels", [&] { recording.buildLevels(); });
   recordComputeToTransfer(commands);
   commands.copyBuffer(slot.measured().handle(), slot.measuredReadback().handle(),
                       vk::BufferCopy{.size = slot.measuredReadback().sizeBytes()});
   recordTransferToHost(commands);
+}
+
+void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& slot,
+                              GpuTimer* timer) const {
+  recordColumns(commands, slot, timer);
+  recordSurfaces(commands, slot, timer);
+}
+
+void StructureBuilder::recordCube(vk::CommandBuffer commands,
+                                  std::span<const StructureSlot* const> faces,
+                                  const Buffer& face_list) const {
+  const ApronPasses& passes = apronPasses();
+  const auto recordAprons = [&](const ComputePass& pass) {
+    for (uint32_t face = 0; face < faces.size(); ++face) {
+      const StructureSlot& slot = *faces[face];
+      const uint32_t side_px = slot.shape().depth_px.width - 2 * abi::kCubeApron_px;
+      const abi::ApronPush push{.cube = addressWords(face_list.address()),
+                                .face = face,
+                                .color_format = colorFormat(slot.shape().color_storage)};
+      pass.recordDescriptors(commands, describeBindings(slot));
+      pass.record(
+          commands, push,
+          groups(4 * abi::kCubeApron_px * (side_px + abi::kCubeApron_px), abi::kNodeGroupSize));
+    }
+    recordComputeBarrier(commands);
+  };
+  for (const StructureSlot* face : faces) recordColumns(commands, *face, nullptr);
+  recordAprons(passes.fill_apron);
+  for (const StructureSlot* face : faces) recordSurfaces(commands, *face, nullptr);
+  recordAprons(passes.color_apron);
 }
 
 void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const {

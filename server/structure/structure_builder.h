@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "gpu/gpu_timer.h"
 #include "structure/structure_passes.h"
@@ -25,8 +26,17 @@ class StructureBuilder {
   // recorded afterwards in the same submission see it, too. `timer` was reset in this recording;
   // nullptr = untimed.
   void record(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  // The same for the six faces of a cube map, whose aprons come from each other. `face_list`:
+  // abi::CubeFaceList of them.
+  void recordCube(vk::CommandBuffer commands, std::span<const StructureSlot* const> faces,
+                  const Buffer& face_list) const;
 
  private:
+  // From uploaded planes to columns as they are kept.
+  void recordColumns(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  // From those to what can be traced, and its stats in host memory.
+  void recordSurfaces(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  const ApronPasses& apronPasses() const;
   const StructurePasses& passesFor(const StructureVariant& variant) const;
   const ComputePass& preparationFor(const PrepareVariant& variant) const;
   void recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const;
@@ -36,6 +46,7 @@ class StructureBuilder {
   mutable std::mutex mutex_;  // guards what follows
   mutable std::map<StructureVariant, std::unique_ptr<StructurePasses>> passes_;
   mutable std::map<PrepareVariant, std::unique_ptr<ComputePass>> preparations_;
+  mutable std::unique_ptr<ApronPasses> apron_passes_;
 };
 
 }  // namespace viewloom

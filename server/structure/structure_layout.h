@@ -41,15 +41,15 @@ inline uint32_t colorFormat(ColorStorage storage) {
   switch (storage) {
     case ColorStorage::kRgba8Srgb:
       return abi::kColorRgba8;
-    case ColorStorage::kRgb11Root:
-      return abi::kColorRgb11;
+    case ColorStorage::kRgb16Root:
+      return abi::kColorRgb16;
     default:
       return abi::kColorRgba16f;
   }
 }
 
 inline uint32_t texelBytes(ColorStorage storage) {
-  return storage == ColorStorage::kRgba16fLinear ? 8 : 4;
+  return storage == ColorStorage::kRgba8Srgb ? 4 : 8;
 }
 
 inline uint64_t colorBytes(ColorStorage storage, SizePx color_px) {

@@ -4,12 +4,15 @@
 #include "shaders/build_blocks.h"
 #include "shaders/build_facets.h"
 #include "shaders/build_level.h"
+#include "shaders/color_apron.h"
 #include "shaders/convert_color.h"
+#include "shaders/fill_apron.h"
 #include "shaders/flatten_entries.h"
 #include "shaders/measure_depth.h"
 #include "shaders/prepare_columns.h"
 #include "shaders/settle_tolerance.h"
 #include "shaders/smooth_columns.h"
+#include "shared/cube_abi.h"
 #include "shared/structure_abi.h"
 
 namespace viewloom {
@@ -38,6 +41,15 @@ ComputePass makePass(const Device& device, const StructureVariant& variant,
                               .debug_name = name});
 }
 
+ComputePass makeApronPass(const Device& device, std::span<const uint32_t> spirv, const char* name) {
+  constexpr uint32_t kByAddress[] = {1, 1};
+  return ComputePass(device, {.spirv = spirv,
+                              .push_bytes = sizeof(abi::ApronPush),
+                              .specialization = kByAddress,
+                              .descriptors = kSlots,
+                              .debug_name = name});
+}
+
 }  // namespace
 
 StructurePasses::StructurePasses(const Device& device, const StructureVariant& variant)
@@ -51,6 +63,10 @@ StructurePasses::StructurePasses(const Device& device, const StructureVariant& v
           makePass(device, variant, build_blocks_spirv, {variant.layer_count}, "build blocks")),
       build_level(makePass(device, variant, build_level_spirv, {}, "build level")),
       flatten_entries(makePass(device, variant, flatten_entries_spirv, {}, "flatten entries")) {}
+
+ApronPasses::ApronPasses(const Device& device)
+    : fill_apron(makeApronPass(device, fill_apron_spirv, "fill apron")),
+      color_apron(makeApronPass(device, color_apron_spirv, "color apron")) {}
 
 ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant) {
   return makePass(device, variant.structure, prepare_columns_spirv,

@@ -38,6 +38,14 @@ struct PrepareVariant {
   auto operator<=>(const PrepareVariant&) const = default;
 };
 
+// Of cube maps: for any layers, reached by address.
+struct ApronPasses {
+  explicit ApronPasses(const Device& device);
+
+  ComputePass fill_apron;
+  ComputePass color_apron;
+};
+
 ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant);
 ComputePass makeConvertColor(const Device& device);
 

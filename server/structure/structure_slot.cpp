@@ -4,83 +4,38 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include <glm/common.hpp>
 
+#include "base/check.h"
+#include "frame/cube_map.h"
 #include "frame/depth.h"
+#include "structure/array_options.h"
 #include "structure/describe_planes.h"
 
 namespace viewloom {
 namespace {
 
-// Layers may differ in size: all take the room of the largest.
-uint64_t colorLayerBytes(const FrameShape& shape) {
-  uint64_t largest_bytes = 0;
-  for (const SizePx& color_px : shape.color_px) {
-    largest_bytes = std::max(largest_bytes, colorBytes(shape.color_storage, color_px));
+// A face of the stacked ones, into a plane with room for an apron around it.
+void copyWithinApron(std::span<const uint8_t> faces, uint32_t face, SizePx with_apron_px,
+                     std::byte* to) {
+  const size_t side_px = with_apron_px.width - 2 * abi::kCubeApron_px;
+  const size_t texel_bytes = faces.size() / (kCubeFaceCount * side_px * side_px);
+  const size_t row_bytes = side_px * texel_bytes;
+  for (size_t row = 0; row < side_px; ++row) {
+    const size_t first_px = (row + abi::kCubeApron_px) * with_apron_px.width + abi::kCubeApron_px;
+    std::memcpy(to + first_px * texel_bytes, &faces[(face * side_px + row) * row_bytes], row_bytes);
   }
-  return largest_bytes;
-}
-
-// Where the device's memory is the CPU's, colour that stays as it came is written in its place.
-bool writesColorInPlace(const Device& device, const FrameShape& shape) {
-  return device.info().shares_memory && shape.color_storage == ColorStorage::kRgba8Srgb;
-}
-
-LayeredBufferOptions colorOptions(const Device& device, const FrameShape& shape) {
-  const uint32_t texel_bytes = texelBytes(shape.color_storage);
-  return {.layer_bytes = colorLayerBytes(shape),
-          .layer_count = shape.layerCount(),
-          .texel_format = texel_bytes == 4 ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
-          .texel_bytes = texel_bytes,
-          .intent =
-              writesColorInPlace(device, shape) ? MemoryIntent::kUpload : MemoryIntent::kDeviceOnly,
-          .debug_name = "color"};
-}
-
-LayeredBufferOptions invZOptions(const FrameShape& shape) {
-  return {.layer_bytes = structureLayout(shape.depth_px).invZBytes(),
-          .layer_count = shape.layerCount(),
-          .texel_format = vk::Format::eR32Sfloat,
-          .texel_bytes = 4,
-          .debug_name = "inv_z"};
-}
-
-LayeredBufferOptions structureOptions(const FrameShape& shape) {
-  return {.layer_bytes = structureLayout(shape.depth_px).layerBytes(),
-          .layer_count = shape.layerCount(),
-          .texel_format = vk::Format::eR32G32Uint,
-          .texel_bytes = 8,
-          .has_half_texels = true,
-          .debug_name = "structure"};
-}
-
-bool mustDivide(const Device& device, const FrameShape& shape) {
-  return LayeredBuffer::mustDivide(device, colorOptions(device, shape)) ||
-         LayeredBuffer::mustDivide(device, invZOptions(shape)) ||
-         LayeredBuffer::mustDivide(device, structureOptions(shape)) ||
-         shape.staged_bytes / sizeof(uint32_t) > device.info().limits.texel_count_max;
-}
-
-LayeredBufferOptions divided(LayeredBufferOptions options, bool is_divided) {
-  options.is_divided = is_divided;
-  return options;
 }
 
 }  // namespace
 
-StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
-    : StructureSlot(device, shape, mustDivide(device, shape)) {}
-
-StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool is_divided)
-    : shape_(shape),
-      layout_(structureLayout(shape.depth_px)),
-      color_is_in_place_(writesColorInPlace(device, shape)),
-      staging_(device,
-               {.size_bytes = color_is_in_place_ ? shape.staged_depth_bytes : shape.staged_bytes,
-                .intent = MemoryIntent::kUpload,
-                .debug_name = "staged planes"}),
-      staging_texels_(is_divided ? TexelView() : TexelView(device, staging_, vk::Format::eR32Uint)),
+StructureSlot::StructureSlot(const Device& device, BuildMemoryPtr build_memory)
+    : shape_(build_memory->shape()),
+      build_memory_(std::move(build_memory)),
+      layout_(structureLayout(shape_.depth_px)),
+      color_is_in_place_(writesColorInPlace(device, shape_)),
       depth_planes_upload_(device, {.size_bytes = sizeof(abi::DepthPlanes),
                                     .intent = MemoryIntent::kUpload,
                                     .debug_name = "depth planes"}),
@@ -88,12 +43,20 @@ StructureSlot::StructureSlot(const Device& device, const FrameShape& shape, bool
       measured_readback_(device, {.size_bytes = sizeof(abi::MeasuredHead),
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "measured readback"}),
-      color_(device, divided(colorOptions(device, shape), is_divided)),
-      inv_z_(device, divided(invZOptions(shape), is_divided)),
-      structure_(device, divided(structureOptions(shape), is_divided)),
-      writes_by_address_(!inv_z_.fitsStorage(device) || !structure_.fitsStorage(device)) {
-  staged_.reserve(shape.layerCount());
-  conversions_.reserve(shape.layerCount());
+      color_(device, colorOptions(device, shape_)),
+      mean_color_(std::make_unique<MeanColor>(device, meanColorOptions(device, shape_))),
+      structure_(device, structureOptions(device, shape_)),
+      writes_by_address_(!invZ().fitsStorage(device) || !structure_.fitsStorage(device)) {
+  staged_.reserve(shape_.layerCount());
+  conversions_.reserve(shape_.layerCount());
+}
+
+StructureSlot::StructureSlot(const Device& device, const FrameShape& shape)
+    : StructureSlot(device, std::make_shared<BuildMemory>(device, shape)) {}
+
+void StructureSlot::buildIn(BuildMemoryPtr build_memory) {
+  VIEWLOOM_CHECK(build_memory->shape() == shape_);
+  build_memory_ = std::move(build_memory);
 }
 
 uint32_t StructureSlot::colorStride() const {
@@ -115,30 +78,38 @@ Descriptor StructureSlot::depthPlanesDescriptor() const {
 }
 
 Descriptor StructureSlot::stagingDescriptor() const {
-  if (staging_texels_.isEmpty()) return structure_.asTexels(abi::kBindingSamples);
-  return {.binding = abi::kBindingSamples,
-          .kind = DescriptorKind::kTexels,
-          .texels = staging_texels_.handle()};
+  const TexelView& texels = build_memory_->stagingTexels();
+  if (texels.isEmpty()) return structure_.asTexels(abi::kBindingSamples);
+  return {
+      .binding = abi::kBindingSamples, .kind = DescriptorKind::kTexels, .texels = texels.handle()};
 }
 
-void StructureSlot::upload(const Frame& frame, size_t source) {
-  staged_ = stagedLayers(frame, source);
-  source_camera_ = frame.format.sources[source].camera;
-  std::byte* const staging = staging_.mapped().data();
+void StructureSlot::upload(const Frame& frame, const SourcePart& part) {
+  staged_ = stagedLayers(frame, part);
+  mean_color_->forget();
+  source_camera_ = cameraOf(frame.format, part);
+  std::byte* const upload = staging().mapped().data();
   for (uint32_t i = 0; i < staged_.size(); ++i) {
-    const LayerPlanes& planes = frame.sources[source][i];
+    const LayerPlanes& planes = frame.sources[part.source][i];
     std::byte* const color =
-        color_is_in_place_ ? color_.mapped(i).data() : staging + staged_[i].color.offset;
-    std::memcpy(staging + staged_[i].depth.offset, planes.depth->data(), planes.depth->size());
-    std::memcpy(color, planes.color->data(), planes.color->size());
+        color_is_in_place_ ? color_.mapped(i).data() : upload + staged_[i].color.offset;
+    const size_t depth_bytes = staged_[i].depth.size_bytes;
+    const uint32_t face = part.face.value_or(0);
+    std::memcpy(upload + staged_[i].depth.offset, planes.depth->data() + face * depth_bytes,
+                depth_bytes);
+    if (part.face) {
+      copyWithinApron(*planes.color, face, shape_.color_px[i], color);
+    } else {
+      std::memcpy(color, planes.color->data(), planes.color->size());
+    }
   }
-  describe(frame, source);
+  describe(frame, part);
 }
 
-void StructureSlot::describe(const Frame& frame, size_t source_index) {
-  const SourceFormat& source = frame.format.sources[source_index];
-  const Intrinsics& intrinsics = source.camera.intrinsics;
-  depth_planes_ = {.samples = addressWords(staging_.address()),
+void StructureSlot::describe(const Frame& frame, const SourcePart& part) {
+  const SourceFormat& source = frame.format.sources[part.source];
+  const Intrinsics& intrinsics = source_camera_.intrinsics;
+  depth_planes_ = {.samples = addressWords(staging().address()),
                    .focal_px = abi::vec2(intrinsics.focal_px),
                    .principal_px = abi::vec2(intrinsics.principal_px),
                    .planes = {}};
@@ -147,13 +118,14 @@ void StructureSlot::describe(const Frame& frame, size_t source_index) {
     const uint32_t layer = uint32_t(i);
     depth_planes_.planes[i] = describeDepth(source.layers[i].depth, staged_[i].depth.offset);
     abi::ConvertColorPush color =
-        describeConversion(source.layers[i].color, frame.sources[source_index][i].color_encoding,
+        describeConversion(source.layers[i].color, frame.sources[part.source][i].color_encoding,
                            frame.format.exposure_ev);
-    color.from = addressWords(staging_.address() + staged_[i].color.offset);
+    color.texel_count = uint32_t(shape_.color_px[i].area());
+    color.from = addressWords(staging().address() + staged_[i].color.offset);
     color.to = addressWords(color_.address(layer));
     color.to_format = colorFormat(shape_.color_storage);
     conversions_.push_back(color);
-    build_.inv_z[i] = addressWords(inv_z_.address(layer));
+    build_.inv_z[i] = addressWords(invZ().address(layer));
     build_.layers[i] = addressWords(structure_.address(layer));
   }
   std::memcpy(depth_planes_upload_.mapped().data(), &depth_planes_, sizeof depth_planes_);
@@ -161,6 +133,7 @@ void StructureSlot::describe(const Frame& frame, size_t source_index) {
   build_.width_px = shape_.depth_px.width;
   build_.height_px = shape_.depth_px.height;
   build_.layer_count = shape_.layerCount();
+  build_.apron_px = part.face ? abi::kCubeApron_px : 0;
   build_.given_kappa = float(source.connection_tolerance);
   build_.format_step = {};
   for (const LayerFormat& layer : source.layers) {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GPU resources of one source's structure, reused from frame to frame.
+// The GPU resources of one part's structure, reused from frame to frame.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 #include "shared/structure_abi.h"
+#include "structure/build_memory.h"
 #include "structure/frame_shape.h"
-#include "structure/layered_buffer.h"
+#include "structure/mean_color.h"
 #include "structure/structure_layout.h"
 
 namespace viewloom {
@@ -19,14 +21,19 @@ namespace viewloom {
 class StructureSlot {
  public:
   // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  StructureSlot(const Device& device, BuildMemoryPtr build_memory);
+  // Shares no memory with others.
   StructureSlot(const Device& device, const FrameShape& shape);
 
-  // Copies the planes of a source into mapped memory. It has this slot's shape.
-  void upload(const Frame& frame, size_t source = 0);
+  // The next upload and build take place there. It has this slot's shape.
+  void buildIn(BuildMemoryPtr build_memory);
+
+  // Copies the planes of a part into mapped memory. It has this slot's shape.
+  void upload(const Frame& frame, const SourcePart& part = {});
 
   const FrameShape& shape() const { return shape_; }
   const StructureLayout& layout() const { return layout_; }
-  // Of the uploaded source.
+  // Of the uploaded part.
   const Camera& sourceCamera() const { return source_camera_; }
   // Once the build's submission is done.
   SourceStats stats() const;
@@ -39,11 +46,13 @@ class StructureSlot {
   // Colour needs no pass: it was uploaded to where it is read.
   bool colorIsInPlace() const { return color_is_in_place_; }
 
-  const Buffer& staging() const { return staging_; }
+  const Buffer& staging() const { return build_memory_->staging(); }
   const std::vector<StagedLayer>& staged() const { return staged_; }
-  const LayeredBuffer& color() const { return color_; }          // texels
-  uint32_t colorStride() const;                                  // texels from layer to layer
-  const LayeredBuffer& invZ() const { return inv_z_; }           // float, abi::invZIndex
+  const LayeredBuffer& color() const { return color_; }  // texels
+  uint32_t colorStride() const;                          // texels from layer to layer
+  MeanColor& meanColor() const { return *mean_color_; }  // of the uploaded source
+  const LayeredBuffer& meansAlongY() const { return build_memory_->meansAlongY(); }
+  const LayeredBuffer& invZ() const { return build_memory_->invZ(); }
   const LayeredBuffer& structure() const { return structure_; }  // cells, then links
   const Buffer& measured() const { return measured_; }
   const Buffer& measuredReadback() const { return measured_readback_; }
@@ -58,21 +67,18 @@ class StructureSlot {
   const abi::BuildPush& buildPush() const { return build_; }
 
  private:
-  // Undivided arrays, or all of them divided.
-  StructureSlot(const Device& device, const FrameShape& shape, bool is_divided);
-  void describe(const Frame& frame, size_t source);
+  void describe(const Frame& frame, const SourcePart& part);
 
   FrameShape shape_;
+  BuildMemoryPtr build_memory_;
   StructureLayout layout_;
   Camera source_camera_;
   bool color_is_in_place_;
-  Buffer staging_;
-  TexelView staging_texels_;
   Buffer depth_planes_upload_;
   Buffer measured_;
   Buffer measured_readback_;
   LayeredBuffer color_;
-  LayeredBuffer inv_z_;
+  std::unique_ptr<MeanColor> mean_color_;
   LayeredBuffer structure_;
   bool writes_by_address_;
   std::vector<StagedLayer> staged_;

@@ -44,10 +44,10 @@ HWY_INLINE void projectEdges(const Steps& steps, Travel travel, const SweepView&
     const auto counts = hn::And(exists, hn::FirstN(kInts, steps.count - k));
     const size_t at = swept.covering_count;
     const Vec apart = hn::Abs(hn::Sub(p, own));
-    hn::CompressStore(apart, hn::RebindMask(kFloats, counts), kFloats, swept.inv_z_at.data() + at);
-    hn::CompressStore(hn::ConvertTo(kInts, own), counts, kInts, swept.from.data() + at);
-    swept.covering_count += uint32_t(
-        hn::CompressStore(hn::Iota(kInts, int32_t(k)), counts, kInts, swept.covering.data() + at));
+    storeThose(kFloats, apart, hn::RebindMask(kFloats, counts), swept.inv_z_at.data() + at);
+    storeThose(kInts, hn::ConvertTo(kInts, own), counts, swept.from.data() + at);
+    swept.covering_count +=
+        storeThose(kInts, hn::Iota(kInts, int32_t(k)), counts, swept.covering.data() + at);
   }
 }
 

@@ -76,7 +76,10 @@ void slopesOf(const FiveRows& rows, const Neighbors& neighbors, const ByLayer<fl
   for (size_t x = 0; x < rows.width; x += hn::Lanes(kFloats)) {
     for (uint32_t i = 0; i < kLayers; ++i) {
       const Vec inv_z = loadAt(rows.inv_z[2], i, x, 0);
-      hn::StoreU(slopeAlong<kLayers>(neighbors, x, inv_z), kFloats, slope[i] + x);
+      // Deeper layers are mostly empty.
+      const bool is_empty = i > 0 && hn::AllFalse(kFloats, hn::Ge(inv_z, hn::Zero(kFloats)));
+      const Vec slopes = is_empty ? hn::Zero(kFloats) : slopeAlong<kLayers>(neighbors, x, inv_z);
+      hn::StoreU(slopes, kFloats, slope[i] + x);
     }
   }
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/link_kernels.h"
 
-#include "sweep/packed_codes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sweep/link_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sweep/vectors_inl.h"
+#include "sweep/packed_channels_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
@@ -87,6 +85,35 @@ HWY_INLINE IntVec markDeep(IntVec link, Vec far, Vec near) {
                         hn::Set(kInts, int32_t(abi::kDeepEdge)), link);
 }
 
+// Facets on both sides of edges: there, at x + shift.
+struct EdgeSides {
+  const FacetRow& here;
+  const FacetRow& there;
+  int shift;
+};
+
+// Of the edges at x. `exists`: whether there is a facet here; and there.
+template <uint32_t kLayers>
+struct EdgeVectors {
+  EdgeVectors(const EdgeSides& sides, size_t x, const Kappa& kappa) {
+    for (uint32_t i = 0; i < kLayers; ++i) {
+      here[i] = facetAt(loadAt(sides.here.inv_z, i, x, 0), loadAt(sides.here.slope, i, x, 0), 0.5F);
+      there[i] = facetAt(loadAt(sides.there.inv_z, i, x, sides.shift),
+                         loadAt(sides.there.slope, i, x, sides.shift), -0.5F);
+    }
+    linkAcross<kLayers>(here, there, kappa, to_there, to_here);
+    for (uint32_t i = 0; i < kLayers; ++i) {
+      to_there[i] = markDeep(to_there[i], here[i], there[i]);
+      to_here[i] = markDeep(to_here[i], there[i], here[i]);
+    }
+  }
+
+  Vec here[kLayers];
+  Vec there[kLayers];
+  IntVec to_there[kLayers];
+  IntVec to_here[kLayers];
+};
+
 template <uint32_t kLayers>
 HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
                         const ByLayer<uint8_t*>& to_left) {
@@ -96,51 +123,49 @@ HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<u
   }
   // Behind the last column lies the guard: slopes there are not read, as nothing is there.
   for (size_t x = 0; x < row.width; x += hn::Lanes(kFloats)) {
-    Vec here[kLayers];
-    Vec there[kLayers];
-    for (uint32_t i = 0; i < kLayers; ++i) {
-      here[i] = facetAt(loadAt(row.inv_z, i, x, 0), loadAt(row.slope, i, x, 0), 0.5F);
-      there[i] = facetAt(loadAt(row.inv_z, i, x, 1), loadAt(row.slope, i, x, 1), -0.5F);
-    }
-    IntVec right[kLayers];
-    IntVec left[kLayers];
-    linkAcross<kLayers>(here, there, kappa, right, left);
+    const EdgeVectors<kLayers> edges({row, row, 1}, x, kappa);
     for (uint32_t i = 0; i < kLayers; ++i) {
       const Vec zero = hn::Zero(kFloats);
       const IntVec own = hn::Set(kInts, int32_t(i) + 1);
-      const auto exists_here = hn::RebindMask(kInts, hn::Ge(here[i], zero));
-      const auto exists_there = hn::RebindMask(kInts, hn::Ge(there[i], zero));
-      const IntVec marked_right = markDeep(right[i], here[i], there[i]);
-      const IntVec marked_left = markDeep(left[i], there[i], here[i]);
-      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_here, marked_right, own)), kBytes,
+      const auto exists_here = hn::RebindMask(kInts, hn::Ge(edges.here[i], zero));
+      const auto exists_there = hn::RebindMask(kInts, hn::Ge(edges.there[i], zero));
+      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_here, edges.to_there[i], own)), kBytes,
                  to_right[i] + x);
-      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_there, marked_left, own)), kBytes,
+      hn::StoreU(hn::DemoteTo(kBytes, hn::IfThenElse(exists_there, edges.to_here[i], own)), kBytes,
                  to_left[i] + x + 1);
     }
   }
 }
 
 void LinkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
-                 const ByLayer<uint8_t*>& to_left){
-    VIEWLOOM_BY_LAYER_COUNT(row.layer_count, linkRow, row, kappa, to_right, to_left)}
-
-// The codes in one byte of each texel.
-HWY_INLINE Vec codesOf(WordVec texels, int shift) {
-  const WordVec byte = hn::And(hn::ShiftRightSame(texels, shift), hn::Set(kWords, 255U));
-  return hn::ConvertTo(kFloats, hn::BitCast(kInts, byte));
+                 const ByLayer<uint8_t*>& to_left) {
+  VIEWLOOM_BY_LAYER_COUNT(row.layer_count, linkRow, row, kappa, to_right, to_left)
 }
 
-HWY_INLINE WordVec packedBlend(WordVec here, WordVec there, Vec share) {
-  const auto blend = [&](int shift, float steps) {
-    const Vec from = codesOf(here, shift);
-    const Vec to = codesOf(there, shift);
-    const Vec code = hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
-    return hn::BitCast(kWords, hn::NearestInt(hn::Mul(code, set(steps))));
+template <uint32_t kLayers>
+HWY_INLINE void linkTwoRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+                            const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above) {
+  constexpr Bytes kBytes;
+  for (size_t x = 0; x < above.width; x += hn::Lanes(kFloats)) {
+    const EdgeVectors<kLayers> edges({above, below, 0}, x, kappa);
+    for (uint32_t i = 0; i < kLayers; ++i) {
+      hn::StoreU(hn::DemoteTo(kBytes, edges.to_there[i]), kBytes, to_below[i] + x);
+      hn::StoreU(hn::DemoteTo(kBytes, edges.to_here[i]), kBytes, to_above[i] + x);
+    }
+  }
+}
+
+void LinkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+              const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above){
+    VIEWLOOM_BY_LAYER_COUNT(above.layer_count, linkTwoRows, above, below, kappa, to_below,
+                            to_above)}
+
+HWY_INLINE WordVec packedBlend(const Channels& here, const Channels& there, Vec share) {
+  const auto blend = [&](Vec from, Vec to) {
+    return hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
   };
-  const WordVec red = blend(0, kRedSteps);
-  const WordVec green = blend(8, kGreenSteps);
-  const WordVec blue = blend(16, kBlueSteps);
-  return hn::Or(hn::Or(red, hn::ShiftLeft<kGreenShift>(green)), hn::ShiftLeft<kBlueShift>(blue));
+  return packChannels(
+      {blend(here.red, there.red), blend(here.green, there.green), blend(here.blue, there.blue)});
 }
 
 template <uint32_t kLayers>
@@ -168,7 +193,8 @@ HWY_INLINE void blendOf(const TexelRow& row, const Kappa& kappa) {
             hn::RebindMask(kWords, hn::Eq(to_there[i], hn::Set(kInts, int32_t(k) + 1)));
         other = hn::IfThenElse(is_there, hn::LoadU(kWords, row.color_there[k] + x), other);
       }
-      hn::StoreU(packedBlend(own, other, share), kWords, row.texels[i] + x);
+      hn::StoreU(packedBlend(channelsOf<false>(own), channelsOf<false>(other), share), kWords,
+                 row.texels[i] + x);
     }
   }
 }
@@ -184,11 +210,17 @@ HWY_AFTER_NAMESPACE();
 namespace viewloom {
 
 HWY_EXPORT(LinkColumns);
+HWY_EXPORT(LinkRows);
 HWY_EXPORT(BlendRows);
 
 void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left) {
   HWY_DYNAMIC_DISPATCH(LinkColumns)(row, kappa, to_right, to_left);
+}
+
+void linkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+              const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above) {
+  HWY_DYNAMIC_DISPATCH(LinkRows)(above, below, kappa, to_below, to_above);
 }
 
 void blendRows(const TexelRow& row, const Kappa& kappa) {

@@ -17,6 +17,11 @@ namespace viewloom {
 void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left);
 
+// Links between two rows, at the middles of their columns' edges; `slope` is that along y. As of
+// columns, but for 0 where there is no facet.
+void linkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+              const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above);
+
 // Colours of a row between the samples of two rows: of each facet, blended with what it is linked
 // to in the other row, as packed codes (sweep/packed_codes.h).
 struct TexelRow {

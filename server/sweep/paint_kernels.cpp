@@ -13,23 +13,11 @@
 #include <hwy/highway.h>
 
 #include "sweep/hit_painter_inl.h"
+#include "sweep/passed_inl.h"
 #include "sweep/project_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
-
-// inv_z of rays where they cross an edge, along p.
-struct EdgeLine {
-  EdgeLine(const Steps& steps, size_t k, const SweepView& view)
-      : at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
-        step(set(-view.step_px / view.eye_px_m)),
-        low(set(steps.low_inv_z[k])),
-        high(set(steps.high_inv_z[k])) {}
-
-  Vec invZ(Vec p) const { return hn::Min(hn::Max(hn::MulAdd(step, p, at), low), high); }
-
-  Vec at, step, low, high;
-};
 
 HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const SweptRow& swept,
                              const HitPainter& painter) {
@@ -39,66 +27,6 @@ HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const 
     const IntVec texel = hn::Set(kInts, bridges.texel[k]);
     painter.paint(swept.from[k], swept.to[k], [&](Vec p) { return Place{line.invZ(p), texel}; });
   }
-}
-
-// Both lie on the same line where a ray passes behind two layers at one edge; but for rounding.
-constexpr float kSameEdge = 1.0F + 8.0F / 8388608.0F;
-
-// Which of the rays inside are behind all layers before.
-HWY_INLINE Mask reaches(const float* passed_before, int32_t first, Vec inv_z, Mask inside) {
-  if (passed_before == nullptr) return inside;
-  const Vec reach = hn::Mul(hn::Load(kFloats, passed_before + first), set(kSameEdge));
-  return hn::And(inside, hn::Le(inv_z, reach));
-}
-
-// Where rays first pass behind a layer, and where they meet the far side of what they passed last;
-// returns whether any passes. Steps in the order in which rays come to them: who passes one has
-// come out from behind those before, or met the far side before that.
-HWY_INLINE bool paintPassed(const Steps& steps, const SweepView& view, uint32_t layer,
-                            uint32_t width_px, SweptRow& swept) {
-  const uint32_t lanes = uint32_t(hn::Lanes(kFloats));
-  const float* const passed_before = layer == 0 ? nullptr : swept.passed_inv_z[layer - 1].data();
-  float* const passed = swept.passed_inv_z[layer].data();
-  float* const met = swept.met_inv_z[layer].data();
-  uint64_t* const marks = swept.passed_vectors[layer].data();
-  for (size_t p = 0; p < width_px; p += lanes) {
-    hn::Store(set(-1), kFloats, passed + p);
-    hn::Store(set(-1), kFloats, met + p);
-  }
-  std::fill_n(marks, width_px / (64 * lanes) + 1, uint64_t{0});
-  const uint32_t count = swept.covering_count;
-  const float px_per_inv_z = std::abs(view.eye_px_m);
-  for (uint32_t i = 0; i < count; ++i) {
-    const size_t k = size_t(swept.covering[view.eye_px_m > 0 ? count - 1 - i : i]);
-    const EdgeLine line(steps, k, view);
-    // Who passes it further up comes out before.
-    const Vec meets_up_to = set(steps.low_inv_z[k] + steps.behind_px[k] / px_per_inv_z);
-    forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
-      const Vec inv_z = line.invZ(p);
-      const Mask passes = reaches(passed_before, first, inv_z, inside);
-      const Vec before = hn::Load(kFloats, passed + first);
-      hn::Store(hn::Max(before, hn::IfThenElse(passes, inv_z, before)), kFloats, passed + first);
-      const Vec met_before = hn::Load(kFloats, met + first);
-      const Vec far = hn::IfThenElse(hn::Le(inv_z, meets_up_to), line.low, set(-1));
-      const Mask is_new = hn::And(passes, hn::Le(met_before, inv_z));
-      hn::Store(hn::IfThenElse(is_new, far, met_before), kFloats, met + first);
-      const uint32_t vector = uint32_t(first) / lanes;
-      marks[vector / 64] |= uint64_t{1} << (vector % 64);
-    });
-  }
-  return count > 0;
-}
-
-// Takes back what of the nearest layer lies beyond its far side.
-HWY_INLINE void dropBeyondFarSide(uint32_t width_px, SweptRow& swept) {
-  const float* const met = swept.met_inv_z[0].data();
-  float* const inv_z_row = swept.inv_z.data();
-  forMarkedVectors(swept.passed_vectors[0].data(), 0, int32_t(width_px),
-                   [&](int32_t begin, Vec /*p*/, Mask /*inside*/) {
-                     const Vec inv_z = hn::Load(kFloats, inv_z_row + begin);
-                     const Mask is_hit = hn::Gt(inv_z, hn::Load(kFloats, met + begin));
-                     hn::Store(hn::IfThenElse(is_hit, inv_z, set(-1)), kFloats, inv_z_row + begin);
-                   });
 }
 
 // What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
@@ -139,28 +67,6 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
   }
 }
 
-// Where rays pass behind layers, and where what they hit of each ends: at the far side of it, or of
-// a deeper one. Behind a layer that no ray passes, none passes another.
-HWY_INLINE void findPassed(const SurfaceRow& row, const SweepView& view, size_t travel,
-                           uint32_t width_px, SweptRow& swept) {
-  for (uint32_t i = 0; i < row.layer_count; ++i) {
-    const Steps& steps = row.layers[i].silhouettes[travel];
-    projectSteps(steps, view, float(width_px), swept);
-    if (!paintPassed(steps, view, i, width_px, swept)) break;
-    swept.passed_layer_count = i + 1;
-  }
-  for (uint32_t i = swept.passed_layer_count; i > 1; --i) {
-    float* const met = swept.met_inv_z[i - 2].data();
-    const float* const met_deeper = swept.met_inv_z[i - 1].data();
-    forMarkedVectors(swept.passed_vectors[i - 1].data(), 0, int32_t(width_px),
-                     [&](int32_t first, Vec /*p*/, Mask /*inside*/) {
-                       const Vec here = hn::Load(kFloats, met + first);
-                       const Vec deeper = hn::Load(kFloats, met_deeper + first);
-                       hn::Store(hn::Max(here, deeper), kFloats, met + first);
-                     });
-  }
-}
-
 // Hits of all layers, and where rays pass behind them; false: behind none.
 bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
                  uint32_t width_px, SweptRow& swept) {
@@ -169,7 +75,7 @@ bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& 
   const bool crosses_edges = view.eye_px_m != 0;
   const bool is_dropped = fill.planted_fault == SweepFault::kLayerDropped;
   swept.passed_layer_count = 0;
-  if (crosses_edges) findPassed(row, view, travel, width_px, swept);
+  if (crosses_edges) findPassed(row, view, fill, width_px, swept);
   const uint32_t hit_count =
       is_dropped ? 1 : std::min(swept.passed_layer_count + 1, row.layer_count);
   for (uint32_t i = 0; i < hit_count; ++i) {

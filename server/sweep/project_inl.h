@@ -26,8 +26,7 @@ HWY_INLINE void noteCovering(size_t k, size_t count, IntVec from, IntVec to, Swe
   hn::StoreU(to, kInts, swept.to.data() + k);
   const auto covers = hn::And(hn::Lt(from, to), hn::FirstN(kInts, count - k));
   int32_t* const end = swept.covering.data() + swept.covering_count;
-  swept.covering_count +=
-      uint32_t(hn::CompressStore(hn::Iota(kInts, int32_t(k)), covers, kInts, end));
+  swept.covering_count += storeThose(kInts, hn::Iota(kInts, int32_t(k)), covers, end);
 }
 
 // The px that each run covers, and its line and texels over them: at + step p.

@@ -97,6 +97,7 @@ struct SurfaceRow {
   MixedTexels mixed;
   float clean = 0;                      // how far mixed texels have given way, 0..1
   AlignedArray<int32_t> nearest_texel;  // [column]: of layer 0, 256 times its index; -1: none
+  ByLayer<const float*> inv_z{};        // of the samples, [column]
   float left_inv_z = 0;                 // of layer 0 at the border of the image; kNoSurface
   float right_inv_z = 0;
 

@@ -7,28 +7,13 @@
 #include "sweep/link_bytes.h"
 
 namespace viewloom {
-namespace {
-
-constexpr uint32_t kSlack = 64;  // what vectors read and write beyond the width
-
-FiveRows rowsAround(const DepthColumns& columns, int y) {
-  FiveRows rows{.inv_z = {}, .layer_count = columns.layerCount(), .width = columns.sizePx().width};
-  for (int k = 0; k < 5; ++k) {
-    for (uint32_t i = 0; i < rows.layer_count; ++i) {
-      rows.inv_z[size_t(k)][i] = columns.row(i, y + k - 2);
-    }
-  }
-  return rows;
-}
-
-}  // namespace
 
 void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
   const uint32_t width = columns.sizePx().width;
   if (width == width_ && columns.layerCount() == layer_count_) return;
   width_ = width;
   layer_count_ = columns.layerCount();
-  const uint32_t size = width + kSlack;
+  const uint32_t size = width + kRowSlack;
   inverse_.reserve(size);
   for (uint32_t n = 1; n < size; ++n) inverse_[n] = 1.0F / float(n);
   for (uint32_t i = 0; i < layer_count_; ++i) {
@@ -43,7 +28,13 @@ void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
     }
     layer.texel.reserve(size);
   }
+  chain_.reserve(size_t{width_} * layer_count_ + 2 * kRowSlack);
   made_.reserve(width_, layer_count_);
+}
+
+void SurfaceRowBuilder::begin(const RowSource& source, const ColorReach& reach) {
+  averaged_.begin(source, reach.y_px);
+  reach_x_px_ = reach.x_px;
 }
 
 SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float tolerance,
@@ -77,41 +68,43 @@ SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float
 void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
   const FiveRows rows = rowsAround(*source.columns, y);
   inv_z_ = rows.inv_z[2];
+  made_.inv_z = inv_z_;
   FacetRow facets{.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
   ByLayer<float*> slope_x{};
   ByLayer<float*> slope_y{};
-  ByLayer<const float*> const_slope_y{};
   ByLayer<uint8_t*> to_right{};
   ByLayer<uint8_t*> to_left{};
   EdgeRow edges{};
   for (uint32_t i = 0; i < layer_count_; ++i) {
     LayerScratch& layer = layers_[i];
     facets.slope[i] = slope_x[i] = layer.slope_x.data();
-    const_slope_y[i] = slope_y[i] = layer.slope_y.data();
+    slope_y[i] = layer.slope_y.data();
+    slope_y_[i] = layer.slope_y.data();
     to_right[i] = layer.to_right.data();
     to_left[i] = layer.to_left.data();
     edges.left[i] = layer.left.data();
     edges.right[i] = layer.right.data();
   }
-  findSlopesX(rows, slope_x);
-  findSlopesY(rows, slope_y);
-  linkColumns(facets, source.kappa, to_right, to_left);
+  if (averaged_.isNeeded()) {
+    slope_y_ = averaged_.slopesAlongY(y);
+    const RowColumns columns = averaged_.columnsOf(y);
+    for (uint32_t i = 0; i < layer_count_; ++i) {
+      std::copy_n(columns.slope_x[i], width_, slope_x[i]);
+      std::copy_n(columns.to_right[i], width_, to_right[i]);
+      std::copy_n(columns.to_left[i], width_, to_left[i]);
+    }
+  } else {
+    findSlopesX(rows, slope_x);
+    findSlopesY(rows, slope_y);
+    linkColumns(facets, source.kappa, to_right, to_left);
+  }
   for (uint32_t i = 0; hasFault(SweepFault::kCrossLinks) && i < layer_count_; ++i) {
     for (uint8_t* links : {to_right[i], to_left[i]}) {
       std::replace_if(
           links, links + width_, [&](uint8_t link) { return link != i + 1; }, 0);
     }
   }
-  some_fall_ = findEdges(facets, const_slope_y, dy, edges);
-}
-
-// A vector may read beyond the last px of a plane: of its last row, a copy.
-const uint32_t* SurfaceRowBuilder::colorRow(const RowSource& source, uint32_t layer, int y,
-                                            AlignedArray<uint32_t>& copy) const {
-  const uint32_t* const row = source.color[layer] + size_t(y) * width_;
-  if (uint32_t(y) + 1 < source.columns->sizePx().height && width_ >= kSlack) return row;
-  std::copy_n(row, width_, copy.data());
-  return copy.data();
+  some_fall_ = findEdges(facets, slope_y_, dy, edges);
 }
 
 void SurfaceRowBuilder::blendTexels(const RowSource& source, int y, float dy) {
@@ -119,20 +112,26 @@ void SurfaceRowBuilder::blendTexels(const RowSource& source, int y, float dy) {
   const bool is_below = dy > 0;
   const int y_there = y + (is_below ? 1 : -1);
   const bool has_there = y_there >= 0 && y_there < int(source.columns->sizePx().height);
+  const float share = has_there ? float(steps) / kSubtexelSteps : 0;
+  ByLayer<uint32_t*> texels{};
+  for (uint32_t i = 0; i < layer_count_; ++i) texels[i] = layers_[i].texels.data();
+  if (averaged_.isNeeded()) {
+    averaged_.blend({.y = y, .is_below = is_below, .share = share}, texels);
+    return;
+  }
   const FiveRows rows_there = rowsAround(*source.columns, has_there ? y_there : y);
-  TexelRow row{.share = has_there ? float(steps) / kSubtexelSteps : 0, .is_below = is_below};
-  row.here = {.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
+  TexelRow row{.share = share, .is_below = is_below, .texels = texels};
+  row.here = {.inv_z = inv_z_, .slope = slope_y_, .layer_count = layer_count_, .width = width_};
   row.there = {
       .inv_z = rows_there.inv_z[2], .slope = {}, .layer_count = layer_count_, .width = width_};
   ByLayer<float*> slope_there{};
   for (uint32_t i = 0; i < layer_count_; ++i) {
     LayerScratch& layer = layers_[i];
     slope_there[i] = layer.slope_y_there.data();
-    row.here.slope[i] = layer.slope_y.data();
     row.there.slope[i] = slope_there[i];
-    row.color_here[i] = colorRow(source, i, y, layer.color_here);
-    row.color_there[i] = colorRow(source, i, has_there ? y_there : y, layer.color_there);
-    row.texels[i] = layer.texels.data();
+    row.color_here[i] = readableColorRow(source, i, y, layer.color_here.data());
+    row.color_there[i] =
+        readableColorRow(source, i, has_there ? y_there : y, layer.color_there.data());
   }
   if (row.share > 0) findSlopesY(rows_there, slope_there);
   blendRows(row, source.kappa);
@@ -165,12 +164,26 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
     layer = own.to_right[last] - 1U;
     column = last + 1;
   }
+  if (reach_x_px_ > 0) averageAlong(base + 1, texel, begins_deep, ends_deep);
   texels[base] = texels[base + 1];
   texel_layer[base] = texel_layer[base + 1];
   texels[texel] = texels[texel - 1];
   texel_layer[texel] = texel_layer[texel - 1];
   made_.texel_count = texel + 1;
   noteMixed(base, begins_deep, ends_deep);
+}
+
+// Of a surface that has just been followed, from texel `first` to the last.
+void SurfaceRowBuilder::averageAlong(uint32_t first, uint32_t end, bool begins_deep,
+                                     bool ends_deep) {
+  uint32_t* const chain = chain_.data() + kRowSlack;
+  std::copy(&made_.texels[first], &made_.texels[0] + end, chain);
+  averageChain({.texels = chain,
+                .count = end - first,
+                .is_first_mixed = begins_deep,
+                .is_last_mixed = ends_deep,
+                .reach_px = reach_x_px_},
+               &made_.texels[first]);
 }
 
 // The texels of the surface that begins at `base`, and of its copies at both ends. Of a surface of

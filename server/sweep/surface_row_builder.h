@@ -4,24 +4,18 @@
 
 #include <cstdint>
 
-#include "frame/frame.h"
+#include "sweep/averaged_color.h"
 #include "sweep/link_kernels.h"
+#include "sweep/row_source.h"
 #include "sweep/surface_row.h"
-#include "sweep/sweep_fault.h"
 
 namespace viewloom {
-
-// What rows are made of. Colour planes are opaque sRGB, RGBA8, of the depth planes' size.
-struct RowSource {
-  const DepthColumns* columns = nullptr;
-  ByLayer<const uint32_t*> color{};  // uint32[height][width]
-  Kappa kappa;
-  SweepFault planted_fault = SweepFault::kNone;
-};
 
 // Keeps what rows need on their way. Thread-safety: none; one a thread.
 class SurfaceRowBuilder {
  public:
+  // For rows of this source, as it is now; colour is averaged so far.
+  void begin(const RowSource& source, const ColorReach& reach);
   // The surfaces at height `y_px` of the source, straight within `tolerance`, 1/m; until the next.
   // Views move by at most `px_per_inv_z` along the row.
   SurfaceRow& build(const RowSource& source, double y_px, float tolerance, float px_per_inv_z);
@@ -45,9 +39,8 @@ class SurfaceRowBuilder {
   void reserve(const DepthColumns& columns);
   void findFacets(const RowSource& source, int y, float dy);
   void blendTexels(const RowSource& source, int y, float dy);
-  const uint32_t* colorRow(const RowSource& source, uint32_t layer, int y,
-                           AlignedArray<uint32_t>& copy) const;
   void followSurface(uint32_t layer, uint32_t column);
+  void averageAlong(uint32_t first, uint32_t end, bool begins_deep, bool ends_deep);
   void noteMixed(uint32_t base, bool begins_deep, bool ends_deep);
   void followPiece(Surface& surface, uint32_t layer, uint32_t first, uint32_t last);
   void followFallingFacet(Surface& surface, uint32_t layer, uint32_t column);
@@ -66,8 +59,12 @@ class SurfaceRowBuilder {
   AlignedArray<float> inverse_;  // [n] = 1 / n
   ByLayer<LayerScratch> layers_;
   ByLayer<const float*> inv_z_{};
+  ByLayer<const float*> slope_y_{};
   Kappa kappa_;
   SweepFault planted_fault_ = SweepFault::kNone;
+  AveragedColor averaged_;
+  float reach_x_px_ = 0;
+  AlignedArray<uint32_t> chain_;  // texels of a surface, with room before and behind
   float tolerance_ = 0;
   float px_per_inv_z_ = 0;
   bool some_fall_ = false;  // facets below the sky

@@ -74,6 +74,8 @@ bool SurfaceRowBuilder::isKnownBehind(uint32_t layer, Travel travel, uint32_t co
     return std::max(inv_z_[of_layer][x] + (is_right ? rise : -rise), 0.0F);
   };
   const float far = atEdge(layer, goes_left ? column + 1 : column - 1, !goes_left);
+  // Where the row is not in the middle, the edge may be one there that rays pass the other way.
+  if (atEdge(layer, column, goes_left) <= far) return false;
   for (uint32_t i = layer + 1; i < layer_count_; ++i) {
     if (inv_z_[i][column] < 0) continue;
     const float behind = atEdge(i, column, goes_left);

@@ -18,10 +18,11 @@ enum class SweepFault : uint8_t {
   kGoesOnBehind,   // who is behind a surface comes out where it goes on in a deeper layer
   kEntryInFront,   // who enters from the side is in front
   // In what rays meet.
-  kLayerDropped,   // only layer 0 is painted
-  kPassedIgnored,  // deeper layers are hit before the one before them was passed
-  kLastWins,       // what is painted last hides what is nearer
-  kFarSideEnds,    // far sides end at their silhouettes
+  kLayerDropped,    // only layer 0 is painted
+  kPassedIgnored,   // deeper layers are hit before the one before them was passed
+  kLastWins,        // what is painted last hides what is nearer
+  kFarSideEnds,     // far sides end at their silhouettes
+  kFarSideEndless,  // far sides go on however far
 };
 
 }  // namespace viewloom

@@ -38,7 +38,7 @@ SweepView sweepView(const abi::ViewParams& tile) {
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
-  if (job.source_count != 1) return std::nullopt;
+  if (job.walk_count != 1) return std::nullopt;
   const SizePx tile_px = job.layout->tile_size_px;
   const bool is_swept = std::all_of(job.tiles.begin(), job.tiles.end(), [&](const auto& tile) {
     return tile.is_used == 0 || canSweep(tile, tile_px, inv_z_max);
@@ -46,6 +46,7 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
   if (!is_swept) return std::nullopt;
   SweepPlan plan;
   plan.tile_height_ = tile_px.height;
+  plan.color_reach_ = viewloom::colorReach(job.tiles, tile_px);
   for (uint32_t index = 0; index < job.tiles.size(); ++index) {
     const abi::ViewParams& tile = job.tiles[index];
     plan.views_.push_back(tile.is_used == 0 ? SweepView{} : sweepView(tile));

@@ -34,6 +34,9 @@ class SweepPlan {
     return groups_.size() == 1 ? wanted : ColorForm::kRgba;
   }
 
+  // How far colour is averaged.
+  const ColorReach& colorReach() const { return color_reach_; }
+
   // Tile row r of group g is row g * height + r of the plan.
   uint32_t rowCount() const { return uint32_t(groups_.size()) * tile_height_; }
   uint32_t tileRow(uint32_t row) const { return row % tile_height_; }
@@ -44,6 +47,7 @@ class SweepPlan {
   void addTile(uint32_t index, const abi::ViewParams& tile);
 
   uint32_t tile_height_ = 1;
+  ColorReach color_reach_;
   std::vector<SweptTiles> groups_;
   std::vector<SweepView> views_;  // [tile]
 };

@@ -19,7 +19,7 @@ uint32_t pieceCount(size_t count, uint32_t per_piece) {
 }  // namespace
 
 bool canSweep(const Frame& frame) {
-  if (frame.sources.size() != 1) return false;
+  if (frame.sources.size() != 1 || frame.format.sources.front().is_cube_map) return false;
   const std::vector<LayerPlanes>& planes = frame.sources.front();
   const std::vector<LayerFormat>& layers = frame.format.sources.front().layers;
   const SizePx size_px = layers.front().depth.size_px;

@@ -37,6 +37,14 @@ HWY_INLINE Mask noLane() {
   return hn::FirstN(kFloats, 0);
 }
 
+// Writes those lanes of a vector one after the other, and whatever else up to a whole vector;
+// returns how many. Compressed in a register: some CPUs write compressed lanes one by one.
+template <class Tag, class Value, class Lanes>
+HWY_INLINE uint32_t storeThose(Tag tag, Value value, Lanes those, hn::TFromD<Tag>* to) {
+  hn::StoreU(hn::Compress(value, those), tag, to);
+  return uint32_t(hn::CountTrue(tag, those));
+}
+
 // `shift` columns beside `x`, of a row of a layer.
 HWY_INLINE Vec loadAt(const ByLayer<const float*>& rows, uint32_t layer, size_t x, int shift) {
   return hn::LoadU(kFloats, rows[layer] + x + shift);

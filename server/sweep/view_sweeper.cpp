@@ -114,6 +114,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);
+  builder_.begin(picture.source, picture.plan->colorReach());
   if (outputs.color == ColorForm::kRgba) {
     for (uint32_t index = first_row; index < first_row + row_count; ++index) {
       sweepRow(
@@ -135,7 +136,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
 
 Coverage sweepAtlas(const SweepPicture& picture, const TraceOutputs& outputs, WorkerPool& workers,
                     std::vector<ViewSweeper>& sweepers, SweptAtlas& atlas) {
-  constexpr uint32_t kRowsPerPiece = 8;
+  constexpr uint32_t kRowsPerPiece = 16;
   const uint32_t row_count = picture.plan->rowCount();
   sweepers.resize(std::max(sweepers.size(), size_t{workers.workerCount()}));
   std::vector<Coverage> coverages(workers.workerCount());

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "frame/cube_map.h"
+
 namespace viewloom {
 namespace {
 
@@ -51,7 +53,28 @@ bool isPlainTile(const abi::ViewParams& tile, SizePx tile_px, float inv_z_near) 
   return true;
 }
 
+// What all views see of one structure.
+void addTiles(TraceJob& job, const Pose& display_pose, const Camera& camera, SizePx size_px) {
+  const AtlasLayout& layout = *job.layout;
+  for (uint32_t row = 0; row < layout.rows; ++row) {
+    for (uint32_t column = 0; column < layout.columns; ++column) {
+      const uint32_t view = layout.viewAt(column, row);
+      job.tiles.push_back(
+          view < layout.views.size()
+              ? makeViewParams(layout.views[view], display_pose, camera, size_px, job.tolerance_px)
+              : abi::ViewParams{});
+    }
+  }
+}
+
 }  // namespace
+
+SeenSource seenSource(const SourceFormat& source) {
+  const SizePx plane_px = source.layers.front().depth.size_px;
+  return {.camera = source.camera,
+          .size_px = source.is_cube_map ? cubeFaceSize(plane_px) : plane_px,
+          .is_cube_map = source.is_cube_map};
+}
 
 bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max) {
   // Poses that ought to cancel leave a few roundings. An eye so close to the plane, in units of the
@@ -113,19 +136,26 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
 }
 
 void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSource> sources) {
-  const AtlasLayout& layout = *job.layout;
-  job.source_count = uint32_t(sources.size());
-  job.tiles.clear();
-  job.tiles.reserve(sources.size() * layout.columns * layout.rows);
+  job.sources.clear();
+  job.walk_count = 0;
   for (const SeenSource& source : sources) {
-    for (uint32_t row = 0; row < layout.rows; ++row) {
-      for (uint32_t column = 0; column < layout.columns; ++column) {
-        const uint32_t view = layout.viewAt(column, row);
-        job.tiles.push_back(view < layout.views.size()
-                                ? makeViewParams(layout.views[view], display_pose, source.camera,
-                                                 source.size_px, job.tolerance_px)
-                                : abi::ViewParams{});
-      }
+    const uint32_t walk_count = source.is_cube_map ? kCubeFaceCount : 1;
+    job.sources.push_back({.first_walk = job.walk_count, .walk_count = walk_count});
+    job.walk_count += walk_count;
+  }
+  job.tiles.clear();
+  job.tiles.reserve(size_t{job.walk_count} * job.layout->columns * job.layout->rows);
+  for (const SeenSource& source : sources) {
+    if (!source.is_cube_map) {
+      addTiles(job, display_pose, source.camera, source.size_px);
+      continue;
+    }
+    const uint32_t side_px = source.size_px.width;
+    const uint32_t whole_px = side_px + 2 * abi::kCubeApron_px;
+    for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
+      addTiles(job, display_pose,
+               cubeFaceCamera(source.camera.pose, face, side_px, abi::kCubeApron_px),
+               {whole_px, whole_px});
     }
   }
 }

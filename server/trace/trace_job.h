@@ -9,6 +9,8 @@
 #include "display/atlas_layout.h"
 #include "display/color_form.h"
 #include "display/display_spec.h"
+#include "frame/color_reach.h"
+#include "frame/frame.h"
 #include "shared/trace_abi.h"
 
 namespace viewloom {
@@ -31,27 +33,39 @@ struct TraceOutputs {
   bool operator==(const TraceOutputs&) const = default;
 };
 
-// A source as views see it.
+// A source as views see it; of a cube map, its front face.
 struct SeenSource {
   Camera camera;   // intrinsics in px of the depth planes
   SizePx size_px;  // of the depth planes
+  bool is_cube_map = false;
 
   bool operator==(const SeenSource&) const = default;
+};
+
+SeenSource seenSource(const SourceFormat& source);
+
+// The walks whose answers are those of one source.
+struct JobSource {
+  uint32_t first_walk = 0;
+  uint32_t walk_count = 1;  // of a cube map, one a face
+
+  bool isCubeMap() const { return walk_count > 1; }
 };
 
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
   double tolerance_px = 0;
-  // Row-major from the top left; is_used = 0 where no view stands. The same for each source, one
+  // Row-major from the top left; is_used = 0 where no view stands. The same for each walk, one
   // after the other.
   std::vector<abi::ViewParams> tiles;
-  uint32_t source_count = 1;
+  uint32_t walk_count = 1;  // structures that rays are walked in
+  std::vector<JobSource> sources;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
 
-  std::span<const abi::ViewParams> tilesOf(uint32_t source) const {
-    const size_t count = tiles.size() / source_count;
-    return {tiles.data() + source * count, count};
+  std::span<const abi::ViewParams> tilesOf(uint32_t walk) const {
+    const size_t count = tiles.size() / walk_count;
+    return {tiles.data() + walk * count, count};
   }
 };
 
@@ -67,8 +81,13 @@ void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSo
 // inv_z is this, 1/m: then a cheaper kernel serves them.
 bool raysArePlain(std::span<const abi::ViewParams> tiles, SizePx tile_px, double inv_z_max);
 // Whether all their eyes are in the source's plane, as are those of a display that stands in the
-// place of its source's camera: then a cheaper kernel serves them.
+// place of its source's camera: then a cheaper kernel serves them. `inv_z_max`, 1/m: of what rays
+// are compared with.
 bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max);
+
+// How far a source's colour is averaged for these tiles: by the view with the smallest px, so that
+// none is blurred.
+ColorReach colorReach(std::span<const abi::ViewParams> tiles, SizePx tile_px);
 
 // Where the display of a spec stands: its own world pose, else that of the (first) source.
 Pose displayPose(const DisplaySpec& spec, const Camera& source_camera);

@@ -17,15 +17,15 @@ ReadablePlane planeIf(bool wanted, const Device& device, uint64_t size_bytes, co
 constexpr uint64_t kAnswersStep = kDescriptorAlignment_bytes / 4;
 static_assert(kAnswersStep * sizeof(abi::RayAnswer) % kDescriptorAlignment_bytes == 0);
 
-uint64_t answersRowBytes(uint32_t width_px, uint32_t source_count) {
-  return uint64_t{width_px} * source_count * sizeof(abi::RayAnswer);
+uint64_t answersRowBytes(uint32_t width_px, uint32_t walk_count) {
+  return uint64_t{width_px} * walk_count * sizeof(abi::RayAnswer);
 }
 
 // Enough for every piece of every band that the slot holds.
 uint64_t answersBytes(const TraceSlotShape& shape) {
-  const uint64_t row_bytes = answersRowBytes(shape.width_px, shape.source_count);
+  const uint64_t row_bytes = answersRowBytes(shape.width_px, shape.walk_count);
   return std::min(row_bytes * shape.row_count_max, std::max(row_bytes, kAnswersBytesMax)) +
-         shape.source_count * kAnswersStep * sizeof(abi::RayAnswer);
+         shape.walk_count * kAnswersStep * sizeof(abi::RayAnswer);
 }
 
 template <typename T>
@@ -42,22 +42,22 @@ uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
 
 bool TraceSlotShape::holds(const TraceSlotShape& other) const {
   return width_px >= other.width_px && row_count_max >= other.row_count_max &&
-         tile_count_max >= other.tile_count_max && source_count >= other.source_count &&
+         tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
          outputs == other.outputs;
 }
 
-AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t source_count) {
-  const uint64_t row_bytes = answersRowBytes(width_px, source_count);
+AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
+  const uint64_t row_bytes = answersRowBytes(width_px, walk_count);
   const uint64_t rows = std::clamp<uint64_t>(kAnswersBytesMax / row_bytes, 1, row_count);
   const uint64_t steps = (rows * width_px + kAnswersStep - 1) / kAnswersStep;
   return {.row_count = uint32_t(rows), .stride = uint32_t(steps * kAnswersStep)};
 }
 
-uint64_t TraceSlot::tilesOffset(uint32_t source, uint32_t source_count, size_t tile_count) {
+uint64_t TraceSlot::tilesOffset(uint32_t walk, uint32_t walk_count, size_t tile_count) {
   const uint64_t tiles_bytes = tile_count * sizeof(abi::ViewParams);
   const uint64_t stride = (tiles_bytes + kDescriptorAlignment_bytes - 1) /
                           kDescriptorAlignment_bytes * kDescriptorAlignment_bytes;
-  return extrasOffset(source_count) + source * stride;
+  return extrasOffset(walk_count) + walk * stride;
 }
 
 ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
@@ -89,12 +89,12 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
       planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
   const uint64_t params_bytes =
-      tilesOffset(shape.source_count, shape.source_count, shape.tile_count_max);
+      tilesOffset(shape.walk_count, shape.walk_count, shape.tile_count_max);
   upload_ = Buffer(
       device,
       {.size_bytes = params_bytes, .intent = MemoryIntent::kUpload, .debug_name = "trace upload"});
   params_ = Buffer(device, {.size_bytes = params_bytes, .debug_name = "trace params"});
-  if (shape.source_count > 1) {
+  if (shape.walk_count > 1) {
     answers_ =
         Buffer(device, {.size_bytes = answersBytes(shape), .debug_name = "answers of sources"});
   }

@@ -17,7 +17,7 @@ struct TraceSlotShape {
   uint32_t width_px = 0;
   uint32_t row_count_max = 0;
   uint32_t tile_count_max = 0;
-  uint32_t source_count = 1;
+  uint32_t walk_count = 1;
   TraceOutputs outputs;
 
   // Whether a slot of this shape can hold a band of that one.
@@ -48,16 +48,16 @@ inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCo
 
 // What descriptors of any device may begin at.
 inline constexpr uint64_t kDescriptorAlignment_bytes = 256;
-// What the answers of several sources take at most, unless a single row takes more: they are
+// What the answers of several walks take at most, unless a single row takes more: they are
 // merged before the next rows are traced.
 inline constexpr uint64_t kAnswersBytesMax = uint64_t{32} << 20;
 
-// How the answers of several sources to a piece of a band lie in memory, source after source.
+// How the answers of several walks to a piece of a band lie in memory, walk after walk.
 struct AnswersLayout {
   uint32_t row_count = 0;
-  uint32_t stride = 0;  // answers from one source to the next
+  uint32_t stride = 0;  // answers from one walk to the next
 };
-AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t source_count);
+AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
 
 // Owner decides when the slot is free. Thread-safety: none.
 class TraceSlot {
@@ -85,9 +85,9 @@ class TraceSlot {
   const Buffer& rgba() const {
     return shape_.outputs.color == ColorForm::kRgba ? color_.target() : unpacked_;
   }
-  // Of each source in the parameters: its abi::TraceExtras, and after all of those its tiles.
-  static uint64_t extrasOffset(uint32_t source) { return source * kDescriptorAlignment_bytes; }
-  static uint64_t tilesOffset(uint32_t source, uint32_t source_count, size_t tile_count);
+  // Of each walk in the parameters: its abi::TraceExtras, and after all of those its tiles.
+  static uint64_t extrasOffset(uint32_t walk) { return walk * kDescriptorAlignment_bytes; }
+  static uint64_t tilesOffset(uint32_t walk, uint32_t walk_count, size_t tile_count);
 
   TraceSlotShape shape_;
   SizePx band_px_;  // of the band in it
@@ -100,7 +100,7 @@ class TraceSlot {
   ReadablePlane counters_;
   Buffer upload_;   // parameters
   Buffer params_;   // the same, on the device
-  Buffer answers_;  // abi::RayAnswer, of several sources
+  Buffer answers_;  // abi::RayAnswer, of several walks
 };
 
 }  // namespace viewloom

@@ -24,6 +24,11 @@ constexpr uint32_t kPixelsOnSoftware[] = {60, 32, 16};
 constexpr uint32_t kPixelsOnSoftwareInLanes = 16;
 constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 
+// Of several sources each says from where on it has seen rays, which what others see is compared
+// with: that may be nearer than anything it holds itself, as where that is nothing but sky. With
+// this, eyes count as in the plane up to 2^-30 m from it: there they are one with it (abi::kAtEye).
+constexpr double kInvZOfOthers = 1;  // 1/m
+
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
 constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
@@ -33,11 +38,6 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingBand, DescriptorKind::kStorage}};
-
-bool colorIsScaled(const FrameShape& shape) {
-  return std::any_of(shape.color_px.begin(), shape.color_px.end(),
-                     [&](const SizePx& color_px) { return color_px != shape.depth_px; });
-}
 
 // Of one view, neighbours in a row. Views see about what the source sees.
 uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
@@ -69,7 +69,8 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 
 }  // namespace
 
-ViewTracer::ViewTracer(const Device& device) : device_(&device), packer_(device) {}
+ViewTracer::ViewTracer(const Device& device)
+    : device_(&device), averager_(device), packer_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -91,7 +92,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.color_is_scaled,
                                   variant.rays_are_plain,
                                   variant.eyes_in_plane,
-                                  variant.is_one_of_several};
+                                  variant.is_one_of_several,
+                                  variant.is_cube_face};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -122,31 +124,32 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
 void ViewTracer::fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
                             TraceSlot& slot) {
   std::byte* const to = slot.upload_.mapped().data();
-  for (uint32_t source = 0; source < structures.size(); ++source) {
-    const abi::TraceExtras extras = describeExtras(*structures[source], slot);
-    const std::span<const abi::ViewParams> tiles = job.tilesOf(source);
-    std::memcpy(to + TraceSlot::extrasOffset(source), &extras, sizeof extras);
-    std::memcpy(to + TraceSlot::tilesOffset(source, job.source_count, tiles.size()), tiles.data(),
+  for (uint32_t walk = 0; walk < structures.size(); ++walk) {
+    const abi::TraceExtras extras = describeExtras(*structures[walk], slot);
+    const std::span<const abi::ViewParams> tiles = job.tilesOf(walk);
+    std::memcpy(to + TraceSlot::extrasOffset(walk), &extras, sizeof extras);
+    std::memcpy(to + TraceSlot::tilesOffset(walk, job.walk_count, tiles.size()), tiles.data(),
                 tiles.size_bytes());
   }
 }
 
-std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t source,
+std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t walk,
                                                    const TraceSlot& slot) {
-  const std::span<const abi::ViewParams> tiles = job.tilesOf(source);
+  const std::span<const abi::ViewParams> tiles = job.tilesOf(walk);
   return {{.binding = abi::kBindingViews,
            .kind = DescriptorKind::kStorage,
            .buffer = slot.params_.handle(),
-           .offset_bytes = TraceSlot::tilesOffset(source, job.source_count, tiles.size()),
+           .offset_bytes = TraceSlot::tilesOffset(walk, job.walk_count, tiles.size()),
            .size_bytes = tiles.size_bytes()},
           {.binding = abi::kBindingExtras,
            .kind = DescriptorKind::kUniform,
            .buffer = slot.params_.handle(),
-           .offset_bytes = TraceSlot::extrasOffset(source),
+           .offset_bytes = TraceSlot::extrasOffset(walk),
            .size_bytes = sizeof(abi::TraceExtras)}};
 }
 
-abi::TracePush ViewTracer::describeBand(const Walk& walk, BandRows rows) {
+abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& color,
+                                        BandRows rows) {
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
   const uint32_t border = walk.job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
@@ -162,7 +165,7 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, BandRows rows) {
                       .fill = redFirst(walk.job.background_rgb) | border};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
-    push.color[i] = addressWords(structure.color().address(i));
+    push.color[i] = addressWords(color.address(i));
   }
   return push;
 }
@@ -170,31 +173,35 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, BandRows rows) {
 void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
-  const std::span<const abi::ViewParams> tiles = walk.job.tilesOf(walk.source);
+  const std::span<const abi::ViewParams> tiles = walk.job.tilesOf(walk.index);
   const double inv_z_max = structure.stats().inv_z_max;
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
-  const bool is_one_of_several = walk.job.source_count > 1;
+  const bool is_one_of_several = walk.job.walk_count > 1;
+  const ColorAverager::Color color =
+      averager_.record(commands, structure, colorReach(tiles, layout.tile_size_px));
   const ComputePass& walk_views =
       pass({.reads_by_address = structure.readsByAddress(),
             .wanted = is_one_of_several ? 0 : wantedFlags(walk.slot.shape_.outputs),
-            .color_format = colorFormat(structure.shape().color_storage),
+            .color_format = color.format,
             .pixels_per_invocation = pixels,
             .lanes_are_views = lanes_are_views,
-            .color_is_scaled = colorIsScaled(structure.shape()),
+            .color_is_scaled = structure.shape().colorIsScaled(),
             .rays_are_plain = raysArePlain(tiles, layout.tile_size_px, inv_z_max),
-            .eyes_in_plane = eyesAreInPlane(tiles, inv_z_max),
-            .is_one_of_several = is_one_of_several});
-  std::vector<Descriptor> descriptors = describeParams(walk.job, walk.source, walk.slot);
+            .eyes_in_plane = eyesAreInPlane(
+                tiles, is_one_of_several ? std::max(inv_z_max, kInvZOfOthers) : inv_z_max),
+            .is_one_of_several = is_one_of_several,
+            .is_cube_face = structure.shape().is_cube_face});
+  std::vector<Descriptor> descriptors = describeParams(walk.job, walk.index, walk.slot);
   for (const Descriptor& descriptor :
        {structure.measuredDescriptor(), walk.target,
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
-        structure.color().asTexels(abi::kBindingColor)}) {
+        color.texels.asTexels(abi::kBindingColor)}) {
     descriptors.push_back(descriptor);
   }
   walk_views.recordDescriptors(commands, descriptors);
-  walk_views.record(commands, describeBand(walk, rows),
+  walk_views.record(commands, describeBand(walk, color.texels, rows),
                     groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
                     rows.row_count);
 }
@@ -206,17 +213,16 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
   VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
                  slot.shape_.row_count_max >= rows.row_count &&
                  slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
-                 slot.shape_.source_count >= job.source_count);
-  VIEWLOOM_CHECK(structures.size() == job.source_count);
+                 slot.shape_.walk_count >= job.walk_count);
+  VIEWLOOM_CHECK(structures.size() == job.walk_count);
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   const uint64_t area_px = slot.band_px_.area();
   fillParams(structures, job, slot);
 
   if (timer) timer->recordBegin(commands, "trace");
-  commands.copyBuffer(
-      slot.upload_.handle(), slot.params_.handle(),
-      vk::BufferCopy{.size = TraceSlot::tilesOffset(job.source_count, job.source_count,
-                                                    job.tilesOf(0).size())});
+  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
+                      vk::BufferCopy{.size = TraceSlot::tilesOffset(job.walk_count, job.walk_count,
+                                                                    job.tilesOf(0).size())});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
     commands.fillBuffer(slot.rgba().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
@@ -225,7 +231,7 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
     }
   }
   recordTransferToCompute(commands);
-  if (job.source_count == 1) {
+  if (job.walk_count == 1) {
     const Descriptor band = wholeBuffer(abi::kBindingBand, slot.rgba());
     recordWalk(commands, {*structures[0], job, 0, slot, band}, rows);
   } else {

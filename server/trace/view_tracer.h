@@ -12,6 +12,7 @@
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
 #include "trace/band_packer.h"
+#include "trace/color_averager.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
 
@@ -27,7 +28,7 @@ class ViewTracer {
   ColorForm colorForm(ColorForm wanted) const;
 
   // Traces these rows of the job's atlas into the slot. The slot holds the width, the rows, the
-  // tiles and the sources, of which the job has as many as there are structures. Their build is
+  // tiles and the walks, of which the job has as many as there are structures. Their build is
   // done, not only recorded: its stats choose the kernels. `timer` was reset in this recording;
   // nullptr = untimed. The first band of a new variant compiles its pipeline.
   void recordBand(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
@@ -50,15 +51,16 @@ class ViewTracer {
     uint32_t rays_are_plain;
     uint32_t eyes_in_plane;
     uint32_t is_one_of_several;
+    uint32_t is_cube_face;
 
     auto operator<=>(const Variant&) const = default;
   };
 
-  // One of the structures of a job, and where its answers go.
+  // One of the walks of a job, and where its answers go.
   struct Walk {
     const StructureSlot& structure;
     const TraceJob& job;
-    uint32_t source;
+    uint32_t index;
     const TraceSlot& slot;
     Descriptor target;
   };
@@ -66,20 +68,28 @@ class ViewTracer {
   static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceSlot& slot);
   static void fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
                          TraceSlot& slot);
-  static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t source,
+  static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t walk,
                                                 const TraceSlot& slot);
-  static abi::TracePush describeBand(const Walk& walk, BandRows rows);
+  static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, TraceSlot& slot);
+  uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                       const TraceJob& job, BandRows piece, const AnswersLayout& answers,
+                       const TraceSlot& slot);
+  void recordJoins(vk::CommandBuffer commands, const TraceJob& job, uint64_t walked,
+                   uint32_t answer_count, const AnswersLayout& answers, const TraceSlot& slot);
   const ComputePass& pass(const Variant& variant);
   const ComputePass& mergePass(uint32_t wanted);
+  const ComputePass& joinPass();
 
   const Device* device_;
   std::mutex mutex_;  // guards what follows
   std::map<Variant, std::unique_ptr<ComputePass>> passes_;
+  ColorAverager averager_;
   BandPacker packer_;
   std::map<uint32_t, std::unique_ptr<ComputePass>> merge_passes_;  // by abi::kWant... flags
+  std::unique_ptr<ComputePass> join_pass_;
 };
 
 }  // namespace viewloom

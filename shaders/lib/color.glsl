@@ -7,19 +7,25 @@
 #include "lib/srgb.glsl"
 #include "lib/structure_access.glsl"
 
-// kColorRgba8: codes 0..255. kColorRgb11: roots of light. Else premultiplied linear BT.709.
+// Whether texels are codes 0..255, and blends of them, too.
+bool holdsCodes(uint color_format) {
+  return color_format == kColorRgba8 || color_format == kColorCodes11;
+}
+
+// holdsCodes: codes. kColorRgb16: roots of light. Else premultiplied linear BT.709.
 // `count`: texels of a layer.
 vec4 loadTexel(Address color[kLayerCountMax], uint layer, uint count, uint color_format,
                uint index) {
   uvec2 bits;
   if (!kReadByAddress)
     bits = texelFetch(color_texels, int(layer * count + index)).xy;
-  else if (color_format == kColorRgba16f)
+  else if (!holdsCodes(color_format))
     bits = Uvec2Ref(pickAddress(color, layer)).at[index];
   else
     bits = uvec2(UintRef(pickAddress(color, layer)).at[index], 0u);
   if (color_format == kColorRgba8) return vec4(codesOfRgba8(bits.x), 1.0);
-  if (color_format == kColorRgb11) return vec4(rootsOfRgb11(bits.x), 1.0);
+  if (color_format == kColorCodes11) return vec4(codesOfRgb11(bits.x), 1.0);
+  if (color_format == kColorRgb16) return vec4(rootsOfRgb16(bits), 1.0);
   return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
 }
 

@@ -21,6 +21,12 @@ vec3 rayDirection(ViewParams view, vec2 tile_px) {
   return view.direction + tile_px.x * view.direction_dx + tile_px.y * view.direction_dy;
 }
 
+// How far a homogeneous point is inside of four sides, `px` within the whole image: left, top,
+// right, bottom.
+vec4 insideOf(vec3 point, vec2 size_px, float px) {
+  return vec4(point.xy - px * point.z, (size_px - px) * point.z - point.xy);
+}
+
 vec2 paceOf(vec2 extent) {
   return 1.0 / max(abs(extent), vec2(1e-30));
 }
@@ -81,20 +87,24 @@ Ray makePlainRay(vec3 near_eye, vec3 direction, vec2 size_px, float inv_z_near) 
              max(max(t_in.x, t_in.y), 0.0), t_end, t_end == 1.0);
 }
 
-// 1/Z along the axis of the view of a point of the ray: s from point = (eye + s direction) / Z.
+// 1/Z along the axis of the view of a point of the ray: 1/s of point = (eye + s direction) / Z.
+// Each coordinate says it as a quotient of differences; taken is the one that loses the fewest bits
+// where these cancel. At an eye far in front of what it sees, or in the source's plane, that is
+// 1/Z; close to a surface, or where the view looks along that plane, x or y.
 float viewInvZ(vec3 eye, vec3 direction, vec3 position) {
-  // Z(s) = eye.z + s direction.z, and Z x(s) = eye.x + s direction.x; the larger divisor is the
-  // safer.
-  const vec3 divisors = abs(vec3(direction.x - position.x * direction.z,
-                                 direction.y - position.y * direction.z, direction.z));
   if (position.z <= 0.0) return 0.0;
-  if (divisors.z * position.z >= max(divisors.x, divisors.y) * 1e-4) {
-    return position.z * direction.z / (1.0 - eye.z * position.z);
-  }
-  const bool use_x = divisors.x >= divisors.y;
-  const float s = use_x ? (position.x * eye.z - eye.x) / (direction.x - position.x * direction.z)
-                        : (position.y * eye.z - eye.y) / (direction.y - position.y * direction.z);
-  return s > 0.0 ? 1.0 / s : 0.0;
+  const float part_z = eye.z * position.z;
+  const vec2 part_direction = position.xy * direction.z;
+  const vec2 part_eye = position.xy * eye.z;
+  const float rest_z = 1.0 - part_z;
+  const vec2 rest_direction = direction.xy - part_direction;
+  const vec2 rest_eye = part_eye - eye.xy;
+  const float loss_z = (1.0 + abs(part_z)) / max(abs(rest_z), 1e-30);
+  const vec2 loss = (abs(direction.xy) + abs(part_direction)) / max(abs(rest_direction), 1e-30) +
+                    (abs(eye.xy) + abs(part_eye)) / max(abs(rest_eye), 1e-30);
+  if (loss_z <= min(loss.x, loss.y)) return position.z * direction.z / rest_z;
+  const vec2 inv_z = rest_direction / rest_eye;
+  return max(loss.x <= loss.y ? inv_z.x : inv_z.y, 0.0);
 }
 
 #endif  // VIEWLOOM_LIB_RAY_GLSL_

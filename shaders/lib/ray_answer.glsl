@@ -13,10 +13,6 @@ struct Pinhole {
   vec2 principal_px;
 };
 
-// Lengths of a ray by which it may be followed back to where it enters the image: no less than a
-// millionth of the way from the eye to the near bound is left out.
-const float kBeforeMax = 1e6;
-
 // Homogeneous image coordinates (px * Z, px * Z, Z) in metres, y down.
 vec3 metricPoint(Pinhole pinhole, vec3 point) {
   return vec3((point.xy - pinhole.principal_px * point.z) / pinhole.focal_px, point.z);
@@ -25,9 +21,11 @@ vec3 metricPoint(Pinhole pinhole, vec3 point) {
 // Px of the source per px of the view, in area, on the plane through a hit with the slopes of its
 // facet. In image coordinates around the hit, the plane is g P = 1 with g = (slope, inv_z), and the
 // ray meets it in P = eye + s direction; so a step along the tile moves the hit in the image by s /
-// Z (d - direction (g d) / (g direction)).
-float samplingDensity(ViewParams view, vec3 direction, vec2 slope, vec3 point, float z_per_s) {
-  const vec3 along = vec3(direction.xy - point.xy * direction.z, direction.z);
+// Z (d - direction (g d) / (g direction)). Across the line of sight, the direction is what the eye
+// lies beside it, over s: nothing at infinity, nor from the place of the source.
+float samplingDensity(ViewParams view, vec3 direction, vec2 slope, vec3 point, float z_per_s,
+                      float view_inv_z) {
+  const vec3 along = vec3((point.xy * view.eye.z - view.eye.xy) * view_inv_z, direction.z);
   const vec3 step_x =
       vec3(view.direction_dx.xy - point.xy * view.direction_dx.z, view.direction_dx.z);
   const vec3 step_y =
@@ -50,13 +48,14 @@ float colorWeight(Pinhole pinhole, ViewParams view, vec3 point, float density) {
 }
 
 // Where the ray enters the image, also where that is nearer than anything the source has: from
-// there on the source has seen what is free. kKnownNowhere where that is before the view's eye.
-float entryInvZ(ViewParams view, Ray ray, vec3 direction, vec2 size_px) {
-  const bvec2 goes_back = lessThan(ray.extent.xy, vec2(0.0));
-  const vec2 t_in = -mix(ray.start.xy, size_px - ray.start.xy, goes_back) * ray.pace;
-  const float t = clamp(max(t_in.x, t_in.y), -kBeforeMax, ray.t_begin);
-  const float entry = viewInvZ(view.eye, direction, ray.start + t * ray.extent);
-  return entry > 0.0 && entry < kKnownNowhere ? entry : kKnownNowhere;
+// there on the source has seen what is free. kKnownNowhere where it begins inside. The ray's points
+// are eye + s direction.
+float entryInvZ(ViewParams view, vec3 direction, vec2 size_px) {
+  const vec4 eye_in = insideOf(view.eye, size_px, 0.0);
+  const vec4 comes_in = max(insideOf(direction, size_px, 0.0), vec4(0.0));
+  const vec4 entry = mix(vec4(kKnownNowhere), comes_in / max(-eye_in, vec4(1e-30)),
+                         lessThan(eye_in, vec4(0.0)));
+  return min(min(entry.x, entry.y), min(entry.z, entry.w));
 }
 
 // `light`: codes 0..255 before they are rounded, and whether they are known.
@@ -76,11 +75,12 @@ RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 
   answer.tolerance = min(kappa * z_per_s * z_per_s, kToleranceShareMax * answer.view_inv_z);
   // A ray that is never seen is known nowhere.
   answer.entry_inv_z =
-      is_seen ? entryInvZ(view, ray, direction, vec2(scene.extent.size_px)) : kNeverPassed;
+      is_seen ? entryInvZ(view, direction, vec2(scene.extent.size_px)) : kNeverPassed;
   const vec3 passed = ray.start + walk.passed_t * ray.extent;
   answer.passed_inv_z = walk.passed_t <= 1.0 ? viewInvZ(view.eye, direction, passed) : kNeverPassed;
   if (!is_seen) answer.view_inv_z = kKnownNowhere;
-  const float density = samplingDensity(view, direction, unpackSlopes(facet.y), point, z_per_s);
+  const float density = samplingDensity(view, direction, unpackSlopes(facet.y), point, z_per_s,
+                                        answer.view_inv_z);
   answer.weight = walk.is_hit ? colorWeight(pinhole, view, point, density) : 0.0;
   answer.light = uvec2(packHalf2x16(light.rg), packHalf2x16(light.ba));
   answer.x_px = point.x;

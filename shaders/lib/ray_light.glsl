@@ -24,16 +24,16 @@ vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point, v
 
 // Codes 0..255 of a blend of texels.
 vec3 codesOfBlend(vec3 blend) {
-  if (kColorFormat == kColorRgba8) return blend;
-  return kColorFormat == kColorRgb11 ? codesFromRoots(blend) : codesFromLinear(blend);
+  if (holdsCodes(kColorFormat)) return blend;
+  return kColorFormat == kColorRgb16 ? codesFromRoots(blend) : codesFromLinear(blend);
 }
 
 // The background as texels are held.
 vec3 blendOfBackground() {
   const vec3 codes = vec3(uvec3(push.fill, push.fill >> 8, push.fill >> 16) & 255u);
-  if (kColorFormat == kColorRgba8) return codes;
+  if (holdsCodes(kColorFormat)) return codes;
   const vec3 light = linearFromSrgb(codes / 255.0);
-  return kColorFormat == kColorRgb11 ? rootsFromLinear(light) : light;
+  return kColorFormat == kColorRgb16 ? rootsFromLinear(light) : light;
 }
 
 // What a px shows; if nothing is known, the background. In what texels hold (lib/color.glsl).

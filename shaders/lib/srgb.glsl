@@ -17,20 +17,33 @@ vec3 codesOfRgba8(uint rgba) {
   return vec3(rgba & 255u, (rgba >> 8) & 255u, (rgba >> 16) & 255u);
 }
 
-// kColorRgb11: light to the power of 1 / 2.4, 0..1.
-const vec3 kRootSteps = vec3(2047.0, 2047.0, 1023.0);
+// kColorRgb16: light to the power of 1 / 2.4, 0..1.
+vec3 rootsOfRgb16(uvec2 rgb) {
+  return vec3(unpackUnorm2x16(rgb.x), unpackUnorm2x16(rgb.y).x);
+}
 
-vec3 rootsOfRgb11(uint rgb) {
-  return vec3(rgb & 2047u, (rgb >> 11) & 2047u, rgb >> 22) / kRootSteps;
+// kColorCodes11: codes 0..255, in parts of 11, 11 and 10 bits.
+const vec3 kCodeSteps = vec3(8.0, 8.0, 4.0);
+
+vec3 codesOfRgb11(uint rgb) {
+  return vec3(rgb & 2047u, (rgb >> 11) & 2047u, rgb >> 22) / kCodeSteps;
+}
+
+uint rgb11OfCodes(vec3 codes) {
+  const uvec3 steps = uvec3(codes * kCodeSteps + 0.5);
+  return steps.r | (steps.g << 11) | (steps.b << 22);
 }
 
 vec3 rootsFromLinear(vec3 light) {
   return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.4));
 }
 
-uint rgb11FromLinear(vec3 light) {
-  const uvec3 steps = uvec3(rootsFromLinear(light) * kRootSteps + 0.5);
-  return steps.r | (steps.g << 11) | (steps.b << 22);
+uvec2 rgb16FromRoots(vec3 root) {
+  return uvec2(packUnorm2x16(root.rg), packUnorm2x16(vec2(root.b, 0.0)));
+}
+
+uvec2 rgb16FromLinear(vec3 light) {
+  return rgb16FromRoots(rootsFromLinear(light));
 }
 
 // Codes 0..255 before they are rounded. The curve is 269.025 L^(1/2.4) - 14.025; the toe, 12.92 L,

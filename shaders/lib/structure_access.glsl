@@ -96,6 +96,13 @@ bool isDeepEdge(uint links, uint edge) {
   return ((links >> (edge * kLinkBits)) & 7u) == kDeepEdge;
 }
 
+// Whether the facet is the far side of a deep silhouette at any of its edges: its colour may be
+// mixed.
+bool isMixed(uint links) {
+  const uint kFirstBits = 0x249u;  // of all four edges
+  return (links & (links >> 1) & (links >> 2) & kFirstBits) != 0u;
+}
+
 // Whether the facet is the near side of a silhouette there, with the far side known behind it.
 bool isKnownBehind(uint links, uint edge) {
   return ((links >> (edge * kLinkBits)) & 7u) == kKnownBehind;

@@ -260,15 +260,20 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       result.ends_behind = !in_front;
       result.cell = inside;
     }
-    // What was hit beyond the far side lies behind it.
-    if (event == kEnds && met_far) {
+    // The far side goes on so far, and what was hit beyond lies behind it; or it ended before.
+    const bool meets = event == kEnds && met_far;
+    const float from_far = ray.start.z + at.t * ray.extent.z - far_inv_z;
+    const float met_t = at.t - from_far / ray.extent.z;
+    const vec2 mirrored = ray.start.xy + (2.0 * result.far_t - met_t) * ray.extent.xy;
+    if (reachesAsFar(scene, meets, far_inv_z, mirrored)) {
       result.ends_behind = true;
       result.is_hit = false;
       result.t = ray.t_end;
-      const float from_far = ray.start.z + at.t * ray.extent.z - far_inv_z;
-      const float met_t = at.t - from_far / ray.extent.z;
       const bvec4 ends_here = lessThanEqual(kLayers, uvec4(layer));
       over_t = mix(over_t, min(over_t, vec4(met_t)), ends_here);
+    } else if (meets) {
+      far_inv_z = kNoSurface;
+      goes_on = true;
     }
 
     // This layer is done; the next begins where the ray passed behind it.

@@ -113,4 +113,24 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
   return result;
 }
 
+// Whether a far side that a ray has `met` is taken to go on as far as that: at the place mirrored
+// where the ray passed it, some layer holds a surface as far back, or the image has ended.
+bool reachesAsFar(Scene scene, bool met, float far_inv_z, vec2 mirrored) {
+  const ivec2 column = ivec2(floor(mirrored));
+  const bvec2 is_inside =
+      bvec2(all(greaterThanEqual(column, ivec2(0))), all(lessThan(column, scene.extent.size_px)));
+  const bool is_known = met && all(is_inside) && !hasFault(kFaultFarSideEndless);
+  const ivec2 inside = clamp(column, ivec2(0), scene.extent.size_px - 1);
+  bool reaches = met && !is_known;
+  uint layer = 0u;
+  for (;;) {
+    if (isNever(scene, 7u)) break;
+    const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
+    reaches = reaches || (is_known && abs(inv_z - far_inv_z) <= kDeepStep * far_inv_z);
+    ++layer;
+    if (!is_known || reaches || layer == scene.layer_count) break;
+  }
+  return reaches;
+}
+
 #endif  // VIEWLOOM_LIB_WALK_EDGES_GLSL_

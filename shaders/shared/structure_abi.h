@@ -131,6 +131,9 @@ VIEWLOOM_ABI_CONST float kPairReaches = 4.0f;
 VIEWLOOM_ABI_CONST float kSmoothingShare = 0.125f;  // of each of four pairs
 VIEWLOOM_ABI_CONST float kSmoothingGapShare = 0.25f;  // of the way to the next layer, at most
 
+// A face of a cube map is surrounded by so many px of its neighbours, seen by its own pinhole.
+VIEWLOOM_ABI_CONST uint kCubeApron_px = 2u;
+
 // How a depth sample is stored.
 VIEWLOOM_ABI_CONST uint kDepthSampleF32 = 0u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF16 = 1u;
@@ -168,6 +171,7 @@ struct BuildPush {
   uint width_px;
   uint height_px;
   uint layer_count;
+  uint apron_px;      // around what was uploaded: kCubeApron_px, or 0
   uint level;         // build_level.comp; the pass of smooth_columns.comp
   float given_kappa;  // 1/m; 0 = measured
   // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m. Of the
@@ -207,7 +211,8 @@ struct Measured {
 // What a colour plane holds on the device.
 VIEWLOOM_ABI_CONST uint kColorRgba8 = 0u;    // sRGB, opaque; one uint a px
 VIEWLOOM_ABI_CONST uint kColorRgba16f = 1u;  // linear BT.709, premultiplied; two uints a px
-VIEWLOOM_ABI_CONST uint kColorRgb11 = 2u;    // light of BT.709 to 1 / 2.4, opaque; one uint a px
+VIEWLOOM_ABI_CONST uint kColorRgb16 = 2u;    // light of BT.709 to 1 / 2.4, opaque; two uints a px
+VIEWLOOM_ABI_CONST uint kColorCodes11 = 3u;  // means of others: codes of sRGB; one uint a px
 
 // What convert_color.comp is told of a plane.
 VIEWLOOM_ABI_CONST uint kPrimariesBt709 = 0u;
@@ -222,7 +227,7 @@ struct ConvertColorPush {
   Address to;
   uint texel_count;
   uint from_format;  // kColorRgba8 or kColorRgba16f, of any transfer, primaries and alpha
-  uint to_format;    // kColorRgba16f or, of what is opaque, kColorRgb11
+  uint to_format;    // kColorRgba16f or, of what is opaque, kColorRgb16
   uint is_linear;
   uint primaries;     // kPrimaries...
   uint alpha;         // kAlpha...
@@ -231,7 +236,7 @@ struct ConvertColorPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
-static_assert(sizeof(BuildPush) == 104);
+static_assert(sizeof(BuildPush) == 108);
 static_assert(offsetof(Measured, noise_histogram) == 72 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 44);
 #endif

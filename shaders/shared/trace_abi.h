@@ -35,6 +35,12 @@ VIEWLOOM_ABI_CONST uint kEdgeColumnsMax = 16u;
 // step of an edge. Where slopes bring them nearer than that, the edge is left as it is.
 VIEWLOOM_ABI_CONST float kEdgeStepKappas = 1.0f;
 
+// Colour is averaged where a px of a view covers more px of the source than this along an axis.
+VIEWLOOM_ABI_CONST float kFootprintMin_px = 1.4f;
+// And over no more than so far to each side of a sample, px: of 8192 px of a source on a tile of
+// 420 px. Further, each px more costs every texel two samples more.
+VIEWLOOM_ABI_CONST float kColorReachMax_px = 8.0f;
+
 // A plain ray runs from the near bound, in front of its eye, to infinity. It is no longer than this
 // in px, so that positions along it keep 1/256 px with a few roundings of binary32.
 VIEWLOOM_ABI_CONST float kPlainExtentMax_px = 16384.0f;
@@ -114,7 +120,8 @@ struct MergePush {
   uint padding_top_px;
   uint fill;  // background, red in the low byte
   uint source_count;
-  uint answers_stride;  // from one source's answers to the next
+  uint answers_stride;  // from one walk's answers to the next
+  uvec2 first_walks;    // where those of each source are, 8 bits each
 };
 
 // A band: full-width rows of the atlas, top row first. Its colour, uint[rows][width], is sRGB with
@@ -133,6 +140,17 @@ struct TracePush {
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
+
+// Means of colour along an axis; texels of the source's layers.
+struct AveragePush {
+  Address layers[kLayerCountMax];  // of the structure
+  Address from[kLayerCountMax];
+  Address to[kLayerCountMax];
+  uint size_px;       // width | height << 16
+  float last_weight;  // of the furthest samples to both sides
+};
+
+VIEWLOOM_ABI_CONST uint kBindingMeans = 14u;  // storage, written: uint per texel of all layers
 
 // A band's colour, packed as planes of Y'CbCr.
 struct PackPush {
@@ -164,8 +182,9 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 static_assert(sizeof(ViewParams) == 56);
 static_assert(sizeof(TraceExtras) == 76);
 static_assert(sizeof(RayAnswer) == 52);
-static_assert(sizeof(MergePush) == 36);
+static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 96);
+static_assert(sizeof(AveragePush) == 104);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(RayRecord) == 24);
 #endif

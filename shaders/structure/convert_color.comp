@@ -42,8 +42,8 @@ void main() {
   if (push.primaries == kPrimariesBt2020) light = kBt709FromBt2020 * light;
   light *= push.light_scale;
   if (push.alpha != kAlphaPremultiplied || is_encoded) light *= alpha;
-  if (push.to_format == kColorRgb11) {
-    UintRef(push.to).at[index] = rgb11FromLinear(light);
+  if (push.to_format == kColorRgb16) {
+    Uvec2Ref(push.to).at[index] = rgb16FromLinear(light);
     return;
   }
   // The largest binary16: brighter light would become infinite and spread.

@@ -137,15 +137,22 @@ void main() {
   const int x = int(gl_GlobalInvocationID.x) * kBlockPx;
   if (x >= int(pitch)) return;
   const ivec4 xs = x + ivec4(0, 1, 2, 3);
-  const uvec4 clamped_xs = uvec4(min(xs, ivec4(size.x - 1)));
+  // Of what was uploaded; of a face of a cube map the apron around it is filled later.
+  const int apron = int(push.apron_px);
+  const ivec2 given = size - 2 * apron;
+  const ivec4 given_xs = xs - apron;
+  const uvec4 clamped_xs = uvec4(clamp(given_xs, ivec4(0), ivec4(given.x - 1)));
   const vec4 ray_x = (vec4(xs) + 0.5 - depth.principal_px.x) / depth.focal_px.x;
   uint bad_count = 0u;
   uint unsorted_count = 0u;
   int row = 0;
   do {
     const int y = (int(gl_WorkGroupID.y) - 1) * kBlockPx + row;
-    const bvec4 exists = both(lessThan(xs, ivec4(size.x)), bvec4(y >= 0 && y < size.y));
-    const uvec4 index = uint(clamp(y, 0, size.y - 1)) * push.width_px + clamped_xs;
+    const int given_y = y - apron;
+    const bvec4 exists = both(both(lessThan(given_xs, ivec4(given.x)),
+                                   greaterThanEqual(given_xs, ivec4(0))),
+                              bvec4(given_y >= 0 && given_y < given.y));
+    const uvec4 index = uint(clamp(given_y, 0, given.y - 1) * given.x) + clamped_xs;
     const float ray_y = (float(y) + 0.5 - depth.principal_px.y) / depth.focal_px.y;
     const vec4 ray_length =
         kHasRayDistance ? sqrt(ray_x * ray_x + (ray_y * ray_y + 1.0)) : vec4(1.0);

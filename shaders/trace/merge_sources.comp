@@ -34,7 +34,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 uint answer_index;  // of the first source, for this invocation's px
 
 RayAnswer loadAnswer(uint source) {
-  return answers[source * push.answers_stride + answer_index];
+  const uint walks = source < 4u ? push.first_walks.x : push.first_walks.y;
+  const uint walk = walks >> (8u * (source & 3u)) & 255u;
+  return answers[walk * push.answers_stride + answer_index];
 }
 
 #include "lib/class_counts.glsl"

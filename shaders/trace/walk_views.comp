@@ -24,6 +24,8 @@ layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
 layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
 // Several sources: each answers on its own, and merge_sources.comp makes px of the answers.
 layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
+// A face of a cube map: join_faces.comp makes one answer of those of all six.
+layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
 const bool kSeesThrough = kColorFormat == kColorRgba16f;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
@@ -51,6 +53,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
 #include "lib/edge_blend.glsl"
+#include "lib/face_ray.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_start.glsl"
@@ -143,6 +146,7 @@ struct Traced {
   vec3 direction;
   Seen seen;
   bool is_known;  // its colour; else the background
+  FaceStretch stretch;  // of a face of a cube map
 };
 
 Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
@@ -150,8 +154,10 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   Traced traced;
   traced.direction = rayDirection(view, vec2(float(run.first_x + i) + 0.5, run.tile_y));
   const vec2 size_px = vec2(scene.extent.size_px);
-  const Ray ray = kRaysArePlain
-                      ? makePlainRay(near_eye, traced.direction, size_px, scene.inv_z_near)
+  const Ray ray =
+      kIsCubeFace ? makeFaceRay(near_eye, traced.direction, size_px, scene.inv_z_near,
+                                traced.stretch)
+      : kRaysArePlain ? makePlainRay(near_eye, traced.direction, size_px, scene.inv_z_near)
                       : makeAnyRay(near_eye, traced.direction, size_px, scene.inv_z_near);
   const WalkStart start = startOf(scene, ray, bound);
   Walk walk = walkBeside(start);
@@ -182,9 +188,13 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
     const Traced px = tracePixel(scene, view, run, i, near_eye, bound, background);
     if (kIsOneOfSeveral) {
       const vec4 codes = vec4(codesOfBlend(px.seen.color), px.is_known ? 1.0 : 0.0);
-      answers[run.first_index + i] =
+      RayAnswer answer =
           answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), view, px.ray, px.direction,
                    px.walk, classOf(px.walk), codes);
+      if (kIsCubeFace) {
+        markFaceAnswer(answer, px.stretch, px.walk, vec2(scene.extent.size_px));
+      }
+      answers[run.first_index + i] = answer;
     } else if (isOwn(run, i)) {
       storeColor(run.first_index + i, px.seen);
       storeOthers(run.first_index + i, px.walk, px.ray, view.eye, px.direction);

@@ -54,20 +54,25 @@ class Walk {
     const FramePtr input = decodedCopy(frame);
     use.frame_input_bytes = planeBytes(*input);
     const uint64_t before_bytes = gpuMemoryBytes();
-    WalkedForm form(device_, shapesOf(*input));
-    use.structure_bytes = gpuMemoryBytes() - before_bytes;
+    const FrameBuildMemory build_memory = makeBuildMemory(device_, shapesOf(*input));
+    WalkedForm form(device_, build_memory);
+    const uint64_t form_bytes = gpuMemoryBytes() - before_bytes;
     StripTrace strip(device_, stripShape(job_));
-    const uint64_t held_bytes = gpuMemoryBytes() - before_bytes;
-    use.trace_target_bytes = held_bytes - use.structure_bytes;
+    use.trace_target_bytes = gpuMemoryBytes() - before_bytes - form_bytes;
     build(*input, form);
     trace(form, strip);
+    // With what the first display has made of it.
+    const uint64_t held_bytes = gpuMemoryBytes() - before_bytes;
+    use.structure_bytes = held_bytes - use.trace_target_bytes;
     if (test::HeapMeter::isAvailable()) {
       // The memory of a software device lies in the heap.
       const uint64_t device_bytes = device_.info().is_software ? 0 : held_bytes;
       use.peak_bytes = uint64_t(heap.peakBytes()) + device_bytes;
     }
-    const WalkedForm further_form(device_, shapesOf(*input));
-    const StripTrace further_strip(device_, stripShape(job_));
+    WalkedForm further_form(device_, build_memory);
+    StripTrace further_strip(device_, stripShape(job_));
+    build(*input, further_form);
+    trace(further_form, further_strip);
     use.further_frame_bytes = gpuMemoryBytes() - before_bytes - held_bytes;
     return use;
   }
@@ -81,7 +86,7 @@ class Walk {
 
   // The first strip: all others go through the same slot.
   void trace(const WalkedForm& form, StripTrace& strip) {
-    tracer_.recordBand(strip.recorder.begin(), form.structure.firstSource(), job_,
+    tracer_.recordBand(strip.recorder.begin(), form.structure.firstPart(), job_,
                        {0, strip.slot.shape().row_count_max}, strip.slot, nullptr);
     timeline_.wait(strip.recorder.submit(timeline_));
   }

@@ -21,7 +21,8 @@ struct MemoryUse {
   // The most there was while a frame was taken in, built and traced. None under a sanitizer.
   std::optional<uint64_t> peak_bytes;
   // What one more frame on its way holds, from its build to its last band: another structure and
-  // trace target. For the sweep also its planes, which it reads to the end.
+  // trace target, but not what builds take beside it. For the sweep also its planes, which it reads
+  // to the end.
   uint64_t further_frame_bytes = 0;
 
   uint64_t totalBytes() const { return structure_bytes + trace_target_bytes + frame_input_bytes; }

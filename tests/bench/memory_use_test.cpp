@@ -60,7 +60,9 @@ class MemoryUseTest : public GpuTest {
  protected:
   static void checkFrame(const Frame& frame, const char* preset, uint64_t total_bytes_max) {
     const TraceJob job = quiltJob(frame, preset);
-    check(walkMemory(device(), frame, job), total_bytes_max);
+    const MemoryUse walked = walkMemory(device(), frame, job);
+    check(walked, total_bytes_max);
+    EXPECT_LE(2 * walked.further_frame_bytes, walked.totalBytes());
     if (!canMeasureSweeps()) return;
     WorkerPool workers(2);
     const auto plan = SweepPlan::make(job, double{kWall_inv_z});

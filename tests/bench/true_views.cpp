@@ -2,6 +2,7 @@
 #include "bench/true_views.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -140,12 +141,35 @@ std::vector<uint32_t> trueThin(const Camera& view, SizePx view_px, SizePx source
   return lookAround(view, view_px, source_px, look);
 }
 
+std::vector<uint32_t> meanView(const TrueView& true_view, const Camera& view, SizePx view_px) {
+  Camera fine = view;
+  fine.intrinsics.focal_px *= kTruePlaces;
+  fine.intrinsics.principal_px *= kTruePlaces;
+  const SizePx fine_px{view_px.width * kTruePlaces, view_px.height * kTruePlaces};
+  const std::vector<uint32_t> places = true_view(fine, fine_px);
+  constexpr uint32_t kCount = kTruePlaces * kTruePlaces;
+  std::vector<uint32_t> rgba(view_px.area());
+  for (size_t px = 0; px < rgba.size(); ++px) {
+    std::array<uint32_t, 4> sums{};
+    for (uint32_t i = 0; i < kCount; ++i) {
+      const size_t row = px / view_px.width * kTruePlaces + i / kTruePlaces;
+      const size_t column = px % view_px.width * kTruePlaces + i % kTruePlaces;
+      const uint32_t place = places[row * fine_px.width + column];
+      for (uint32_t c = 0; c < 4; ++c) sums[c] += place >> (8 * c) & 255U;
+    }
+    for (uint32_t c = 0; c < 3; ++c) rgba[px] |= (sums[c] + kCount / 2) / kCount << (8 * c);
+    if (sums[3] == 255 * kCount) rgba[px] |= kAlpha;
+  }
+  return rgba;
+}
+
 TrueTiles::TrueTiles(const BenchLoad& load) : layout_(*load.job.layout) {
   if (!load.true_view) return;
   const auto count = uint32_t(layout_.views.size());
   for (const uint32_t view : {0U, count / 2, count - 1}) {
     if (!tiles_.empty() && tiles_.back().view == view) continue;
-    tiles_.push_back({view, load.true_view(layout_.views[view].camera, layout_.tile_size_px)});
+    tiles_.push_back(
+        {view, meanView(load.true_view, layout_.views[view].camera, layout_.tile_size_px)});
   }
 }
 

@@ -60,6 +60,31 @@ TEST(TrueViews, seeTexturesAsSharpInLargerPixels) {
   EXPECT_EQ(trueClutter(camera, small_px, kSize_px), middles);
 }
 
+// A view of columns a quarter of a px wide, of which each shows its own code.
+std::vector<uint32_t> quarterColumns(const Camera& /*view*/, SizePx view_px) {
+  std::vector<uint32_t> rgba;
+  for (uint32_t y = 0; y < view_px.height; ++y) {
+    for (uint32_t x = 0; x < view_px.width; ++x) {
+      const bool is_known = y != 5 || x != 2;
+      rgba.push_back(10 * x | (20 * y + x) << 8 | (is_known ? 0xff000000U : 0));
+    }
+  }
+  return rgba;
+}
+
+TEST(TrueViews, showTheMeanOfAllThatAPixelCovers) {
+  const std::vector<uint32_t> rgba = meanView(quarterColumns, syntheticCamera(kSize_px), {3, 2});
+  ASSERT_EQ(rgba.size(), 6U);
+  for (uint32_t px = 0; px < 6; ++px) {
+    const uint32_t column = px % 3;
+    const uint32_t row = px / 3;
+    // Halves are rounded up.
+    EXPECT_EQ(rgba[px] & 255U, 40 * column + 15) << px;
+    EXPECT_EQ(rgba[px] >> 8 & 255U, 80 * row + 30 + 4 * column + 2) << px;
+    EXPECT_EQ(rgba[px] >> 24, px == 3 ? 0U : 255U) << px;
+  }
+}
+
 TEST(TrueViews, knowWhatTheImageDoesNotReach) {
   Camera camera = syntheticCamera(kSize_px);
   camera.intrinsics.principal_px.x += 10;  // sees so much more on the left

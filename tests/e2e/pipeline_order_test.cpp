@@ -79,8 +79,10 @@ TEST_F(PipelineOrderTest, letsASmallAtlasOvertakeALargeOneBetweenTwoStrips) {
   const auto large_place = join(server, smallQuilt({2400, 4000}), large);
   server.offer(syntheticFrame(1));
   gate->waitUntilReached();
+  // The large one has begun, and the small one waits. No later: what holds the encode thread in its
+  // atlas holds up whoever is to begin another one.
+  while (!server.broadcaster.layout(large_place->displayId())) std::this_thread::yield();
   const auto small_place = join(server, smallQuilt({80, 60}), small);
-  while (!server.broadcaster.layout(small_place->displayId())) std::this_thread::yield();
   gate->release();
   small->arrived().wait();
   large->arrived().wait();

@@ -36,24 +36,34 @@ TEST_F(PipelineSourcesTest, showWhatIsHiddenFromOneOfThem) {
 }
 
 TEST_F(PipelineSourcesTest, giveTheSameBytesWhateverTheThreadsAndTheSlots) {
-  const FramePtr frame = syntheticFrameFrom(1, {0, 0.5});
-  const AtlasPtr a = atlasOf(frame, {.encode_thread_count = 1, .trace_slot_count = 1});
-  const AtlasPtr b = atlasOf(frame, {.encode_thread_count = 4, .trace_slot_count = 5});
-  ASSERT_TRUE(a && b);
-  ASSERT_EQ(a->bands.size(), b->bands.size());
-  for (size_t i = 0; i < a->bands.size(); ++i) {
-    EXPECT_EQ(*a->bands[i].bytes, *b->bands[i].bytes) << "band " << i;
+  for (const FramePtr& frame : {syntheticFrameFrom(1, {0, 0.5}), syntheticCubeFrame(1)}) {
+    const AtlasPtr a = atlasOf(frame, {.encode_thread_count = 1, .trace_slot_count = 1});
+    const AtlasPtr b = atlasOf(frame, {.encode_thread_count = 4, .trace_slot_count = 5});
+    ASSERT_TRUE(a && b);
+    ASSERT_EQ(a->bands.size(), b->bands.size());
+    for (size_t i = 0; i < a->bands.size(); ++i) {
+      EXPECT_EQ(*a->bands[i].bytes, *b->bands[i].bytes) << "band " << i;
+    }
+    EXPECT_EQ(a->coverage, b->coverage);
   }
-  EXPECT_EQ(a->coverage, b->coverage);
 }
 
-// Slots that held one source hold two, and one again.
+TEST_F(PipelineSourcesTest, thatAreCubeMapsSeeEverything) {
+  const AtlasPtr atlas = atlasOf(syntheticCubeFrame(1));
+  ASSERT_TRUE(atlas);
+  EXPECT_EQ(atlas->method, TraceMethod::kWalk);
+  EXPECT_EQ(atlas->coverage.outside, 0U);
+  EXPECT_GT(atlas->coverage.hit, atlas->coverage.rayCount() * 3 / 4);
+}
+
+// Slots that held one source hold two, a cube map, and one again.
 TEST_F(PipelineSourcesTest, mayComeAndGoFromFrameToFrame) {
   Server server(device(), {.trace_slot_count = 1});
   const Viewer viewer = watch(server, smallQuilt());
-  for (uint64_t number = 1; number <= 5; ++number) {
-    server.offer(number % 2 == 1 ? syntheticFrameFrom(number, {0})
-                                 : syntheticFrameFrom(number, {0, 0.4, 0.8}, {120, 70}));
+  for (uint64_t number = 1; number <= 7; ++number) {
+    server.offer(number % 3 == 1   ? syntheticFrameFrom(number, {0})
+                 : number % 3 == 2 ? syntheticFrameFrom(number, {0, 0.4, 0.8}, {120, 70})
+                                   : syntheticCubeFrame(number));
     EXPECT_THAT(server.reports.waitForReports(number), SizeIs(number));
     EXPECT_THAT(viewer.subscriber->waitForAtlases(number), SizeIs(number));
   }

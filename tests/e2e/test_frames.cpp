@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "frame/cube_map.h"
 #include "synthetic/synthetic_frame.h"
 
 namespace viewloom::test {
@@ -32,17 +33,21 @@ std::shared_ptr<Frame> emptyFrame(uint64_t number) {
   return frame;
 }
 
-void addSource(const SyntheticOptions& options, Frame& frame) {
-  const SizePx size_px = options.size_px;
-  SourceFormat& source = frame.format.sources.emplace_back();
-  source.camera = options.camera.value_or(syntheticCamera(size_px));
+void addLayers(SizePx size_px, std::vector<SyntheticLayer> layers, SourceFormat& source,
+               Frame& frame) {
   std::vector<LayerPlanes>& planes = frame.sources.emplace_back();
-  for (SyntheticLayer& layer : renderSyntheticFrame(options)) {
+  for (SyntheticLayer& layer : layers) {
     source.layers.push_back(layerFormat(size_px));
     planes.push_back({.color = std::make_shared<const std::vector<uint8_t>>(std::move(layer.color)),
                       .color_encoding = PlaneEncoding::kRgba8,
                       .depth = floatBytes(layer.depth_m)});
   }
+}
+
+void addSource(const SyntheticOptions& options, Frame& frame) {
+  SourceFormat& source = frame.format.sources.emplace_back();
+  source.camera = options.camera.value_or(syntheticCamera(options.size_px));
+  addLayers(options.size_px, renderSyntheticFrame(options), source, frame);
 }
 
 }  // namespace
@@ -65,6 +70,28 @@ FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m
     camera.pose.position_m.x = place_m;
     addSource({.size_px = size_px, .layer_count = 1, .camera = camera, .thread_count = 1}, *frame);
   }
+  return frame;
+}
+
+FramePtr syntheticCubeFrame(uint64_t number, uint32_t side_px) {
+  const std::shared_ptr<Frame> frame = emptyFrame(number);
+  const SizePx size_px{side_px, kCubeFaceCount * side_px};
+  SourceFormat& source = frame->format.sources.emplace_back();
+  source.camera.intrinsics = cubeFaceIntrinsics(side_px);
+  source.is_cube_map = true;
+  std::vector<SyntheticLayer> stacked(2);
+  for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
+    const auto layers = renderSyntheticFrame({.size_px = {side_px, side_px},
+                                              .layer_count = 2,
+                                              .camera = cubeFaceCamera({}, face, side_px),
+                                              .thread_count = 1});
+    for (size_t i = 0; i < stacked.size(); ++i) {
+      const SyntheticLayer& from = layers[i];
+      stacked[i].color.insert(stacked[i].color.end(), from.color.begin(), from.color.end());
+      stacked[i].depth_m.insert(stacked[i].depth_m.end(), from.depth_m.begin(), from.depth_m.end());
+    }
+  }
+  addLayers(size_px, std::move(stacked), source, *frame);
   return frame;
 }
 

@@ -17,6 +17,9 @@ FramePtr syntheticFrame(uint64_t number, SizePx size_px = {160, 90}, uint32_t la
 FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m,
                             SizePx size_px = {160, 90});
 
+// Of two layers, as a cube map in the place that the scene is meant to be seen from.
+FramePtr syntheticCubeFrame(uint64_t number, uint32_t side_px = 48);
+
 // A small quilt of 4x2 views, complete.
 DisplaySpec smallQuilt(SizePx size_px = {320, 200});
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views between two sources of scenes of exact surfaces, beside the true pictures.
 #include <iostream>
-#include <stdexcept>
 #include <string>
 
 #include "gpu/test_device.h"
 #include "gpu/true_view.h"
+#include "gpu/world_views.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
@@ -25,29 +25,6 @@ Camera cameraAt(const glm::dvec3& eye_m, const glm::dvec2& principal_px,
                 const glm::dvec3& turn_rad = glm::dvec3(0.0)) {
   return {.pose = {.position_m = eye_m, .orientation = glm::dquat(turn_rad)},
           .intrinsics = {glm::dvec2(kFocal_px), principal_px}};
-}
-
-DisplaySpec displayOf(const std::vector<Camera>& views) {
-  CamerasSpec cameras{
-      .cameras = {},
-      .tile_size_px = {uint32_t(kFine) * kView_px.width, uint32_t(kFine) * kView_px.height},
-      .columns = uint32_t(views.size())};
-  for (Camera view : views) {
-    view.intrinsics.focal_px *= double(kFine);
-    view.intrinsics.principal_px *= double(kFine);
-    cameras.cameras.push_back({view.pose, view.intrinsics});
-  }
-  DisplaySpec spec;
-  spec.kind = cameras;
-  spec.world_pose = Pose{};
-  spec.tolerance_px = double(kFine) * kDefaultTolerance_px;
-  return spec;
-}
-
-template <typename Value>
-Value valueOrThrow(absl::StatusOr<Value> value) {
-  if (!value.ok()) throw std::runtime_error(std::string(value.status().message()));
-  return *std::move(value);
 }
 
 class MergedViewsTest : public GpuTest {
@@ -83,10 +60,7 @@ class MergedViewsTest : public GpuTest {
 
  private:
   static RenderedAtlas render(const FramePtr& frame, const std::vector<Camera>& views) {
-    OfflineRenderer renderer(device());
-    renderer.build(*frame);
-    const DisplaySpec display = valueOrThrow(completeDisplaySpec(displayOf(views)));
-    return valueOrThrow(renderer.render(display, {.linear = true}, [](uint32_t, uint32_t) {}));
+    return renderInWorld(device(), *frame, views, kView_px, kFine);
   }
 };
 

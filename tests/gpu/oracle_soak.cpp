@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloom-oracle-soak [sweep] [first seed [count]]: random scenes and views by the thousand
-// against the oracle, walked or swept. Prints every seed that differs; exit code 1 when one did.
+// viewloom-oracle-soak [sweep|cube|sources|beside] [first seed [count]]: random scenes and views by
+// the thousand against the oracle, walked or swept, walked as cube maps, as several sources, or as
+// a cube map beside other sources. Prints every seed that differs; exit code 1 when one did.
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
+#include "gpu/cube_beside_sources.h"
+#include "gpu/cube_under_test.h"
 #include "gpu/judge_seed.h"
 
 namespace viewloom {
@@ -49,14 +54,42 @@ int soakSweep(uint64_t first, uint64_t count) {
   return soak(first, count, [&](uint64_t seed) { return judgeSweptSeed(sweep, seed); });
 }
 
+int soakCube(uint64_t first, uint64_t count) {
+  const Device device(DeviceOptions{});
+  SourcesUnderTest tracer(device);
+  return soak(first, count, [&](uint64_t seed) {
+    const JudgedCube judged = judgeCube(tracer, seed);
+    return JudgedSeed{"cube map", judged.complaints, {.verdict = judged.verdict}};
+  });
+}
+
+template <typename Judge>
+int soakSources(const char* name, uint64_t first, uint64_t count, const Judge& judge) {
+  const Device device(DeviceOptions{});
+  SourcesUnderTest tracer(device);
+  return soak(first, count, [&](uint64_t seed) {
+    return JudgedSeed{name, {}, {.verdict = judge(tracer, seed)}};
+  });
+}
+
+// As main() is told to.
+int soakAs(const std::string& mode, uint64_t first, uint64_t count) {
+  if (mode == "sweep") return soakSweep(first, count);
+  if (mode == "cube") return soakCube(first, count);
+  if (mode == "sources") return soakSources("sources", first, count, judgeSources);
+  if (mode == "beside") return soakSources("beside", first, count, judgeCubeBesideSources);
+  return soakWalk(first, count);
+}
+
 }  // namespace
 }  // namespace viewloom
 
 int main(int argument_count, char** arguments) {
-  const bool is_swept = argument_count > 1 && std::strcmp(arguments[1], "sweep") == 0;
-  const int at = is_swept ? 2 : 1;
+  const std::string first_argument = argument_count > 1 ? arguments[1] : "";
+  const bool has_mode = !first_argument.empty() && std::isalpha(first_argument.front()) != 0;
+  const int at = has_mode ? 2 : 1;
   const uint64_t first = viewloom::numberOr(argument_count > at ? arguments[at] : nullptr, 0);
   const uint64_t count =
       viewloom::numberOr(argument_count > at + 1 ? arguments[at + 1] : nullptr, 10000);
-  return is_swept ? viewloom::soakSweep(first, count) : viewloom::soakWalk(first, count);
+  return viewloom::soakAs(first_argument, first, count);
 }

@@ -2,10 +2,13 @@
 // The tests of structure and walk would notice: each mistake planted in the shaders is found by
 // them.
 #include <array>
+#include <string>
+#include <vector>
 
 #include "gpu/judge_views.h"
 #include "gpu/structure_checks.h"
 #include "gpu/test_device.h"
+#include "oracle/analytic_scenes.h"
 #include "shared/fault.h"
 
 namespace viewloom {
@@ -23,18 +26,36 @@ struct Findings {
   double visits_mean = 0;   // on a smooth scene
 };
 
-void lookAtScene(WalkUnderTest& walk, uint64_t seed, const oracle::Scene& scene,
+void lookAtScene(WalkUnderTest& walk, const oracle::Scene& scene,
+                 const std::vector<oracle::OutputView>& views, const std::string& name,
                  Findings& findings) {
   const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
   const oracle::OracleSource source = sourceOf(scene, *slot);
   StructureImage image = walk.readBack(*slot);
   image.kappa_rel = scene.kappa.relative;
   findings.complaints.add(checkStructure(image, source));
+  findings.verdict.add(judgeViews(walk, *slot, source, views, kTolerance_px, name).verdict);
+}
+
+void lookFromAllSides(WalkUnderTest& walk, uint64_t seed, const oracle::Scene& scene,
+                      Findings& findings) {
   oracle::Random random(seed);
   const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
-  findings.verdict.add(
-      judgeViews(walk, *slot, source, views, kTolerance_px, "seed " + std::to_string(seed))
-          .verdict);
+  lookAtScene(walk, scene, views, "seed " + std::to_string(seed), findings);
+}
+
+// A pillar beside a wide board before it, and hills on both sides: rays pass between the two, and
+// come out again behind the board, as the pillar is narrower than that.
+void lookBetweenPillarAndBoard(WalkUnderTest& walk, Findings& findings) {
+  oracle::Scene scene = oracle::planeScene({0, 0, 0.05}, 64, 16);
+  for (int row = 0; row < 16; ++row) {
+    for (int column = 28; column < 44; ++column) {
+      scene.planes.at(0, column, row) = column < 32 ? 0.25f : 1.0f;
+    }
+  }
+  oracle::OutputView view = oracle::ownView(scene);
+  view.position_m.x = -0.3;
+  lookAtScene(walk, scene, {view}, "pillar and board", findings);
 }
 
 Findings lookAt(const Device& device) {
@@ -43,11 +64,12 @@ Findings lookAt(const Device& device) {
   WalkUnderTest walk(device);
   Findings findings;
   for (const uint64_t seed : kSeeds) {
-    lookAtScene(walk, seed, oracle::randomScene(seed), findings);
+    lookFromAllSides(walk, seed, oracle::randomScene(seed), findings);
   }
   for (const uint64_t seed : {2, 3}) {
-    lookAtScene(walk, seed, oracle::coarseScene(seed, 101, 40, 2), findings);
+    lookFromAllSides(walk, seed, oracle::coarseScene(seed, 101, 40, 2), findings);
   }
+  lookBetweenPillarAndBoard(walk, findings);
 
   // A pole over a smooth surface: a walk that descended at it has to climb again.
   oracle::Scene scene = oracle::smoothScene(256, 64, 1);
@@ -107,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
                     PlantedFault{abi::kFaultLinks, "links", FoundBy::kWalk},
                     PlantedFault{abi::kFaultEntryInFront, "entryInFront", FoundBy::kWalk},
                     PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultFarSideEnds, "farSideEnds", FoundBy::kWalk}),
+                    PlantedFault{abi::kFaultFarSideEnds, "farSideEnds", FoundBy::kWalk},
+                    PlantedFault{abi::kFaultFarSideEndless, "farSideEndless", FoundBy::kWalk}),
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 class NoFaultTest : public GpuTest {};

@@ -89,10 +89,14 @@ constexpr const char* kPassesItsRun = "passes between a facet and the end of its
 // What goes on in front of a far side was measured from facets, or from a run along their slope.
 constexpr const char* kComesOutOverARun = "comes out over a run that strays from its facets";
 
+// What is behind was taken from the middle of an edge where the far side is the nearer one.
+constexpr const char* kFarIsNearer = "has its far side in front, in the middle of the edge";
+
 constexpr OnceDiffered kSweptSeeds[] = {
     {150, kPassesItsRun},
     {3311, kComesOutOverARun},
     {4997, kComesOutOverARun},
+    {3574, kFarIsNearer},
 };
 
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};

@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <span>
+
+#include "gpu/cube_scenes.h"
 
 namespace viewloom {
 namespace {
+
+constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
 oracle::MergedAnswer answerOf(uint8_t mask, float view_inv_z, const float* srgb, size_t sources) {
   constexpr oracle::RayClass kClasses[] = {oracle::RayClass::kHit, oracle::RayClass::kHitAssumed,
@@ -42,6 +48,39 @@ std::vector<PosedScene> randomSources(uint64_t seed, oracle::Random& random) {
   return scenes;
 }
 
+// What the oracle sees of built scenes.
+class OraclesOfScenes {
+ public:
+  OraclesOfScenes(const std::vector<PosedScene>& scenes,
+                  std::span<const StructureSlot* const> parts) {
+    for (const PosedScene& scene : scenes) {
+      const size_t part_count = scene.is_cube_map ? oracle::kFaceCount : 1;
+      add(scene, parts.first(part_count));
+      parts = parts.subspan(part_count);
+    }
+  }
+
+  const std::vector<oracle::PosedSource>& posed() const { return posed_; }
+
+ private:
+  void add(const PosedScene& posed, std::span<const StructureSlot* const> parts) {
+    const oracle::Scene& scene = posed.scene;
+    oracle::PosedSource source{.position_m = posed.position_m, .orientation = posed.orientation};
+    if (posed.is_cube_map) {
+      source.cube = &cubes_.emplace_back(oracleOf(scene, parts));
+    } else {
+      const StructureSlot& slot = *parts.front();
+      source.source = &sources_.emplace_back(sourceOf(scene, slot));
+      source.kappa = {float(slot.stats().connection_tolerance), scene.kappa.relative};
+    }
+    posed_.push_back(source);
+  }
+
+  std::deque<oracle::OracleSource> sources_;
+  std::deque<oracle::OracleCube> cubes_;
+  std::vector<oracle::PosedSource> posed_;
+};
+
 }  // namespace
 
 FramePtr frameOf(const std::vector<PosedScene>& scenes, bool is_half_float) {
@@ -55,6 +94,7 @@ FramePtr frameOf(const std::vector<PosedScene>& scenes, bool is_half_float) {
     const FramePtr one = is_half_float ? frameOf(scene, colors) : frameOf(scene);
     SourceFormat& format = frame->format.sources.emplace_back(one->format.sources.front());
     format.camera.pose = {scenes[i].position_m, scenes[i].orientation};
+    format.is_cube_map = scenes[i].is_cube_map;
     std::vector<LayerPlanes>& layers = frame->sources.emplace_back(one->sources.front());
     for (LayerPlanes& layer : layers) {
       if (is_half_float) continue;
@@ -72,24 +112,22 @@ SourcesUnderTest::SourcesUnderTest(const Device& device)
 void SourcesUnderTest::build(const Frame& frame) {
   structure_.emplace(device_, shapesOf(frame));
   structure_->upload(frame);
+  sources_.clear();
+  for (const SourceFormat& source : frame.format.sources) sources_.push_back(seenSource(source));
   structure_->recordBuild(recorder_.begin(), builder_);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
 std::vector<MergedView> SourcesUnderTest::trace(const std::vector<oracle::OutputView>& views,
                                                 double tolerance_px) {
-  std::vector<SeenSource> sources;
-  for (const StructureSlot* source : structure_->sources()) {
-    sources.push_back({source->sourceCamera(), source->shape().depth_px});
-  }
-  const TraceJob job = jobOf(views, tolerance_px, sources);
+  const TraceJob job = jobOf(views, tolerance_px, sources_);
   const AtlasLayout& layout = *job.layout;
   TraceSlot traced(device_, {.width_px = layout.size_px.width,
                              .row_count_max = layout.size_px.height,
                              .tile_count_max = uint32_t(views.size()),
-                             .source_count = job.source_count,
+                             .walk_count = job.walk_count,
                              .outputs = {.depth = true, .mask = true, .linear = true}});
-  tracer_.recordBand(recorder_.begin(), structure_->sources(), job, {0, layout.size_px.height},
+  tracer_.recordBand(recorder_.begin(), structure_->parts(), job, {0, layout.size_px.height},
                      traced, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
   std::vector<MergedView> by_view(views.size());
@@ -97,40 +135,37 @@ std::vector<MergedView> SourcesUnderTest::trace(const std::vector<oracle::Output
     MergedView& view = by_view[index % layout.size_px.width / layout.tile_size_px.width];
     view.width = int(layout.tile_size_px.width);
     view.answers.push_back(answerOf(traced.mask()[index], traced.depth()[index],
-                                    &traced.linear()[4 * index], sources.size()));
+                                    &traced.linear()[4 * index], sources_.size()));
   }
   return by_view;
 }
 
-oracle::Verdict judgeSources(SourcesUnderTest& tracer, uint64_t seed, double tolerance_px) {
-  oracle::Random random(seed);
-  const std::vector<PosedScene> scenes = randomSources(seed, random);
-  tracer.build(*frameOf(scenes, seed % 2 == 0));
-  std::vector<oracle::OracleSource> sources;
-  std::vector<oracle::PosedSource> posed;
-  sources.reserve(scenes.size());
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    const StructureSlot& slot = *tracer.structure().sources()[i];
-    sources.push_back(sourceOf(scenes[i].scene, slot));
-    posed.push_back(
-        {.source = &sources.back(),
-         .kappa = {float(slot.stats().connection_tolerance), scenes[i].scene.kappa.relative},
-         .position_m = scenes[i].position_m,
-         .orientation = scenes[i].orientation});
-  }
-  oracle::MergeJudge judge(posed, tolerance_px);
-  const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
-  const std::vector<MergedView> traced = tracer.trace(views, tolerance_px);
+oracle::Verdict judgeScenes(SourcesUnderTest& tracer, const std::vector<PosedScene>& scenes,
+                            const std::vector<oracle::OutputView>& views, const JudgedRays& rays) {
+  tracer.build(*frameOf(scenes, rays.is_half_float));
+  const OraclesOfScenes oracles(scenes, tracer.structure().parts());
+  oracle::MergeJudge judge(oracles.posed(), rays.tolerance_px);
+  const std::vector<MergedView> traced = tracer.trace(views, rays.tolerance_px);
   for (size_t v = 0; v < views.size(); ++v) {
     for (int px = 0; px < views[v].width * views[v].height; ++px) {
       const int column = px % views[v].width, row = px / views[v].width;
       judge.consider(oracle::rayOf(views[v], column + 0.5, row + 0.5),
                      traced[v].answers[size_t(px)],
-                     "seed " + std::to_string(seed) + ", view " + views[v].name + " px (" +
-                         std::to_string(column) + ", " + std::to_string(row) + ")");
+                     rays.name + ", view " + views[v].name + " px (" + std::to_string(column) +
+                         ", " + std::to_string(row) + ")");
     }
   }
   return judge.verdict();
+}
+
+oracle::Verdict judgeSources(SourcesUnderTest& tracer, uint64_t seed) {
+  oracle::Random random(seed);
+  const std::vector<PosedScene> scenes = randomSources(seed, random);
+  const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
+  return judgeScenes(tracer, scenes, views,
+                     {.tolerance_px = kTolerances_px[seed % 3],
+                      .is_half_float = seed % 2 == 0,
+                      .name = "seed " + std::to_string(seed)});
 }
 
 }  // namespace viewloom

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure on the device against the oracle and against its own lower levels.
+#include <algorithm>
+#include <memory>
+
 #include "commands/effective_nodes.h"
 #include "gpu/structure_checks.h"
 #include "gpu/test_device.h"
@@ -7,6 +10,20 @@
 
 namespace viewloom {
 namespace {
+
+// What walks read.
+bool isSame(const StructureImage& a, const StructureImage& b) {
+  const auto isSameGrid = [](const NodeGrid& grid, const NodeGrid& other) {
+    return grid.nodes == other.nodes;
+  };
+  return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+                    [&](const LayerImage& layer, const LayerImage& other) {
+                      return isSameGrid(layer.facets, other.facets) && layer.links == other.links &&
+                             isSameGrid(layer.entries, other.entries) &&
+                             std::equal(layer.levels.begin(), layer.levels.end(),
+                                        other.levels.begin(), other.levels.end(), isSameGrid);
+                    });
+}
 
 class StructureTest : public GpuTest {
  protected:
@@ -80,17 +97,19 @@ TEST_F(StructureTest, isTheSameWhateverItsMemoryHeld) {
     const FramePtr frame = frameOf(scene);
     const StructureImage image = walk_.readBack(*walk_.build(*frame, 0));
     const StructureImage other = walk_.readBack(*walk_.build(*frame, kNan));
-    for (size_t i = 0; i < image.layers.size(); ++i) {
-      const LayerImage& layer = image.layers[i];
-      EXPECT_EQ(layer.facets.nodes, other.layers[i].facets.nodes);
-      EXPECT_EQ(layer.links, other.layers[i].links);
-      EXPECT_EQ(layer.entries.nodes, other.layers[i].entries.nodes);
-      for (size_t level = 0; level < layer.levels.size(); ++level) {
-        EXPECT_TRUE(layer.levels[level].nodes == other.layers[i].levels[level].nodes)
-            << size_px.width << "x" << size_px.height << " level " << level;
-      }
-    }
+    EXPECT_TRUE(isSame(image, other)) << size_px.width << "x" << size_px.height;
   }
+}
+
+// As those of a stream are.
+TEST_F(StructureTest, staysWhenAnotherIsBuiltInTheSameMemory) {
+  const FramePtr frame = frameOf(oracle::randomScene(1000, 97, 65, 2));
+  const FramePtr other_frame = frameOf(oracle::randomScene(1001, 97, 65, 2));
+  const auto memory = std::make_shared<BuildMemory>(device(), shapeOf(*frame));
+  const std::unique_ptr<StructureSlot> first = walk_.buildIn(memory, *frame);
+  const std::unique_ptr<StructureSlot> second = walk_.buildIn(memory, *other_frame);
+  EXPECT_TRUE(isSame(walk_.readBack(*first), walk_.readBack(*walk_.build(*frame))));
+  EXPECT_TRUE(isSame(walk_.readBack(*second), walk_.readBack(*walk_.build(*other_frame))));
 }
 
 TEST_F(StructureTest, aSmoothSceneTakesFewNodes) {

@@ -156,21 +156,21 @@ TEST_P(SweepFaultTest, isFound) {
   EXPECT_GT(judgeSeeds(sweep, 400).verdict.differing, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, SweepFaultTest,
-                         testing::Values(PlantedFault{SweepFault::kRowOff, "rowOff"},
-                                         PlantedFault{SweepFault::kRunsOff, "runsOff"},
-                                         PlantedFault{SweepFault::kCrossLinks, "crossLinks"},
-                                         PlantedFault{SweepFault::kBridges, "bridges"},
-                                         PlantedFault{SweepFault::kTolerance, "tolerance"},
-                                         PlantedFault{SweepFault::kFallsBelowSky, "fallsBelowSky"},
-                                         PlantedFault{SweepFault::kGoesOnBehind, "goesOnBehind"},
-                                         PlantedFault{SweepFault::kEntryInFront, "entryInFront"},
-                                         PlantedFault{SweepFault::kLayerDropped, "layerDropped"},
-                                         PlantedFault{SweepFault::kLastWins, "lastWins"},
-                                         PlantedFault{SweepFault::kFarSideEnds, "farSideEnds"}),
-                         [](const testing::TestParamInfo<PlantedFault>& fault) {
-                           return fault.param.name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Each, SweepFaultTest,
+    testing::Values(PlantedFault{SweepFault::kRowOff, "rowOff"},
+                    PlantedFault{SweepFault::kRunsOff, "runsOff"},
+                    PlantedFault{SweepFault::kCrossLinks, "crossLinks"},
+                    PlantedFault{SweepFault::kBridges, "bridges"},
+                    PlantedFault{SweepFault::kTolerance, "tolerance"},
+                    PlantedFault{SweepFault::kFallsBelowSky, "fallsBelowSky"},
+                    PlantedFault{SweepFault::kGoesOnBehind, "goesOnBehind"},
+                    PlantedFault{SweepFault::kEntryInFront, "entryInFront"},
+                    PlantedFault{SweepFault::kLayerDropped, "layerDropped"},
+                    PlantedFault{SweepFault::kLastWins, "lastWins"},
+                    PlantedFault{SweepFault::kFarSideEnds, "farSideEnds"},
+                    PlantedFault{SweepFault::kFarSideEndless, "farSideEndless"}),
+    [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 }  // namespace
 }  // namespace viewloom

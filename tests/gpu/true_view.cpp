@@ -74,6 +74,13 @@ TrueScore TrueView::scoreInside(const ScoredImage& got) const {
   return score(got, is_inside_);
 }
 
+TrueScore TrueView::scoreInside(const ScoredImage& got,
+                                const std::vector<uint8_t>& selected) const {
+  std::vector<uint8_t> both = is_inside_;
+  for (size_t i = 0; i < both.size(); ++i) both[i] = both[i] != 0 && selected[i] != 0;
+  return score(got, both);
+}
+
 TrueScore TrueView::score(const ScoredImage& got, const std::vector<uint8_t>& selected) const {
   Psnr covered, full, hidden;
   for (size_t i = 0; i < known_.size(); ++i) {

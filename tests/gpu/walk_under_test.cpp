@@ -168,7 +168,13 @@ WalkUnderTest::WalkUnderTest(const Device& device)
 
 std::unique_ptr<StructureSlot> WalkUnderTest::build(const Frame& frame,
                                                     std::optional<uint32_t> old_word) {
-  auto slot = std::make_unique<StructureSlot>(device_, shapeOf(frame));
+  return buildIn(std::make_shared<BuildMemory>(device_, shapeOf(frame)), frame, old_word);
+}
+
+std::unique_ptr<StructureSlot> WalkUnderTest::buildIn(BuildMemoryPtr build_memory,
+                                                      const Frame& frame,
+                                                      std::optional<uint32_t> old_word) {
+  auto slot = std::make_unique<StructureSlot>(device_, std::move(build_memory));
   slot->upload(frame);
   const vk::CommandBuffer commands = recorder_.begin();
   for (uint32_t layer = 0; old_word && layer < slot->shape().layerCount(); ++layer) {

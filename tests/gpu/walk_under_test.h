@@ -61,6 +61,9 @@ class WalkUnderTest {
   // Uploads and builds, and waits for it; over memory that held this word everywhere, if one is
   // given.
   std::unique_ptr<StructureSlot> build(const Frame& frame, std::optional<uint32_t> old_word = {});
+  // The same in memory that others are built in, too.
+  std::unique_ptr<StructureSlot> buildIn(BuildMemoryPtr build_memory, const Frame& frame,
+                                         std::optional<uint32_t> old_word = {});
   StructureImage readBack(const StructureSlot& slot);
   // Of one layer, as stored.
   std::vector<abi::uvec2> cells(const StructureSlot& slot, uint32_t layer);

@@ -15,6 +15,14 @@ namespace {
 // Share of the seen part: far above rounding, far below the way through a column.
 constexpr double kJustBefore = 1e-9;
 
+// What is taken to go on behind a silhouette that the ray passed.
+struct FarSide {
+  double inv_z = -1;  // none
+  double passed_at = 0;
+
+  bool exists() const { return inv_z >= 0; }
+};
+
 struct Event {
   double distance = kInfinity;
   FacetAt facet;
@@ -112,24 +120,27 @@ class AllFacets {
   void findWhatIsOver() {
     const std::vector<FacetAt> columns = columnsMet();
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
-      double far_inv_z = -1;  // none
+      FarSide far;
       for (size_t i = 0; i < columns.size(); ++i) {
         const FacetAt at{layer, columns[i].column, columns[i].row};
         const Stretch inside = inColumn(at);
         if (i > 0) {
           const FacetAt before{layer, columns[i - 1].column, columns[i - 1].row};
-          far_inv_z = farSideBehind(before, at, inside.begin, far_inv_z);
+          far = farSideBehind(before, at, inside.begin, far);
         }
-        if (far_inv_z < 0) continue;
+        if (!far.exists()) continue;
         const double out = comesOut(at, inside);
-        const double far_z_m = 1 / far_inv_z;
-        const double over = (-far_z_m - ray_.origin_m.z) / ray_.direction.z;
-        if (invZAt(inside.end) <= far_inv_z && over <= out) {
-          double& over_from = over_from_[size_t(layer)];
-          over_from = std::min(over_from, std::max(over, inside.begin));
-          break;
+        const double over = (-1 / far.inv_z - ray_.origin_m.z) / ray_.direction.z;
+        if (invZAt(inside.end) <= far.inv_z && over <= out) {
+          const double met_at = std::max(over, inside.begin);
+          if (source_.reachesAsFar(far.inv_z, imageAt(far.passed_at), imageAt(met_at))) {
+            double& over_from = over_from_[size_t(layer)];
+            over_from = std::min(over_from, met_at);
+            break;
+          }
+          far = {};
         }
-        if (out < inside.end) far_inv_z = -1;
+        if (out < inside.end) far = {};
       }
     }
   }
@@ -145,20 +156,27 @@ class AllFacets {
   }
 
   // What is behind a layer once the ray has gone from column to column: as before, or what it
-  // passes; negative: nothing.
-  double farSideBehind(const FacetAt& before, const FacetAt& at, double distance,
-                       double far_inv_z) const {
-    if (!source_.exists(at) || countsFrom(at) > distance) return -1;
-    if (sideAt(metricPlane(source_, at), ray_, distance) > 0) return -1;
+  // passes.
+  FarSide farSideBehind(const FacetAt& before, const FacetAt& at, double distance,
+                        const FarSide& far) const {
+    if (!source_.exists(at) || countsFrom(at) > distance) return {};
+    if (sideAt(metricPlane(source_, at), ray_, distance) > 0) return {};
     const bool counts_before = countsFrom(before) < distance;
-    if (!source_.exists(before)) return -1;
+    if (!source_.exists(before)) return {};
     const bool is_over_it = sideAt(metricPlane(source_, before), ray_, distance) > 0;
-    if (!is_over_it) return counts_before ? far_inv_z : -1;
-    if (source_.knownBehind(before, at)) return -1;
-    const glm::dvec3 point = ray_.origin_m + distance * ray_.direction;
+    if (!is_over_it) return counts_before ? far : FarSide{};
+    if (source_.knownBehind(before, at)) return {};
+    const glm::dvec2 at_px = imageAt(distance);
+    return {source_.planeInvZ(before, at_px.x, at_px.y), distance};
+  }
+
+  glm::dvec2 imageAt(double distance) const {
+    const bool at_infinity = distance == kInfinity;
+    const glm::dvec3 point =
+        at_infinity ? ray_.direction : ray_.origin_m + distance * ray_.direction;
     const Pinhole& p = source_.pinhole();
-    return source_.planeInvZ(before, p.principal_px.x - p.focal_px.x * point.x / point.z,
-                             p.principal_px.y + p.focal_px.y * point.y / point.z);
+    return {p.principal_px.x - p.focal_px.x * point.x / point.z,
+            p.principal_px.y + p.focal_px.y * point.y / point.z};
   }
 
   // Whether the ray has met the far side behind this layer, or a deeper one, before.
@@ -207,16 +225,12 @@ class AllFacets {
   }
 
   OracleHit hitAt(const Event& event, bool assumed) const {
-    const Pinhole& p = source_.pinhole();
-    const bool at_infinity = event.distance == kInfinity;
-    const glm::dvec3 point =
-        at_infinity ? ray_.direction : ray_.origin_m + event.distance * ray_.direction;
-    return {p.principal_px.x - p.focal_px.x * point.x / point.z,
-            p.principal_px.y + p.focal_px.y * point.y / point.z,
-            at_infinity ? 0 : -1 / point.z,
-            assumed,
-            event.facet,
-            {}};
+    const glm::dvec2 at_px = imageAt(event.distance);
+    return {.x_px = at_px.x,
+            .y_px = at_px.y,
+            .inv_z = invZAt(event.distance),
+            .assumed = assumed,
+            .facet = event.facet};
   }
 
   const OracleSource& source_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -72,25 +71,34 @@ bool agree(const MergedAnswer& a, const MergedAnswer& b) {
                     [](double one, double other) { return (one > 0) == (other > 0); });
 }
 
-// By how much a plane that is taken for the facet at a hit may be off there, 1/m: half of the
-// connection tolerance, or what moves the picture by the display's tolerance. Seen from b, a point
-// r / w stands beside itself by |r x b| dw / |r - w b|^2 radian when w is off by dw.
-double planeError(const PosedSource& source, const ViewRay& ray, double output_px) {
-  const OracleAnswer answer = traceOracle(*source.source, ray.ray);
-  if (answer.hits.empty()) return 0;
-  const OracleHit& hit = answer.hits.front();
-  const Pinhole& pinhole = source.source->pinhole();
-  const glm::dvec3 sight{(hit.x_px - pinhole.principal_px.x) / pinhole.focal_px.x,
-                         -(hit.y_px - pinhole.principal_px.y) / pinhole.focal_px.y, -1.0};
-  const glm::dvec3 from_eye = sight - hit.inv_z * ray.ray.origin_m;
-  const double turn =
-      glm::length(glm::cross(sight, ray.ray.origin_m)) / glm::dot(from_eye, from_eye);
-  const double px =
-      std::max(glm::length(ray.direction_per_px_x), glm::length(ray.direction_per_px_y)) /
-      glm::length(ray.ray.direction);
-  const double half_kappa =
-      0.5 * std::max<double>(source.kappa.absolute, source.kappa.relative * hit.inv_z);
-  return turn > 0 ? std::min(half_kappa, output_px * px / turn) : half_kappa;
+// The pinholes that a source has: itself, or the faces of a cube map.
+std::vector<SeenFacets> pinholesOf(const PosedSource& source) {
+  if (source.cube == nullptr) return {{source.source, source.kappa}};
+  std::vector<SeenFacets> faces;
+  for (size_t face = 0; face < source.cube->faces.size(); ++face) {
+    faces.push_back({&source.cube->faces[face], source.cube->kappas[face]});
+  }
+  return faces;
+}
+
+// Planes stand for several facets, and a hit at an edge names the facet on either side: how densely
+// a source samples the surface may be told by any that is linked to the hit's.
+std::vector<SourceAnswer> answersOfLinked(TracedSource traced) {
+  std::vector<SourceAnswer> answers;
+  if (!isHit(traced.ray_class)) return answers;
+  const OracleSource& source = *traced.facets.source;
+  const FacetAt own = traced.hit.facet;
+  for (int i = 0; i < 4; ++i) {
+    FacetAt beside{0, own.column + (i == 0) - (i == 1), own.row + (i == 2) - (i == 3)};
+    if (beside.column < 0 || beside.column >= source.width()) continue;
+    if (beside.row < 0 || beside.row >= source.height()) continue;
+    for (; beside.layer < source.layerCount(); ++beside.layer) {
+      if (!source.linked(own, beside)) continue;
+      traced.hit.facet = beside;
+      answers.push_back(sourceAnswer(traced));
+    }
+  }
+  return answers;
 }
 
 std::string describe(const MergedAnswer& answer) {
@@ -104,83 +112,62 @@ std::string describe(const MergedAnswer& answer) {
 }  // namespace
 
 MergeJudge::MergeJudge(std::vector<PosedSource> sources, double output_px)
-    : sources_(std::move(sources)) {
-  for (const PosedSource& source : sources_) {
-    tolerances_.push_back(toleranceOf(*source.source, output_px));
-  }
-}
-
-SourceAnswer MergeJudge::answerOf(const PosedSource& source, const ViewRay& ray,
-                                  const glm::dvec3& moved_by) const {
-  const ViewRay seen = seenFrom(source, ray);
-  const ProjectedRay projected =
-      movedBy(projectRay(source.source->pinhole(), seen.ray), moved_by.x, moved_by.y, moved_by.z);
-  OracleAnswer answer = traceOracle(*source.source, projected);
-  for (OracleHit& hit : answer.hits) {  // the ray's own place where the moved one hits
-    hit.x_px -= moved_by.x;
-    hit.y_px -= moved_by.y;
-    hit.inv_z -= moved_by.z;
-  }
-  return sourceAnswer(source, seen, projected, answer);
-}
+    : sources_(std::move(sources)), output_px_(output_px) {}
 
 std::vector<SourceAnswer> MergeJudge::answersTo(const ViewRay& ray) const {
   std::vector<SourceAnswer> answers;
   for (const PosedSource& source : sources_) {
-    answers.push_back(answerOf(source, ray, glm::dvec3(0.0)));
+    answers.push_back(sourceAnswer(traceSource(source, ray)));
   }
   return answers;
 }
 
-// Planes stand for several facets, and a hit at an edge names the facet on either side: how densely
-// a source samples the surface may be told by any that is linked to the hit's.
-std::vector<SourceAnswer> MergeJudge::answersOfLinked(const PosedSource& source,
-                                                      const ViewRay& ray) const {
-  const ViewRay seen = seenFrom(source, ray);
-  const ProjectedRay projected = projectRay(source.source->pinhole(), seen.ray);
-  OracleAnswer answer = traceOracle(*source.source, projected);
+// Where one of its pinholes has rounded, or its surfaces are off at these places of the ray, 1/Z of
+// the view, by what moves the picture by its tolerance.
+std::vector<SourceAnswer> MergeJudge::answersOfMoved(size_t source, const ViewRay& ray,
+                                                     const std::vector<double>& view_inv_zs) const {
+  const PosedSource& posed = sources_[source];
+  const std::vector<SeenFacets> pinholes = pinholesOf(posed);
+  const ViewRay seen = seenFrom(posed, ray);
   std::vector<SourceAnswer> answers;
-  if (answer.hits.empty()) return answers;
-  const FacetAt own = answer.hits.front().facet;
-  for (int i = 0; i < 4; ++i) {
-    FacetAt beside{0, own.column + (i == 0) - (i == 1), own.row + (i == 2) - (i == 3)};
-    if (beside.column < 0 || beside.column >= source.source->width()) continue;
-    if (beside.row < 0 || beside.row >= source.source->height()) continue;
-    for (; beside.layer < source.source->layerCount(); ++beside.layer) {
-      if (!source.source->linked(own, beside)) continue;
-      answer.hits.front().facet = beside;
-      answers.push_back(sourceAnswer(source, seen, projected, answer));
+  for (int i = 0; i < int(pinholes.size()); ++i) {
+    const SeenFacets& pinhole = pinholes[size_t(i)];
+    const JudgeTolerance tolerance = toleranceOf(*pinhole.source, output_px_);
+    const double plane = planeErrorAt(pinhole, posed.cube != nullptr ? seenFromFace(i, seen) : seen,
+                                      view_inv_zs, output_px_);
+    for (const double sign : {-1.0, 1.0}) {
+      for (const glm::dvec3& step :
+           {glm::dvec3(tolerance.source_px, 0, 0), glm::dvec3(0, tolerance.source_px, 0),
+            glm::dvec3(0, 0, tolerance.inv_z), glm::dvec3(0, 0, plane),
+            glm::dvec3(0, 0, 0.5 * plane), glm::dvec3(0, 0, 0.25 * plane)}) {
+        answers.push_back(sourceAnswer(traceSource(posed, ray, {i, sign * step})));
+      }
     }
   }
   return answers;
 }
 
 // Of the ray, of rays that the picture moved by its tolerance sees, and where one of the sources
-// has rounded, or its surfaces are off by what moves the picture by its tolerance.
-std::vector<std::vector<SourceAnswer>> MergeJudge::answersNearby(const ViewRay& ray) const {
+// has moved a little.
+std::vector<std::vector<SourceAnswer>> MergeJudge::answersNearby(const ViewRay& ray,
+                                                                 const MergedAnswer& tested) const {
   const std::vector<SourceAnswer> own = answersTo(ray);
   std::vector<std::vector<SourceAnswer>> nearby = {own};
-  const double output_px = tolerances_.front().output_px;
-  for (const glm::dvec2& move_px : movesWithin(output_px)) {
+  for (const glm::dvec2& move_px : movesWithin(output_px_)) {
     ViewRay moved = ray;
     moved.ray = ray.movedBy(move_px.x, move_px.y);
     nearby.push_back(answersTo(moved));
   }
   for (size_t i = 0; i < sources_.size(); ++i) {
-    const JudgeTolerance& tolerance = tolerances_[i];
-    const double plane = planeError(sources_[i], seenFrom(sources_[i], ray), output_px);
-    for (const double sign : {-1.0, 1.0}) {
-      for (const glm::dvec3& step :
-           {glm::dvec3(tolerance.source_px, 0, 0), glm::dvec3(0, tolerance.source_px, 0),
-            glm::dvec3(0, 0, tolerance.inv_z), glm::dvec3(0, 0, plane),
-            glm::dvec3(0, 0, 0.5 * plane), glm::dvec3(0, 0, 0.25 * plane)}) {
-        nearby.push_back(own);
-        nearby.back()[i] = answerOf(sources_[i], ray, sign * step);
-      }
-    }
-    for (const SourceAnswer& answer : answersOfLinked(sources_[i], ray)) {
+    std::vector<double> view_inv_zs;
+    if (isHit(own[i].ray_class)) view_inv_zs.push_back(own[i].view_inv_z);
+    if (isHit(tested.ray_class)) view_inv_zs.push_back(tested.view_inv_z);
+    std::vector<SourceAnswer> others = answersOfMoved(i, ray, view_inv_zs);
+    const std::vector<SourceAnswer> linked = answersOfLinked(traceSource(sources_[i], ray));
+    others.insert(others.end(), linked.begin(), linked.end());
+    for (const SourceAnswer& other : others) {
       nearby.push_back(own);
-      nearby.back()[i] = answer;
+      nearby.back()[i] = other;
     }
   }
   return nearby;
@@ -194,7 +181,7 @@ void MergeJudge::consider(const ViewRay& ray, const MergedAnswer& tested,
     ++verdict_.exact;
     return;
   }
-  const std::vector<std::vector<SourceAnswer>> nearby = answersNearby(ray);
+  const std::vector<std::vector<SourceAnswer>> nearby = answersNearby(ray, tested);
   bool all_agree = true;
   for (const double slack : kSlacks) {
     for (const auto& answers : nearby) {

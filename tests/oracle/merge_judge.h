@@ -22,13 +22,13 @@ class MergeJudge {
 
  private:
   std::vector<SourceAnswer> answersTo(const ViewRay& ray) const;
-  SourceAnswer answerOf(const PosedSource& source, const ViewRay& ray,
-                        const glm::dvec3& moved_by) const;
-  std::vector<SourceAnswer> answersOfLinked(const PosedSource& source, const ViewRay& ray) const;
-  std::vector<std::vector<SourceAnswer>> answersNearby(const ViewRay& ray) const;
+  std::vector<SourceAnswer> answersOfMoved(size_t source, const ViewRay& ray,
+                                           const std::vector<double>& view_inv_zs) const;
+  std::vector<std::vector<SourceAnswer>> answersNearby(const ViewRay& ray,
+                                                       const MergedAnswer& tested) const;
 
   const std::vector<PosedSource> sources_;
-  std::vector<JudgeTolerance> tolerances_;
+  const double output_px_;
   Verdict verdict_;
 };
 

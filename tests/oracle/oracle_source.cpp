@@ -6,10 +6,14 @@
 #include <functional>
 #include <utility>
 
+#include <glm/common.hpp>
+
 namespace viewloom::oracle {
 namespace {
 
 constexpr int kSlopeSignificantBits = 8;
+// Of the nearer inv_z: surfaces that are further apart are two things.
+constexpr float kDeepStep = 0.15F;
 constexpr int kSmallestSlopeExponent = -100;
 
 float minmod(float a, float b) {
@@ -173,7 +177,6 @@ bool OracleSource::isSilhouette(const FacetAt& at, const FacetAt& towards) const
 
 bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
   if (!exists(far) || !exists(near) || !isSilhouette(far, near)) return false;
-  constexpr float kDeepStep = 0.15F;
   return invZAtEdge(near, far) * (1.0F - kDeepStep) > invZAtEdge(far, near);
 }
 
@@ -187,6 +190,19 @@ bool OracleSource::knownBehind(const FacetAt& far, const FacetAt& near) const {
     const float inv_z = invZAtEdge(deeper, far);
     const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(inv_z, far_inv_z));
     if (inv_z - far_inv_z <= kappa) return true;
+  }
+  return false;
+}
+
+bool OracleSource::reachesAsFar(double far_inv_z, glm::dvec2 passed_px, glm::dvec2 met_px) const {
+  const glm::dvec2 mirrored = glm::floor(2.0 * passed_px - met_px);
+  if (mirrored.x < 0 || mirrored.x >= width() || mirrored.y < 0 || mirrored.y >= height()) {
+    return true;
+  }
+  for (int layer = 0; layer < layerCount(); ++layer) {
+    const FacetAt at{layer, int(mirrored.x), int(mirrored.y)};
+    if (!exists(at)) continue;
+    if (std::abs(double{facet(at).inv_z} - far_inv_z) <= double{kDeepStep} * far_inv_z) return true;
   }
   return false;
 }

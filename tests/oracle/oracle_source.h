@@ -84,6 +84,8 @@ class OracleSource {
   }
   // inv_z of the facet's plane at an image position in px, without the bound at 0.
   double planeInvZ(const FacetAt& at, double x_px, double y_px) const;
+  // Of a facet along x (1, 0) or y (0, 1), before it is rounded.
+  float slope(const FacetAt& at, int step_x, int step_y) const;
 
   // Whether two facets in columns that share an edge are one connected surface there.
   bool linked(const FacetAt& a, const FacetAt& b) const;
@@ -97,10 +99,14 @@ class OracleSource {
   // of it.
   bool knownBehind(const FacetAt& far, const FacetAt& near) const;
 
+  // Whether the far side that a ray passed behind at one point of the image, px, is taken to go on
+  // to another: the column mirrored there holds, in some layer, a surface within 15 % of it, or
+  // lies beyond the image.
+  bool reachesAsFar(double far_inv_z, glm::dvec2 passed_px, glm::dvec2 met_px) const;
+
  private:
   // Whether a facet is linked to nothing in the column of `towards`.
   bool isSilhouette(const FacetAt& at, const FacetAt& towards) const;
-  float slope(const FacetAt& at, int step_x, int step_y) const;
   float differenceTo(const FacetAt& from, int step_x, int step_y, FacetAt& neighbour) const;
   float oneSidedSlope(const FacetAt& at, int step_x, int step_y) const;
   float invZAtEdge(const FacetAt& at, const FacetAt& towards) const;

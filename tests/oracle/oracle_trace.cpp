@@ -9,6 +9,10 @@
 namespace viewloom::oracle {
 namespace {
 
+glm::dvec2 imageOf(const HomogeneousPoint& point) {
+  return {point.u / point.z, point.v / point.z};
+}
+
 // Where a ray leaves one column for the next.
 struct Crossing {
   double s = 0;
@@ -26,8 +30,8 @@ int clampedFloor(double value, int count) {
 }
 
 Column columnAt(const OracleSource& source, const HomogeneousPoint& point) {
-  return {clampedFloor(point.u / point.z, source.width()),
-          clampedFloor(point.v / point.z, source.height())};
+  const glm::dvec2 at_px = imageOf(point);
+  return {clampedFloor(at_px.x, source.width()), clampedFloor(at_px.y, source.height())};
 }
 
 // Adds the crossings of the lines x = 1, 2, ... (or y) strictly inside the seen part.
@@ -79,7 +83,7 @@ class Travel {
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt at{layer, column.column, column.row};
       if (isBehind(at, seen_.begin)) {
-        been_behind_ = true;
+        noteBehind(seen_.begin);
         passBehind(layer);
       }
     }
@@ -100,6 +104,7 @@ class Travel {
   struct Behind {
     // How far back the far side of the silhouette lies that it passed behind; none: nothing there.
     std::optional<double> far_inv_z;
+    glm::dvec2 passed_px{0.0};  // where it passed it, in the image
     // The ray has met that far side: nothing of this layer and those before it is hit any more.
     bool is_over = false;
   };
@@ -113,6 +118,10 @@ class Travel {
   // Layers are in order: whoever has not been behind one is in front of all behind it.
   bool isBehind(const FacetAt& at, double s) const {
     return at.layer <= behind_count_ && source_.exists(at) && front(at, s) <= 0;
+  }
+  void noteBehind(double s) {
+    been_behind_ = true;
+    if (answer_.hits.empty()) answer_.passed_s = std::min(answer_.passed_s, s);
   }
   void passBehind(int layer) { behind_count_ = std::max(behind_count_, layer + 1); }
 
@@ -153,9 +162,17 @@ class Travel {
     const double far_end = aboveFar(end);
     if (at_begin <= 0 && far_end <= 0) {
       const double out = at_end > 0 ? at_begin / (at_begin - at_end) : 1;
-      behind.is_over = far_begin <= 0 || far_begin / (far_begin - far_end) <= out;
+      const double met = far_begin <= 0 ? 0 : far_begin / (far_begin - far_end);
+      if (met <= out) meetFarSide(behind, begin + met * (end - begin));
     }
     if (at_begin > 0 || at_end > 0) behind.far_inv_z.reset();
+  }
+
+  // Where the ray is as far back as the far side; that either goes on so far, or ended before.
+  void meetFarSide(Behind& behind, double s) const {
+    const glm::dvec2 met_px = imageOf(ray_.at(s));
+    behind.is_over = source_.reachesAsFar(*behind.far_inv_z, behind.passed_px, met_px);
+    if (!behind.is_over) behind.far_inv_z.reset();
   }
 
   // Passes behind the silhouette of a layer: what it was in front of before goes on behind it.
@@ -168,7 +185,8 @@ class Travel {
     if (!is_over_it) return;
     const HomogeneousPoint point = ray_.at(s);
     if (source_.knownBehind(before, {before.layer, to.column, to.row})) return;
-    behind.far_inv_z = source_.planeInvZ(before, point.u / point.z, point.v / point.z);
+    behind.passed_px = imageOf(point);
+    behind.far_inv_z = source_.planeInvZ(before, behind.passed_px.x, behind.passed_px.y);
   }
 
   void crossEdge(const Column& from, const Column& to, double s) {
@@ -194,12 +212,12 @@ class Travel {
       }
       passBehind(layer);
     }
-    been_behind_ = been_behind_ || passes_behind;
+    if (passes_behind) noteBehind(s);
   }
 
   OracleHit hitAt(double s, const FacetAt& facet, const FacetAt& linked) const {
     const HomogeneousPoint point = ray_.at(s);
-    return {point.u / point.z, point.v / point.z, point.h / point.z, false, facet, linked};
+    return {point.u / point.z, point.v / point.z, point.h / point.z, s, false, facet, linked};
   }
 
   void record(OracleHit hit) {
@@ -260,6 +278,11 @@ OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, si
   const SeenPart seen = seenPart(source, ray);
   if (seen.empty()) return {};
   return Travel(source, ray, seen, hit_limit).run();
+}
+
+OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, const SeenPart& part,
+                         size_t hit_limit) {
+  return Travel(source, ray, part, hit_limit).run();
 }
 
 OracleAnswer traceOracle(const OracleSource& source, const Ray& ray, size_t hit_limit) {

@@ -23,6 +23,7 @@ struct OracleHit {
   double x_px = 0;
   double y_px = 0;
   double inv_z = 0;  // 1/m
+  double s = 0;      // along the projected ray
   bool assumed = false;
   FacetAt facet;
   // The facet on this side of the edge when a connected surface was crossed at an edge: an answer
@@ -33,11 +34,16 @@ struct OracleHit {
 struct OracleAnswer {
   std::vector<OracleHit> hits;              // along the ray, at most as many as asked for
   RayClass ray_class = RayClass::kOutside;  // of the first hit, or how the ray ended without one
+  // Where it first was behind known surface, before any hit; beyond 1: nowhere.
+  double passed_s = 2;
 };
 
 // All events up to hit_limit: beyond the first, the ray goes on behind what it hit, and a later hit
 // is assumed only where it passed behind something it did not hit.
 OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, size_t hit_limit = 1);
 OracleAnswer traceOracle(const OracleSource& source, const Ray& ray, size_t hit_limit = 1);
+// Of a part of it alone, inside the image and not empty.
+OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, const SeenPart& part,
+                         size_t hit_limit = 1);
 
 }  // namespace viewloom::oracle

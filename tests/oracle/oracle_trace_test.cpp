@@ -127,6 +127,23 @@ TEST(OracleTrace, theFarSideOfASilhouetteGoesOnBehindIt) {
   EXPECT_NEAR(beyond.hits[0].inv_z, 0.05, kPosition_px);
 }
 
+TEST(OracleTrace, aFarSideGoesOnNoFurtherThanItReachesOnItsOwnSide) {
+  const double eye_x_m = -0.2;
+  const Scene wall = boardBeforeAWall(12);
+  const double parallax_px = wall.pinhole.focal_px.x * eye_x_m;
+  // Passes the board's edge just behind it, and is as far back as the wall 10 px further on.
+  const double x_px = 32 - 0.9 * parallax_px;
+  EXPECT_EQ(traceOracle(sourceOf(wall), lateralRay(wall, eye_x_m, x_px)).ray_class,
+            RayClass::kHidden);
+  Scene pillar = wall;
+  for (int column = 0; column < 28; ++column) pillar.planes.at(0, column, 0) = 0.05f;
+  const Ray ray = lateralRay(pillar, eye_x_m, x_px);
+  const OracleAnswer beyond = traceOracle(sourceOf(pillar), ray);
+  ASSERT_EQ(beyond.ray_class, RayClass::kHitAssumed);
+  EXPECT_NEAR(beyond.hits[0].inv_z, 0.05, kPosition_px);
+  EXPECT_EQ(traceAllFacets(sourceOf(pillar), ray).ray_class, RayClass::kHitAssumed);
+}
+
 TEST(OracleTrace, whatIsKnownBehindASilhouetteIsNotTakenToGoOn) {
   const double eye_x_m = -0.1;
   Scene scene = boardBeforeAWall(8);

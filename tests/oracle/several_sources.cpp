@@ -32,27 +32,28 @@ glm::dvec3 lineOfSight(const Pinhole& pinhole, double x_px, double y_px) {
 }
 
 // Metres along the view's axis of a place in the source's image.
-double depthInView(const PosedSource& source, const Ray& ray, double x_px, double y_px,
+double depthInView(const OracleSource& source, const Ray& ray, double x_px, double y_px,
                    double inv_z) {
   if (inv_z <= 0) return kInfinity;
-  const glm::dvec3 point = lineOfSight(source.source->pinhole(), x_px, y_px) / inv_z;
+  const glm::dvec3 point = lineOfSight(source.pinhole(), x_px, y_px) / inv_z;
   return glm::dot(point - ray.origin_m, ray.direction) / glm::dot(ray.direction, ray.direction);
 }
 
 // Where a ray meets the plane that goes through a hit with the slopes of its facet, wherever that
 // is, in px of the source. A hit at an edge may lie beside the facet's own plane.
-std::optional<glm::dvec2> onPlane(const PosedSource& source, const OracleHit& hit, const Ray& ray) {
-  const ProjectedRay projected = projectRay(source.source->pinhole(), ray);
-  const double beside = hit.inv_z - source.source->planeInvZ(hit.facet, hit.x_px, hit.y_px);
-  const double at_a = inFront(*source.source, hit.facet, projected.a) - beside * projected.a.z;
-  const double at_b = inFront(*source.source, hit.facet, projected.b) - beside * projected.b.z;
+std::optional<glm::dvec2> onPlane(const OracleSource& source, const OracleHit& hit,
+                                  const Ray& ray) {
+  const ProjectedRay projected = projectRay(source.pinhole(), ray);
+  const double beside = hit.inv_z - source.planeInvZ(hit.facet, hit.x_px, hit.y_px);
+  const double at_a = inFront(source, hit.facet, projected.a) - beside * projected.a.z;
+  const double at_b = inFront(source, hit.facet, projected.b) - beside * projected.b.z;
   if (at_a == at_b) return {};
   const HomogeneousPoint point = projected.at(at_a / (at_a - at_b));
   return glm::dvec2(point.u / point.z, point.v / point.z);
 }
 
 // Px of the source per px of the view, in area.
-double density(const PosedSource& source, const OracleHit& hit, const ViewRay& ray) {
+double density(const OracleSource& source, const OracleHit& hit, const ViewRay& ray) {
   glm::dvec2 moved[2];
   for (int axis = 0; axis < 2; ++axis) {
     const glm::dvec2 step = axis == 0 ? glm::dvec2(kStep_px, 0) : glm::dvec2(0, kStep_px);
@@ -90,6 +91,39 @@ RayClass endOf(const std::vector<SourceAnswer>& answers) {
   return RayClass::kOutside;
 }
 
+// The ray's own place where the moved one hits.
+OracleHit movedBack(OracleHit hit, const glm::dvec3& move) {
+  hit.x_px -= move.x;
+  hit.y_px -= move.y;
+  hit.inv_z -= move.z;
+  return hit;
+}
+
+TracedSource tracePinhole(const PosedSource& source, const ViewRay& seen, const glm::dvec3& move) {
+  const ProjectedRay projected =
+      movedBy(projectRay(source.source->pinhole(), seen.ray), move.x, move.y, move.z);
+  const OracleAnswer answer = traceOracle(*source.source, projected);
+  TracedSource traced{
+      .ray_class = answer.ray_class, .facets = {source.source, source.kappa}, .seen = seen};
+  const SeenPart part = seenPart(*source.source, projected);
+  if (!part.empty()) {
+    const double distance = part.begin / (1 - part.begin);  // the oracle's directions have length 1
+    traced.entry_inv_z = glm::length(seen.ray.direction) / distance;
+  }
+  if (!answer.hits.empty()) traced.hit = movedBack(answer.hits.front(), move);
+  return traced;
+}
+
+// It sees all around: it has seen the ray from the eye on.
+TracedSource traceCubeMap(const OracleCube& cube, const ViewRay& seen, const FaceMove& move) {
+  const CubeAnswer answer = traceCube(cube, seen.ray, move);
+  return {.ray_class = answer.ray_class,
+          .entry_inv_z = kInfinity,
+          .facets = {&cube.faces[size_t(answer.face)], cube.kappas[size_t(answer.face)]},
+          .seen = seenFromFace(answer.face, seen),
+          .hit = answer.face == move.face ? movedBack(answer.hit, move.by) : answer.hit};
+}
+
 }  // namespace
 
 ViewRay seenFrom(const PosedSource& source, const ViewRay& ray) {
@@ -99,25 +133,29 @@ ViewRay seenFrom(const PosedSource& source, const ViewRay& ray) {
           back * ray.direction_per_px_y};
 }
 
-SourceAnswer sourceAnswer(const PosedSource& source, const ViewRay& ray,
-                          const ProjectedRay& projected, const OracleAnswer& answer) {
-  SourceAnswer result{.ray_class = answer.ray_class};
-  const SeenPart seen = seenPart(*source.source, projected);
-  if (!seen.empty()) {
-    const double distance = seen.begin / (1 - seen.begin);  // the oracle's directions have length 1
-    result.entry_inv_z = glm::length(ray.ray.direction) / distance;
-  }
-  if (answer.hits.empty()) return result;
-  const OracleHit& hit = answer.hits.front();
-  const double depth_m = depthInView(source, ray.ray, hit.x_px, hit.y_px, hit.inv_z);
+TracedSource traceSource(const PosedSource& source, const ViewRay& ray_world,
+                         const FaceMove& move) {
+  const ViewRay seen = seenFrom(source, ray_world);
+  return source.cube != nullptr ? traceCubeMap(*source.cube, seen, move)
+                                : tracePinhole(source, seen, move.by);
+}
+
+SourceAnswer sourceAnswer(const TracedSource& traced) {
+  SourceAnswer result{.ray_class = traced.ray_class, .entry_inv_z = traced.entry_inv_z};
+  if (!isHit(traced.ray_class)) return result;
+  const OracleSource& source = *traced.facets.source;
+  const ConnectionTolerance& kappas = traced.facets.kappa;
+  const OracleHit& hit = traced.hit;
+  const Ray& ray = traced.seen.ray;
+  const double depth_m = depthInView(source, ray, hit.x_px, hit.y_px, hit.inv_z);
   result.view_inv_z = depth_m > 0 ? 1 / depth_m : kInfinity;
   // Source metres in depth for each of the view's.
-  const double depths = hit.inv_z > 0 ? 1 / (hit.inv_z * depth_m) : -ray.ray.direction.z;
-  const double kappa = std::max<double>(source.kappa.absolute, source.kappa.relative * hit.inv_z);
+  const double depths = hit.inv_z > 0 ? 1 / (hit.inv_z * depth_m) : -ray.direction.z;
+  const double kappa = std::max<double>(kappas.absolute, kappas.relative * hit.inv_z);
   result.tolerance = std::min(kappa * depths * depths, kToleranceShareMax * result.view_inv_z);
-  const glm::dvec3 sight = lineOfSight(source.source->pinhole(), hit.x_px, hit.y_px);
-  const double angle = angleBetween(sight, sight - hit.inv_z * ray.ray.origin_m);
-  result.weight = std::clamp(density(source, hit, ray), kDensityMin, 1.0) /
+  const glm::dvec3 sight = lineOfSight(source.pinhole(), hit.x_px, hit.y_px);
+  const double angle = angleBetween(sight, sight - hit.inv_z * ray.origin_m);
+  result.weight = std::clamp(density(source, hit, traced.seen), kDensityMin, 1.0) /
                   (angle * angle + kAngleMin_rad * kAngleMin_rad);
   return result;
 }

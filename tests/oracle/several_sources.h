@@ -8,14 +8,16 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "oracle/oracle_trace.h"
-#include "oracle/view_generator.h"
+#include "oracle/cube_map.h"
+#include "oracle/plane_error.h"
 
 namespace viewloom::oracle {
 
+// A pinhole, or a cube map.
 struct PosedSource {
   const OracleSource* source = nullptr;
   ConnectionTolerance kappa;
+  const OracleCube* cube = nullptr;            // in place of both
   glm::dvec3 position_m{0.0};                  // in the world
   glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z: source to world
 };
@@ -33,9 +35,21 @@ struct SourceAnswer {
   double weight = 0;
 };
 
-// `answer`: of the source to `projected`, which is the ray, or one moved a little.
-SourceAnswer sourceAnswer(const PosedSource& source, const ViewRay& ray,
-                          const ProjectedRay& projected, const OracleAnswer& answer);
+// What a source answers to a ray, and what that is weighed by.
+struct TracedSource {
+  RayClass ray_class = RayClass::kOutside;
+  double entry_inv_z = -1;
+  // Of a hit: the pinhole that answers, the source itself or a face of it, and the ray as that has
+  // it.
+  SeenFacets facets;
+  ViewRay seen;
+  OracleHit hit;
+};
+
+// `move`: of what a face of a cube map sees, or the source that is none.
+TracedSource traceSource(const PosedSource& source, const ViewRay& ray_world,
+                         const FaceMove& move = {});
+SourceAnswer sourceAnswer(const TracedSource& traced);
 
 struct MergedAnswer {
   RayClass ray_class = RayClass::kOutside;

@@ -122,6 +122,22 @@ TEST_F(ClientWithViewloomd, publishesAFrameAndWatchesItsQuilt) {
   EXPECT_EQ(stop(), 0);
 }
 
+TEST_F(ClientWithViewloomd, publishesACubeMapAndWatchesItsQuilt) {
+  std::vector<Atlas> atlases;
+  const auto watcher = watch(1, [&](const Atlas& atlas) { atlases.push_back(atlas); });
+  const auto publisher = publish();
+  WireFrame frame;
+  addSyntheticCubeMap({.size_px = {64, 36}, .layer_count = 2, .camera = {}}, frame);
+  publisher->offer(std::move(frame));
+  ASSERT_TRUE(watcher->waitEnded(kLong_ns));
+  EXPECT_EQ(*watcher->ended(), absl::OkStatus());
+  ASSERT_EQ(atlases.size(), 1U);
+  const auto mask = decodePlane(atlases[0], v1::ATLAS_PLANE_MASK);
+  ASSERT_TRUE(mask.ok()) << mask.status();
+  const auto hits = std::count(mask->samples.begin(), mask->samples.end(), v1::RAY_CLASS_HIT);
+  EXPECT_GT(hits, static_cast<std::ptrdiff_t>(mask->samples.size() / 2));
+}
+
 TEST_F(ClientWithViewloomd, servesWhoCameBackAfterARestart) {
   std::promise<void> seen_before, seen_after;
   int seen = 0;
@@ -178,6 +194,9 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
             0);
   EXPECT_EQ(runCommand(command + " publish --synthetic --sources 2 --size 64x36 --seconds 0.2 -q"
                                  " --stream two"),
+            0);
+  EXPECT_EQ(runCommand(command + " publish --synthetic --cube --size 64x36 --seconds 0.2 -q"
+                                 " --stream cube"),
             0);
 }
 

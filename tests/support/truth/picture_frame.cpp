@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "frame/cube_map.h"
 #include "frame/limits.h"
 #include "support/srgb_transfer.h"
 
@@ -31,23 +32,34 @@ SharedBytes floatBytes(const std::vector<float>& samples) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
 }
 
-void addSource(const Picture& picture, uint32_t layer_count, Frame& frame) {
-  VIEWLOOM_CHECK(layer_count >= 1 && layer_count <= picture.layers.size());
+// The first layers of pictures of one size, one below the other.
+void addSource(const std::vector<Picture>& stacked, const Camera& camera, uint32_t layer_count,
+               Frame& frame) {
+  const Picture& first = stacked.front();
+  VIEWLOOM_CHECK(layer_count >= 1 && layer_count <= first.layers.size());
+  const SizePx size_px{first.size_px.width,
+                       static_cast<uint32_t>(stacked.size()) * first.size_px.height};
   SourceFormat& source = frame.format.sources.emplace_back();
-  source.camera = picture.camera;
+  source.camera = camera;
   std::vector<LayerPlanes>& planes = frame.sources.emplace_back();
   for (uint32_t i = 0; i < layer_count; ++i) {
     LayerFormat& layer = source.layers.emplace_back();
-    layer.color = {.kind = PlaneKind::kColor, .size_px = picture.size_px};
-    layer.depth = {.kind = PlaneKind::kDepth,
-                   .encoding = PlaneEncoding::kDepthF32,
-                   .size_px = picture.size_px};
+    layer.color = {.kind = PlaneKind::kColor, .size_px = size_px};
+    layer.depth = {
+        .kind = PlaneKind::kDepth, .encoding = PlaneEncoding::kDepthF32, .size_px = size_px};
     for (PlaneFormat* plane : {&layer.color, &layer.depth}) {
       plane->wire_bytes = uncompressedBytes(*plane);
     }
-    planes.push_back({.color = srgbBytes(picture.layers[i].color),
+    std::vector<glm::vec3> color;
+    std::vector<float> depth_m;
+    for (const Picture& picture : stacked) {
+      const PictureLayer& from = picture.layers[i];
+      color.insert(color.end(), from.color.begin(), from.color.end());
+      depth_m.insert(depth_m.end(), from.depth_m.begin(), from.depth_m.end());
+    }
+    planes.push_back({.color = srgbBytes(color),
                       .color_encoding = PlaneEncoding::kRgba8,
-                      .depth = floatBytes(picture.layers[i].depth_m)});
+                      .depth = floatBytes(depth_m)});
   }
 }
 
@@ -60,7 +72,17 @@ FramePtr frameOf(const Picture& picture, uint32_t layer_count) {
 FramePtr frameOf(const std::vector<Picture>& pictures, uint32_t layer_count) {
   auto frame = std::make_shared<Frame>();
   frame->format.number = 1;
-  for (const Picture& picture : pictures) addSource(picture, layer_count, *frame);
+  for (const Picture& picture : pictures) addSource({picture}, picture.camera, layer_count, *frame);
+  return frame;
+}
+
+FramePtr cubeFrameOf(const std::vector<Picture>& faces, const Pose& cube, uint32_t layer_count) {
+  VIEWLOOM_CHECK(faces.size() == kCubeFaceCount);
+  auto frame = std::make_shared<Frame>();
+  frame->format.number = 1;
+  const Camera camera{.pose = cube, .intrinsics = cubeFaceIntrinsics(faces.front().size_px.width)};
+  addSource(faces, camera, layer_count, *frame);
+  frame->format.sources.front().is_cube_map = true;
   return frame;
 }
 

@@ -14,5 +14,7 @@ namespace viewloom::truth {
 FramePtr frameOf(const Picture& picture, uint32_t layer_count);
 // A source for each picture.
 FramePtr frameOf(const std::vector<Picture>& pictures, uint32_t layer_count);
+// One source: a cube map that stands there, of the pictures of its faces in their order.
+FramePtr cubeFrameOf(const std::vector<Picture>& faces, const Pose& cube, uint32_t layer_count);
 
 }  // namespace viewloom::truth

@@ -80,6 +80,14 @@ TEST_F(FrameManifestTest, takesSourcesOneAfterTheOther) {
   EXPECT_EQ(frame->planes.size(), 6U);
 }
 
+TEST_F(FrameManifestTest, marksACubeMap) {
+  const auto frame = load(R"({"sources": [{"cubeMap": true, "layers": [)" +
+                          layer("color.png", "depth.png") + "]}]}");
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_TRUE(frame->header.sources(0).cube_map());
+  EXPECT_FALSE(frame->header.sources(0).has_camera());
+}
+
 TEST_F(FrameManifestTest, numbersAFrameWithoutANumberOne) {
   std::string json = source(layer("color.png", "depth.png"));
   json.replace(json.find(R"("number": "7", )"), 15, "");

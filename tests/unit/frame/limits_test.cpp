@@ -78,6 +78,30 @@ TEST(ValidateFrame, takesSourcesOfSeveralSizes) {
   EXPECT_TRUE(validateFrame(frame, {}).ok());
 }
 
+FrameFormat goodCubeMap(uint32_t side_px) {
+  FrameFormat frame = goodFrame();
+  frame.sources[0].is_cube_map = true;
+  for (LayerFormat& layer : frame.sources[0].layers) {
+    resize(layer.color, {side_px, 6 * side_px});
+    resize(layer.depth, {side_px, 6 * side_px});
+  }
+  return frame;
+}
+
+TEST(ValidateFrame, limitsTheSideOfAFaceOfACubeMap) {
+  EXPECT_TRUE(validateFrame(goodCubeMap(7), {.plane_side_px_max = 7}).ok());
+  const absl::Status status = validateFrame(goodCubeMap(7), {.plane_side_px_max = 6});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+  EXPECT_EQ(fieldOf(status), "header.sources[0].layers[0].planes[0].size");
+}
+
+TEST(ValidateFrame, countsTheBytesOfAllFacesOfACubeMap) {
+  constexpr uint64_t kBytes = uint64_t{2} * 6 * 7 * 7 * (4 + 4);
+  EXPECT_TRUE(validateFrame(goodCubeMap(7), {.frame_bytes_max = kBytes}).ok());
+  EXPECT_EQ(validateFrame(goodCubeMap(7), {.frame_bytes_max = kBytes - 1}).code(),
+            absl::StatusCode::kResourceExhausted);
+}
+
 TEST(ValidateFrame, addsUpTheBytesOfAllSources) {
   FrameFormat frame = goodFrame();
   uint64_t one_source_bytes = 0;

@@ -83,7 +83,7 @@ TEST_F(PictureCacheTest, aimsAtEverySource) {
   ResidentStructure two = seenFrom(0);
   two.sources.push_back(seenFrom(0.5).sources.front());
   const PicturePtr both = get(two);
-  ASSERT_EQ(both->source_count, 2U);
+  ASSERT_EQ(both->walk_count, 2U);
   ASSERT_EQ(both->tiles.size(), 2 * get(seenFrom(0))->tiles.size());
   EXPECT_GT(both->tilesOf(0)[0].eye.x, both->tilesOf(1)[0].eye.x);
   two.sources[1].camera.pose.position_m.x = 1;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a build takes its planes from and keeps its columns in, and what means of colour are made by
+// way of. Nobody reads it afterwards, so structures that are built one after the other share it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "structure/frame_shape.h"
+#include "structure/layered_buffer.h"
+
+namespace viewloom {
+
+// Of one part of a frame. The device must outlive it. Thread-safety: none; who shares it sees that
+// the device is done with one build before the planes of the next are written.
+class BuildMemory {
+ public:
+  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  BuildMemory(const Device& device, const FrameShape& shape);
+
+  const FrameShape& shape() const { return shape_; }
+  // The upload, and where it can be read as words: undivided.
+  const Buffer& staging() const { return staging_; }
+  const TexelView& stagingTexels() const { return staging_texels_; }
+  const LayeredBuffer& invZ() const { return inv_z_; }  // float, abi::invZIndex
+  // What means along the rows are made from; allocated when it is first asked for. Whoever writes
+  // it waits for what was submitted before.
+  const LayeredBuffer& meansAlongY();
+
+ private:
+  const Device& device_;
+  FrameShape shape_;
+  Buffer staging_;
+  TexelView staging_texels_;
+  LayeredBuffer inv_z_;
+  std::unique_ptr<LayeredBuffer> means_along_y_;
+};
+
+using BuildMemoryPtr = std::shared_ptr<BuildMemory>;
+
+// Of all parts of a frame, in their order.
+using FrameBuildMemory = std::vector<BuildMemoryPtr>;
+
+FrameBuildMemory makeBuildMemory(const Device& device, const std::vector<FrameShape>& shapes);
+bool fits(const FrameBuildMemory& memory, const std::vector<FrameShape>& shapes);
+
+}  // namespace viewloom

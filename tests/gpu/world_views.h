@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras in the world as one display of a frame.
+#pragma once
+
+#include <vector>
+
+#include "commands/offline_renderer.h"
+
+namespace viewloom {
+
+// Views of this size, traced so many times finer: colour before it is rounded, and classes.
+RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
+                            const std::vector<Camera>& views, SizePx view_px, size_t fineness);
+
+}  // namespace viewloom
