@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A foreign client: the examples for Node publish a frame and watch a quilt of it.
+
+Without Node, or without npm's registry, the test is skipped and says why, but where
+VIEWLOOM_REQUIRE_NODE is 1.
+"""
+
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from PIL import Image
+
+SERVER, FOLDER, PROTOS = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
+
+PATIENCE_S = 120
+SKIPPED = 77  # as CMakeLists.txt says
+NPM = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1",
+       "--fetch-retry-mintimeout=2000",
+ "--fetch-timeout=20000"]
+
+
+class Missing(Exception):
+    """Something the test cannot run without."""
+
+
+def install():
+    """node_modules as the lock file has it; kept until that changes."""
+    for program in ("node", "npm"):
+        if not shutil.which(program):
+            raise Missing(f"there is no {program}: install it, or Debian's package of that name")
+    lock = hashlib.sha256((FOLDER / "package-lock.json").read_bytes()).hexdigest()
+    stamp = FOLDER / "node_modules" / ".installed_lock"
+    if stamp.is_file() and stamp.read_text(encoding="ascii") == lock:
+        return
+    try:
+        subprocess.run(NPM, cwd=FOLDER, capture_output=True, text=True, timeout=PATIENCE_S,
+                       check=True)
+    except subprocess.SubprocessError as problem:
+        raise Missing(f"npm could not install what package-lock.json lists, {problem}:\n"
+                      f"{problem.stderr}") from None
+    stamp.write_text(lock, encoding="ascii")
+
+
+class NodeClient(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen(
+            [SERVER, "serve", "--grpc.address", "127.0.0.1:0", "--http.enabled", "false"],
+            stdout=subprocess.PIPE, text=True)
+        cls.address = re.search(r"grpc=(\S+)", cls.server.stdout.readline()).group(1)
+        cls.publisher = cls.start("publish_frame.js")
+        cls.reported = cls.publisher.stdout.readline()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.publisher.send_signal(signal.SIGINT)
+        assert cls.publisher.wait(PATIENCE_S) == 0, "the publisher did not end in order"
+        cls.publisher.stdout.close()
+        cls.server.terminate()
+        assert cls.server.wait(PATIENCE_S) == 0, "the server did not drain"
+        cls.server.stdout.close()
+
+    @classmethod
+    def command(cls, script, *options):
+        return ["node", FOLDER / script, "--server", cls.address, "--protos", PROTOS, *options]
+
+    @classmethod
+    def start(cls, script):
+        return subprocess.Popen(cls.command(script), stdout=subprocess.PIPE, text=True)
+
+    def watch(self, *options):
+        """The finished process, and what it wrote: name → picture."""
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(self.command("watch_quilt.js", *options), cwd=folder,
+                                  capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+            pictures = {}
+            for file in pathlib.Path(folder).iterdir():
+                pictures[file.name] = Image.open(file)
+                pictures[file.name].load()
+            return done, pictures
+
+    def test_the_frame_is_reported_built(self):
+        self.assertEqual(self.reported, "frame 1: FRAME_OUTCOME_BUILT_WITHOUT_DISPLAY\n")
+
+    def test_a_quilt_is_written_as_the_layout_says(self):
+        done, pictures = self.watch("--preset", "portrait", "--out", "ball")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, "frame 1: 8x6 tiles, 48 views of 420x560 px, "
+                         "TILE_ORDER_BOTTOM_LEFT; wrote ball_qs8x6a0.75.jpg\n")
+        quilt = pictures["ball_qs8x6a0.75.jpg"]
+        self.assertEqual((quilt.format, quilt.size), ("JPEG", (8 * 420, 6 * 560)))
+        for view in (0, 23, 24, 47):  # each has the red ball in its middle and the wall beside it
+            left, bottom = view % 8 * 420, quilt.height - view // 8 * 560
+            red, _, blue = quilt.getpixel((left + 210, bottom - 280))
+            self.assertGreater(red, 2 * blue, f"view {view}")
+            red, _, blue = quilt.getpixel((left + 210, bottom - 20))
+            self.assertGreater(blue, 2 * red, f"view {view}")
+
+    def test_a_refusal_is_one_line_that_names_the_field(self):
+        done, pictures = self.watch("--preset", "no_such")
+        self.assertEqual((done.returncode, done.stdout, pictures), (1, "", {}))
+        self.assertRegex(done.stderr,
+                         r"\ANOT_FOUND: open\.display\.quilt\.preset: .*portrait.*\n\Z")
+
+
+if __name__ == "__main__":
+    try:
+        install()
+    except Missing as missing:
+        is_required = os.environ.get("VIEWLOOM_REQUIRE_NODE") == "1"
+        print(f"{'VIEWLOOM_REQUIRE_NODE is 1, but' if is_required else 'skipped:'} {missing}")
+        sys.exit(1 if is_required else SKIPPED)
+    unittest.main(verbosity=2)
