@@ -29,9 +29,12 @@ build_packages=(
 )
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev vulkan-validationlayers
-  chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf
+  chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   clang clang-tidy libembree-dev
 )
+# Node from elsewhere is as good, and Debian's npm cannot be installed beside it.
+command -v node >/dev/null || test_packages+=(nodejs)
+command -v npm >/dev/null || test_packages+=(npm)
 
 case "${1:-}" in
   "") packages=("${build_packages[@]}") ;;

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A connection to viewloomd, for asyncio."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Any, Optional
+
+import grpc
+import grpc.aio
+
+from viewloom.aio.call import read_all
+from viewloom.aio.publisher import Publisher
+from viewloom.aio.watcher import Watcher
+from viewloom.atlas import Atlas
+from viewloom.atlas_inbox import AtlasInbox
+from viewloom.display import DisplayLike, EncodingLike, open_request
+from viewloom.errors import data_loss, error_from_rpc
+from viewloom.server import CHANNEL_OPTIONS, DEFAULT_ADDRESS, IN_FLIGHT_MAX
+from viewloom.v1 import catalog_service_pb2 as catalog
+from viewloom.v1.catalog_service_pb2_grpc import CatalogServiceStub
+from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
+
+
+class Server:
+    """A viewloomd; arguments and errors as of the blocking Server."""
+
+    def __init__(self, address: str = DEFAULT_ADDRESS) -> None:
+        self._channel = grpc.aio.insecure_channel(address, options=CHANNEL_OPTIONS)
+        self._catalog = CatalogServiceStub(self._channel)
+
+    def publish(self, stream: str, *, session_id: str = "", zstd_level: int = 0,
+                in_flight_max: int = IN_FLIGHT_MAX) -> Publisher:
+        """A stream, opened by `async with`."""
+        return Publisher(self._channel, stream, session_id, zstd_level, in_flight_max)
+
+    def watch(self, stream: str, display: DisplayLike, *, encoding: EncodingLike = None,
+              wait_for_stream: bool = False) -> Watcher:
+        """Atlases from when `async with` opens it: `async for atlas in watcher`."""
+        return Watcher(self._channel, open_request(stream, display, encoding, count=0,
+                                                   wait_for_stream=wait_for_stream))
+
+    async def still(self, stream: str, display: DisplayLike, *, encoding: EncodingLike = None,
+                    wait_for_stream: bool = False, timeout_s: Optional[float] = None) -> Atlas:
+        """One atlas, of the newest frame."""
+        request = open_request(stream, display, encoding, count=1, wait_for_stream=wait_for_stream)
+        inbox = AtlasInbox()
+        call = DisplayServiceStub(self._channel).StreamAtlases(iter([request]), timeout=timeout_s)
+        inbox.end(await read_all(call, inbox.add))
+        atlas = inbox.take()
+        if atlas is None:
+            raise data_loss("the server ended before an atlas was whole")
+        return atlas
+
+    async def streams(self) -> list[catalog.StreamEntry]:
+        """All streams, sorted by name."""
+        return list((await _ask(self._catalog.ListStreams, catalog.ListStreamsRequest())).streams)
+
+    async def displays(self) -> list[catalog.DisplayEntry]:
+        """All displays that are watched now."""
+        return list((await _ask(self._catalog.ListDisplays,
+                                catalog.ListDisplaysRequest())).displays)
+
+    async def presets(self) -> list[catalog.Preset]:
+        """All named devices, sorted by name."""
+        return list((await _ask(self._catalog.ListPresets, catalog.ListPresetsRequest())).presets)
+
+    async def server_info(self) -> catalog.GetServerInfoResponse:
+        """Version, device and limits."""
+        answer: catalog.GetServerInfoResponse = await _ask(self._catalog.GetServerInfo,
+                                                           catalog.GetServerInfoRequest())
+        return answer
+
+    async def close(self) -> None:
+        """Ends the connection, and what still runs on it."""
+        await self._channel.close()
+
+    async def __aenter__(self) -> Server:
+        return self
+
+    async def __aexit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException],
+                        trace: Optional[TracebackType]) -> None:
+        await self.close()
+
+
+async def _ask(method: Any, request: Any) -> Any:
+    try:
+        return await method(request)
+    except grpc.RpcError as problem:
+        raise error_from_rpc(problem) from None
+
+
+def connect(address: str = DEFAULT_ADDRESS) -> Server:
+    """A connection to the viewloomd at HOST:PORT, within the running event loop."""
+    return Server(address)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A whole atlas: its pictures as numpy arrays, and the views cut out of them."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import io
+from typing import Any
+
+import numpy as np
+import zstandard
+from numpy.typing import NDArray
+from PIL.JpegImagePlugin import JpegImageFile
+
+from viewloom.errors import BadInput, data_loss
+from viewloom.v1 import display_pb2
+from viewloom.v1.display_pb2 import AtlasLayout
+from viewloom.v1.display_service_pb2 import AtlasHeader
+
+# Of a plane that is not a JPEG: sample type and samples a pixel.
+_SAMPLES = {display_pb2.ATLAS_PLANE_COLOR: ("u1", 3), display_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
+            display_pb2.ATLAS_PLANE_MASK: ("u1", 1)}
+
+
+@dataclasses.dataclass
+class Band:
+    """A full-width strip as it came, its pieces joined."""
+
+    image_index: int
+    plane: display_pb2.AtlasPlane
+    first_row: int
+    row_count: int
+    encoding: display_pb2.BandEncoding
+    data: bytearray
+
+
+def _inflate(band: Band, wanted_bytes: int) -> bytes:
+    packed = bytes(band.data)
+    try:
+        stated_bytes = zstandard.frame_content_size(packed)  # -1 = not stated
+        if stated_bytes in (-1, wanted_bytes):
+            return zstandard.ZstdDecompressor().decompress(packed, max_output_size=wanted_bytes)
+        problem = f"it holds {stated_bytes} bytes, expected {wanted_bytes}"
+    except zstandard.ZstdError as error:
+        problem = str(error)
+    raise data_loss(f"the band at row {band.first_row} does not unpack: {problem}")
+
+
+def _decode_jpeg(jpeg: bytes, size_px: tuple[int, int]) -> NDArray[Any]:
+    try:
+        # Not by Image.open, which takes what is larger than its guess of a picture for an attack.
+        image = JpegImageFile(io.BytesIO(jpeg))
+        if image.size != size_px:
+            raise data_loss(f"the JPEG is {image.size[0]}x{image.size[1]} px, the layout "
+                            f"{size_px[0]}x{size_px[1]}")
+        return np.asarray(image)
+    except (OSError, SyntaxError) as problem:  # SyntaxError is what Pillow calls a bad header
+        raise data_loss(f"the bands are no JPEG: {problem}") from None
+
+
+def view_window(picture: NDArray[Any], layout: AtlasLayout, view: int) -> NDArray[Any]:
+    """The part of a picture of an atlas that shows one view: a window, not a copy.
+
+    picture: [height_px][width_px] or [height_px][width_px][channels], as layout.size.
+    """
+    if not 0 <= view < layout.view_count:
+        raise BadInput("view", f"is {view}, must lie in 0..{layout.view_count - 1}")
+    row, column = divmod(view, layout.columns)
+    if layout.order != display_pb2.TILE_ORDER_TOP_LEFT:
+        row = layout.rows - 1 - row
+    top = layout.padding_top_px + row * layout.tile_size.height
+    left = column * layout.tile_size.width
+    return picture[top:top + layout.tile_size.height, left:left + layout.tile_size.width]
+
+
+@dataclasses.dataclass
+class Atlas:
+    """All views of a display at one instant. Pictures are decoded when first asked for.
+
+    layout:   where the views lie and what they see (proto AtlasLayout).
+    header:   frame number, capture time, coverage, stage times (proto AtlasHeader).
+    skipped:  atlases of this display that were made since the one before, and overtaken.
+    """
+
+    layout: AtlasLayout
+    header: AtlasHeader
+    bands: list[Band] = dataclasses.field(repr=False)
+    skipped: int = 0
+
+    def plane(self, plane: display_pb2.AtlasPlane, image_index: int = 0) -> NDArray[Any]:
+        """A plane of display_pb2.AtlasPlane, decoded. Raises BadInput when it was not asked for."""
+        bands = [band for band in self.bands
+                 if band.plane == plane and band.image_index == image_index]
+        if not bands:
+            name = display_pb2.AtlasPlane.Name(plane)
+            raise BadInput("plane", f"{name} of image {image_index} did not come: ask for it with "
+                           "encoding=viewloom.encoding(...)")
+        if bands[0].encoding == display_pb2.BAND_ENCODING_JPEG:
+            size = self.layout.size
+            return _decode_jpeg(b"".join(band.data for band in bands), (size.width, size.height))
+        return self._unpacked(bands, plane)
+
+    def _unpacked(self, bands: list[Band], plane: display_pb2.AtlasPlane) -> NDArray[Any]:
+        sample_type, channels = _SAMPLES[plane]
+        size = self.layout.size
+        row_bytes = size.width * channels * np.dtype(sample_type).itemsize
+        pieces = []
+        row = 0
+        for band in bands:
+            wanted_bytes = band.row_count * row_bytes
+            is_packed = band.encoding == display_pb2.BAND_ENCODING_ZSTD
+            pieces.append(_inflate(band, wanted_bytes) if is_packed else bytes(band.data))
+            if len(pieces[-1]) != wanted_bytes or band.first_row != row:
+                raise data_loss(f"the band at row {band.first_row} has {len(pieces[-1])} bytes, "
+                                f"expected {wanted_bytes} at row {row}")
+            row += band.row_count
+        if row != size.height:
+            raise data_loss(f"the bands have {row} rows, the layout {size.height}")
+        shape = (size.height, size.width) + ((channels,) if channels > 1 else ())
+        return np.frombuffer(b"".join(pieces), sample_type).reshape(shape)
+
+    @functools.cached_property
+    def color(self) -> NDArray[np.uint8]:
+        """uint8[height_px][width_px][3], sRGB, top row first. Read-only, as all pictures are."""
+        return self.plane(display_pb2.ATLAS_PLANE_COLOR)
+
+    @functools.cached_property
+    def inv_z(self) -> NDArray[np.float32]:
+        """float32[height_px][width_px]: 1/Z of each view, 1/m; 0 = infinitely far."""
+        return self.plane(display_pb2.ATLAS_PLANE_DEPTH)
+
+    @functools.cached_property
+    def mask(self) -> NDArray[np.uint8]:
+        """uint8[height_px][width_px]: how each ray ended, of display_pb2.RayClass."""
+        return self.plane(display_pb2.ATLAS_PLANE_MASK)
+
+    @functools.cached_property
+    def jpeg(self) -> bytes:
+        """The colour as one JPEG file, byte for byte as the server made it."""
+        bands = [band for band in self.bands
+                 if band.plane == display_pb2.ATLAS_PLANE_COLOR and band.image_index == 0]
+        if not bands or bands[0].encoding != display_pb2.BAND_ENCODING_JPEG:
+            raise BadInput("encoding", "is not JPEG: there is no file; use color")
+        return b"".join(band.data for band in bands)
+
+    def view(self, view: int) -> NDArray[np.uint8]:
+        """uint8[tile_height_px][tile_width_px][3]: colour of view 0..view_count - 1."""
+        return view_window(self.color, self.layout, view)
+
+    def view_inv_z(self, view: int) -> NDArray[np.float32]:
+        """float32[tile_height_px][tile_width_px]: 1/Z of one view, 1/m."""
+        return view_window(self.inv_z, self.layout, view)
+
+    def view_mask(self, view: int) -> NDArray[np.uint8]:
+        """uint8[tile_height_px][tile_width_px]: how the rays of one view ended."""
+        return view_window(self.mask, self.layout, view)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Joins the messages of a call into atlases, and keeps the newest whole one."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+from viewloom.atlas import Atlas, Band
+from viewloom.errors import ViewloomError, data_loss
+from viewloom.v1 import display_service_pb2
+from viewloom.v1.display_pb2 import AtlasLayout
+from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
+
+# More than any atlas: 16384x16384 px of colour, depth and mask, not packed.
+_BYTES_MAX = 8 * 16384 * 16384
+
+
+class AtlasInbox:
+    """One slot: a newer atlas takes the place of one that was not taken. Thread-safety: none."""
+
+    def __init__(self) -> None:
+        self._layout: Optional[AtlasLayout] = None
+        self._header: Optional[AtlasHeader] = None  # of the atlas that is open
+        self._bands: list[Band] = []
+        self._band_is_open = False
+        self._bytes = 0
+        self._newest: Optional[Atlas] = None
+        self._skipped = 0  # since the newest one that was taken
+        self._is_ended = False
+        self._error: Optional[ViewloomError] = None
+
+    def add(self, response: StreamAtlasesResponse) -> None:
+        """Takes a message in. Raises DATA_LOSS when it does not follow those before."""
+        kind = response.WhichOneof("message")
+        if kind == "layout":
+            self._layout, self._header = response.layout, None
+        elif kind == "header":  # what was begun, and has not ended, is discarded
+            self._header, self._bands, self._band_is_open = response.header, [], False
+            self._bytes = 0
+        elif kind == "band":
+            self._add_band(response.band)
+        elif kind == "end":
+            self._finish(response.end.sequence)
+        elif kind == "skipped":
+            self._skipped += response.skipped.count
+
+    def _add_band(self, piece: display_service_pb2.Band) -> None:
+        if self._header is None or piece.sequence != self._header.sequence:
+            raise data_loss(f"a band of atlas {piece.sequence} came outside it")
+        if not self._band_is_open:
+            self._bands.append(Band(piece.image_index, piece.plane, piece.first_row,
+                                    piece.row_count, piece.encoding, bytearray()))
+        band = self._bands[-1]
+        if (piece.offset_bytes, piece.first_row, piece.plane, piece.image_index) != (
+                len(band.data), band.first_row, band.plane, band.image_index):
+            raise data_loss(f"a piece of atlas {piece.sequence}, row {piece.first_row}, came out "
+                            "of order")
+        self._bytes += len(piece.data)
+        if self._bytes > _BYTES_MAX:
+            raise data_loss(f"atlas {piece.sequence} has more than {_BYTES_MAX} bytes")
+        band.data += piece.data
+        self._band_is_open = not piece.last_piece
+
+    def _finish(self, sequence: int) -> None:
+        if (self._layout is None or self._header is None or self._header.sequence != sequence
+                or self._band_is_open or len(self._bands) != self._header.band_count):
+            raise data_loss(f"atlas {sequence} ended before it was whole")
+        self._skipped += self._newest is not None
+        self._newest = Atlas(self._layout, self._header, self._bands)
+        self._header = None
+
+    def end(self, error: Optional[ViewloomError]) -> None:
+        """The call is over: with an error, or, with None, in order."""
+        self._is_ended, self._error = True, error
+
+    def is_ready(self) -> bool:
+        """Whether take() has something to give or to say."""
+        return self._newest is not None or self._is_ended
+
+    def take(self) -> Optional[Atlas]:
+        """The newest atlas; after the last one None, or what the call ended with is raised."""
+        atlas, self._newest = self._newest, None
+        if atlas is not None:
+            atlas.skipped, self._skipped = self._skipped, 0
+        elif self._error is not None:
+            raise self._error
+        return atlas

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Displays and encodings as callers write them: preset names, mappings and messages."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Optional, Union
+
+from viewloom.errors import BadInput
+from viewloom.messages import message_from
+from viewloom.v1 import display_pb2
+from viewloom.v1.display_service_pb2 import ChangeDisplay, OpenDisplay, StreamAtlasesRequest
+
+DisplayLike = Union[display_pb2.Display, Mapping[str, Any], str]
+EncodingLike = Union[display_pb2.AtlasEncoding, Mapping[str, Any], None]
+
+_CHROMAS = {420: display_pb2.CHROMA_SUBSAMPLING_420, 444: display_pb2.CHROMA_SUBSAMPLING_444}
+
+
+def display_from(display: DisplayLike) -> display_pb2.Display:
+    """A Display; a mapping of its fields, {"quilt": {"columns": 8, ...}}; or a preset's name."""
+    if isinstance(display, str):
+        return display_pb2.Display(quilt=display_pb2.QuiltDisplay(preset=display))
+    return message_from(display, display_pb2.Display(), "display",
+                         "a preset's name, a mapping or a Display")
+
+
+def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
+             jpeg_quality: int = 0, chroma: Optional[int] = None) -> display_pb2.AtlasEncoding:
+    """How atlases are to come.
+
+    lossless:      colour as it was traced, instead of as a JPEG.
+    depth, mask:   also the planes Atlas.inv_z and Atlas.mask, which are always lossless.
+    jpeg_quality:  1..100; 0 = the server's default.
+    chroma:        of a JPEG, 420 (half resolution) or 444; None = the server's default.
+    """
+    if chroma is not None and chroma not in _CHROMAS:
+        raise BadInput("chroma", f"is {chroma}, must be 420 or 444")
+    return display_pb2.AtlasEncoding(
+        color=display_pb2.BAND_ENCODING_ZSTD if lossless else display_pb2.BAND_ENCODING_JPEG,
+        jpeg_quality=jpeg_quality, with_depth=depth, with_mask=mask,
+        chroma=display_pb2.CHROMA_SUBSAMPLING_UNSPECIFIED if chroma is None else _CHROMAS[chroma])
+
+
+def _encoding_from(given: EncodingLike) -> Optional[display_pb2.AtlasEncoding]:
+    if given is None:
+        return None
+    return message_from(given, display_pb2.AtlasEncoding(), "encoding",
+                         "of viewloom.encoding(), a mapping or an AtlasEncoding")
+
+
+def open_request(stream: str, display: DisplayLike, given: EncodingLike, *, count: int,
+                 wait_for_stream: bool) -> StreamAtlasesRequest:
+    """Asks for so many atlases, 0 = until the call ends."""
+    return StreamAtlasesRequest(open=OpenDisplay(
+        stream=stream, display=display_from(display), encoding=_encoding_from(given), count=count,
+        wait_for_stream=wait_for_stream))
+
+
+def change_request(display: Optional[DisplayLike], given: EncodingLike) -> StreamAtlasesRequest:
+    """Replaces what is not None."""
+    return StreamAtlasesRequest(change=ChangeDisplay(
+        display=None if display is None else display_from(display),
+        encoding=_encoding_from(given)))

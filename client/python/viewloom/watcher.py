@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Watches one stream on one display, for callers that block."""
+
+from __future__ import annotations
+
+import queue
+import threading
+from types import TracebackType
+from typing import Any, Iterator, Optional
+
+import grpc
+
+from viewloom.atlas import Atlas
+from viewloom.atlas_inbox import AtlasInbox
+from viewloom.display import DisplayLike, EncodingLike, change_request
+from viewloom.errors import ViewloomError, error_from_rpc
+from viewloom.v1.display_service_pb2 import StreamAtlasesRequest
+from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
+
+
+class Watcher(Iterator[Atlas]):
+    """Atlases as they come, the newest first: an iterator. See Server.watch.
+
+    A thread of its own reads; a newer atlas takes the place of one that was not taken, and is
+    counted in Atlas.skipped.
+    Thread-safety: all methods may be called from any thread.
+    """
+
+    def __init__(self, channel: Any, opening: StreamAtlasesRequest) -> None:
+        self._requests: queue.SimpleQueue[Optional[StreamAtlasesRequest]] = queue.SimpleQueue()
+        self._requests.put(opening)
+        self._changed = threading.Condition()
+        self._inbox = AtlasInbox()
+        self._is_closed = False
+        self._call = DisplayServiceStub(channel).StreamAtlases(iter(self._requests.get, None))
+        self._reader = threading.Thread(target=self._read, name="viewloom-watcher", daemon=True)
+        self._reader.start()
+
+    def _read(self) -> None:
+        error: Optional[ViewloomError] = None
+        try:
+            for response in self._call:
+                with self._changed:
+                    self._inbox.add(response)
+                    self._changed.notify_all()
+        except grpc.RpcError as problem:
+            error = None if self._is_closed else error_from_rpc(problem)
+        except ViewloomError as problem:
+            error = problem
+            self._call.cancel()
+        finally:
+            with self._changed:
+                self._inbox.end(error)
+                self._changed.notify_all()
+            self._requests.put(None)  # lets go of the thread that waits for changes
+
+    def receive(self, timeout_s: Optional[float] = None) -> Optional[Atlas]:
+        """The newest atlas that was not given yet; waits for one. None = it is over.
+
+        Raises ViewloomError: what the call ended with, or DEADLINE_EXCEEDED after timeout_s.
+        """
+        with self._changed:
+            if not self._changed.wait_for(self._inbox.is_ready, timeout_s):
+                raise ViewloomError(grpc.StatusCode.DEADLINE_EXCEEDED, "",
+                                    f"no atlas came within {timeout_s} s")
+            return self._inbox.take()
+
+    def __next__(self) -> Atlas:
+        atlas = self.receive()
+        if atlas is None:
+            raise StopIteration
+        return atlas
+
+    def change(self, display: Optional[DisplayLike] = None, encoding: EncodingLike = None) -> None:
+        """Another display, another encoding, or both, from now on. What is None stays.
+
+        An atlas of the display before may still come.
+        """
+        self._requests.put(change_request(display, encoding))
+
+    def close(self) -> None:
+        """Breaks off; who waits in receive() gets None."""
+        self._is_closed = True
+        self._call.cancel()
+        self._reader.join()
+
+    def __enter__(self) -> Watcher:
+        return self
+
+    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()

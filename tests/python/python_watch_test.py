@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Atlases of a real server as numpy arrays, while frames come, and what it refuses."""
+
+import unittest
+import urllib.request
+
+import viewloomd  # takes its argument
+
+import numpy as np
+
+import scene
+import viewloom
+from viewloom.v1 import display_pb2
+
+LOSSLESS = viewloom.encoding(lossless=True)
+FRAMES = 8
+
+
+def flat_source(level):
+    color = np.full((scene.HEIGHT_PX, scene.WIDTH_PX, 3), level, np.uint8)
+    return scene.source(color, scene.step_depth())
+
+
+class Watching(unittest.TestCase):
+    def setUp(self):
+        self.daemon = viewloomd.Viewloomd()
+        self.server = viewloom.connect(self.daemon.address)
+        self.addCleanup(self.daemon.stop)
+        self.addCleanup(self.server.close)
+
+    def refused(self, call, status, field, words):
+        with self.assertRaises(viewloom.ViewloomError) as refusal:
+            call()
+        error = refusal.exception
+        self.assertEqual((error.status.name, error.field), (status, field), error)
+        self.assertIn(words, error.message)
+        self.assertFalse(error.message.startswith(field + ":") and field)
+
+    def test_a_slow_reader_gets_the_newest_and_is_told_what_it_missed(self):
+        with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", scene.own_place(), encoding=LOSSLESS) as watcher:
+            publisher.send(flat_source(0))
+            first = watcher.receive(viewloomd.PATIENCE_S)
+            for number in range(2, FRAMES + 1):
+                publisher.send(flat_source(number * 20)).result(viewloomd.PATIENCE_S)
+            received = [first]
+            while received[-1].header.frame_number < FRAMES:
+                received.append(watcher.receive(viewloomd.PATIENCE_S))
+            for atlas in received[1:]:
+                np.testing.assert_array_equal(atlas.color, atlas.header.frame_number * 20)
+            for before, after in zip(received, received[1:]):
+                self.assertEqual(after.skipped,
+                                 after.header.sequence - before.header.sequence - 1)
+            self.assertLess(len(received), FRAMES)
+
+    def test_changes_are_followed_by_another_layout(self):
+        with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", scene.quilt(2, 1)) as watcher:
+            publisher.send(flat_source(90))
+            self.assertEqual(next(watcher).layout.view_count, 2)
+            watcher.change(scene.quilt(3, 2), LOSSLESS)
+            atlas = next(atlas for atlas in watcher if atlas.layout.view_count == 6)
+            self.assertEqual(atlas.layout.encoding.color, display_pb2.BAND_ENCODING_ZSTD)
+            self.assertEqual(atlas.color.shape, (2 * scene.HEIGHT_PX, 3 * scene.WIDTH_PX, 3))
+            with self.assertRaisesRegex(viewloom.BadInput, "no file; use color"):
+                atlas.jpeg
+            with self.assertRaisesRegex(viewloom.BadInput, "did not come"):
+                atlas.inv_z
+
+    def test_views_lie_where_their_order_says(self):
+        """A seam on the wall, in front of the focal plane or behind it, moves with the eye."""
+        color = np.full((scene.HEIGHT_PX, scene.WIDTH_PX, 3), (30, 60, 210), np.uint8)
+        color[:, :scene.WIDTH_PX // 2] = (220, 40, 30)
+        depth_m = np.full(color.shape[:2], 2.0)
+        eyes_m = [-0.4, -0.1, 0.2, 0.3, 0.5]
+        displays = [scene.cameras(eyes_m, columns=2)]
+        displays.append(scene.quilt(2, 3, view_count=5, focal_distance_m=1.0,
+                                    size={"width": 2 * scene.WIDTH_PX + 1,
+                                          "height": 3 * scene.HEIGHT_PX + 2}))
+        with self.server.publish("scene") as publisher:
+            publisher.send(scene.source(color, depth_m)).result(viewloomd.PATIENCE_S)
+            top_left, bottom_left = [self.server.still("scene", display, encoding=LOSSLESS)
+                                     for display in displays]
+        self.assertEqual(top_left.layout.order, display_pb2.TILE_ORDER_TOP_LEFT)
+        self.assertEqual(bottom_left.layout.order, display_pb2.TILE_ORDER_BOTTOM_LEFT)
+        self.assertEqual(bottom_left.layout.padding_top_px, 2)
+        for atlas in (top_left, bottom_left):
+            for view in range(5):
+                camera = atlas.layout.views[view]
+                eye_m = camera.pose.position.x
+                focal_px = camera.intrinsics.focal_x_px or scene.WIDTH_PX / 2 / 0.8
+                axis_px = camera.intrinsics.principal_x_px or scene.WIDTH_PX / 2
+                row = atlas.view(view)[scene.HEIGHT_PX // 2].astype(int)
+                seam_px = np.count_nonzero(row[:, 0] > row[:, 2])
+                self.assertAlmostEqual(seam_px, axis_px - eye_m / 2.0 * focal_px, delta=1.5,
+                                       msg=f"view {view} of {atlas.layout.suffix or 'cameras'}")
+        self.assertEqual([round(view.pose.position.x, 3) for view in top_left.layout.views], eyes_m)
+
+    def test_a_preset_is_a_display_and_its_still_is_that_of_the_page(self):
+        with self.server.publish("scene") as publisher:
+            publisher.send(scene.source(scene.noise_color(), scene.step_depth())).result(
+                viewloomd.PATIENCE_S)
+            still = self.server.still("scene", "portrait", timeout_s=viewloomd.PATIENCE_S)
+            self.assertEqual(still.layout.view_count, 48)
+            self.assertEqual(still.view(47).shape, (560, 420, 3))
+            direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+            with direct.open(self.daemon.url + "still/scene/portrait") as reply:
+                self.assertEqual(reply.read(), still.jpeg)
+
+    def test_refusals_name_the_field(self):
+        with self.server.publish("scene") as publisher:
+            bad_quilt = scene.quilt(0, 2)
+            self.refused(lambda: self.server.still("scene", bad_quilt), "INVALID_ARGUMENT",
+                         "open.display.quilt.columns", "0")
+            with self.server.watch("scene", bad_quilt) as watcher:
+                self.refused(watcher.receive, "INVALID_ARGUMENT", "open.display.quilt.columns", "0")
+            self.refused(lambda: self.server.still("elsewhere", "portrait"), "NOT_FOUND",
+                         "open.stream", "scene")
+            self.refused(lambda: self.server.still("scene", "no_such"), "NOT_FOUND",
+                         "open.display.quilt.preset", "portrait")
+            self.refused(lambda: self.server.publish("scene"), "ALREADY_EXISTS", "settings.stream",
+                         "scene")
+            self.refused(lambda: self.server.publish("no spaces"), "INVALID_ARGUMENT",
+                         "settings.stream", "no spaces")
+            self.refused(lambda: publisher.send(viewloom.Source(1, 2)), "INVALID_ARGUMENT",
+                         "color", "int")  # here, so that the call goes on
+            publisher.send(flat_source(1)).result(viewloomd.PATIENCE_S)
+
+    def test_a_refused_frame_ends_the_call_and_says_why(self):
+        publisher = self.server.publish("scene")
+        pending = publisher.send(flat_source(1), exposure_ev=99)
+        self.refused(lambda: pending.result(viewloomd.PATIENCE_S), "INVALID_ARGUMENT",
+                     "header.exposure_ev", "-32..32")
+        self.refused(lambda: publisher.send(flat_source(1)), "INVALID_ARGUMENT",
+                     "header.exposure_ev", "99")
+        self.refused(publisher.close, "INVALID_ARGUMENT", "header.exposure_ev", "99")
+
+    def test_a_stream_is_taken_over_with_its_session(self):
+        first = self.server.publish("scene", session_id="secret")
+        with self.server.publish("scene", session_id="secret") as second:
+            self.refused(first.close, "ABORTED", "", "")
+            second.send(flat_source(1)).result(viewloomd.PATIENCE_S)
+
+    def test_the_catalogue_tells_what_there_is(self):
+        with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", scene.quilt(2, 1)) as watcher:
+            publisher.send(flat_source(1)).result(viewloomd.PATIENCE_S)
+            next(watcher)
+            self.assertEqual([(s.name, s.live, s.frame_number) for s in self.server.streams()],
+                             [("scene", True, 1)])
+            self.assertEqual([d.stream for d in self.server.displays()], ["scene"])
+            self.assertIn("portrait", [preset.name for preset in self.server.presets()])
+            self.assertEqual(self.server.server_info().ingest_limits, publisher.accepted)
+            self.assertEqual(publisher.wanted.display_count, 1)
+
+    def test_waiting_has_an_end(self):
+        with self.server.watch("later", "portrait", wait_for_stream=True) as watcher:
+            self.refused(lambda: watcher.receive(timeout_s=0.01), "DEADLINE_EXCEEDED", "", "0.01 s")
+        self.assertIsNone(watcher.receive(), "closed")
+        self.assertEqual(list(watcher), [])
+        self.refused(lambda: self.server.still("later", "portrait", wait_for_stream=True,
+                                               timeout_s=0.05), "DEADLINE_EXCEEDED", "", "")
+
+    def test_a_server_that_leaves_is_an_error(self):
+        publisher = self.server.publish("scene")
+        watcher = self.server.watch("scene", "portrait")
+        self.daemon.process.terminate()
+        self.refused(watcher.receive, "UNAVAILABLE", "", "")
+        self.refused(publisher.close, "UNAVAILABLE", "", "")
+
+
+if __name__ == "__main__":
+    unittest.main()

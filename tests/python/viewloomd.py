@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The server under test as a process, on ports of its choice."""
+
+import re
+import subprocess
+import sys
+
+PATIENCE_S = 120
+PROGRAM = sys.argv.pop(1)
+
+
+class Viewloomd:
+    def __init__(self):
+        self.process = subprocess.Popen(
+            [PROGRAM, "serve", "--grpc.address", "127.0.0.1:0", "--http.address", "127.0.0.1:0"],
+            stdout=subprocess.PIPE, text=True)
+        line = self.process.stdout.readline()
+        self.address, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
+
+    def stop(self):
+        self.process.terminate()
+        code = self.process.wait(PATIENCE_S)
+        self.process.stdout.close()
+        assert code == 0, f"the server ended with {code}"
