@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "decode/predicted_plane.h"
 #include "decode/raw_plane.h"
 #include "frame/limits.h"
 
@@ -21,10 +22,15 @@ absl::StatusOr<SharedBytes> PlaneDecoder::inflate(const PlaneFormat& plane,
 }
 
 absl::StatusOr<SharedBytes> PlaneDecoder::decode(const PlaneFormat& plane, SharedBytes wire) {
-  if (plane.compression == PlaneCompression::kZstd) {
+  if (plane.compression != PlaneCompression::kNone) {
     absl::StatusOr<SharedBytes> inflated = inflate(plane, wire);
     if (!inflated.ok()) return inflated.status();
     wire = *std::move(inflated);
+  }
+  if (plane.compression == PlaneCompression::kPredictedZstd) {
+    BytePool::Buffer restored = pool_.take(decodedBytes(plane));
+    restorePredicted(*wire, plane.size_px, *restored);
+    return SharedBytes(std::move(restored));
   }
   if (isPacked(plane)) return wire;
   BytePool::Buffer packed = pool_.take(decodedBytes(plane));

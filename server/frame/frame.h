@@ -24,7 +24,7 @@ enum class PlaneEncoding : uint8_t {
   kDepthF16,
   kDepthU16
 };
-enum class PlaneCompression : uint8_t { kNone, kZstd };
+enum class PlaneCompression : uint8_t { kNone, kZstd, kPredictedZstd };
 enum class ColorTransfer : uint8_t { kSrgb, kLinear };
 enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
 enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };

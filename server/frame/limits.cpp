@@ -70,6 +70,18 @@ absl::Status validateStride(const PlaneFormat& plane) {
   return absl::OkStatus();
 }
 
+// Prediction is between samples of 16 bits that lie side by side.
+absl::Status validateCompression(const PlaneFormat& plane) {
+  if (plane.compression != PlaneCompression::kPredictedZstd) return absl::OkStatus();
+  if (plane.encoding != PlaneEncoding::kDepthU16 && plane.encoding != PlaneEncoding::kDepthF16) {
+    return invalidField("compression",
+                        "is PREDICTED_ZSTD, which is for DEPTH_U16 and DEPTH_F16 alone");
+  }
+  if (plane.stride_bytes == 0) return absl::OkStatus();
+  return invalidField("stride_bytes",
+                      strCat("is ", plane.stride_bytes, ", must be 0 with PREDICTED_ZSTD"));
+}
+
 absl::Status validateWireBytes(const PlaneFormat& plane) {
   const uint64_t got = plane.wire_bytes;
   const uint64_t content = uncompressedBytes(plane);
@@ -79,7 +91,7 @@ absl::Status validateWireBytes(const PlaneFormat& plane) {
                                               sizeText(plane.size_px), " and this encoding"));
   }
   uint64_t most = jpeg ? jpegBytesMax(plane.size_px.area()) : content;
-  if (plane.compression == PlaneCompression::kZstd) most = zstdBytesMax(most);
+  if (plane.compression != PlaneCompression::kNone) most = zstdBytesMax(most);
   most = std::min(most, kPlaneWireBytesMax);
   if (got == 0 || got > most) {
     return invalidField("bytes_count", strCat("is ", got, ", must lie in 1..", most));
@@ -97,6 +109,7 @@ absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cub
   VIEWLOOM_RETURN_IF_ERROR(is_cube_map ? validateCubeSize(plane.size_px, limits.plane_side_px_max)
                                        : validateSize(plane.size_px, limits.plane_side_px_max));
   VIEWLOOM_RETURN_IF_ERROR(validateStride(plane));
+  VIEWLOOM_RETURN_IF_ERROR(validateCompression(plane));
   VIEWLOOM_RETURN_IF_ERROR(validateWireBytes(plane));
   if (kind == PlaneKind::kColor) {
     if (!is_cube_map || plane.alpha == AlphaMode::kOpaque) return absl::OkStatus();

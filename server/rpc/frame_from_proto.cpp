@@ -27,7 +27,8 @@ constexpr EnumRow<v1::PlaneEncoding, PlaneEncoding> kEncodings[] = {
 constexpr EnumRow<v1::PlaneCompression, PlaneCompression> kCompressions[] = {
     {v1::PLANE_COMPRESSION_UNSPECIFIED, PlaneCompression::kNone},
     {v1::PLANE_COMPRESSION_NONE, PlaneCompression::kNone},
-    {v1::PLANE_COMPRESSION_ZSTD, PlaneCompression::kZstd}};
+    {v1::PLANE_COMPRESSION_ZSTD, PlaneCompression::kZstd},
+    {v1::PLANE_COMPRESSION_PREDICTED_ZSTD, PlaneCompression::kPredictedZstd}};
 
 constexpr EnumRow<v1::ColorTransfer, ColorTransfer> kTransfers[] = {
     {v1::COLOR_TRANSFER_SRGB, ColorTransfer::kSrgb},

@@ -56,6 +56,9 @@ const std::vector<BadHeader> kSizes = {
      kDepthPath + "bytes_count"},
     {"no bytes", [](auto& h) { color(h).set_bytes_count(0); }, kInvalid,
      kColorPath + "bytes_count"},
+    {"predicted colour",
+     [](auto& h) { color(h).set_compression(v1::PLANE_COMPRESSION_PREDICTED_ZSTD); }, kInvalid,
+     kColorPath + "compression"},
     {"more bytes than zstd makes",
      [](auto& h) {
        color(h).set_compression(v1::PLANE_COMPRESSION_ZSTD);

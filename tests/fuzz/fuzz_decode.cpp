@@ -12,6 +12,7 @@
 #include "decode/frame_decoder.h"
 #include "decode/frame_intake.h"
 #include "decode/jpeg_plane.h"
+#include "decode/plane_decoder.h"
 #include "decode/zstd_plane.h"
 #include "frame/limits.h"
 
@@ -49,6 +50,7 @@ PlaneFormat takePlane(Script& script, PlaneKind kind) {
   plane.size_px = {script.take(1), script.take(1)};
   const uint32_t choice = script.take(1);
   plane.compression = choice & 1 ? PlaneCompression::kZstd : PlaneCompression::kNone;
+  if (choice & 16) plane.compression = PlaneCompression::kPredictedZstd;
   if (choice & 2) plane.stride_bytes = script.take(2);
   if (choice & 4) plane.size_px.width = script.take(4);
   plane.depth.meaning = static_cast<DepthMeaning>(script.take(1) % 4);
@@ -162,6 +164,21 @@ bool fuzzZstd(std::span<const uint8_t> bytes) {
   VIEWLOOM_CHECK(out.size() <= expected);
   VIEWLOOM_CHECK(!inflated || out.size() == expected);
   return inflated;
+}
+
+bool fuzzPredicted(std::span<const uint8_t> bytes) {
+  static BytePool pool(8);
+  static PlaneDecoder decoder(pool);
+  Script script(bytes);
+  const PlaneFormat plane{.kind = PlaneKind::kDepth,
+                          .encoding = PlaneEncoding::kDepthU16,
+                          .size_px = {script.take(1) + 1, script.take(1) + 1},
+                          .compression = PlaneCompression::kPredictedZstd};
+  const std::span<const uint8_t> wire = script.takeBytes(bytes.size());
+  const absl::StatusOr<SharedBytes> decoded =
+      decoder.decode(plane, std::make_shared<const std::vector<uint8_t>>(wire.begin(), wire.end()));
+  VIEWLOOM_CHECK(!decoded.ok() || (*decoded)->size() == decodedBytes(plane));
+  return decoded.ok();
 }
 
 bool fuzzFrame(std::span<const uint8_t> bytes) {

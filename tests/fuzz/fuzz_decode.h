@@ -14,6 +14,9 @@ bool fuzzJpeg(std::span<const uint8_t> bytes);
 // The bytes are a zstd frame; the size it should have is taken from the first two.
 bool fuzzZstd(std::span<const uint8_t> bytes);
 
+// The bytes are a predicted plane of depth; its sides, less one, are taken from the first two.
+bool fuzzPredicted(std::span<const uint8_t> bytes);
+
 // The bytes are a script: a header, then chunks. What is accepted is decoded.
 bool fuzzFrame(std::span<const uint8_t> bytes);
 

@@ -58,6 +58,9 @@ TEST(MutatedBytes, keepTheJpegDecoderWithinItsPlane) {
 TEST(MutatedBytes, keepTheInflaterWithinItsPlane) {
   walk(fuzzZstd, zstdSeeds());
 }
+TEST(MutatedBytes, keepPredictedPlanesWhole) {
+  walk(fuzzPredicted, predictedSeeds());
+}
 TEST(MutatedBytes, leaveFramesWholeOrRefused) {
   walk(fuzzFrame, frameSeeds());
 }

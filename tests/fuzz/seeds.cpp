@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "unit/decode/jpeg_samples.h"
+#include "unit/decode/predicted_samples.h"
 #include "unit/decode/zstd_samples.h"
 
 namespace viewloom {
@@ -34,12 +35,26 @@ SeedBytes zstdSeeds() {
           joined(expected, zstdFrame(content, ZstdSize::kOpen))};
 }
 
+SeedBytes predictedSeeds() {
+  std::vector<uint16_t> samples(20 * 10);
+  for (size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<uint16_t>(i * i * 9);
+  const Bytes content = predictedBytes(samples, 20, 10);
+  return {joined({19, 9}, zstdFrame(content, ZstdSize::kStated)),
+          joined({19, 9}, zstdFrame(content, ZstdSize::kOpen))};
+}
+
 SeedBytes frameSeeds() {
   // Number, focal length, layers; depth first; RGB8 3x2, no option; U16 3x2; then 12 and 18 bytes.
   const Bytes header{1, 9, 1, 1, 1, 3, 2, 0, 0, 1, 2, 6, 3, 2, 0, 0, 1, 2};
   const Bytes depth = joined({12}, Bytes(12, 1));
   const Bytes color = joined({18}, Bytes(18, 2));
-  return {joined(header, joined(depth, color))};
+  // The same with depth predicted, of as many bytes as are declared in four more.
+  const Bytes packed = zstdFrame(predictedBytes({1, 2, 3, 4, 5, 6}, 3, 2), ZstdSize::kStated);
+  const auto packed_bytes = static_cast<uint8_t>(packed.size());
+  const Bytes predicted_header{1, 9, 1, 1,  1, 3, 2, 0, 0, 1, 2,
+                               6, 3, 2, 24, 0, 1, 2, 0, 0, 0, packed_bytes};
+  const Bytes predicted = joined({packed_bytes}, packed);
+  return {joined(header, joined(depth, color)), joined(predicted_header, joined(predicted, color))};
 }
 
 }  // namespace viewloom

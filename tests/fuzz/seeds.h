@@ -11,6 +11,7 @@ using SeedBytes = std::vector<std::vector<uint8_t>>;
 
 SeedBytes jpegSeeds();
 SeedBytes zstdSeeds();
+SeedBytes predictedSeeds();
 SeedBytes frameSeeds();
 
 }  // namespace viewloom

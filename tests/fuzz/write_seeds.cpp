@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the seeds as a corpus: write_seeds jpeg|zstd|frame FOLDER
+// Writes the seeds as a corpus: write_seeds jpeg|zstd|predicted|frame FOLDER
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -9,12 +9,13 @@
 
 int main(int argc, char** argv) {
   const std::string kind = argc == 3 ? argv[1] : "";
-  const viewloom::SeedBytes seeds = kind == "jpeg"    ? viewloom::jpegSeeds()
-                                    : kind == "zstd"  ? viewloom::zstdSeeds()
-                                    : kind == "frame" ? viewloom::frameSeeds()
-                                                      : viewloom::SeedBytes{};
+  const viewloom::SeedBytes seeds = kind == "jpeg"        ? viewloom::jpegSeeds()
+                                    : kind == "zstd"      ? viewloom::zstdSeeds()
+                                    : kind == "predicted" ? viewloom::predictedSeeds()
+                                    : kind == "frame"     ? viewloom::frameSeeds()
+                                                          : viewloom::SeedBytes{};
   if (seeds.empty()) {
-    std::fprintf(stderr, "usage: write_seeds jpeg|zstd|frame FOLDER\n");
+    std::fprintf(stderr, "usage: write_seeds jpeg|zstd|predicted|frame FOLDER\n");
     return 2;
   }
   const std::filesystem::path folder(argv[2]);

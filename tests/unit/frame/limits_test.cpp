@@ -211,6 +211,26 @@ TEST(ValidateFrame, namesTheFieldOfBytesThatDoNotFit) {
          depth(f).wire_bytes += 2000;
        },
        kInvalid, kDepth + ".bytes_count"},
+      {"prediction of what has no 16 bits",
+       [](auto& f) { depth(f).compression = PlaneCompression::kPredictedZstd; }, kInvalid,
+       kDepth + ".compression"},
+      {"prediction of colour",
+       [](auto& f) { color(f).compression = PlaneCompression::kPredictedZstd; }, kInvalid,
+       kColor + ".compression"},
+      {"prediction over padded rows",
+       [](auto& f) {
+         depth(f).encoding = PlaneEncoding::kDepthU16;
+         depth(f).compression = PlaneCompression::kPredictedZstd;
+         depth(f).stride_bytes = 64;
+       },
+       kInvalid, kDepth + ".stride_bytes"},
+      {"prediction larger than any encoder makes it",
+       [](auto& f) {
+         depth(f).encoding = PlaneEncoding::kDepthU16;
+         depth(f).compression = PlaneCompression::kPredictedZstd;
+         depth(f).wire_bytes += 2000;
+       },
+       kInvalid, kDepth + ".bytes_count"},
       {"endless JPEG",
        [](auto& f) {
          color(f).encoding = PlaneEncoding::kJpeg;
