@@ -22,6 +22,9 @@ inline constexpr int kMessageBytesMax = 4 << 20;
 // address: "host:port" or "unix:path". Does not connect yet; plain text.
 std::shared_ptr<grpc::Channel> makeChannel(const std::string& address);
 
+// Whether what goes to this address leaves no machine: a Unix socket, or the loopback.
+bool staysOnMachine(const std::string& address);
+
 absl::Status statusFromGrpc(const grpc::Status& status);
 
 }  // namespace viewloom

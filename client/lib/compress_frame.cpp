@@ -3,40 +3,76 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "base/check.h"
+#include "lib/predict_plane.h"
 
 namespace viewloom {
 namespace {
 
-void compressPlane(v1::Plane& plane, SharedBytes& bytes, int level) {
-  const bool packed = plane.compression() == v1::PLANE_COMPRESSION_ZSTD ||
-                      plane.encoding() == v1::PLANE_ENCODING_JPEG;
-  if (packed) return;
-  std::vector<uint8_t> out(ZSTD_compressBound(bytes->size()));
-  const size_t size = ZSTD_compress(out.data(), out.size(), bytes->data(), bytes->size(), level);
+constexpr int kDepthLevel = 1;  // of depth, when nothing else is asked for: higher ones gain little
+
+// `bytes` become `content`, packed, if that is smaller.
+void pack(const std::vector<uint8_t>& content, int level, v1::PlaneCompression compression,
+          v1::Plane& plane, SharedBytes& bytes) {
+  std::vector<uint8_t> out(ZSTD_compressBound(content.size()));
+  const size_t size = ZSTD_compress(out.data(), out.size(), content.data(), content.size(), level);
   VIEWLOOM_CHECK(ZSTD_isError(size) == 0);  // the bound leaves room for any input
   if (size >= bytes->size()) return;
   out.resize(size);
-  plane.set_compression(v1::PLANE_COMPRESSION_ZSTD);
+  plane.set_compression(compression);
   plane.set_bytes_count(size);
   bytes = std::make_shared<const std::vector<uint8_t>>(std::move(out));
 }
 
+bool canPredict(const v1::Plane& plane, const SharedBytes& bytes) {
+  const bool has_16_bits = plane.encoding() == v1::PLANE_ENCODING_DEPTH_U16 ||
+                           plane.encoding() == v1::PLANE_ENCODING_DEPTH_F16;
+  return has_16_bits && plane.stride_bytes() == 0 &&
+         bytes->size() == size_t{2} * plane.size().width() * plane.size().height();
+}
+
+void compressPlane(const CompressionOptions& options, v1::Plane& plane, SharedBytes& bytes) {
+  const bool packed = plane.compression() > v1::PLANE_COMPRESSION_NONE ||
+                      plane.encoding() == v1::PLANE_ENCODING_JPEG;
+  if (packed) return;
+  const bool is_for_depth = options.predicts_depth && plane.kind() == v1::PLANE_KIND_DEPTH;
+  const int level = is_for_depth ? std::max(options.zstd_level, kDepthLevel) : options.zstd_level;
+  if (level == 0) return;
+  if (is_for_depth && canPredict(plane, bytes)) {
+    pack(predictPlane(*bytes, plane.size().width(), plane.size().height()), level,
+         v1::PLANE_COMPRESSION_PREDICTED_ZSTD, plane, bytes);
+  } else {
+    pack(*bytes, level, v1::PLANE_COMPRESSION_ZSTD, plane, bytes);
+  }
+}
+
+size_t planeCount(const v1::Source& source) {
+  size_t count = 0;
+  for (const v1::Layer& layer : source.layers()) count += static_cast<size_t>(layer.planes_size());
+  return count;
+}
+
 }  // namespace
 
-WireFrame compressFrame(WireFrame frame, int level) {
-  size_t index = 0;
-  for (v1::Source& source : *frame.header.mutable_sources()) {
+CompressedFrame compressFrame(WireFrame frame, const CompressionOptions& options) {
+  CompressedFrame compressed{.frame = std::move(frame), .depth = {}};
+  std::span<SharedBytes> planes = compressed.frame.planes;
+  for (v1::Source& source : *compressed.frame.header.mutable_sources()) {
+    if (options.predicts_depth) compressed.depth.push_back(quantiseDepth(source, planes));
+    size_t index = 0;
     for (v1::Layer& layer : *source.mutable_layers()) {
       for (v1::Plane& plane : *layer.mutable_planes()) {
-        compressPlane(plane, frame.planes[index++], level);
+        compressPlane(options, plane, planes[index++]);
       }
     }
+    planes = planes.subspan(planeCount(source));
   }
-  return frame;
+  return compressed;
 }
 
 }  // namespace viewloom

@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs the planes of a frame with zstd where that makes them smaller.
+// Packs the planes of a frame for the wire, where that makes them smaller.
 #pragma once
 
+#include <vector>
+
+#include "lib/quantise_depth.h"
 #include "lib/wire_frame.h"
 
 namespace viewloom {
 
+struct CompressionOptions {
+  // 1 (fast) .. 19: every plane with zstd; 0 = none, but for what predicted depth needs.
+  int zstd_level = 0;
+  // Binary32 depth becomes 16-bit inverse depth, where that is fine enough (lib/quantise_depth.h);
+  // depth of 16 bits goes as differences from its neighbours, without loss; what stays binary32 is
+  // packed with zstd.
+  bool predicts_depth = false;
+};
+
+struct CompressedFrame {
+  WireFrame frame;
+  std::vector<QuantisedDepth> depth;  // of each source; empty when depth is not predicted
+};
+
 // JPEG planes, planes already compressed and planes that would grow stay as they are.
-// level: 1 (fast) .. 19.
-WireFrame compressFrame(WireFrame frame, int level);
+CompressedFrame compressFrame(WireFrame frame, const CompressionOptions& options);
 
 }  // namespace viewloom

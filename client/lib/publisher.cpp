@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/publisher.h"
 
-#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
@@ -9,12 +8,10 @@
 #include "absl/strings/str_cat.h"
 #include "base/check.h"
 #include "lib/channel.h"
-#include "lib/compress_frame.h"
+#include "lib/frame_messages.h"
 
 namespace viewloom {
 namespace {
-
-constexpr size_t kChunkBytes = size_t{1} << 20;  // the largest the server takes
 
 PublisherOptions withSession(PublisherOptions options) {
   if (!options.session_id.empty()) return options;
@@ -167,31 +164,22 @@ void Publisher::sendFrames(Call& call, const std::stop_token& stop) {
       in_flight_.insert(number);
       newest_sent_ = *frame;
     }
-    if (options_.zstd_level > 0) frame = compressFrame(*std::move(frame), options_.zstd_level);
-    if (!sendFrame(call, *frame, stop)) return;
+    const CompressedFrame compressed = compressFrame(
+        *std::move(frame),
+        {.zstd_level = options_.zstd_level, .predicts_depth = options_.predicts_depth});
+    if (!sendFrame(call, compressed.frame, stop)) return;
+    if (callbacks_.on_sent) callbacks_.on_sent(compressed);
   }
 }
 
 bool Publisher::sendFrame(Call& call, const WireFrame& frame, const std::stop_token& stop) {
-  v1::PublishFramesRequest message;
-  *message.mutable_header() = frame.header;
-  if (!call.Write(message)) return false;
-  uint64_t sent_bytes = 0;
-  v1::FrameChunk& chunk = *message.mutable_chunk();
-  for (size_t plane = 0; plane < frame.planes.size(); ++plane) {
-    const std::vector<uint8_t>& bytes = *frame.planes[plane];
-    for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
-      const size_t size = std::min(kChunkBytes, bytes.size() - offset);
-      chunk.set_plane_index(static_cast<uint32_t>(plane));
-      chunk.set_offset_bytes(offset);
-      chunk.set_data(&bytes[offset], size);
-      if (stop.stop_requested() || !call.Write(message)) return false;
-    }
-    sent_bytes += bytes.size();
-  }
+  const bool was_sent = takeFrameMessages(frame, [&](const v1::PublishFramesRequest& message) {
+    return !stop.stop_requested() && call.Write(message);
+  });
+  if (!was_sent) return false;
   std::lock_guard lock(mutex_);
   ++counts_.sent;
-  counts_.sent_bytes += sent_bytes;
+  for (const SharedBytes& plane : frame.planes) counts_.sent_bytes += plane->size();
   return true;
 }
 

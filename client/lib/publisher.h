@@ -15,6 +15,7 @@
 #include <grpcpp/channel.h>
 
 #include "base/status.h"
+#include "lib/compress_frame.h"
 #include "lib/retry_loop.h"
 #include "lib/wire_frame.h"
 #include "viewloom/v1/ingest_service.grpc.pb.h"
@@ -23,8 +24,9 @@ namespace viewloom {
 
 struct PublisherOptions {
   std::string stream;
-  std::string session_id;  // empty = random; lets this publisher, and no other, come back
-  int zstd_level = 0;      // 0 = planes go as they are
+  std::string session_id;       // empty = random; lets this publisher, and no other, come back
+  int zstd_level = 0;           // 0 = planes go as they are
+  bool predicts_depth = false;  // as CompressionOptions
   // Frames sent and not yet reported. One is decoded, one built, one traced: more would only be
   // replaced on the server after having been sent.
   size_t in_flight_max = 4;
@@ -38,6 +40,9 @@ struct PublisherCallbacks {
   std::function<void(const v1::FrameReport&)> on_report;
   std::function<void(const v1::Wanted&)> on_wanted;
   OnConnection on_connection;
+  // Each frame whose last byte has gone, as it went; the newest again after a broken connection,
+  // under its number.
+  std::function<void(const CompressedFrame&)> on_sent;
 };
 
 struct PublisherCounts {

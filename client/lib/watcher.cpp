@@ -104,6 +104,7 @@ absl::Status Watcher::readAtlases(Call& call) {
 }
 
 absl::Status Watcher::deliver(v1::StreamAtlasesResponse message) {
+  if (callbacks_.on_message) callbacks_.on_message(message);
   const bool is_layout = message.has_layout();
   const size_t size = message.ByteSizeLong();
   absl::StatusOr<std::optional<Atlas>> atlas = assembler_.add(std::move(message));

@@ -25,6 +25,8 @@ struct WatcherCallbacks {
   std::function<void(const v1::AtlasLayout&)> on_layout;
   std::function<void(Atlas)> on_atlas;
   OnConnection on_connection;
+  // Every message as it came, before anything is made of it.
+  std::function<void(const v1::StreamAtlasesResponse&)> on_message;
 };
 
 struct WatcherCounts {

@@ -56,6 +56,11 @@ void AnsweringSink::demandChanged(const std::string& stream) {
   }
 }
 
+FramePtr AnsweringSink::resident(const std::string& stream) {
+  std::lock_guard lock(mutex_);
+  return streams_[stream].frame;
+}
+
 void AnsweringSink::hold(const std::string& stream) {
   std::lock_guard lock(mutex_);
   streams_[stream].held = true;

@@ -26,6 +26,8 @@ class AnsweringSink final : public FrameSink {
 
   // Serves displays without an atlas from the resident frame.
   void demandChanged(const std::string& stream);
+  // What the server made of the newest frame that was answered; null before the first.
+  FramePtr resident(const std::string& stream);
   // From now on frames of the stream wait unanswered, the newest replacing the older.
   void hold(const std::string& stream);
   // Answers the one that waits, and those to come.

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/inverse_depth.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "frame/cube_map.h"
+#include "frame/depth.h"
+
+namespace viewloom {
+namespace {
+
+std::optional<DepthFormat> formatOf(const v1::DepthFormat& proto) {
+  DepthFormat format{.scale = proto.scale() == 0 ? 1 : proto.scale(),
+                     .offset = proto.offset(),
+                     .min_depth = proto.min_depth(),
+                     .max_depth = proto.max_depth() == 0 ? 1 : proto.max_depth(),
+                     .near_z_m = proto.near_z_m(),
+                     .far_z_m = proto.far_z_m(),
+                     .invalid_value = std::nullopt,
+                     .invalid_is_far = proto.invalid_is_far()};
+  if (proto.has_invalid_value()) format.invalid_value = proto.invalid_value();
+  switch (proto.meaning()) {
+    case v1::DEPTH_MEANING_PLANAR:
+      format.meaning = DepthMeaning::kPlanar;
+      break;
+    case v1::DEPTH_MEANING_RAY_DISTANCE:
+      format.meaning = DepthMeaning::kRayDistance;
+      break;
+    case v1::DEPTH_MEANING_WINDOW:
+      format.meaning = DepthMeaning::kWindow;
+      break;
+    case v1::DEPTH_MEANING_DISPARITY:
+      format.meaning = DepthMeaning::kDisparity;
+      break;
+    default:
+      return std::nullopt;
+  }
+  if (!validateDepthFormat(format, PlaneEncoding::kDepthF32, "depth").ok()) return std::nullopt;
+  return format;
+}
+
+float invZOf(float sample, const DepthCoefficients& depth) {
+  if (depth.has_invalid != 0 && sample == depth.invalid_value) {
+    return depth.invalid_is_far != 0 ? 0 : kNoInvZ;
+  }
+  const float value = (sample - depth.origin) * depth.scale + depth.offset;
+  if (depth.reciprocal == 0) return value >= 0 ? value : kNoInvZ;  // NaN is no surface, too
+  return value > 0 ? 1 / value : kNoInvZ;
+}
+
+// Of planes that hold distances from the eye: how much longer than its Z the ray of a px is.
+void divideByRayLength(const Intrinsics& intrinsics, size_t width, size_t rows_of_image,
+                       std::vector<float>& inv_z) {
+  for (size_t i = 0; i < inv_z.size(); ++i) {
+    if (inv_z[i] <= 0) continue;
+    const double x = (double(i % width) + 0.5 - intrinsics.principal_px.x) / intrinsics.focal_px.x;
+    const double row = double(i / width % rows_of_image);
+    const double y = (row + 0.5 - intrinsics.principal_px.y) / intrinsics.focal_px.y;
+    inv_z[i] = static_cast<float>(inv_z[i] * std::sqrt(x * x + y * y + 1));
+  }
+}
+
+}  // namespace
+
+std::optional<Intrinsics> depthIntrinsics(const v1::Source& source) {
+  SizePx size_px;
+  for (const v1::Plane& plane : source.layers_size() > 0 ? source.layers(0).planes()
+                                                         : v1::Layer::default_instance().planes()) {
+    if (plane.kind() == v1::PLANE_KIND_DEPTH)
+      size_px = {plane.size().width(), plane.size().height()};
+  }
+  if (size_px.area() == 0) return std::nullopt;
+  if (source.cube_map()) return cubeFaceIntrinsics(size_px.width);
+  Intrinsics intrinsics;
+  if (source.camera().has_intrinsics()) {
+    const v1::Intrinsics& proto = source.camera().intrinsics();
+    intrinsics = {.focal_px = {proto.focal_x_px(), proto.focal_y_px()},
+                  .principal_px = {proto.principal_x_px(), proto.principal_y_px()}};
+  } else {
+    const v1::Fov& proto = source.camera().fov();
+    const Fov fov{.left_rad = proto.angle_left_rad(),
+                  .right_rad = proto.angle_right_rad(),
+                  .up_rad = proto.angle_up_rad(),
+                  .down_rad = proto.angle_down_rad()};
+    if (!validateFov(fov, "fov").ok()) return std::nullopt;
+    intrinsics = intrinsicsFromFov(fov, size_px);
+  }
+  if (!validateIntrinsics(intrinsics, "intrinsics").ok()) return std::nullopt;
+  return intrinsics;
+}
+
+std::optional<std::vector<float>> inverseDepth(const v1::Plane& plane,
+                                               std::span<const uint8_t> bytes,
+                                               const Intrinsics& intrinsics, bool is_cube_map) {
+  const std::optional<DepthFormat> format = formatOf(plane.depth());
+  const size_t width = plane.size().width();
+  const size_t height = plane.size().height();
+  const size_t packed_bytes = width * sizeof(float);
+  const size_t stride_bytes = plane.stride_bytes() == 0 ? packed_bytes : plane.stride_bytes();
+  const bool fits = width * height > 0 && stride_bytes >= packed_bytes &&
+                    bytes.size() / stride_bytes == height && bytes.size() % stride_bytes == 0;
+  if (!format || !fits) return std::nullopt;
+  const DepthCoefficients coefficients = makeDepthCoefficients(*format, PlaneEncoding::kDepthF32);
+  std::vector<float> inv_z(width * height);
+  for (size_t y = 0; y < height; ++y) {
+    float* row = &inv_z[y * width];
+    std::memcpy(row, &bytes[y * stride_bytes], packed_bytes);
+    for (size_t x = 0; x < width; ++x) row[x] = invZOf(row[x], coefficients);
+  }
+  if (coefficients.ray_distance != 0) {
+    divideByRayLength(intrinsics, width, is_cube_map ? height / kCubeFaceCount : height, inv_z);
+  }
+  for (float& value : inv_z) {
+    if (value > kInvZMax) value = kNoInvZ;
+  }
+  return inv_z;
+}
+
+}  // namespace viewloom
