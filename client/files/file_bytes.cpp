@@ -49,10 +49,12 @@ absl::Status writeFileWhole(const std::filesystem::path& path, std::string_view 
   std::ofstream out(partial, std::ios::binary | std::ios::trunc);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (!out) return absl::UnavailableError(absl::StrCat(partial.string(), ": cannot be written"));
+  if (!out)
+    return absl::FailedPreconditionError(absl::StrCat(partial.string(), ": cannot be written"));
   std::error_code error;
   std::filesystem::rename(partial, path, error);
-  if (error) return absl::UnavailableError(absl::StrCat(path.string(), ": ", error.message()));
+  if (error)
+    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": ", error.message()));
   return absl::OkStatus();
 }
 
