@@ -17,6 +17,9 @@ class FrameFeed {
   virtual ~FrameFeed() = default;
   // The frame that is due elapsed_s after the first; nothing when there is none left.
   virtual absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) = 0;
+  // When the next frame is due, in seconds since the first, if frames bring their times along;
+  // nothing = at the rate asked for.
+  virtual std::optional<double> nextDue_s() { return std::nullopt; }
   // What is being published, for the status: "synthetic 960x540, 2 layers".
   virtual std::string description() const = 0;
   // What there is to say about the frames since the last call, a line each.

@@ -13,6 +13,7 @@
 #include "cli/display_options.h"
 #include "cli/frame_feed.h"
 #include "cli/interrupt.h"
+#include "cli/recorded_atlases.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
 #include "lib/channel.h"
@@ -27,6 +28,7 @@ constexpr double kLatencyMax_s = 60;
 
 struct WatchOptions {
   std::string stream = "demo";
+  std::string recording;  // "" = watch the stream
   DisplayOptions display;
   std::string folder;
   bool writes_views = false;
@@ -43,9 +45,10 @@ class WatchRun {
       : options_(options), common_(common), line_(options.is_quiet) {}
 
   int run() {
+    if (absl::Status folder = makeFolder(); !folder.ok()) return usage(folder);
+    if (!options_.recording.empty()) return runRecording();
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
-    if (absl::Status folder = makeFolder(); !folder.ok()) return usage(folder);
     v1::OpenDisplay open;
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
@@ -63,6 +66,21 @@ class WatchRun {
   int usage(const absl::Status& status) const {
     reportError(status, common_);
     return kExitUsage;
+  }
+
+  // Files are named after the recording.
+  int runRecording() const {
+    const std::string name = std::filesystem::path(options_.recording).stem().string();
+    return watchRecording(
+        {.file = options_.recording, .count = options_.count, .output = fileOptions(name)},
+        common_);
+  }
+
+  AtlasFileOptions fileOptions(const std::string& stream) const {
+    return {.folder = options_.folder,
+            .stream = stream,
+            .writes_views = options_.writes_views,
+            .writes_png = options_.format == "png"};
   }
 
   absl::Status makeFolder() const {
@@ -98,10 +116,7 @@ class WatchRun {
 
   void take(const Atlas& atlas) {
     if (!options_.folder.empty()) {
-      const absl::Status written = writeAtlas(atlas, {.folder = options_.folder,
-                                                      .stream = options_.stream,
-                                                      .writes_views = options_.writes_views,
-                                                      .writes_png = options_.format == "png"});
+      const absl::Status written = writeAtlas(atlas, fileOptions(options_.stream));
       if (!written.ok()) setFailure(written);
     }
     std::lock_guard lock(mutex_);
@@ -170,8 +185,11 @@ RunCommand addWatchCommand(CLI::App& app) {
       "  viewloom watch                                   look how fast the demo comes\n"
       "  viewloom watch --count 1 --out .                 one quilt, as a file for the device\n"
       "  viewloom watch --preset portrait --views --out v --count 1\n"
-      "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts");
+      "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts\n"
+      "  viewloom watch --from portrait.vlr --out quilts  from a recording");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
+  app.add_option("--from", options->recording,
+                 "Watch a recording (`viewloom record`) instead of a stream");
   app.add_option("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
   auto* out = app.add_option("--out", options->folder, "Write every atlas into this folder");
   app.add_flag("--views", options->writes_views, "Write single views instead of atlases")

@@ -3,21 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
 #include <algorithm>
-
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <future>
-#include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "e2e/server_process.h"
+#include "e2e/client/with_viewloomd.h"
 #include "files/jpeg_image.h"
 #include "lib/catalog.h"
 #include "lib/channel.h"
@@ -30,77 +24,10 @@ namespace viewloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int64_t kLong_ns = 120'000'000'000;  // only a failing test waits so long
-constexpr BackoffOptions kQuick{.first_ns = 10'000'000, .max_ns = 200'000'000, .factor = 2};
-
-WireFrame smallFrame(double time_s) {
-  return syntheticWireFrame({.size_px = {64, 36}, .layer_count = 2, .time_s = time_s, .camera = {}},
-                            1);
-}
-
-v1::OpenDisplay smallQuilt(uint32_t count) {
-  v1::OpenDisplay open;
-  open.set_stream("s");
-  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
-  quilt.set_columns(2);
-  quilt.set_rows(2);
-  quilt.mutable_size()->set_width(96);
-  quilt.mutable_size()->set_height(64);
-  open.mutable_encoding()->set_with_mask(true);
-  open.set_count(count);
-  open.set_wait_for_stream(true);
-  return open;
-}
-
-// The exit code of a shell command.
-int runCommand(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-// Listens on a socket of its own, so that it can come back at the same address.
-class ClientWithViewloomd : public ::testing::Test {
- protected:
-  ClientWithViewloomd() {
-    std::string pattern = (fs::temp_directory_path() / "viewloom_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = pattern;
-    address_ = "unix:" + (folder_ / "server").string();
-    start();
-  }
-  ~ClientWithViewloomd() override {
-    server_.reset();
-    fs::remove_all(folder_);
-  }
-
-  void start() {
-    server_.emplace(
-        std::vector<std::string>{"serve", "--grpc.address", address_, "--http.enabled", "false"});
-  }
-
-  // By SIGTERM; returns the exit code.
-  int stop() {
-    server_->sendSignal(SIGTERM);
-    return server_->waitForExit();
-  }
-
-  std::unique_ptr<Publisher> publish(PublisherCallbacks callbacks = {}) {
-    return std::make_unique<Publisher>(
-        makeChannel(address_), PublisherOptions{.stream = "s", .session_id = {}, .backoff = kQuick},
-        std::move(callbacks));
-  }
-
-  std::unique_ptr<Watcher> watch(uint32_t count, std::function<void(const Atlas&)> on_atlas) {
-    const WatcherCallbacks callbacks{
-        .on_layout = {}, .on_atlas = std::move(on_atlas), .on_connection = {}};
-    return std::make_unique<Watcher>(makeChannel(address_), smallQuilt(count), callbacks, kQuick);
-  }
-
-  fs::path folder_;
-  std::string address_;
-  std::optional<test::ServerProcess> server_;
-};
+using test::kLong_ns;
+using test::runCommand;
+using test::smallFrame;
+using ClientWithViewloomd = test::WithViewloomd;
 
 TEST_F(ClientWithViewloomd, publishesAFrameAndWatchesItsQuilt) {
   std::vector<Atlas> atlases;

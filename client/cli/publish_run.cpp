@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/publish_run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+
+#include "base/str_cat.h"
+#include "cli/frame_pace.h"
+#include "cli/interrupt.h"
+#include "cli/report_error.h"
+#include "cli/sent_frames.h"
+#include "cli/status_line.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr int64_t kTick_ns = 20'000'000;            // how soon an interrupt or a due frame is seen
+constexpr int64_t kFinish_ns = 120'000'000'000;     // for the reports of the last frames
+constexpr int64_t kInterrupted_ns = 1'000'000'000;  // the same after Ctrl-C
+
+class PublishRun {
+ public:
+  PublishRun(const PublishRunOptions& options, const CommonOptions& common,
+             std::unique_ptr<FrameFeed> feed)
+      : options_(options), common_(common), feed_(std::move(feed)), line_(options.is_quiet) {}
+
+  int run() {
+    int code = publish();
+    publisher_.reset();  // no further frame is sent
+    const bool was_kept = sent_.failure().ok();
+    const absl::Status recorded = sent_.complete();
+    if (!recorded.ok() && (code == kExitDone || !was_kept)) code = fail(recorded, kExitFailed);
+    return code;
+  }
+
+ private:
+  int publish() {
+    absl::StatusOr<std::optional<WireFrame>> frame = nextFrame(0);
+    if (!frame.ok()) return fail(frame.status(), kExitUsage);
+    if (!options_.record_file.empty()) {
+      const absl::Status recording = sent_.record(options_.record_file);
+      if (!recording.ok()) return fail(recording, kExitUsage);
+    }
+    publisher_ = std::make_unique<Publisher>(makeChannel(common_.server),
+                                             PublisherOptions{.stream = options_.stream,
+                                                              .session_id = options_.session_id,
+                                                              .zstd_level = options_.zstd_level,
+                                                              .predicts_depth = predictsDepth()},
+                                             callbacks());
+    FramePace pace(clock_, options_.rate_hz.value_or(kDefaultRate_hz));
+    while (frame->has_value() && waitUntilSent()) {
+      publisher_->offer(**std::move(frame));
+      const double elapsed_s = waitUntilDue(pace);
+      if (isOver()) break;
+      frame = nextFrame(elapsed_s);
+      if (!frame.ok()) return fail(frame.status(), kExitUsage);
+    }
+    while (options_.is_holding && !isOver()) tick();
+    return end();
+  }
+
+  bool predictsDepth() const {
+    if (options_.depth_encoding != "auto") return options_.depth_encoding == "predicted";
+    return !staysOnMachine(common_.server);
+  }
+
+  absl::StatusOr<std::optional<WireFrame>> nextFrame(double elapsed_s) {
+    absl::StatusOr<std::optional<WireFrame>> frame = feed_->next(elapsed_s);
+    for (const std::string& note : feed_->takeNotes()) line_.say(note);
+    return frame;
+  }
+
+  PublisherCallbacks callbacks() {
+    const OnConnection say = sayConnections(line_, common_);
+    return {.on_accepted = {},
+            .on_report = [this](const v1::FrameReport& report) { noteReport(report); },
+            .on_wanted = [this](const v1::Wanted& wanted) { displays_ = wanted.display_count(); },
+            .on_connection =
+                [this, say](const ConnectionEvent& event) {
+                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
+                  if (is_lost && options_.has_no_retry) {
+                    std::lock_guard lock(mutex_);
+                    given_up_ = event.reason;
+                  } else {
+                    say(event);
+                  }
+                },
+            .on_sent = [this](const CompressedFrame& frame) { sent_.take(frame); }};
+  }
+
+  void noteReport(const v1::FrameReport& report) {
+    if (report.outcome() != v1::FRAME_OUTCOME_REFUSED) return;
+    std::lock_guard lock(mutex_);
+    if (std::exchange(last_reason_, report.reason()) == report.reason()) return;
+    line_.say(strCat("frame ", report.number(), " refused: ", report.reason()));
+  }
+
+  bool isOver() const {
+    if (isInterrupted() || publisher_->ended() || !sent_.failure().ok()) return true;
+    std::lock_guard lock(mutex_);
+    return !given_up_.ok();
+  }
+
+  void tick(int64_t longest_ns = kTick_ns) {
+    publisher_->waitEnded(std::min(kTick_ns, longest_ns));
+    if (line_.isDue()) line_.show(status());
+  }
+
+  // False when there is no sense in going on.
+  bool waitUntilSent() {
+    while (!feed_->isLive() && publisher_->isWaiting() && !isOver()) tick();
+    return !isOver();
+  }
+
+  // Waits for the next frame's time; returns it, in seconds since the start.
+  double waitUntilDue(FramePace& pace) {
+    const double due_s = pace.nextDue_s(feed_->nextDue_s());
+    for (int64_t left_ns = pace.left_ns(due_s); left_ns > 0 && !isOver();
+         left_ns = pace.left_ns(due_s)) {
+      tick(left_ns);
+    }
+    return due_s;
+  }
+
+  std::string status() {
+    const PublisherCounts counts = publisher_->counts();
+    const double rate = sent_rate_.perSecond(counts.sent);
+    const double bytes_rate = bytes_rate_.perSecond(counts.sent_bytes);
+    return strCat(feed_->description(), " to ", options_.stream, ": ", formatNumber(rate, 1),
+                  " frames/s, ", formatBytes(bytes_rate), "/s; ", counts.sent, " sent, overtaken ",
+                  counts.replaced_here, " here, ", counts.replaced_there, " there, ",
+                  counts.refused, " refused; ", depthStatus(), displays_.load(), " displays");
+  }
+
+  std::string depthStatus() const {
+    const double step = sent_.depthStep();
+    return step > 0 ? strCat("depth step ", step, " 1/m; ") : "";
+  }
+
+  int fail(const absl::Status& status, int code) {
+    reportError(status, common_);
+    return code;
+  }
+
+  int end() {
+    if (std::lock_guard lock(mutex_); !given_up_.ok()) return reportError(given_up_, common_);
+    const bool is_interrupted = isInterrupted();
+    const absl::Status ended = publisher_->ended().value_or(absl::OkStatus());
+    const bool was_served = publisher_->counts().sent > 0;
+    absl::Status status = ended;
+    if (ended.ok() && (was_served || !is_interrupted)) {
+      status = publisher_->finish(is_interrupted ? kInterrupted_ns : kFinish_ns);
+    }
+    line_.show(this->status());
+    if (is_interrupted && ended.ok()) return kExitDone;
+    if (!status.ok()) return reportError(status, common_);
+    return publisher_->counts().refused > 0 ? kExitFailed : kExitDone;
+  }
+
+  const PublishRunOptions& options_;
+  const CommonOptions& common_;
+  std::unique_ptr<FrameFeed> feed_;
+  StatusLine line_;
+  RateMeter sent_rate_;
+  RateMeter bytes_rate_;
+  SteadyClock clock_;
+  SentFrames sent_{line_, clock_};
+  std::atomic<uint32_t> displays_{0};
+  mutable std::mutex mutex_;
+  absl::Status given_up_;                 // --no-retry: why
+  std::string last_reason_;               // of a refused frame
+  std::unique_ptr<Publisher> publisher_;  // last: its callbacks use the rest
+};
+
+}  // namespace
+
+int runPublish(const PublishRunOptions& options, const CommonOptions& common,
+               std::unique_ptr<FrameFeed> feed) {
+  return PublishRun(options, common, std::move(feed)).run();
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/record_command.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/str_cat.h"
+#include "cli/display_options.h"
+#include "cli/interrupt.h"
+#include "cli/report_error.h"
+#include "cli/status_line.h"
+#include "lib/channel.h"
+#include "lib/watcher.h"
+#include "recording/atlas_recording.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr int64_t kTick_ns = 50'000'000;
+constexpr int64_t kFinish_ns = 5'000'000'000;  // for the rest of an atlas that has begun
+
+struct RecordOptions {
+  std::string stream = "demo";
+  std::string file;
+  DisplayOptions display;
+  uint32_t count = 0;
+  double duration_s = 0;
+  bool fails_without_stream = false;
+  bool has_no_retry = false;
+  bool is_quiet = false;
+};
+
+class RecordRun {
+ public:
+  RecordRun(const RecordOptions& options, const CommonOptions& common)
+      : options_(options), common_(common), line_(options.is_quiet) {}
+
+  int run() {
+    const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
+    if (!display.ok()) return usage(display.status());
+    auto recorder = AtlasRecorder::create(options_.file, clock_);
+    if (!recorder.ok()) return usage(recorder.status());
+    recorder_ = *std::move(recorder);
+    v1::OpenDisplay open;
+    open.set_stream(options_.stream);
+    *open.mutable_display() = *display;
+    *open.mutable_encoding() = makeEncoding(options_.display);
+    open.set_count(options_.count);
+    open.set_wait_for_stream(!options_.fails_without_stream);
+    watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok() && !isTimeOver()) {
+      if (line_.isDue()) line_.show(status());
+    }
+    finishAtlas();
+    return end();
+  }
+
+ private:
+  int usage(const absl::Status& status) const {
+    reportError(status, common_);
+    return kExitUsage;
+  }
+
+  WatcherCallbacks callbacks() {
+    const OnConnection say = sayConnections(line_, common_);
+    return {.on_layout = {},
+            .on_atlas = {},
+            .on_connection =
+                [this, say](const ConnectionEvent& event) {
+                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
+                  if (is_lost && options_.has_no_retry) {
+                    setFailure(event.reason);
+                  } else {
+                    say(event);
+                  }
+                },
+            .on_message = [this](const v1::StreamAtlasesResponse& message) { take(message); }};
+  }
+
+  void take(const v1::StreamAtlasesResponse& message) {
+    std::lock_guard lock(mutex_);
+    if (!failure_.ok()) return;
+    if (start_ns_ == 0) start_ns_ = clock_.nowNs();
+    failure_ = recorder_->add(message);
+  }
+
+  void setFailure(const absl::Status& status) {
+    std::lock_guard lock(mutex_);
+    failure_ = status;
+  }
+
+  absl::Status failure() const {
+    std::lock_guard lock(mutex_);
+    return failure_;
+  }
+
+  // Counted from the first message: until then there is nothing to record.
+  bool isTimeOver() const {
+    std::lock_guard lock(mutex_);
+    const double since_s = static_cast<double>(clock_.nowNs() - start_ns_) * 1e-9;
+    return options_.duration_s > 0 && start_ns_ != 0 && since_s >= options_.duration_s;
+  }
+
+  bool isWithinAtlas() const {
+    std::lock_guard lock(mutex_);
+    return failure_.ok() && recorder_->isWithinAtlas();
+  }
+
+  // What has begun is worth waiting for; then the call is broken off.
+  void finishAtlas() {
+    const int64_t until_ns = clock_.nowNs() + kFinish_ns;
+    while (isWithinAtlas() && clock_.nowNs() < until_ns && !watcher_->waitEnded(kTick_ns)) {
+    }
+    watcher_->stop();
+    while (!watcher_->waitEnded(kTick_ns)) {
+    }
+  }
+
+  std::string status() {
+    const WatcherCounts counts = watcher_->counts();
+    if (counts.atlases.whole == 0) return strCat("waiting for stream ", options_.stream);
+    return strCat(counts.atlases.whole, " atlases, ",
+                  formatBytes(static_cast<double>(counts.received_bytes)), "; ",
+                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off");
+  }
+
+  int end() {
+    const absl::Status ended = *watcher_->ended();
+    const bool is_stopped = ended.code() == absl::StatusCode::kCancelled;
+    absl::Status failed = failure();
+    if (failed.ok() && !ended.ok() && !is_stopped) failed = ended;
+    // What came before something went wrong is kept.
+    const absl::Status completed = recorder_->complete();
+    if (completed.ok()) {
+      const uint64_t count = recorder_->atlasCount();
+      line_.say(
+          strCat(options_.file, ": ", count, count == 1 ? " atlas" : " atlases", " recorded"));
+    }
+    if (!failed.ok()) return reportError(failed, common_);
+    if (!completed.ok()) return reportError(completed, common_);
+    return is_stopped && options_.count > 0 && options_.duration_s == 0 ? kExitFailed : kExitDone;
+  }
+
+  const RecordOptions& options_;
+  const CommonOptions& common_;
+  SteadyClock clock_;
+  StatusLine line_;
+  mutable std::mutex mutex_;
+  std::unique_ptr<AtlasRecorder> recorder_;
+  int64_t start_ns_ = 0;  // when the first message came; 0 = none has
+  absl::Status failure_;
+  std::unique_ptr<Watcher> watcher_;  // last: its callbacks use the rest
+};
+
+}  // namespace
+
+RunCommand addRecordCommand(CLI::App& app) {
+  const auto options = std::make_shared<RecordOptions>();
+  app.footer(
+      "Examples:\n"
+      "  viewloom record --out demo.vlr                   until Ctrl-C\n"
+      "  viewloom record demo --seconds 10 --preset portrait --out portrait.vlr\n"
+      "  viewloom watch --from portrait.vlr --out quilts  as files for the device\n"
+      "Frames are recorded where they are sent: `viewloom publish --record`.");
+  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
+  app.add_option("--out", options->file, "The file; it is there once it is complete")->required();
+  app.add_option("--count", options->count, "Atlases to record; 0 = until Ctrl-C");
+  app.add_option("--seconds", options->duration_s, "How long to record; 0 = until Ctrl-C")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--no-wait", options->fails_without_stream, "End when there is no such stream");
+  app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
+  app.add_flag("-q,--quiet", options->is_quiet, "No status line");
+  addDisplayOptions(app, options->display);
+  return
+      [options](const CommonOptions& common) -> int { return RecordRun(*options, common).run(); };
+}
+
+}  // namespace viewloom::cli

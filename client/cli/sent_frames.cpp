@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/sent_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/str_cat.h"
+
+namespace viewloom::cli {
+
+absl::Status SentFrames::record(const std::string& file) {
+  auto recorder = FrameRecorder::create(file, clock_);
+  if (!recorder.ok()) return recorder.status();
+  file_ = file;
+  recorder_ = *std::move(recorder);
+  return absl::OkStatus();
+}
+
+void SentFrames::take(const CompressedFrame& frame) {
+  tellDepth(frame.depth);
+  if (!recorder_ || !failure().ok()) return;
+  absl::Status status = recorder_->add(frame.frame);
+  std::lock_guard lock(mutex_);
+  failure_ = std::move(status);
+}
+
+// Once, and again when it changes: steps differ a little from frame to frame.
+void SentFrames::tellDepth(const std::vector<QuantisedDepth>& sources) {
+  QuantisedDepth coarsest;
+  for (const QuantisedDepth& source : sources) {
+    const bool is_worse = coarsest.kept_because.empty() &&
+                          (!source.kept_because.empty() || source.step > coarsest.step);
+    if (is_worse) coarsest = source;
+  }
+  {
+    std::lock_guard lock(mutex_);
+    depth_step_ = coarsest.step;
+  }
+  if (!coarsest.kept_because.empty()) {
+    if (std::exchange(told_, Told::kKept) == Told::kKept) return;
+    line_.say(strCat("depth stays binary32, packed with zstd: ", coarsest.kept_because));
+  } else if (coarsest.step > 0) {
+    if (std::exchange(told_, Told::kQuantised) == Told::kQuantised) return;
+    line_.say(strCat("depth goes as 16-bit inverse depth in steps of ", coarsest.step,
+                     " 1/m; up to ", coarsest.step_max,
+                     " stay unseen (--depth-encoding plain "
+                     "sends it as it is)"));
+  }
+}
+
+absl::Status SentFrames::failure() const {
+  std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+double SentFrames::depthStep() const {
+  std::lock_guard lock(mutex_);
+  return depth_step_;
+}
+
+absl::Status SentFrames::complete() {
+  if (!recorder_) return absl::OkStatus();
+  VIEWLOOM_RETURN_IF_ERROR(failure());
+  VIEWLOOM_RETURN_IF_ERROR(recorder_->complete());
+  const uint64_t count = recorder_->frameCount();
+  line_.say(strCat(file_, ": ", count, count == 1 ? " frame recorded" : " frames recorded"));
+  return absl::OkStatus();
+}
+
+}  // namespace viewloom::cli

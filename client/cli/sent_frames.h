@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `viewloom publish` does with frames that have gone: says how their depth went, and keeps
+// them in a recording.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/clock.h"
+#include "base/status.h"
+#include "cli/status_line.h"
+#include "lib/compress_frame.h"
+#include "recording/frame_recording.h"
+
+namespace viewloom::cli {
+
+// Thread-safety: take() belongs to one thread, and has ended before complete(); the others may be
+// called from any thread.
+class SentFrames {
+ public:
+  // Line and clock must outlive it.
+  SentFrames(StatusLine& line, const Clock& clock) : line_(line), clock_(clock) {}
+
+  // From now on frames are kept. FAILED_PRECONDITION when the file cannot be written.
+  absl::Status record(const std::string& file);
+  void take(const CompressedFrame& frame);
+  // Why frames are kept no longer; OK while they are.
+  absl::Status failure() const;
+  // The coarsest of the newest frame, 1/m; 0 = depth goes as it is.
+  double depthStep() const;
+  // Ends the recording, if there is one, and says so.
+  absl::Status complete();
+
+ private:
+  void tellDepth(const std::vector<QuantisedDepth>& sources);
+
+  StatusLine& line_;
+  const Clock& clock_;
+  std::string file_;
+  std::unique_ptr<FrameRecorder> recorder_;  // null = none
+  enum class Told { kNothing, kQuantised, kKept } told_ = Told::kNothing;
+  mutable std::mutex mutex_;
+  absl::Status failure_;
+  double depth_step_ = 0;
+};
+
+}  // namespace viewloom::cli
