@@ -2,7 +2,6 @@
 #include "bench/bench_commands.h"
 
 #include <algorithm>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -25,6 +24,7 @@
 #include "bench/report.h"
 #include "bench/side_by_side.h"
 #include "bench/targets.h"
+#include "bench/uplink.h"
 #include "bench/viewloom_contestant.h"
 
 namespace viewloom::bench {
@@ -43,15 +43,6 @@ struct Arguments {
   std::filesystem::path data = VIEWLOOM_SHARED_DATA;
   std::vector<std::filesystem::path> manifests;
 };
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[sizeof "2000-01-01"];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
-  return text;
-}
 
 RecordedLoads chosenLoads(const Arguments& arguments, Work work) {
   RecordedLoads all = recordedLoads(arguments.data);
@@ -162,6 +153,7 @@ int runBench(int argc, char** argv) {
   app.require_subcommand(1);
   addCommand(app, "trace", "Build and trace whole atlases", Work::kBuildAndTrace);
   addCommand(app, "build", "Build structures alone", Work::kBuild);
+  addUplinkCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }

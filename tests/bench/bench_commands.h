@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of viewloom-bench: `trace` and `build`.
+// The commands of viewloom-bench: `trace`, `build` and `uplink`.
 #pragma once
 
 namespace viewloom::bench {

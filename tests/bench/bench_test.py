@@ -97,6 +97,17 @@ class BenchTest(unittest.TestCase):
         (ratio,) = report["ratios"]
         self.assertEqual(ratio["what"], "2-D structure / copy, build")
 
+    def test_uplink(self):
+        report = run("uplink", "--json", "--rounds", "1", "--miniature", "4")
+        f32, f32_zstd, u16_zstd, predicted = report["forms"]
+        pixels = report["width_px"] * report["height_px"]
+        self.assertAlmostEqual(f32["mb_per_layer"], 4e-6 * pixels)
+        sizes = [form["mb_per_layer"] for form in (predicted, u16_zstd, f32_zstd, f32)]
+        self.assertEqual(sizes, sorted(sizes))
+        self.assertEqual((f32["step"], f32_zstd["step"]), (0, 0))
+        self.assertGreater(predicted["step"], 0)
+        self.assertEqual(predicted["step"], u16_zstd["step"])
+
     def test_a_load_that_does_not_exist(self):
         finished = subprocess.run([PROGRAM, "trace", "--only", "no such load"],
                                   capture_output=True, text=True, check=False)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report.h"
 
+#include <ctime>
 #include <iomanip>
 #include <sstream>
 
@@ -78,6 +79,15 @@ std::string asTable(const Json& load) {
          << "\n";
   }
   return text.str();
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[sizeof "2000-01-01"];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+  return text;
 }
 
 }  // namespace viewloom::bench

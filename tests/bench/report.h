@@ -32,4 +32,7 @@ nlohmann::ordered_json traceJson(const LoadReport& report, const OwnReport& own)
 // The same for people: a line a contestant.
 std::string asTable(const nlohmann::ordered_json& load);
 
+// "2000-01-01", UTC.
+std::string today();
+
 }  // namespace viewloom::bench
