@@ -40,13 +40,33 @@ std::optional<DepthFormat> formatOf(const v1::DepthFormat& proto) {
   return format;
 }
 
-float invZOf(float sample, const DepthCoefficients& depth) {
-  if (depth.has_invalid != 0 && sample == depth.invalid_value) {
-    return depth.invalid_is_far != 0 ? 0 : kNoInvZ;
+float withinRange(float inv_z) {
+  return inv_z <= kInvZMax ? inv_z : kNoInvZ;
+}
+
+float invZOf(float value, bool is_reciprocal) {
+  if (!is_reciprocal) return value >= 0 ? withinRange(value) : kNoInvZ;  // NaN is no surface, too
+  const float inv_z = 1 / value;
+  return value > 0 ? withinRange(inv_z) : kNoInvZ;
+}
+
+// In place. Samples without a special value come by the million: nothing in their loops is decided
+// anew for each.
+void linearise(const DepthCoefficients& depth, std::span<float> row) {
+  const auto valueOf = [&depth](float sample) {
+    return (sample - depth.origin) * depth.scale + depth.offset;
+  };
+  if (depth.has_invalid != 0) {
+    const float invalid = depth.invalid_is_far != 0 ? 0 : kNoInvZ;
+    for (float& sample : row) {
+      sample =
+          sample == depth.invalid_value ? invalid : invZOf(valueOf(sample), depth.reciprocal != 0);
+    }
+  } else if (depth.reciprocal != 0) {
+    for (float& sample : row) sample = invZOf(valueOf(sample), true);
+  } else {
+    for (float& sample : row) sample = invZOf(valueOf(sample), false);
   }
-  const float value = (sample - depth.origin) * depth.scale + depth.offset;
-  if (depth.reciprocal == 0) return value >= 0 ? value : kNoInvZ;  // NaN is no surface, too
-  return value > 0 ? 1 / value : kNoInvZ;
 }
 
 // Of planes that hold distances from the eye: how much longer than its Z the ray of a px is.
@@ -57,7 +77,7 @@ void divideByRayLength(const Intrinsics& intrinsics, size_t width, size_t rows_o
     const double x = (double(i % width) + 0.5 - intrinsics.principal_px.x) / intrinsics.focal_px.x;
     const double row = double(i / width % rows_of_image);
     const double y = (row + 0.5 - intrinsics.principal_px.y) / intrinsics.focal_px.y;
-    inv_z[i] = static_cast<float>(inv_z[i] * std::sqrt(x * x + y * y + 1));
+    inv_z[i] = withinRange(static_cast<float>(inv_z[i] * std::sqrt(x * x + y * y + 1)));
   }
 }
 
@@ -106,13 +126,10 @@ std::optional<std::vector<float>> inverseDepth(const v1::Plane& plane,
   for (size_t y = 0; y < height; ++y) {
     float* row = &inv_z[y * width];
     std::memcpy(row, &bytes[y * stride_bytes], packed_bytes);
-    for (size_t x = 0; x < width; ++x) row[x] = invZOf(row[x], coefficients);
+    linearise(coefficients, {row, width});
   }
   if (coefficients.ray_distance != 0) {
     divideByRayLength(intrinsics, width, is_cube_map ? height / kCubeFaceCount : height, inv_z);
-  }
-  for (float& value : inv_z) {
-    if (value > kInvZMax) value = kNoInvZ;
   }
   return inv_z;
 }

@@ -2,6 +2,7 @@
 #include "lib/quantise_depth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -51,16 +52,19 @@ Grid gridOver(double inv_z_min, double inv_z_max) {
   return {inv_z_min, step};
 }
 
+// Floats that are not negative order as their bits do, which are compared many at a time; negative
+// ones, no surfaces, are the largest of unsigned bits and the smallest of signed ones.
 Grid gridOf(const std::vector<DepthPlane>& planes) {
-  float inv_z_min = INFINITY;
-  float inv_z_max = 0;
+  uint32_t least_bits = std::bit_cast<uint32_t>(kNoInvZ);
+  int32_t most_bits = 0;
   for (const DepthPlane& plane : planes) {
     for (const float inv_z : plane.inv_z) {
-      inv_z_min = inv_z < 0 ? inv_z_min : std::min(inv_z_min, inv_z);
-      inv_z_max = std::max(inv_z_max, inv_z);
+      least_bits = std::min(least_bits, std::bit_cast<uint32_t>(inv_z));
+      most_bits = std::max(most_bits, std::bit_cast<int32_t>(inv_z));
     }
   }
-  return gridOver(std::min(inv_z_min, inv_z_max), inv_z_max);
+  const float inv_z_max = std::bit_cast<float>(most_bits);
+  return gridOver(std::max(std::bit_cast<float>(least_bits), 0.0F), inv_z_max);
 }
 
 std::vector<uint8_t> codesOf(const DepthPlane& plane, const Grid& grid) {

@@ -11,12 +11,6 @@ namespace {
 
 constexpr size_t kSampleBytes = sizeof(uint16_t);
 
-uint16_t sampleAt(const uint8_t* samples, size_t index) {
-  uint16_t sample = 0;
-  std::memcpy(&sample, samples + index * kSampleBytes, kSampleBytes);
-  return sample;
-}
-
 // 0, 1, 2, 3, ... to 0, -1, 1, -2, ..., modulo 65536.
 uint16_t differenceOf(uint32_t zigzag) {
   return static_cast<uint16_t>((zigzag >> 1) ^ (0U - (zigzag & 1)));
@@ -29,20 +23,22 @@ void restorePredicted(std::span<const uint8_t> bytes, SizePx size_px, std::vecto
   const size_t area = size_px.area();
   VIEWLOOM_CHECK(bytes.size() == area * kSampleBytes);
   out.resize(bytes.size());
-  const std::vector<uint8_t> above_first(width * kSampleBytes);
-  const uint8_t* above = above_first.data();
+  std::vector<uint16_t> differences(width);
+  std::vector<uint16_t> row(width);  // that above, until it is this one
   for (size_t y = 0; y < size_px.height; ++y) {
     const uint8_t* low = &bytes[y * width];
     const uint8_t* high = low + area;
-    uint8_t* row = out.data() + y * width * kSampleBytes;
-    // left - upper left + difference: what a sample has more than the one above it.
-    uint16_t rise = 0;
     for (size_t x = 0; x < width; ++x) {
-      rise = static_cast<uint16_t>(rise + differenceOf(low[x] | uint32_t{high[x]} << 8));
-      const auto sample = static_cast<uint16_t>(sampleAt(above, x) + rise);
-      std::memcpy(row + x * kSampleBytes, &sample, kSampleBytes);
+      differences[x] = differenceOf(low[x] | uint32_t{high[x]} << 8);
     }
-    above = row;
+    // left - upper left + difference: what a sample has more than the one above it. Apart from the
+    // loop before, of which many px are done at a time.
+    uint32_t rise = 0;
+    for (size_t x = 0; x < width; ++x) {
+      rise += differences[x];
+      row[x] = static_cast<uint16_t>(row[x] + rise);
+    }
+    std::memcpy(out.data() + y * width * kSampleBytes, row.data(), width * kSampleBytes);
   }
 }
 
