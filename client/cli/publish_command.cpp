@@ -91,9 +91,10 @@ void addStreamOptions(CLI::App& app, PublishOptions& options) {
                  "Compress planes, level 1..19; for slow links; 0 = do not")
       ->check(CLI::Range(0, 19))
       ->capture_default_str();
-  app.add_option("--depth-encoding", run.depth_encoding,
-                 "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where "
-                 "nobody sees the difference), or auto: plain on this machine, else predicted")
+  app.add_option(
+         "--depth-encoding", run.depth_encoding,
+         "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where its "
+         "steps do not show), or auto: plain on this machine, else predicted")
       ->check(CLI::IsMember({"auto", "plain", "predicted"}))
       ->capture_default_str();
   app.add_option("--record", run.record_file, "Keep the frames that are sent in this file");

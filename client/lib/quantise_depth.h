@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary32 depth as 16-bit inverse depth, where that is fine enough to be seen by nobody.
+// Binary32 depth as 16-bit inverse depth, where that is too fine to show.
 #pragma once
 
 #include <span>

@@ -24,8 +24,8 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  // Expects a message that is not empty, and times that do not go back. FAILED_PRECONDITION when the
-  // disk takes no more.
+  // Expects a message that is not empty, and times that do not go back. FAILED_PRECONDITION when
+  // the disk takes no more.
   absl::Status add(int64_t time_ns, const google::protobuf::MessageLite& message);
   // What was added so far stays whatever comes.
   void markWhole();
