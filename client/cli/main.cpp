@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `viewloom` command: publish, watch, list.
+// The `viewloom` command: publish, inspect, watch, list.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/inspect_command.h"
 #include "cli/interrupt.h"
 #include "cli/list_command.h"
 #include "cli/publish_command.h"
@@ -33,6 +34,8 @@ int run(int argc, char** argv) {
   };
   add("publish", "Send the synthetic scene, image files or manifests as a stream",
       addPublishCommand);
+  add("inspect", "Say what image files hold, how they are read and what looks wrong",
+      addInspectCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
   try {

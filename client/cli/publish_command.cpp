@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "cli/file_frames.h"
+#include "cli/file_options.h"
 #include "cli/interrupt.h"
+#include "cli/plane_options.h"
 #include "cli/report_error.h"
 #include "cli/size_option.h"
 #include "cli/status_line.h"
@@ -61,25 +62,6 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                  "Length of the synthetic scene; 0 = without end")
       ->check(CLI::NonNegativeNumber)
       ->group("What");
-  app.add_option("colour", options.files.colors,
-                 "Colour files, one a frame: .exr (with depth in Z), .png, .jpg, .pfm")
-      ->group("What");
-  app.add_option("--depth", options.files.depths, "Depth files, one a frame: .exr, .png, .pfm")
-      ->group("What");
-  app.add_option("--deep", options.files.deeps,
-                 "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "
-                 "with the least occlusion error, which is told")
-      ->group("What");
-  app.add_flag(
-         "--black-sky", options.files.has_black_sky,
-         "Light that all samples of a deep px let through comes from a black sky, not from what "
-         "lies beside the px")
-      ->group("What");
-  app.add_option("--view", options.files.view, "View of multi-view EXR files, as right or left")
-      ->group("What");
-  app.add_option("--manifest", options.files.manifests,
-                 "FrameManifest JSON files, one a frame: layers, cameras, everything")
-      ->group("What");
 }
 
 void addStreamOptions(CLI::App& app, PublishOptions& options) {
@@ -112,9 +94,10 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
     return std::make_unique<SyntheticFrames>(synthetic);
   }
   FileFeedOptions files = options.files;
-  files.deep_layer_count_max = options.layer_count.value_or(0);
-  VIEWLOOM_RETURN_IF_ERROR(FileFrames::validate(files));
-  return std::make_unique<FileFrames>(std::move(files));
+  files.loader.deep_layer_count_max = options.layer_count.value_or(0);
+  absl::StatusOr<std::vector<FrameFiles>> frames = framesOf(files);
+  if (!frames.ok()) return frames.status();
+  return std::make_unique<FileFrames>(files, *std::move(frames));
 }
 
 // One run of the command, from the first frame to the last report.
@@ -262,8 +245,9 @@ RunCommand addPublishCommand(CLI::App& app) {
       "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
       "  viewloom publish photo.png --depth photo_mm.png --scale 0.001 --fov 50 --hold");
   addSourceOptions(app, *options);
+  addFileOptions(app, options->files);
   addStreamOptions(app, *options);
-  addPlaneOptions(app, options->files.planes);
+  addPlaneOptions(app, options->files.loader.input);
   return [options](const CommonOptions& common) -> int {
     absl::StatusOr<std::unique_ptr<FrameFeed>> feed = makeFeed(*options);
     if (!feed.ok()) {

@@ -2,7 +2,10 @@
 // One plane as a file gave it, in an encoding of the wire.
 #pragma once
 
+#include <OpenEXR/ImfChromaticities.h>
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,8 @@ struct PlaneImage {
   uint32_t height_px = 0;
   v1::PlaneEncoding encoding = v1::PLANE_ENCODING_UNSPECIFIED;
   bool has_alpha = false;
+  uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
+  std::optional<Imf::Chromaticities> chromaticities;  // colour whose file states them
   std::vector<uint8_t> bytes;  // packed, top row first
 };
 
