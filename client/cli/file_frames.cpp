@@ -22,9 +22,10 @@ absl::Status validateColors(const FileFeedOptions& options) {
   if (kind == InputKind::kRgbd || kind == InputKind::k2dPlusZ) return absl::OkStatus();
   for (const std::string& file : options.colors) {
     if (options.depths.empty() && !isExr(file)) {
-      return absl::InvalidArgumentError(strCat(
-          file, ": holds no depth; accepted is an EXR file with Z, --depth FILE beside it, or a "
-                "picture that is half depth with --input rgbd or 2d+z"));
+      return absl::InvalidArgumentError(
+          strCat(file,
+                 ": holds no depth; accepted is an EXR file with Z, --depth FILE beside it, or a "
+                 "picture that is half depth with --input rgbd or 2d+z"));
     }
   }
   return absl::OkStatus();

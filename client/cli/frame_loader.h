@@ -36,8 +36,7 @@ struct LoadedFiles {
 // Thread-safety: none; one owner.
 class FrameLoader {
  public:
-  explicit FrameLoader(const LoaderOptions& options)
-      : options_(options), reader_(options.input) {}
+  explicit FrameLoader(const LoaderOptions& options) : options_(options), reader_(options.input) {}
 
   absl::StatusOr<LoadedFiles> load(const FrameFiles& files);
 

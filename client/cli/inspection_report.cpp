@@ -128,12 +128,18 @@ Json layerJson(const inspect::LayerInspection& layer) {
   const inspect::DepthSamples& samples = layer.samples;
   const inspect::DepthMeasures& measures = layer.measures;
   const v1::DepthFormat& format = layer.depth.depth();
-  Json depth = {{"width_px", samples.width_px},      {"height_px", samples.height_px},
-                {"encoding", encodingOf(layer.depth)}, {"meaning", meaningOf(layer.depth)},
-                {"scale", scaleOf(format)},          {"offset", format.offset()},
-                {"surface_count", samples.surface_count}, {"sky_count", samples.sky_count},
-                {"invalid_count", samples.invalid_count}, {"bad_count", samples.bad_count},
-                {"step_per_m", measures.step},       {"noise_sigma_per_m", measures.noise_sigma}};
+  Json depth = {{"width_px", samples.width_px},
+                {"height_px", samples.height_px},
+                {"encoding", encodingOf(layer.depth)},
+                {"meaning", meaningOf(layer.depth)},
+                {"scale", scaleOf(format)},
+                {"offset", format.offset()},
+                {"surface_count", samples.surface_count},
+                {"sky_count", samples.sky_count},
+                {"invalid_count", samples.invalid_count},
+                {"bad_count", samples.bad_count},
+                {"step_per_m", measures.step},
+                {"noise_sigma_per_m", measures.noise_sigma}};
   if (format.meaning() == v1::DEPTH_MEANING_WINDOW) {
     depth["near_m"] = format.near_z_m();
     // JSON has no infinity.
@@ -236,8 +242,8 @@ Json reportJson(const InspectedFile& inspected) {
   for (const inspect::SourceInspection& source : inspected.sources) {
     Json layers = Json::array();
     for (const inspect::LayerInspection& layer : source.layers) layers.push_back(layerJson(layer));
-    json["sources"].push_back({{"camera", cameraJson(source.camera, inspected.camera_is_assumed)},
-                               {"layers", layers}});
+    json["sources"].push_back(
+        {{"camera", cameraJson(source.camera, inspected.camera_is_assumed)}, {"layers", layers}});
   }
   return json;
 }

@@ -26,16 +26,13 @@ int run(int argc, char** argv) {
   app.add_option("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
       ->envname("VIEWLOOM_SERVER_ADDRESS")
       ->capture_default_str();
-
   std::vector<std::pair<CLI::App*, RunCommand>> commands;
   const auto add = [&](const char* name, const char* description, auto add_command) {
     CLI::App* command = app.add_subcommand(name, description);
     commands.emplace_back(command, add_command(*command));
   };
-  add("publish", "Send the synthetic scene, image files or manifests as a stream",
-      addPublishCommand);
-  add("inspect", "Say what image files hold, how they are read and what looks wrong",
-      addInspectCommand);
+  add("publish", "Send files or the synthetic scene as a stream of frames", addPublishCommand);
+  add("inspect", "Say what files hold, how they are read, what is wrong", addInspectCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
   try {

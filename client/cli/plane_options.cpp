@@ -16,10 +16,9 @@ const std::map<std::string, v1::DepthMeaning> kMeanings{{"planar", v1::DEPTH_MEA
                                                         {"disparity", v1::DEPTH_MEANING_DISPARITY}};
 const std::map<std::string, v1::ColorTransfer> kTransfers{{"srgb", v1::COLOR_TRANSFER_SRGB},
                                                           {"linear", v1::COLOR_TRANSFER_LINEAR}};
-const std::map<std::string, v1::ColorPrimaries> kPrimaries{
-    {"bt709", v1::COLOR_PRIMARIES_BT709},
-    {"p3", v1::COLOR_PRIMARIES_DISPLAY_P3},
-    {"bt2020", v1::COLOR_PRIMARIES_BT2020}};
+const std::map<std::string, v1::ColorPrimaries> kPrimaries{{"bt709", v1::COLOR_PRIMARIES_BT709},
+                                                           {"p3", v1::COLOR_PRIMARIES_DISPLAY_P3},
+                                                           {"bt2020", v1::COLOR_PRIMARIES_BT2020}};
 const std::map<std::string, v1::AlphaMode> kAlphas{{"opaque", v1::ALPHA_MODE_OPAQUE},
                                                    {"premultiplied", v1::ALPHA_MODE_PREMULTIPLIED},
                                                    {"straight", v1::ALPHA_MODE_STRAIGHT}};
@@ -42,8 +41,7 @@ template <typename Value>
 CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
                      const std::map<std::string, Value>& words, const std::string& description) {
   const auto take = [&value, words](const std::string& word) { value = words.at(word); };
-  return app.add_option_function<std::string>(name, take, description)
-      ->check(CLI::IsMember(words));
+  return app.add_option_function<std::string>(name, take, description)->check(CLI::IsMember(words));
 }
 
 void addKindOptions(CLI::App& app, InputSettings& settings) {
@@ -77,8 +75,7 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
       ->check(CLI::Range(0, 255))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--camera", settings.camera_file, "tmiv: camera parameters in JSON")
-      ->group(group);
+  app.add_option("--camera", settings.camera_file, "tmiv: camera parameters in JSON")->group(group);
   app.add_option("--camera-name", settings.camera_name,
                  "tmiv: which of the cameras [by the name of the depth file]")
       ->group(group);

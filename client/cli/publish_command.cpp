@@ -11,6 +11,7 @@
 
 #include "base/str_cat.h"
 #include "cli/file_options.h"
+#include "cli/folder_frames.h"
 #include "cli/interrupt.h"
 #include "cli/plane_options.h"
 #include "cli/report_error.h"
@@ -34,6 +35,7 @@ struct PublishOptions {
   std::optional<uint32_t> layer_count;
   SyntheticFeedOptions synthetic;
   FileFeedOptions files;
+  std::string watched_folder;
   double rate_hz = 15;
   bool is_holding = false;
   bool is_quiet = false;
@@ -83,10 +85,12 @@ void addStreamOptions(CLI::App& app, PublishOptions& options) {
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& options) {
   const int kinds = int{options.is_synthetic} + int{!options.files.colors.empty()} +
-                    int{!options.files.deeps.empty()} + int{!options.files.manifests.empty()};
+                    int{!options.files.deeps.empty()} + int{!options.files.manifests.empty()} +
+                    int{!options.watched_folder.empty()};
   if (kinds != 1) {
     return absl::InvalidArgumentError(
-        "what to publish? Accepted is one of --synthetic, colour files, --deep, --manifest");
+        "what to publish? Accepted is one of --synthetic, colour files, --deep, --manifest, "
+        "--watch-folder");
   }
   if (options.is_synthetic) {
     SyntheticFeedOptions synthetic = options.synthetic;
@@ -95,6 +99,11 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
   }
   FileFeedOptions files = options.files;
   files.loader.deep_layer_count_max = options.layer_count.value_or(0);
+  if (!options.watched_folder.empty()) {
+    auto folder = FolderFrames::open(options.watched_folder, files.loader, files.view);
+    if (!folder.ok()) return folder.status();
+    return *std::move(folder);
+  }
   absl::StatusOr<std::vector<FrameFiles>> frames = framesOf(files);
   if (!frames.ok()) return frames.status();
   return std::make_unique<FileFrames>(files, *std::move(frames));
@@ -116,9 +125,14 @@ class PublishRun {
                                                               .zstd_level = options_.zstd_level},
                                              callbacks());
     const auto start = std::chrono::steady_clock::now();
-    while (frame->has_value() && waitUntilSent()) {
-      publisher_->offer(**std::move(frame));
-      const double elapsed_s = waitUntilDue(start);
+    double elapsed_s = 0;
+    while (frame->has_value() || !feed_->hasEnded()) {
+      if (!frame->has_value()) {
+        tick();
+      } else if (waitUntilSent()) {
+        publisher_->offer(**std::move(frame));
+        elapsed_s = waitUntilDue(start);
+      }
       if (isOver()) break;
       frame = nextFrame(elapsed_s);
       if (!frame.ok()) return fail(frame.status(), kExitUsage);
@@ -243,9 +257,14 @@ RunCommand addPublishCommand(CLI::App& app) {
       "  viewloom publish frame.exr --focal-px 1200 --hold\n"
       "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
       "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
-      "  viewloom publish photo.png --depth photo_mm.png --scale 0.001 --fov 50 --hold");
+      "  viewloom publish photo.png --depth photo_mm.png --input sensor --fov 50 --hold\n"
+      "  viewloom publish --watch-folder renders/ --fps 24");
   addSourceOptions(app, *options);
   addFileOptions(app, options->files);
+  app.add_option("--watch-folder", options->watched_folder,
+                 "Publish every complete file that is in this folder or comes into it; colour and "
+                 "depth in two files pair up by name, as x.png and x_depth.png")
+      ->group("What");
   addStreamOptions(app, *options);
   addPlaneOptions(app, options->files.loader.input);
   return [options](const CommonOptions& common) -> int {

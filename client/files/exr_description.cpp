@@ -27,7 +27,7 @@ std::string typeName(Imf::PixelType type) {
 ExrDescribedPart describePart(const Imf::Header& header, bool has_siblings) {
   ExrDescribedPart part;
   if (header.hasName()) part.name = header.name();
-  part.type = header.hasType()               ? header.type()
+  part.type = header.hasType()              ? header.type()
               : header.hasTileDescription() ? "tiledimage"
                                             : "scanlineimage";
   const auto& display = header.displayWindow();

@@ -25,8 +25,8 @@ struct ExrDescribedChannel {
 };
 
 struct ExrDescribedPart {
-  std::string name;  // "" = none
-  std::string type;  // "scanlineimage", "tiledimage", "deepscanline", "deeptile"
+  std::string name;      // "" = none
+  std::string type;      // "scanlineimage", "tiledimage", "deepscanline", "deeptile"
   int64_t width_px = 0;  // of the display window
   int64_t height_px = 0;
   std::vector<ExrDescribedChannel> channels;

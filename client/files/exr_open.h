@@ -11,7 +11,8 @@
 
 namespace viewloom::files {
 
-// Headers that ask for more than the limits are refused before anything but headers is read.
+// Headers that ask for more than the limits, attributes of more bytes than the file has among them,
+// are refused before memory is spent on what they ask for.
 absl::StatusOr<std::unique_ptr<Imf::MultiPartInputFile>> openExr(const std::filesystem::path& path);
 
 }  // namespace viewloom::files

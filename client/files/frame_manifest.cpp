@@ -96,8 +96,7 @@ absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::pat
   if (files.has_deep()) return loadDeepSource(files, folder, source, frame);
   VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
   for (int i = 0; i < files.layers_size(); ++i) {
-    const absl::Status status =
-        loadLayer(files.layers(i), folder, *source.add_layers(), frame);
+    const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);
     if (!status.ok()) return withFieldPrefix(status, absl::StrCat("layers[", i, "]"));
   }
   return checkDepthSizes(source);

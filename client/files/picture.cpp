@@ -53,8 +53,8 @@ double meanChannelDifference(const Picture& picture) {
   uint64_t sum = 0;
   for (size_t pixel = 0; pixel < pixel_count; ++pixel) {
     const size_t at = pixel * picture.channels;
-    const auto [least, most] = std::minmax(
-        {sampleAt(picture, at), sampleAt(picture, at + 1), sampleAt(picture, at + 2)});
+    const auto [least, most] =
+        std::minmax({sampleAt(picture, at), sampleAt(picture, at + 1), sampleAt(picture, at + 2)});
     sum += most - least;
   }
   const double code_max = picture.bits == 8 ? 255 : 65535;

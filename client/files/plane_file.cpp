@@ -42,8 +42,8 @@ absl::Status refuseForeign(const v1::PlaneFile& file, const std::string& extensi
                         absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
   }
   if (!has_parts && file.part() != v1::IMAGE_PART_UNSPECIFIED) {
-    return invalidField("part",
-                        absl::StrCat("given for ", file.file(), "; accepted for PNG and JPEG only"));
+    return invalidField(
+        "part", absl::StrCat("given for ", file.file(), "; accepted for PNG and JPEG only"));
   }
   if (is_yuv != file.has_raw()) {
     return invalidField("raw", absl::StrCat(is_yuv ? "is missing for " : "given for ", file.file(),

@@ -23,7 +23,7 @@ struct PlaneImage {
   bool has_alpha = false;
   uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
   std::optional<Imf::Chromaticities> chromaticities;  // colour whose file states them
-  std::vector<uint8_t> bytes;  // packed, top row first
+  std::vector<uint8_t> bytes;                         // packed, top row first
 };
 
 // Refuses what no plane may be, before memory is spent on it.

@@ -104,9 +104,9 @@ absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file, Plan
     const Imf::Chromaticities& target = knownOnes().back().chromaticities;
     const Imath::M33d xyz_from_file = upper(Imf::RGBtoXYZ(*image.chromaticities, 1));
     const Imath::M33d target_from_xyz = upper(Imf::RGBtoXYZ(target, 1)).inverse();
-    const Imath::M33d matrix =
-        xyz_from_file * adaptation(whiteXyz(*image.chromaticities), whiteXyz(target)) *
-        target_from_xyz;
+    const Imath::M33d matrix = xyz_from_file *
+                               adaptation(whiteXyz(*image.chromaticities), whiteXyz(target)) *
+                               target_from_xyz;
     if (!isFinite(matrix) || std::abs(matrix.determinant()) < 1e-6) return refusal;
     convert(matrix, image.bytes);
   } catch (const std::exception&) {  // Imf::RGBtoXYZ divides by what is 0

@@ -43,11 +43,11 @@ absl::StatusOr<uint32_t> frameCount(const std::filesystem::path& path, const v1:
   const uint64_t bytes = std::filesystem::file_size(path, error);
   if (error) return absl::NotFoundError(absl::StrCat(path.string(), ": ", error.message()));
   if (bytes == 0 || bytes % shape.frameBytes() != 0) {
-    return refuseFile(path.string(),
-                      absl::StrCat("has ", bytes, " bytes; accepted are whole frames of ",
-                                   shape.frameBytes(), ", which is ", raw.size().width(), "x",
-                                   raw.size().height(), " px of ", shape.bits, " bits ",
-                                   raw.luma_alone() ? "without chroma" : "in 4:2:0"));
+    return refuseFile(
+        path.string(),
+        absl::StrCat("has ", bytes, " bytes; accepted are whole frames of ", shape.frameBytes(),
+                     ", which is ", raw.size().width(), "x", raw.size().height(), " px of ",
+                     shape.bits, " bits ", raw.luma_alone() ? "without chroma" : "in 4:2:0"));
   }
   return static_cast<uint32_t>(std::min<uint64_t>(bytes / shape.frameBytes(), UINT32_MAX));
 }
@@ -59,8 +59,9 @@ absl::StatusOr<std::vector<uint16_t>> readSamples(const std::filesystem::path& p
   const absl::StatusOr<uint32_t> count = frameCount(path, raw, shape);
   if (!count.ok()) return count.status();
   if (raw.frame_index() >= *count) {
-    return refuseFile(path.string(), absl::StrCat("has ", *count, " frames; there is none of index ",
-                                                  raw.frame_index()));
+    return refuseFile(
+        path.string(),
+        absl::StrCat("has ", *count, " frames; there is none of index ", raw.frame_index()));
   }
   std::vector<uint8_t> bytes(shape.frameBytes());
   std::ifstream in(path, std::ios::binary);

@@ -16,9 +16,9 @@ struct SampleRange {
   double white = 1;
 };
 
-// From black, the farthest, to white, the nearest (is_black_near: the other way), linear in 1/Z, or,
-// when the settings say planar, in Z. INVALID_ARGUMENT without two different distances; the far one
-// may be infinite but for planar.
+// From black, the farthest, to white, the nearest (is_black_near: the other way), linear in 1/Z,
+// or, when the settings say planar, in Z. INVALID_ARGUMENT without two different distances; the far
+// one may be infinite but for planar.
 absl::StatusOr<v1::DepthFormat> normalisedFormat(const InputSettings& settings,
                                                  const SampleRange& range);
 

@@ -34,8 +34,8 @@ bool isFinite(const glm::dmat4& matrix) {
 }
 
 absl::Status refuse(const std::string& file, const std::string& matrix, const std::string& why) {
-  return absl::InvalidArgumentError(absl::StrCat(
-      file, ": header ", matrix, " ", why, "; give the camera by --fov and --input plain"));
+  return absl::InvalidArgumentError(absl::StrCat(file, ": header ", matrix, " ", why,
+                                                 "; give the camera by --fov and --input plain"));
 }
 
 bool isRigid(const glm::dmat4& matrix) {
@@ -92,8 +92,7 @@ absl::StatusOr<std::optional<ExrCamera>> exrCamera(const std::string& file,
   CameraAxes axes;
   axes.right = glm::normalize(to_right_handed * glm::dvec3(world_from_camera[0]));
   axes.up = glm::normalize(to_right_handed * glm::dvec3(world_from_camera[1]));
-  axes.position_m =
-      options.metres_per_unit * (to_right_handed * glm::dvec3(world_from_camera[3]));
+  axes.position_m = options.metres_per_unit * (to_right_handed * glm::dvec3(world_from_camera[3]));
   ExrCamera camera{.pose = poseOf(axes), .intrinsics = {}};
   if (description.world_to_ndc) {
     const glm::dmat4 ndc_from_world = matrixOf(*description.world_to_ndc);

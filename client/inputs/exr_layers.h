@@ -20,9 +20,9 @@ struct ExrLayers {
 std::optional<ExrLayers> blenderLayers(const files::ExrDescription& description,
                                        const std::string& view);
 
-// Depth is <any>WorldDepth.R; colour is FinalImage<any>.R and so on, but of none of the passes beside
-// the picture (which have MovieRenderQueue_ in their names), or R and so on without a prefix.
-// Nothing where there is none.
+// Depth is <any>WorldDepth.R; colour is FinalImage<any>.R and so on, but of none of the passes
+// beside the picture (which have MovieRenderQueue_ in their names), or R and so on without a
+// prefix. Nothing where there is none.
 std::optional<ExrLayers> unrealLayers(const files::ExrDescription& description);
 
 }  // namespace viewloom::inputs

@@ -68,8 +68,8 @@ struct InputSettings {
 // The files of one frame.
 struct InputFiles {
   std::string color;
-  std::string depth;  // "" = the colour file has depth, too
-  std::string view;   // of multi-view EXR files; "" = the default one
+  std::string depth;         // "" = the colour file has depth, too
+  std::string view;          // of multi-view EXR files; "" = the default one
   uint32_t video_frame = 0;  // of .yuv files
 };
 

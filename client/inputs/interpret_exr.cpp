@@ -70,7 +70,8 @@ class ExrInterpreter {
       }
     }
     if (result_.kind == InputKind::kUnreal) {
-      return refuse("has no channel that ends in WorldDepth.R beside FinalImage's or plain R, G, B");
+      return refuse(
+          "has no channel that ends in WorldDepth.R beside FinalImage's or plain R, G, B");
     }
     if (result_.kind == InputKind::kBlender) return readPlainBlender();
     VIEWLOOM_RETURN_IF_ERROR(setChannelsOfView(files_.view, *layer().mutable_color(), true));
@@ -78,8 +79,9 @@ class ExrInterpreter {
   }
 
   absl::Status refuse(const std::string& problem) const {
-    return files::refuseFile(files_.color, absl::StrCat(problem, "; --input plain reads R, G, B and "
-                                                                 "Z by any other name"));
+    return files::refuseFile(files_.color, absl::StrCat(problem,
+                                                        "; --input plain reads R, G, B and "
+                                                        "Z by any other name"));
   }
 
   void readUnreal(const ExrLayers& layers) {

@@ -48,7 +48,8 @@ v1::ImagePart oppositeOf(v1::ImagePart part) {
 absl::Status readHalves(const InputSettings& settings, Interpretation& result) {
   v1::LayerFiles& layer = *result.source.mutable_layers(0);
   if (layer.color().file() != layer.depth().file()) {
-    return refuseInput(result.kind, "has its depth beside the colour, in one file; --depth is given");
+    return refuseInput(result.kind,
+                       "has its depth beside the colour, in one file; --depth is given");
   }
   layer.mutable_depth()->set_part(settings.depth_side);
   layer.mutable_color()->set_part(oppositeOf(settings.depth_side));
@@ -88,9 +89,9 @@ absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
     const absl::StatusOr<uint32_t> count = files::yuvFrameCount(plane->file(), plane->raw());
     if (!count.ok()) return count.status();
     if (result.video_frame_count != 1 && result.video_frame_count != *count) {
-      return files::refuseFile(plane->file(), absl::StrCat("has ", *count, " frames, the colour ",
-                                                           result.video_frame_count,
-                                                           "; accepted is the same number"));
+      return files::refuseFile(
+          plane->file(), absl::StrCat("has ", *count, " frames, the colour ",
+                                      result.video_frame_count, "; accepted is the same number"));
     }
     result.video_frame_count = *count;
   }
@@ -110,9 +111,10 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
     case InputKind::kOpenXr:
       format.set_meaning(v1::DEPTH_MEANING_WINDOW);
       if (settings.near_m && settings.far_m) return absl::OkStatus();
-      return refuseInput(result.kind,
-                         "needs --depth-near and --depth-far, nearZ and farZ in metres: far inf for "
-                         "an infinite far plane, near above far for reversed depth");
+      return refuseInput(
+          result.kind,
+          "needs --depth-near and --depth-far, nearZ and farZ in metres: far inf for "
+          "an infinite far plane, near above far for reversed depth");
     case InputKind::kIphone:
     case InputKind::kRelative:
       VIEWLOOM_RETURN_IF_ERROR(requireDepthFile(result.kind, result));

@@ -19,8 +19,8 @@ enum class DepthRange {
 };
 
 struct Interpretation {
-  InputKind kind = InputKind::kPlain;  // never kAuto
-  v1::SourceFiles source;              // one layer; the camera as far as files state it
+  InputKind kind = InputKind::kPlain;     // never kAuto
+  v1::SourceFiles source;                 // one layer; the camera as far as files state it
   std::optional<v1::SizePx> camera_size;  // px that the camera's intrinsics count; none = depth's
   double pixel_aspect = 1;                // width of a px divided by its height
   DepthRange range = DepthRange::kStated;

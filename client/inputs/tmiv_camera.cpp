@@ -137,8 +137,8 @@ absl::StatusOr<TmivCamera> cameraOf(const std::string& file, const Json& json) {
   }
   const double color_bits = reader.numberOr("BitDepthColor", 10);
   const double depth_bits = reader.numberOr("BitDepthDepth", 16);
-  for (const auto& [key, bits] : {std::pair{"BitDepthColor", color_bits},
-                                  std::pair{"BitDepthDepth", depth_bits}}) {
+  for (const auto& [key, bits] :
+       {std::pair{"BitDepthColor", color_bits}, std::pair{"BitDepthDepth", depth_bits}}) {
     if (!(bits >= 8 && bits <= 16)) reader.refuse(key, "8..16");
   }
   if (!reader.status().ok()) return reader.status();

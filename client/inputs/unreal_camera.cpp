@@ -97,8 +97,7 @@ absl::StatusOr<std::optional<v1::Camera>> unrealCamera(
           absl::StrCat(file, ": the header's field of view is ", *fov_x_deg,
                        " degrees; accepted is 0.01..179: give it by --fov and --input plain"));
     }
-    *camera.mutable_intrinsics() =
-        intrinsicsAcross(*fov_x_deg, width_px, height_px, pixel_aspect);
+    *camera.mutable_intrinsics() = intrinsicsAcross(*fov_x_deg, width_px, height_px, pixel_aspect);
   }
   return std::optional<v1::Camera>(std::move(camera));
 }

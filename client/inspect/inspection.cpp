@@ -108,15 +108,14 @@ absl::StatusOr<InspectionPicture> drawInspection(const LayerInspection& layer,
   const uint32_t longest_px = std::max(samples.width_px, samples.height_px);
   const uint32_t stride = (longest_px + kPictureSideMax_px - 1) / kPictureSideMax_px;
   const uint32_t half_px = (samples.width_px + stride - 1) / stride;
-  InspectionPicture picture{.width_px = 2 * half_px,
-                            .height_px = (samples.height_px + stride - 1) / stride,
-                            .rgb = {}};
+  InspectionPicture picture{
+      .width_px = 2 * half_px, .height_px = (samples.height_px + stride - 1) / stride, .rgb = {}};
   picture.rgb.resize(size_t{3} * picture.width_px * picture.height_px);
   for (uint32_t y = 0; y < picture.height_px; ++y) {
     for (uint32_t x = 0; x < half_px; ++x) {
       const size_t index = size_t{y} * stride * samples.width_px + size_t{x} * stride;
-      const Rgb left = pixels.at((x * stride + 0.5) / samples.width_px,
-                                 (y * stride + 0.5) / samples.height_px);
+      const Rgb left =
+          pixels.at((x * stride + 0.5) / samples.width_px, (y * stride + 0.5) / samples.height_px);
       const Rgb right = depthColor(samples.inv_z[index], layer.measures);
       uint8_t* const row = &picture.rgb[size_t{3} * y * picture.width_px];
       std::copy(left.begin(), left.end(), row + size_t{3} * x);

@@ -26,8 +26,8 @@ struct SourceInspection {
 // Errors name the field of the frame.
 absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFrame& frame);
 
-// The colour of a layer beside its depth: white near, black far (98th and 2nd percentile of 1/Z, and
-// infinity), magenta where there is no surface.
+// The colour of a layer beside its depth: white near, black far (98th and 2nd percentile of 1/Z,
+// and infinity), magenta where there is no surface.
 struct InspectionPicture {
   uint32_t width_px = 0;
   uint32_t height_px = 0;

@@ -33,7 +33,7 @@ class Columns {
 };
 
 struct Differences {
-  std::vector<float> all;      // |second differences|, of surfaces nearer than infinity
+  std::vector<float> all;  // |second differences|, of surfaces nearer than infinity
   std::vector<float> not_zero;
 };
 

@@ -23,8 +23,9 @@ class Rules {
 
   std::vector<Suspicion> all() {
     if (samples_.surface_count == 0) {
-      say("empty", "no sample is a surface: name the unit and meaning with --depth-scale and "
-                   "--depth-meaning, or the tool with --input");
+      say("empty",
+          "no sample is a surface: name the unit and meaning with --depth-scale and "
+          "--depth-meaning, or the tool with --input");
       return std::move(found_);
     }
     suspectInsideOut();
@@ -66,7 +67,8 @@ class Rules {
     if (!sky_is_nearest && !(has_all && top_is_near && sides_are_near)) return;
     say("inside-out",
         sky_is_nearest
-            ? "the top of the picture is where depth is nearest, as if a sky lay before everything: "
+            ? "the top of the picture is where depth is nearest, as if a sky lay before "
+              "everything: "
               "if near and far are swapped, swap --depth-near and --depth-far, or give --black-near"
             : "the top is nearer than the bottom and the sides nearer than the middle: if near and "
               "far are swapped, swap --depth-near and --depth-far, or give --black-near, or "
@@ -103,8 +105,8 @@ class Rules {
 
   void suspectStepsAndNoise() {
     const float near = measures_.inv_z_near;
-    const bool is_stepped = measures_.step > 0 &&
-                            measures_.difference_median <= abi::kStepsMedian * measures_.step;
+    const bool is_stepped =
+        measures_.step > 0 && measures_.difference_median <= abi::kStepsMedian * measures_.step;
     if (is_stepped && abi::kShownSteps * measures_.step > near) {
       say("quantised",
           strCat("depth has about ", std::round(near / measures_.step),
@@ -128,13 +130,14 @@ class Rules {
     const bool is_metric = facts_.plane.depth().meaning() == v1::DEPTH_MEANING_PLANAR ||
                            facts_.plane.depth().meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
     if (median_m > 200) {
-      say("scale", strCat("half of the surfaces are beyond ", median_m, " m: ",
-                          is_metric ? facts_.code_max > 0
-                                          ? "if the numbers are millimetres, give --input sensor or "
-                                            "--depth-scale 0.001; for centimetres 0.01"
-                                          : "if the numbers are centimetres, give --depth-scale "
-                                            "0.01; for millimetres 0.001"
-                                    : "check --depth-near, --depth-far and --depth-scale"));
+      say("scale",
+          strCat("half of the surfaces are beyond ", median_m, " m: ",
+                 is_metric ? facts_.code_max > 0
+                                 ? "if the numbers are millimetres, give --input sensor or "
+                                   "--depth-scale 0.001; for centimetres 0.01"
+                                 : "if the numbers are centimetres, give --depth-scale "
+                                   "0.01; for millimetres 0.001"
+                           : "check --depth-near, --depth-far and --depth-scale"));
     } else if (median_m < 0.02) {
       say("scale", strCat("half of the surfaces are nearer than ", median_m, " m: ",
                           is_metric ? "if the numbers are other units, give --depth-scale; if they "

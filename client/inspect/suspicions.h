@@ -11,8 +11,8 @@
 namespace viewloom::inspect {
 
 struct Suspicion {
-  std::string kind;      // "inside-out", "flat", "clipped", "quantised", "noisy", "scale", "nothing",
-                         // "empty", "bad", "shape"
+  std::string kind;  // "inside-out", "flat", "clipped", "quantised", "noisy", "scale", "nothing",
+                     // "empty", "bad", "shape"
   std::string sentence;  // what was seen, and the remedy
 };
 

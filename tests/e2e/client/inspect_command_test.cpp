@@ -47,10 +47,13 @@ class InspectCommand : public ::testing::Test {
       return WrittenChannel{channel, Imf::HALF, [value](int, int) { return value; }};
     };
     writeExr(file(name), 8, 4,
-             {constant("ViewLayer.Combined.R", 1), constant("ViewLayer.Combined.G", 0),
-              constant("ViewLayer.Combined.B", 0), constant("ViewLayer.Combined.A", 1),
-              {"ViewLayer.Depth.Z", Imf::FLOAT,
-               [](int x, int y) { return y == 3 ? 1e10F : x < 4 ? 2.0F : 4.0F; }}});
+             {constant("ViewLayer.Combined.R", 1),
+              constant("ViewLayer.Combined.G", 0),
+              constant("ViewLayer.Combined.B", 0),
+              constant("ViewLayer.Combined.A", 1),
+              {"ViewLayer.Depth.Z", Imf::FLOAT, [](int x, int y) {
+                 return y == 3 ? 1e10F : x < 4 ? 2.0F : 4.0F;
+               }}});
   }
 
   const files::TestFolder folder_;
@@ -67,8 +70,7 @@ TEST_F(InspectCommand, saysWhatAFileIsAndHowItIsRead) {
   EXPECT_THAT(run.output, HasSubstr("2 .. 4 m, median"));
   EXPECT_THAT(run.output, HasSubstr("75.0 % surface, 25.0 % infinitely far"));
   EXPECT_THAT(run.output, HasSubstr("assumed: give --fov or --focal-px"));
-  EXPECT_THAT(inspect(file("render.exr") + " --fov 50").output,
-              testing::Not(HasSubstr("assumed")));
+  EXPECT_THAT(inspect(file("render.exr") + " --fov 50").output, testing::Not(HasSubstr("assumed")));
 }
 
 TEST_F(InspectCommand, saysItToMachines) {
@@ -119,9 +121,9 @@ TEST_F(InspectCommand, drawsColourBesideDepth) {
   EXPECT_EQ(pixel(15, 0), (std::vector<int>{0, 0, 0})) << "far";
   EXPECT_EQ(pixel(8, 3), (std::vector<int>{0, 0, 0})) << "sky";
   // The same file where the background is no surface.
-  ASSERT_EQ(inspect(file("render.exr") + " --depth-invalid 4 --picture " + file("look.png"))
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      inspect(file("render.exr") + " --depth-invalid 4 --picture " + file("look.png")).exit_code,
+      0);
   const auto holes = files::readPngColor(file("look.png"), false);
   const uint8_t* const hole = &holes->bytes[3 * 15];
   EXPECT_EQ((std::vector<int>{hole[0], hole[1], hole[2]}), (std::vector<int>{0, 0, 0}))
@@ -144,8 +146,8 @@ TEST_F(InspectCommand, marksWhatIsNoSurface) {
 TEST_F(InspectCommand, goesOnAfterAFileThatCannotBeReadAndSaysSo) {
   writeBlender("render.exr");
   folder_.write("broken.exr", files::bytesOf(file("render.exr")).substr(0, 300));
-  const Finished run = inspect(file("broken.exr") + " " + file("render.exr") + " --picture " +
-                               file("look.png"));
+  const Finished run =
+      inspect(file("broken.exr") + " " + file("render.exr") + " --picture " + file("look.png"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors, HasSubstr("broken.exr: "));
   EXPECT_THAT(run.output, HasSubstr("read as   blender"));
@@ -167,6 +169,15 @@ TEST_F(InspectCommand, knowsDeepFilesAndManifests) {
   EXPECT_THAT(run.output, HasSubstr("read as   manifest"));
   EXPECT_THAT(run.output, HasSubstr("7 .. 7 m"));
   EXPECT_THAT(run.output, HasSubstr("warning   flat"));
+  const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(1, 0));
+  const deep::DeepSample near{.z_m = 2, .z_back_m = 2, .alpha = 1, .color = {0.5, 0.5, 0.5}};
+  writeDeepExr(file("deep.exr"), {.data = window, .display = window, .pixels = {{near}, {near}}},
+               {});
+  const Finished deep = inspect(file("deep.exr"));
+  EXPECT_EQ(deep.exit_code, 0) << deep.errors;
+  EXPECT_THAT(deep.output, HasSubstr("read as   deep"));
+  EXPECT_THAT(deep.output, HasSubstr("split into 1 layer"));
+  EXPECT_THAT(deep.output, HasSubstr("2 .. 2 m"));
 }
 
 // Depth given upside down is suspected on a real picture, and the right one is not.

@@ -27,8 +27,7 @@ class PictureInputsTest : public ::testing::Test {
 
   // Green colour and grey depth of 4x4 each: black at the left of the depth, then 85, 170, 255.
   void writeHalves(v1::ImagePart depth_side) const {
-    const bool beside =
-        depth_side == v1::IMAGE_PART_LEFT || depth_side == v1::IMAGE_PART_RIGHT;
+    const bool beside = depth_side == v1::IMAGE_PART_LEFT || depth_side == v1::IMAGE_PART_RIGHT;
     const bool is_last = depth_side == v1::IMAGE_PART_RIGHT || depth_side == v1::IMAGE_PART_BOTTOM;
     const uint32_t width = beside ? 8 : 4, height = beside ? 4 : 8;
     std::vector<uint16_t> rgb;
@@ -55,12 +54,12 @@ class PictureInputsTest : public ::testing::Test {
 };
 
 TEST_F(PictureInputsTest, findsTheHalvesInAllFourPlacements) {
-  for (const v1::ImagePart side : {v1::IMAGE_PART_RIGHT, v1::IMAGE_PART_LEFT, v1::IMAGE_PART_TOP,
-                                   v1::IMAGE_PART_BOTTOM}) {
+  for (const v1::ImagePart side :
+       {v1::IMAGE_PART_RIGHT, v1::IMAGE_PART_LEFT, v1::IMAGE_PART_TOP, v1::IMAGE_PART_BOTTOM}) {
     writeHalves(side);
-    const auto read = readInput(
-        {.kind = InputKind::kRgbd, .near_m = 1, .far_m = 4, .depth_side = side},
-        {.color = file("rgbd.png")});
+    const auto read =
+        readInput({.kind = InputKind::kRgbd, .near_m = 1, .far_m = 4, .depth_side = side},
+                  {.color = file("rgbd.png")});
     // 1/Z: 0.25, 0.5, 0.75, 1.
     EXPECT_NEAR(depthAt(read, 0, 0), 4, 1e-5) << side;
     EXPECT_NEAR(depthAt(read, 1, 3), 2, 1e-5) << side;
@@ -133,9 +132,9 @@ TEST_F(PictureInputsTest, places2dPlusZAboutTheScreen) {
   EXPECT_NEAR(depthAt(read, 0, 0), 2 / (1 - 128.0 / 255), 1e-4);
   EXPECT_NEAR(depthAt(read, 1, 0), 2, 1e-5) << "code 128 lies in the screen";
   EXPECT_NEAR(depthAt(read, 2, 0), 2 / (1 + 127.0 / 255), 1e-5);
-  const auto half = readInput(
-      {.kind = InputKind::k2dPlusZ, .screen_m = 2, .factor = 32, .screen_code = 0},
-      {.color = file("2dz.png")});
+  const auto half =
+      readInput({.kind = InputKind::k2dPlusZ, .screen_m = 2, .factor = 32, .screen_code = 0},
+                {.color = file("2dz.png")});
   EXPECT_NEAR(depthAt(half, 0, 0), 2, 1e-5) << "all in front";
   EXPECT_NEAR(depthAt(half, 2, 0), 2 / 1.5, 1e-5);
   EXPECT_THAT(refusalOf({.kind = InputKind::k2dPlusZ, .factor = 200}, {.color = file("2dz.png")}),
@@ -172,13 +171,10 @@ TEST_F(PictureInputsTest, readsOpenXrDepthForwardReversedAndInfinite) {
   EXPECT_NEAR(depthAt(reversed, 1, 0), 0.5 / middle, 1e-5);
   EXPECT_NEAR(depthAt(reversed, 2, 0), 0.5, 1e-6);
   // Depth 0.2 .. 0.7 of the buffer: Z = (b - a) n f / ((b f - a n) - d (f - n)).
-  const auto part = readPair({.kind = InputKind::kOpenXr,
-                              .near_m = 0.5,
-                              .far_m = 8,
-                              .min_depth = 0.2,
-                              .max_depth = 0.7});
-  EXPECT_NEAR(depthAt(part, 1, 0),
-              0.5 * 0.5 * 8 / ((0.7 * 8 - 0.2 * 0.5) - middle * (8 - 0.5)), 1e-4);
+  const auto part = readPair(
+      {.kind = InputKind::kOpenXr, .near_m = 0.5, .far_m = 8, .min_depth = 0.2, .max_depth = 0.7});
+  EXPECT_NEAR(depthAt(part, 1, 0), 0.5 * 0.5 * 8 / ((0.7 * 8 - 0.2 * 0.5) - middle * (8 - 0.5)),
+              1e-4);
   EXPECT_THAT(refusalOf({.kind = InputKind::kOpenXr, .near_m = 1},
                         {.color = file("color.png"), .depth = file("depth.png")}),
               HasSubstr("needs --depth-near and --depth-far"));
@@ -214,16 +210,15 @@ TEST_F(PictureInputsTest, stretchesRelativeDepthBetweenNearAndFar) {
   EXPECT_NEAR(depthAt(*first, 1, 0), 1 / 0.6, 1e-5);
   EXPECT_NEAR(depthAt(*first, 2, 0), 1, 1e-5);
   // The range of the first frame holds for later ones.
-  writeExr(file("depth.exr"), 3, 1, {{"Z", Imf::FLOAT, [](int x, int) {
-                                        return x == 1 ? 30.0F : 40.0F;
-                                      }}});
+  writeExr(file("depth.exr"), 3, 1,
+           {{"Z", Imf::FLOAT, [](int x, int) { return x == 1 ? 30.0F : 40.0F; }}});
   auto second = reader.read(files);
   ASSERT_TRUE(second.ok()) << second.status();
   EXPECT_NEAR(depthAt(*second, 1, 0), 1 / 0.6, 1e-5);
   EXPECT_NEAR(depthAt(*second, 0, 0), 1 / 0.8, 1e-5);
   // A scale and an offset of the user's instead.
-  const auto scaled = readInput(
-      {.kind = InputKind::kRelative, .depth_scale = 0.01, .depth_offset = 0.1}, files);
+  const auto scaled =
+      readInput({.kind = InputKind::kRelative, .depth_scale = 0.01, .depth_offset = 0.1}, files);
   EXPECT_NEAR(depthAt(scaled, 1, 0), 1 / 0.4, 1e-5);
 }
 

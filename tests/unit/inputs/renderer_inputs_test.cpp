@@ -25,8 +25,10 @@ WrittenChannel constant(const std::string& name, float value, Imf::PixelType typ
 // As Blender writes a layer with the passes Combined and Z: metres grow to the right, the last
 // column hits nothing.
 std::vector<WrittenChannel> blenderChannels(const std::string& layer) {
-  return {constant(layer + ".Combined.R", 0.5F), constant(layer + ".Combined.G", 0.25F),
-          constant(layer + ".Combined.B", 0.125F), constant(layer + ".Combined.A", 1),
+  return {constant(layer + ".Combined.R", 0.5F),
+          constant(layer + ".Combined.G", 0.25F),
+          constant(layer + ".Combined.B", 0.125F),
+          constant(layer + ".Combined.A", 1),
           {layer + ".Depth.Z", Imf::FLOAT, [](int x, int) {
              return x == kWidth - 1 ? 1e10F : 2.0F + 0.5F * static_cast<float>(x);
            }}};
@@ -53,12 +55,12 @@ TEST(BlenderInput, isRecognisedByItsChannelsAndReadInSceneUnits) {
 TEST(BlenderInput, takesTheLayerThatHasDepthAndTheViewThatIsAsked) {
   const TestFolder folder;
   const auto path = folder.path() / "views.exr";
-  writeExr(path, kWidth, kHeight,
-           {constant("Composite.Combined.R", 1), constant("Composite.Combined.G", 1),
-            constant("Composite.Combined.B", 1), constant("View Layer.Combined.left.R", 0.5F),
-            constant("View Layer.Combined.left.G", 0.5F),
-            constant("View Layer.Combined.left.B", 0.5F),
-            constant("View Layer.Depth.left.Z", 7, Imf::FLOAT)});
+  writeExr(
+      path, kWidth, kHeight,
+      {constant("Composite.Combined.R", 1), constant("Composite.Combined.G", 1),
+       constant("Composite.Combined.B", 1), constant("View Layer.Combined.left.R", 0.5F),
+       constant("View Layer.Combined.left.G", 0.5F), constant("View Layer.Combined.left.B", 0.5F),
+       constant("View Layer.Depth.left.Z", 7, Imf::FLOAT)});
   const auto read = readInput({}, {.color = path, .view = "left"});
   EXPECT_EQ(read.how.kind, InputKind::kBlender);
   EXPECT_NEAR(depthAt(read, 3, 3), 7, 1e-6);
@@ -67,13 +69,13 @@ TEST(BlenderInput, takesTheLayerThatHasDepthAndTheViewThatIsAsked) {
 TEST(BlenderInput, readsDistancesFromTheEyeWhenAsked) {
   const TestFolder folder;
   const auto path = folder.path() / "old.exr";
-  writeExr(path, kWidth, kHeight,
-           {constant("RenderLayer.Combined.R", 1), constant("RenderLayer.Combined.G", 1),
-            constant("RenderLayer.Combined.B", 1),
-            constant("RenderLayer.Depth.Z", 10, Imf::FLOAT)});
+  writeExr(
+      path, kWidth, kHeight,
+      {constant("RenderLayer.Combined.R", 1), constant("RenderLayer.Combined.G", 1),
+       constant("RenderLayer.Combined.B", 1), constant("RenderLayer.Depth.Z", 10, Imf::FLOAT)});
   // Focal length 8 px: the ray of px (0, 3) goes 7.5 px aside and 0.5 px up.
-  const auto read = readInput(
-      {.depth_meaning = v1::DEPTH_MEANING_RAY_DISTANCE, .focal_px = 8}, {.color = path});
+  const auto read =
+      readInput({.depth_meaning = v1::DEPTH_MEANING_RAY_DISTANCE, .focal_px = 8}, {.color = path});
   EXPECT_NEAR(depthAt(read, 0, 3), 10 / std::sqrt(1 + (7.5 * 7.5 + 0.5 * 0.5) / 64), 1e-5);
 }
 

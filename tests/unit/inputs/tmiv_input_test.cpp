@@ -88,10 +88,8 @@ TEST_F(TmivInputTest, readsFramesOfRawVideo) {
   // 10 bits: white is 940, black 64.
   writeYuv("v1_texture.yuv", {std::vector<uint16_t>(8, 64), std::vector<uint16_t>(8, 940)}, 512);
   writeYuv("v1_depth.yuv", {std::vector<uint16_t>(8, 0), std::vector<uint16_t>(8, 65535)}, 32768);
-  const inputs::InputFiles files{.color = file("v1_texture.yuv"),
-                                 .depth = file("v1_depth.yuv"),
-                                 .view = "",
-                                 .video_frame = 1};
+  const inputs::InputFiles files{
+      .color = file("v1_texture.yuv"), .depth = file("v1_depth.yuv"), .view = "", .video_frame = 1};
   const auto read = readInput(settings_, files);
   EXPECT_EQ(read.how.video_frame_count, 2U);
   EXPECT_NEAR(depthAt(read, 3, 1), 0.5, 1e-6);

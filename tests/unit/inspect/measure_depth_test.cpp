@@ -27,8 +27,14 @@ DepthSamples samplesOf(const DepthPlane& made) {
 
 TEST(DepthSamples, countWhatTheyAre) {
   DepthPlane made = depthPlane<float>(8, 1, v1::DEPTH_MEANING_PLANAR, [](uint32_t x, uint32_t) {
-    const float special[8] = {0, -1, std::numeric_limits<float>::quiet_NaN(),
-                              std::numeric_limits<float>::infinity(), 7, 1e10F, 2, 4};
+    const float special[8] = {0,
+                              -1,
+                              std::numeric_limits<float>::quiet_NaN(),
+                              std::numeric_limits<float>::infinity(),
+                              7,
+                              1e10F,
+                              2,
+                              4};
     return special[x];
   });
   made.plane.mutable_depth()->set_invalid_value(7);
@@ -46,8 +52,8 @@ TEST(DepthSamples, countWhatTheyAre) {
 }
 
 TEST(DepthSamples, refuseFormatsThatCannotBe) {
-  DepthPlane made = depthPlane<float>(1, 1, v1::DEPTH_MEANING_WINDOW,
-                                      [](uint32_t, uint32_t) { return 0.5F; });
+  DepthPlane made =
+      depthPlane<float>(1, 1, v1::DEPTH_MEANING_WINDOW, [](uint32_t, uint32_t) { return 0.5F; });
   EXPECT_THAT(std::string(readDepthSamples(made.plane, made.bytes, {}).status().message()),
               ::testing::HasSubstr("depth.near_z_m: is 0"));
 }
@@ -78,18 +84,17 @@ TEST(MeasureDepth, findsTheNoiseOfASlope) {
 }
 
 TEST(MeasureDepth, findsNoNoiseInFlatSurfacesAndSkies) {
-  const DepthPlane made =
-      depthPlane<float>(64, 64, v1::DEPTH_MEANING_PLANAR, [](uint32_t x, uint32_t) {
-        return x < 32 ? 2 : std::numeric_limits<float>::infinity();
-      });
+  const DepthPlane made = depthPlane<float>(
+      64, 64, v1::DEPTH_MEANING_PLANAR,
+      [](uint32_t x, uint32_t) { return x < 32 ? 2 : std::numeric_limits<float>::infinity(); });
   const DepthMeasures measures = measureDepth(samplesOf(made));
   EXPECT_EQ(measures.noise_sigma, 0);
   EXPECT_EQ(measures.inv_z_median, 0.5F);
 }
 
 TEST(MeasureDepth, hasNothingToSayWithoutSurface) {
-  const DepthPlane made = depthPlane<float>(9, 5, v1::DEPTH_MEANING_PLANAR,
-                                            [](uint32_t, uint32_t) { return 0.0F; });
+  const DepthPlane made =
+      depthPlane<float>(9, 5, v1::DEPTH_MEANING_PLANAR, [](uint32_t, uint32_t) { return 0.0F; });
   const DepthMeasures measures = measureDepth(samplesOf(made));
   EXPECT_EQ(measures.inv_z_max, 0);
   EXPECT_EQ(measures.step, 0);

@@ -57,12 +57,11 @@ DepthPlane room(const std::function<float(float depth_m)>& stored) {
 DepthPlane codes(double codes_per_m, double noise_codes = 0) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, noise_codes > 0 ? noise_codes : 1);
-  return depthPlane<uint16_t>(kWidth, kHeight, v1::DEPTH_MEANING_PLANAR,
-                              [&](uint32_t x, uint32_t y) {
-                                const double error = noise_codes > 0 ? noise(random) : 0;
-                                return static_cast<uint16_t>(
-                                    std::lround(codes_per_m * double{roomDepth(x, y)} + error));
-                              });
+  return depthPlane<uint16_t>(
+      kWidth, kHeight, v1::DEPTH_MEANING_PLANAR, [&](uint32_t x, uint32_t y) {
+        const double error = noise_codes > 0 ? noise(random) : 0;
+        return static_cast<uint16_t>(std::lround(codes_per_m * double{roomDepth(x, y)} + error));
+      });
 }
 
 TEST(Suspicions, haveNothingAgainstARoomInMetres) {
@@ -71,16 +70,14 @@ TEST(Suspicions, haveNothingAgainstARoomInMetres) {
 
 TEST(Suspicions, seeNearAndFarSwapped) {
   EXPECT_THAT(kindsOf(room([](float depth_m) { return 8 - depth_m; })), ElementsAre("inside-out"));
-  EXPECT_THAT(kindsOf(room([](float depth_m) { return 1 / depth_m; })),
-              Contains("inside-out"));
+  EXPECT_THAT(kindsOf(room([](float depth_m) { return 1 / depth_m; })), Contains("inside-out"));
 }
 
 TEST(Suspicions, seeASkyBeforeEverything) {
   // Reversed window depth read as if it were not: the cleared sky, 0, lies at the near plane.
-  DepthPlane made = depthPlane<float>(kWidth, kHeight, v1::DEPTH_MEANING_WINDOW,
-                                      [](uint32_t x, uint32_t y) {
-                                        return y < 50 ? 0 : 0.1F / roomDepth(x, y);
-                                      });
+  DepthPlane made =
+      depthPlane<float>(kWidth, kHeight, v1::DEPTH_MEANING_WINDOW,
+                        [](uint32_t x, uint32_t y) { return y < 50 ? 0 : 0.1F / roomDepth(x, y); });
   made.plane.mutable_depth()->set_near_z_m(0.1);
   made.plane.mutable_depth()->set_far_z_m(1000);
   EXPECT_THAT(kindsOf(made), Contains("inside-out"));
