@@ -65,7 +65,7 @@ absl::StatusOr<v1::DepthFormat> twoDPlusZFormat(const InputSettings& settings,
                                                 const SampleRange& range) {
   const double strength = settings.factor / 64;
   const double black = 1 - strength * settings.screen_code / 255;
-  if (!(settings.screen_m > 0) || !(strength > 0) || black < 0) {
+  if (!(settings.screen_m > 0) || !(strength > 0) || !(black >= 0)) {
     return absl::InvalidArgumentError(
         absl::StrCat("--screen ", settings.screen_m, " --factor ", settings.factor,
                      " --screen-code ", settings.screen_code,

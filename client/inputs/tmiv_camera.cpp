@@ -133,7 +133,7 @@ absl::StatusOr<TmivCamera> cameraOf(const std::string& file, const Json& json) {
   }
   const double width = reader.number("Resolution", 0), height = reader.number("Resolution", 1);
   if (!(width >= 1 && height >= 1 && width <= files::kSideMax_px && height <= files::kSideMax_px)) {
-    reader.refuse("Resolution", absl::StrCat("[width, height], 1..", files::kSideMax_px));
+    reader.refuse("Resolution", absl::StrCat("[width, height] in px, 1..", files::kSideMax_px));
   }
   const double color_bits = reader.numberOr("BitDepthColor", 10);
   const double depth_bits = reader.numberOr("BitDepthDepth", 16);

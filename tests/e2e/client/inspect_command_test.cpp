@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -102,6 +103,44 @@ TEST_F(InspectCommand, warnsAndSaysWhatToDo) {
   EXPECT_EQ(right.exit_code, 0) << right.errors;
   EXPECT_THAT(right.output, testing::Not(HasSubstr("warning   scale")));
   EXPECT_THAT(right.output, HasSubstr("1.5 .. 2.647 m"));
+}
+
+// Least and largest distance, as the options on the command line have it.
+TEST_F(InspectCommand, takesEveryKindOfInputByName) {
+  writePng(file("color.png"), 4, 1, 3, 8, std::vector<uint16_t>(12, 90));
+  writePng(file("depth.png"), 4, 1, 1, 16, {13107, 26214, 39321, 65535});
+  writePng(file("v0_depth.png"), 4, 1, 1, 16, {13107, 26214, 39321, 65535});
+  writePng(file("halves.png"), 8, 1, 1, 8, {51, 102, 153, 255, 9, 9, 9, 9});
+  folder_.write("camera.json", R"({"Name": "v0", "Position": [0, 0, 0], "Rotation": [0, 0, 0],
+      "Resolution": [4, 1], "Focal": [4, 4], "Principle_point": [2, 0.5],
+      "Depth_range": [1, "inf"]})");
+  const std::string pair = file("color.png") + " --depth " + file("depth.png");
+  const auto range = [&](const std::string& arguments) {
+    const Finished run = inspect("--json " + arguments);
+    if (run.exit_code != 0) return run.errors;
+    const Json depth = Json::parse(run.output)[0]["sources"][0]["layers"][0]["depth"];
+    return std::to_string(std::lround(1000 * depth.value("min_m", 0.0))) + ".." +
+           std::to_string(std::lround(1000 * depth.value("max_m", 0.0)));
+  };
+  const std::string to_infinity = " --depth-near 1 --depth-far inf";
+  EXPECT_EQ(range(pair + " --input sensor"), "13107..65535");
+  EXPECT_EQ(range(pair + " --input relative" + to_infinity), "1000..5000");
+  EXPECT_EQ(range(pair + " --input relative --black-near --depth-near 1 --depth-far 5"),
+            "1190..5000");
+  EXPECT_EQ(range(pair + " --input iphone --depth-near 0.5 --depth-far inf"), "500..2500");
+  EXPECT_EQ(range(pair + " --input openxr --depth-near inf --depth-far 1"), "1000..5000");
+  EXPECT_EQ(range(pair + " --input openxr --depth-near 1 --depth-far inf"), "1250..2500");
+  EXPECT_EQ(range(file("color.png") + " --depth " + file("v0_depth.png") + " --camera " +
+                  file("camera.json")),
+            "1000..5000");
+  EXPECT_EQ(range(file("halves.png") + " --input rgbd --depth-side left" + to_infinity),
+            "1000..5000");
+  EXPECT_EQ(
+      range(file("halves.png") + " --input 2d+z --depth-side left --screen 2 --screen-code 255"),
+      "2000..10000");
+  EXPECT_EQ(range(pair + " --depth-meaning disparity --depth-scale 1e-5"), "1526..7630");
+  EXPECT_EQ(inspect(pair + " --input tmiv").exit_code, 2) << "without a camera";
+  EXPECT_EQ(inspect(pair + " --input sonar").exit_code, 2);
 }
 
 TEST_F(InspectCommand, drawsColourBesideDepth) {

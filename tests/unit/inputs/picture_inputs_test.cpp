@@ -137,8 +137,11 @@ TEST_F(PictureInputsTest, places2dPlusZAboutTheScreen) {
                 {.color = file("2dz.png")});
   EXPECT_NEAR(depthAt(half, 0, 0), 2, 1e-5) << "all in front";
   EXPECT_NEAR(depthAt(half, 2, 0), 2 / 1.5, 1e-5);
-  EXPECT_THAT(refusalOf({.kind = InputKind::k2dPlusZ, .factor = 200}, {.color = file("2dz.png")}),
-              HasSubstr("put black behind infinity"));
+  for (const double factor : {200.0, 0.0, kInfinity, std::nan("")}) {
+    EXPECT_THAT(refusalOf({.kind = InputKind::k2dPlusZ, .factor = factor, .screen_code = 128},
+                          {.color = file("2dz.png")}),
+                HasSubstr("put black behind infinity"));
+  }
 }
 
 TEST_F(PictureInputsTest, readsSensorsInMillimetresAtTheirOwnResolution) {
@@ -220,6 +223,22 @@ TEST_F(PictureInputsTest, stretchesRelativeDepthBetweenNearAndFar) {
   const auto scaled =
       readInput({.kind = InputKind::kRelative, .depth_scale = 0.01, .depth_offset = 0.1}, files);
   EXPECT_NEAR(depthAt(scaled, 1, 0), 1 / 0.4, 1e-5);
+}
+
+TEST_F(PictureInputsTest, refusesDistancesThatWouldNotCount) {
+  writeColor();
+  writeGrey(16, {1, 2, 3});
+  const inputs::InputFiles files{.color = file("color.png"), .depth = file("depth.png")};
+  EXPECT_THAT(
+      refusalOf({.near_m = 1}, files),
+      HasSubstr("--depth-near and --depth-far are given, which --input plain does not take"));
+  EXPECT_THAT(refusalOf({.kind = InputKind::kSensor, .far_m = 9}, files),
+              HasSubstr("--input sensor does not take"));
+  EXPECT_THAT(
+      refusalOf({.kind = InputKind::kRelative, .near_m = 1, .far_m = 2, .max_depth = 1}, files),
+      HasSubstr("--depth-min and --depth-max are given"));
+  EXPECT_EQ(refusalOf({.depth_meaning = v1::DEPTH_MEANING_WINDOW, .near_m = 1, .far_m = 2}, files),
+            "OK");
 }
 
 TEST_F(PictureInputsTest, refusesRelativeDepthThatIsOneNumber) {

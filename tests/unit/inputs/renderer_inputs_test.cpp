@@ -157,5 +157,26 @@ TEST(RendererInputs, refuseFilesCutShortAtEveryLength) {
   }
 }
 
+// Every byte of the header turned into what numbers and lengths are worst at.
+TEST(RendererInputs, surviveWhateverTheHeaderSays) {
+  const TestFolder folder;
+  const auto path = folder.path() / "shot.exr";
+  writeUnreal(path, "90");
+  const std::string good = files::bytesOf(path);
+  const size_t header_size = good.find("screenWindowWidth") + 40;
+  size_t refused_count = 0;
+  for (size_t at = 0; at < header_size; ++at) {
+    for (const char byte : {'\x00', '\x7F', '\xFF'}) {
+      std::string bytes = good;
+      bytes[at] = byte;
+      const std::string said =
+          refusalOf({}, {.color = folder.write("hostile.exr", bytes).string()});
+      ASSERT_FALSE(said.empty()) << at;
+      if (said != "OK") ++refused_count;
+    }
+  }
+  EXPECT_GT(refused_count, header_size) << "a byte that is read counts";
+}
+
 }  // namespace
 }  // namespace viewloom::test

@@ -135,7 +135,8 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
   EXPECT_THAT(refusal(R"(, "Depth_range": [0, 5])"), HasSubstr("Depth_range is [0,5]; accepted"));
   EXPECT_THAT(refusal(R"(, "Depth_range": 5)"), HasSubstr("Depth_range is 5; accepted"));
   EXPECT_THAT(refusal(R"(, "Resolution": [4, 1e300])"), HasSubstr("Resolution is"));
-  EXPECT_THAT(refusal(R"(, "Resolution": [9000, 4])"), HasSubstr("accepted is [width, height], 1"));
+  EXPECT_THAT(refusal(R"(, "Resolution": [9000, 4])"),
+              HasSubstr("accepted is [width, height] in px, 1"));
   EXPECT_THAT(refusal(R"(, "Focal": ["a", 2])"), HasSubstr("Focal is [\"a\",2]"));
   EXPECT_THAT(refusal(R"(, "Focal": [0, 2])"), HasSubstr("in px, above 0"));
   EXPECT_THAT(refusal(R"(, "Position": null)"), HasSubstr("Position is null"));
