@@ -16,4 +16,5 @@ set(VIEWLOOM_SHADERS
   trace/walk_views.comp
   trace/join_faces.comp
   trace/merge_sources.comp
+  trace/blend_samples.comp
   trace/pack_band.comp)

@@ -53,7 +53,9 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options,
   }
   const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
   if (!picture.ok()) return picture.status();
-  if (!options.writes_views) return writePicture(*picture, options.writes_png, whole);
+  // What neighbouring subpixels show to different eyes no JPEG keeps apart.
+  const bool is_panel = atlas.layout->encoding().color() == v1::BAND_ENCODING_JPEG_PLANES;
+  if (!options.writes_views) return writePicture(*picture, options.writes_png || is_panel, whole);
   for (uint32_t view = 0; view < atlas.layout->view_count(); ++view) {
     VIEWLOOM_RETURN_IF_ERROR(writePicture(cutView(*picture, *atlas.layout, view),
                                           options.writes_png,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/inspect_command.h"
 #include "cli/list_command.h"
 #include "cli/publish_command.h"
 #include "cli/record_command.h"
@@ -16,6 +17,7 @@ std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
   };
   add("publish", "Send the synthetic scene, image files, manifests or a recording as a stream",
       addPublishCommand);
+  add("inspect", "Say what files hold, how they are read, what is wrong", addInspectCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
   add("record", "Keep the atlases of a stream in a file", addRecordCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);

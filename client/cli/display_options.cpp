@@ -13,6 +13,7 @@ namespace viewloom::cli {
 namespace {
 
 constexpr uint64_t kDisplayBytesMax = uint64_t{4} << 20;  // 1024 cameras take less than 1 MiB
+constexpr uint64_t kCalibrationBytesMax = uint64_t{64} << 10;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
@@ -44,6 +45,11 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->excludes(file);
   app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
       ->excludes(file);
+  app.add_option("--samples", options.sample_count,
+                 "Rays of each px, spread over it and the eyes up to half way to the next view")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str()
+      ->excludes(file);
   app.add_option("--quality", options.jpeg_quality, "JPEG quality")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
@@ -56,10 +62,33 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->group("Encoding");
 }
 
-absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
-  if (!options.file.empty()) return readDisplay(options.file);
-  v1::Display display;
-  v1::QuiltDisplay& quilt = *display.mutable_quilt();
+void addPanelOptions(CLI::App& app, DisplayOptions& options) {
+  app.add_flag("--native", options.is_native,
+               "The px of the preset's panel instead of a quilt: interlaced by the server");
+  app.add_option("--calibration", options.calibration_file,
+                 "The device's own visual.json: the px of that panel");
+}
+
+namespace {
+
+absl::StatusOr<v1::LenticularDisplay> makeLenticular(const DisplayOptions& options) {
+  v1::LenticularDisplay lenticular;
+  lenticular.set_preset(
+      options.preset.empty() && options.calibration_file.empty() ? "portrait" : options.preset);
+  if (!options.calibration_file.empty()) {
+    const absl::StatusOr<std::vector<uint8_t>> bytes =
+        files::readFileBytes(options.calibration_file, kCalibrationBytesMax);
+    if (!bytes.ok()) return bytes.status();
+    lenticular.set_calibration_json(std::string(bytes->begin(), bytes->end()));
+  }
+  lenticular.set_view_cone_rad(options.view_cone_deg * kRadPerDeg);
+  lenticular.set_focal_distance_m(options.focal_distance_m);
+  lenticular.set_fov_y_rad(options.fov_y_deg * kRadPerDeg);
+  return lenticular;
+}
+
+v1::QuiltDisplay makeQuilt(const DisplayOptions& options) {
+  v1::QuiltDisplay quilt;
   const bool is_complete = options.columns > 0 && options.rows > 0 && options.size_px.width > 0;
   quilt.set_preset(options.preset.empty() && !is_complete ? "portrait" : options.preset);
   quilt.set_columns(options.columns);
@@ -71,14 +100,36 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   quilt.set_view_cone_rad(options.view_cone_deg * kRadPerDeg);
   quilt.set_focal_distance_m(options.focal_distance_m);
   quilt.set_fov_y_rad(options.fov_y_deg * kRadPerDeg);
+  return quilt;
+}
+
+bool isNative(const DisplayOptions& options) {
+  return options.is_native || !options.calibration_file.empty();
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
+  if (!options.file.empty()) return readDisplay(options.file);
+  v1::Display display;
+  display.mutable_filter()->set_sample_count(options.sample_count);
+  if (!isNative(options)) {
+    *display.mutable_quilt() = makeQuilt(options);
+    return display;
+  }
+  absl::StatusOr<v1::LenticularDisplay> lenticular = makeLenticular(options);
+  if (!lenticular.ok()) return lenticular.status();
+  *display.mutable_lenticular() = *std::move(lenticular);
   return display;
 }
 
 v1::AtlasEncoding makeEncoding(const DisplayOptions& options) {
   v1::AtlasEncoding encoding;
-  encoding.set_color(options.is_lossless ? v1::BAND_ENCODING_ZSTD : v1::BAND_ENCODING_JPEG);
+  // What is left open the server chooses by the display.
+  if (options.is_lossless) encoding.set_color(v1::BAND_ENCODING_ZSTD);
+  if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);
   encoding.set_jpeg_quality(options.jpeg_quality);
-  encoding.set_chroma(options.is_444 ? v1::CHROMA_SUBSAMPLING_444 : v1::CHROMA_SUBSAMPLING_420);
+  if (options.is_444) encoding.set_chroma(v1::CHROMA_SUBSAMPLING_444);
   encoding.set_with_mask(options.has_mask);
   return encoding;
 }

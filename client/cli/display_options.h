@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "frame/size.h"
+#include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
@@ -21,6 +22,9 @@ struct DisplayOptions {
   double view_cone_deg = 0;
   double focal_distance_m = 0;
   double fov_y_deg = 0;
+  bool is_native = false;        // the panel's own px
+  std::string calibration_file;  // of the panel
+  uint32_t sample_count = 1;
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
   bool is_lossless = false;
@@ -28,6 +32,9 @@ struct DisplayOptions {
 };
 
 void addDisplayOptions(CLI::App& app, DisplayOptions& options);
+
+// The px of the device itself instead of a quilt.
+void addPanelOptions(CLI::App& app, DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
 v1::AtlasEncoding makeEncoding(const DisplayOptions& options);

@@ -2,12 +2,12 @@
 // Image files and manifests as a feed.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/frame_feed.h"
-#include "cli/plane_options.h"
-#include "files/frame_manifest.h"
+#include "cli/frame_loader.h"
 
 namespace viewloom::cli {
 
@@ -15,36 +15,41 @@ namespace viewloom::cli {
 struct FileFeedOptions {
   std::vector<std::string> manifests;  // these, or deeps, or colors
   std::vector<std::string> deeps;
-  uint32_t deep_layer_count_max = 0;  // 0 = as many as a frame may have
-  bool has_black_sky = false;         // behind deep files
   std::vector<std::string> colors;
-  std::vector<std::string> depths;  // none = the colour file, an EXR, has depth too
+  std::vector<std::string> depths;  // none = the colour file has depth too
   std::string view;                 // of multi-view EXR files; "" = the default one
-  PlaneOptions planes;
+  LoaderOptions loader;
   bool is_looping = false;
 };
 
+// What goes with deep files, and what does not.
+absl::Status validateDeep(const FileFeedOptions& options);
+// The lists checked against each other, frame by frame: of video files, as many as they hold.
+absl::StatusOr<std::vector<FrameFiles>> framesOf(const FileFeedOptions& options);
+// What splitting a deep file cost, in a line.
+std::string noteOf(const files::DeepReport& deep);
+
+// Files are read as their frames come due.
 class FileFrames final : public FrameFeed {
  public:
-  // Checks the lists against each other; files are read as their frames come due.
-  static absl::Status validate(const FileFeedOptions& options);
-  explicit FileFrames(FileFeedOptions options);
+  // `frames`: at least one.
+  FileFrames(const FileFeedOptions& options, std::vector<FrameFiles> frames);
 
   absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) override;
   std::string description() const override;
-  // What splitting deep files cost, once for each.
+  // What splitting deep files cost, once for each, and how the first of other files is read.
   std::vector<std::string> takeNotes() override;
   bool isLive() const override { return false; }
 
  private:
-  size_t frameCount() const;
-  const std::vector<std::string>& firstFiles() const;
-  absl::StatusOr<files::LoadedFrame> load(size_t index) const;
-  absl::StatusOr<v1::FrameManifest> manifestOf(size_t index) const;
+  void note(const LoadedFiles& loaded);
 
-  const FileFeedOptions options_;
+  const std::vector<FrameFiles> frames_;
+  const bool is_looping_;
+  FrameLoader loader_;
   size_t next_index_ = 0;
   bool is_repeating_ = false;
+  bool has_told_how_ = false;
   std::vector<std::string> notes_;
   // A single frame is read once, however often it is shown.
   std::optional<WireFrame> only_frame_;

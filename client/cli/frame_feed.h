@@ -15,11 +15,13 @@ namespace viewloom::cli {
 class FrameFeed {
  public:
   virtual ~FrameFeed() = default;
-  // The frame that is due elapsed_s after the first; nothing when there is none left.
+  // The frame that is due elapsed_s after the first; nothing when there is none, yet or at all.
   virtual absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) = 0;
   // When the next frame is due, in seconds since the first, if frames bring their times along;
   // nothing = at the rate asked for.
   virtual std::optional<double> nextDue_s() { return std::nullopt; }
+  // Whether there will be none any more, once there was none.
+  virtual bool hasEnded() const { return true; }
   // What is being published, for the status: "synthetic 960x540, 2 layers".
   virtual std::string description() const = 0;
   // What there is to say about the frames since the last call, a line each.

@@ -47,14 +47,24 @@ void print(const v1::ListDisplaysResponse& response) {
   }
 }
 
+std::string joined(const google::protobuf::RepeatedPtrField<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 void print(const v1::ListPresetsResponse& response) {
-  std::printf("PRESET           ATLAS        GRID     ASPECT  DEVICE\n");
+  std::printf(
+      "PRESET           ATLAS        GRID     ASPECT  KINDS              PANEL        DEVICE\n");
   for (const v1::Preset& preset : response.presets()) {
     const v1::AtlasLayout& layout = preset.layout();
-    std::printf("%-16s %-12s %-8s %-7.4g %s\n", preset.name().c_str(),
+    std::printf("%-16s %-12s %-8s %-7.4g %-18s %-12s %s\n", preset.name().c_str(),
                 sizeText(layout.size()).c_str(),
                 strCat(layout.columns(), "x", layout.rows()).c_str(), layout.aspect(),
+                joined(preset.kinds()).c_str(),
+                preset.has_panel_size() ? sizeText(preset.panel_size()).c_str() : "",
                 preset.device().c_str());
+    if (!preset.note().empty()) std::printf("%-16s %s\n", "", preset.note().c_str());
   }
 }
 
@@ -105,6 +115,12 @@ RunCommand addListCommand(CLI::App& app) {
   app.add_option("what", options->what, "streams, displays, presets, server or all")
       ->check(CLI::IsMember({"streams", "displays", "presets", "server", "all"}))
       ->capture_default_str();
+  for (const char* what : {"streams", "displays", "presets", "server"}) {
+    app.add_flag_callback(
+           strCat("--", what), [options, what] { options->what = what; }, strCat("As ", what))
+        ->excludes("what")
+        ->group("");
+  }
   app.add_flag("--json", options->as_json, "The server's answers as JSON");
   return [options](const CommonOptions& common) -> int {
     const absl::Status status = list(*options, Catalog(makeChannel(common.server)));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/plane_options.h"
 
-#include <cmath>
 #include <map>
-#include <numbers>
+#include <string>
 
 namespace viewloom::cli {
 namespace {
+
+using inputs::InputKind;
+using inputs::InputSettings;
 
 const std::map<std::string, v1::DepthMeaning> kMeanings{{"planar", v1::DEPTH_MEANING_PLANAR},
                                                         {"ray", v1::DEPTH_MEANING_RAY_DISTANCE},
@@ -14,110 +16,141 @@ const std::map<std::string, v1::DepthMeaning> kMeanings{{"planar", v1::DEPTH_MEA
                                                         {"disparity", v1::DEPTH_MEANING_DISPARITY}};
 const std::map<std::string, v1::ColorTransfer> kTransfers{{"srgb", v1::COLOR_TRANSFER_SRGB},
                                                           {"linear", v1::COLOR_TRANSFER_LINEAR}};
+const std::map<std::string, v1::ColorPrimaries> kPrimaries{{"bt709", v1::COLOR_PRIMARIES_BT709},
+                                                           {"p3", v1::COLOR_PRIMARIES_DISPLAY_P3},
+                                                           {"bt2020", v1::COLOR_PRIMARIES_BT2020}};
 const std::map<std::string, v1::AlphaMode> kAlphas{{"opaque", v1::ALPHA_MODE_OPAQUE},
                                                    {"premultiplied", v1::ALPHA_MODE_PREMULTIPLIED},
                                                    {"straight", v1::ALPHA_MODE_STRAIGHT}};
+const std::map<std::string, v1::ImagePart> kSides{{"right", v1::IMAGE_PART_RIGHT},
+                                                  {"left", v1::IMAGE_PART_LEFT},
+                                                  {"top", v1::IMAGE_PART_TOP},
+                                                  {"bottom", v1::IMAGE_PART_BOTTOM}};
+const std::map<std::string, bool> kForwards{{"+z", false}, {"-z", true}};
 
-// Options that set a field of the proto.
-using SetDouble = void (v1::DepthFormat::*)(double);
-CLI::Option* addDepthNumber(CLI::App& app, const std::string& name, v1::DepthFormat& format,
-                            SetDouble set, const std::string& description) {
-  const auto take = [&format, set](double value) { (format.*set)(value); };
-  return app.add_option_function<double>(name, take, description)->group("Depth");
+std::map<std::string, InputKind> inputKinds() {
+  std::map<std::string, InputKind> kinds;
+  for (int kind = 0; kind <= int(InputKind::kRelative); ++kind) {
+    kinds[nameOf(InputKind(kind))] = InputKind(kind);
+  }
+  return kinds;
 }
 
-void addDepthOptions(CLI::App& app, PlaneOptions& options) {
-  app.add_option("--depth-meaning", options.depth_meaning,
-                 "What a depth sample measures: planar (along the view axis), ray (from the eye), "
-                 "window (graphics depth 0..1), disparity (1/Z)")
-      ->check(CLI::IsMember(kMeanings))
+// An option that takes one of the words.
+template <typename Value>
+CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
+                     const std::map<std::string, Value>& words, const std::string& description) {
+  const auto take = [&value, words](const std::string& word) { value = words.at(word); };
+  return app.add_option_function<std::string>(name, take, description)->check(CLI::IsMember(words));
+}
+
+void addKindOptions(CLI::App& app, InputSettings& settings) {
+  const char* const group = "Input";
+  addWord(app, "--input", settings.kind, inputKinds(),
+          "What wrote the files; every option below overrides what it brings [auto: EXR by its "
+          "header, else plain]\n"
+          "blender   multilayer EXR: Combined and Depth\n"
+          "unreal    Movie Render Queue EXR: FinalImage and WorldDepth in cm, with its camera\n"
+          "rgbd      one picture, half colour, half depth; --depth-near and --depth-far\n"
+          "2d+z      one picture, half colour, half disparity; --screen, --factor, --screen-code\n"
+          "sensor    --depth in whole millimetres, 0 = nothing measured\n"
+          "openxr    --depth between --depth-near and --depth-far\n"
+          "tmiv      --depth of normalised disparity (.png, .yuv), --camera JSON\n"
+          "iphone    --depth of disparity in 1/m (.exr, .pfm), or codes as relative\n"
+          "relative  --depth of an estimating network; --depth-near and --depth-far")
+      ->group(group);
+  addWord(app, "--depth-side", settings.depth_side, kSides,
+          "rgbd, 2d+z: where in the picture depth is [right]")
+      ->group(group);
+  app.add_flag("--black-near", settings.is_black_near,
+               "rgbd, iphone, relative: black is near, not white")
+      ->group(group);
+  app.add_option("--screen", settings.screen_m, "2d+z: metres to the screen")
       ->capture_default_str()
-      ->group("Depth");
-  using Format = v1::DepthFormat;
-  addDepthNumber(app, "--depth-scale,--scale", options.depth, &Format::set_scale,
-                 "Metres (disparity: 1/m) per unit of a sample; 0.001 for millimetres [1]");
-  addDepthNumber(app, "--depth-offset", options.depth, &Format::set_offset,
-                 "Added after the scale [0]");
-  addDepthNumber(app, "--depth-near", options.depth, &Format::set_near_z_m,
-                 "window: metres to the near plane; larger than far for reversed depth");
-  addDepthNumber(app, "--depth-far", options.depth, &Format::set_far_z_m,
-                 "window: metres to the far plane; may be inf");
-  addDepthNumber(app, "--depth-min", options.depth, &Format::set_min_depth,
-                 "window: smallest depth value [0]");
-  addDepthNumber(app, "--depth-max", options.depth, &Format::set_max_depth,
-                 "window: largest depth value [1]");
-  app.add_option("--depth-invalid", options.depth_invalid,
-                 "A sample with exactly this value is no surface")
-      ->group("Depth");
-  app.add_flag_function(
-         "--depth-invalid-is-far",
-         [&options](int64_t count) { options.depth.set_invalid_is_far(count > 0); },
-         "... is infinitely far instead, like a sky")
-      ->group("Depth");
-  app.add_flag("--depth-far-zero", options.depth_far_zero,
+      ->group(group);
+  app.add_option("--factor", settings.factor, "2d+z: strength; 64 is 100 %")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--screen-code", settings.screen_code, "2d+z: the code that lies in the screen")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--camera", settings.camera_file, "tmiv: camera parameters in JSON")->group(group);
+  app.add_option("--camera-name", settings.camera_name,
+                 "tmiv: which of the cameras [by the name of the depth file]")
+      ->group(group);
+}
+
+void addDepthOptions(CLI::App& app, InputSettings& settings) {
+  const char* const group = "Depth";
+  addWord(app, "--depth-meaning", settings.depth_meaning, kMeanings,
+          "What a depth sample measures: planar (along the view axis), ray (from the eye), window "
+          "(graphics depth 0..1), disparity (1/Z) [planar, or by --input]")
+      ->group(group);
+  const auto addNumber = [&](const char* name, std::optional<double>& value, const char* text) {
+    app.add_option(name, value, text)->group(group);
+  };
+  addNumber("--depth-scale,--scale", settings.depth_scale,
+            "Metres (disparity: 1/m) per unit of a sample; 0.001 for millimetres [1]");
+  addNumber("--depth-offset", settings.depth_offset, "Added after the scale [0]");
+  addNumber("--depth-near", settings.near_m,
+            "Metres to the nearest code; window: to the near plane, larger than far for reversed "
+            "depth");
+  addNumber("--depth-far", settings.far_m, "The same for the farthest; may be inf");
+  addNumber("--depth-min", settings.min_depth, "window: smallest depth value [0]");
+  addNumber("--depth-max", settings.max_depth, "window: largest depth value [1]");
+  addNumber("--depth-invalid", settings.depth_invalid,
+            "A sample with exactly this value is no surface");
+  app.add_flag("--depth-invalid-is-far", settings.depth_invalid_is_far,
+               "... is infinitely far instead, like a sky")
+      ->group(group);
+  app.add_flag("--depth-far-zero", settings.depth_far_zero,
                "Depth 0 is infinitely far: --depth-invalid 0 --depth-invalid-is-far")
-      ->group("Depth");
-  app.add_option("--connection-tolerance", options.connection_tolerance,
+      ->group(group);
+  app.add_option("--connection-tolerance", settings.connection_tolerance,
                  "Largest step in 1/Z (1/m) inside one surface; 0 = measured")
       ->check(CLI::NonNegativeNumber)
-      ->group("Depth");
+      ->group(group);
+}
+
+void addCameraOptions(CLI::App& app, InputSettings& settings) {
+  const char* const group = "Camera";
+  app.add_option("--fov", settings.fov_y_deg,
+                 "Vertical field of view of the camera, degrees [the file's, else 40]")
+      ->check(CLI::Range(0.1, 170.0))
+      ->group(group);
+  app.add_option("--focal-px", settings.focal_px,
+                 "Focal length in pixels of the depth, instead of --fov")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  app.add_option("--principal-px", settings.principal_px,
+                 "Where the view axis meets the image: X Y from the top left [the middle]")
+      ->expected(2)
+      ->group(group);
+  app.add_option("--pixel-aspect", settings.pixel_aspect,
+                 "Width of a px divided by its height; 2 for halves squeezed into one picture [1]")
+      ->check(CLI::Range(0.01, 100.0))
+      ->group(group);
+  addWord(app, "--camera-forward", settings.looks_along_minus_z, kForwards,
+          "Which way the camera of an EXR's worldToCamera looks [+z]")
+      ->group(group);
 }
 
 }  // namespace
 
-void addPlaneOptions(CLI::App& app, PlaneOptions& options) {
-  addDepthOptions(app, options);
-  app.add_option("--transfer", options.transfer,
-                 "How colour is stored: srgb or linear [by the file]")
-      ->check(CLI::IsMember(kTransfers))
+void addPlaneOptions(CLI::App& app, InputSettings& settings) {
+  addKindOptions(app, settings);
+  addDepthOptions(app, settings);
+  addWord(app, "--transfer", settings.transfer, kTransfers,
+          "How colour is stored: srgb or linear [by the file]")
       ->group("Colour");
-  app.add_option("--alpha", options.alpha,
-                 "What alpha says: opaque, premultiplied or straight [by the file]")
-      ->check(CLI::IsMember(kAlphas))
+  addWord(app, "--primaries", settings.primaries, kPrimaries,
+          "What its primaries are: bt709, p3 or bt2020 [by an EXR's chromaticities, else bt709]")
       ->group("Colour");
-  app.add_option("--fov", options.fov_y_deg, "Vertical field of view of the camera, degrees")
-      ->check(CLI::Range(0.1, 170.0))
-      ->capture_default_str()
-      ->group("Camera");
-  app.add_option("--focal-px", options.focal_px,
-                 "Focal length in pixels of the depth, instead of --fov")
-      ->check(CLI::PositiveNumber)
-      ->group("Camera");
-  app.add_option("--principal-px", options.principal_px,
-                 "Where the view axis meets the image: X Y from the top left [the middle]")
-      ->expected(2)
-      ->group("Camera");
-}
-
-v1::DepthFormat depthFormat(const PlaneOptions& options) {
-  v1::DepthFormat format = options.depth;
-  format.set_meaning(kMeanings.at(options.depth_meaning));
-  if (options.depth_invalid) format.set_invalid_value(*options.depth_invalid);
-  if (options.depth_far_zero) {
-    format.set_invalid_value(0);
-    format.set_invalid_is_far(true);
-  }
-  return format;
-}
-
-void setColorMeaning(const PlaneOptions& options, v1::PlaneFile& color) {
-  if (!options.transfer.empty()) color.set_transfer(kTransfers.at(options.transfer));
-  if (!options.alpha.empty()) color.set_alpha(kAlphas.at(options.alpha));
-}
-
-v1::Camera camera(const PlaneOptions& options, const v1::SizePx& size) {
-  const double half_height_px = 0.5 * size.height();
-  const double half_fov_rad = 0.5 * options.fov_y_deg * std::numbers::pi / 180;
-  const double focal_px =
-      options.focal_px > 0 ? options.focal_px : half_height_px / std::tan(half_fov_rad);
-  const bool is_given = options.principal_px.size() == 2;
-  v1::Camera camera;
-  v1::Intrinsics& intrinsics = *camera.mutable_intrinsics();
-  intrinsics.set_focal_x_px(focal_px);
-  intrinsics.set_focal_y_px(focal_px);
-  intrinsics.set_principal_x_px(is_given ? options.principal_px[0] : 0.5 * size.width());
-  intrinsics.set_principal_y_px(is_given ? options.principal_px[1] : half_height_px);
-  return camera;
+  addWord(app, "--alpha", settings.alpha, kAlphas,
+          "What alpha says: opaque, premultiplied or straight [by the file]")
+      ->group("Colour");
+  addCameraOptions(app, settings);
 }
 
 }  // namespace viewloom::cli

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "cli/file_frames.h"
+#include "cli/file_options.h"
+#include "cli/folder_frames.h"
+#include "cli/plane_options.h"
 #include "cli/publish_run.h"
 #include "cli/replayed_frames.h"
 #include "cli/report_error.h"
@@ -23,6 +25,7 @@ struct PublishOptions {
   std::optional<uint32_t> layer_count;
   SyntheticFeedOptions synthetic;
   FileFeedOptions files;
+  std::string watched_folder;
   ReplayOptions replay;
   bool is_looping = false;
   PublishRunOptions run;
@@ -48,25 +51,6 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene; 0 = without end")
       ->check(CLI::NonNegativeNumber)
-      ->group("What");
-  app.add_option("colour", options.files.colors,
-                 "Colour files, one a frame: .exr (with depth in Z), .png, .jpg, .pfm")
-      ->group("What");
-  app.add_option("--depth", options.files.depths, "Depth files, one a frame: .exr, .png, .pfm")
-      ->group("What");
-  app.add_option("--deep", options.files.deeps,
-                 "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "
-                 "with the least occlusion error, which is told")
-      ->group("What");
-  app.add_flag(
-         "--black-sky", options.files.has_black_sky,
-         "Light that all samples of a deep px let through comes from a black sky, not from what "
-         "lies beside the px")
-      ->group("What");
-  app.add_option("--view", options.files.view, "View of multi-view EXR files, as right or left")
-      ->group("What");
-  app.add_option("--manifest", options.files.manifests,
-                 "FrameManifest JSON files, one a frame: layers, cameras, everything")
       ->group("What");
   app.add_option("--replay", options.replay.file,
                  "A recording of frames (--record), at its own times or at --rate")
@@ -117,11 +101,11 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& options) {
   const int kinds = int{options.is_synthetic} + int{!options.files.colors.empty()} +
                     int{!options.files.deeps.empty()} + int{!options.files.manifests.empty()} +
-                    int{!options.replay.file.empty()};
+                    int{!options.watched_folder.empty()} + int{!options.replay.file.empty()};
   if (kinds != 1) {
     return absl::InvalidArgumentError(
         "what to publish? Accepted is one of --synthetic, colour files, --deep, --manifest, "
-        "--replay");
+        "--watch-folder, --replay");
   }
   if (!options.replay.file.empty()) return makeReplay(options);
   if (options.is_synthetic) {
@@ -131,9 +115,15 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
   }
   FileFeedOptions files = options.files;
   files.is_looping = options.is_looping;
-  files.deep_layer_count_max = options.layer_count.value_or(0);
-  VIEWLOOM_RETURN_IF_ERROR(FileFrames::validate(files));
-  return std::make_unique<FileFrames>(std::move(files));
+  files.loader.deep_layer_count_max = options.layer_count.value_or(0);
+  if (!options.watched_folder.empty()) {
+    auto folder = FolderFrames::open(options.watched_folder, files.loader, files.view);
+    if (!folder.ok()) return folder.status();
+    return *std::move(folder);
+  }
+  absl::StatusOr<std::vector<FrameFiles>> frames = framesOf(files);
+  if (!frames.ok()) return frames.status();
+  return std::make_unique<FileFrames>(files, *std::move(frames));
 }
 
 }  // namespace
@@ -146,12 +136,18 @@ RunCommand addPublishCommand(CLI::App& app) {
       "  viewloom publish frame.exr --focal-px 1200 --hold\n"
       "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
       "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
-      "  viewloom publish photo.png --depth photo_mm.png --scale 0.001 --fov 50 --hold\n"
+      "  viewloom publish photo.png --depth photo_mm.png --input sensor --fov 50 --hold\n"
+      "  viewloom publish --watch-folder renders/ --fps 24\n"
       "  viewloom publish --synthetic --seconds 10 --zstd 1 --record scene.vlr\n"
       "  viewloom publish --replay scene.vlr --speed 0.5 --loop");
   addSourceOptions(app, *options);
+  addFileOptions(app, options->files);
+  app.add_option("--watch-folder", options->watched_folder,
+                 "Publish every complete file that is in this folder or comes into it; colour and "
+                 "depth in two files pair up by name, as x.png and x_depth.png")
+      ->group("What");
   addStreamOptions(app, *options);
-  addPlaneOptions(app, options->files.planes);
+  addPlaneOptions(app, options->files.loader.input);
   return [options](const CommonOptions& common) -> int {
     absl::StatusOr<std::unique_ptr<FrameFeed>> feed = makeFeed(*options);
     if (!feed.ok()) {

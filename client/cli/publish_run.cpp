@@ -52,9 +52,14 @@ class PublishRun {
                                                               .predicts_depth = predictsDepth()},
                                              callbacks());
     FramePace pace(clock_, options_.rate_hz.value_or(kDefaultRate_hz));
-    while (frame->has_value() && waitUntilSent()) {
-      publisher_->offer(**std::move(frame));
-      const double elapsed_s = waitUntilDue(pace);
+    double elapsed_s = 0;
+    while (frame->has_value() || !feed_->hasEnded()) {
+      if (!frame->has_value()) {
+        tick();
+      } else if (waitUntilSent()) {
+        publisher_->offer(**std::move(frame));
+        elapsed_s = waitUntilDue(pace);
+      }
       if (isOver()) break;
       frame = nextFrame(elapsed_s);
       if (!frame.ok()) return fail(frame.status(), kExitUsage);

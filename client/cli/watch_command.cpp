@@ -201,6 +201,7 @@ RunCommand addWatchCommand(CLI::App& app) {
   app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
   app.add_flag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
+  addPanelOptions(app, options->display);
   return [options](const CommonOptions& common) -> int { return WatchRun(*options, common).run(); };
 }
 

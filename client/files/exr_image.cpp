@@ -5,39 +5,22 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <memory>
-#include <mutex>
 
 #include "absl/strings/str_cat.h"
 #include "files/exr_channels.h"
+#include "files/exr_open.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
 namespace {
 
-// Of a data window or a tile: far beyond any display window, yet no chunk table of gigabytes.
-constexpr int kDataSideMax_px = 32768;
 // Rows read at once where a file has to be cropped: bounds the memory beside the plane itself.
 constexpr int kRowsAtOnce = 64;
-
-absl::StatusOr<std::unique_ptr<Imf::MultiPartInputFile>> openExr(
-    const std::filesystem::path& path) {
-  static std::once_flag limits_set;
-  std::call_once(limits_set, [] {
-    Imf::Header::setMaxImageSize(kDataSideMax_px, kDataSideMax_px);
-    Imf::Header::setMaxTileSize(kDataSideMax_px, kDataSideMax_px);
-  });
-  VIEWLOOM_RETURN_IF_ERROR(checkFile(path));
-  try {
-    return std::make_unique<Imf::MultiPartInputFile>(path.c_str());
-  } catch (const std::exception& error) {
-    return refuseFile(path.string(), absl::StrCat("is no EXR file to be read: ", error.what()));
-  }
-}
 
 struct PixelBox {
   int begin_x, begin_y, end_x, end_y;  // end exclusive
@@ -199,6 +182,8 @@ absl::StatusOr<PlaneImage> readExrColor(const std::filesystem::path& path,
   image->encoding = v1::PLANE_ENCODING_RGBA16F;
   image->has_alpha = names.size() == 4;
   completeRgba(image->bytes, names.size());
+  const Imf::Header& header = (*file)->header(found->front().part);
+  if (Imf::hasChromaticities(header)) image->chromaticities = Imf::chromaticities(header);
   return image;
 }
 

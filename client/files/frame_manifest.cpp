@@ -43,7 +43,7 @@ void addPlane(LoadedPlane loaded, v1::Layer& layer, WireFrame& frame) {
 }
 
 absl::Status loadLayer(const v1::LayerFiles& files, const std::filesystem::path& folder,
-                       v1::Layer& layer, WireFrame& frame) {
+                       v1::Layer& layer, LoadedFrame& frame) {
   absl::StatusOr<LoadedPlane> color = loadColorPlane(files.color(), folder);
   if (!color.ok()) return withFieldPrefix(color.status(), "color");
   absl::StatusOr<LoadedPlane> depth = loadDepthPlane(files.depth(), folder);
@@ -53,8 +53,9 @@ absl::Status loadLayer(const v1::LayerFiles& files, const std::filesystem::path&
                         "is missing; accepted are DEPTH_MEANING_PLANAR, _RAY_DISTANCE, _WINDOW, "
                         "_DISPARITY");
   }
-  addPlane(*std::move(color), layer, frame);
-  addPlane(*std::move(depth), layer, frame);
+  frame.code_max.push_back(depth->code_max);
+  addPlane(*std::move(color), layer, frame.wire);
+  addPlane(*std::move(depth), layer, frame.wire);
   return absl::OkStatus();
 }
 
@@ -95,8 +96,7 @@ absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::pat
   if (files.has_deep()) return loadDeepSource(files, folder, source, frame);
   VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
   for (int i = 0; i < files.layers_size(); ++i) {
-    const absl::Status status =
-        loadLayer(files.layers(i), folder, *source.add_layers(), frame.wire);
+    const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);
     if (!status.ok()) return withFieldPrefix(status, absl::StrCat("layers[", i, "]"));
   }
   return checkDepthSizes(source);

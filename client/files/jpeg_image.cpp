@@ -4,6 +4,7 @@
 #include <turbojpeg.h>
 
 #include <memory>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
@@ -28,39 +29,71 @@ bool isBaseline(const std::vector<uint8_t>& bytes) {
   return false;
 }
 
+struct JpegHeader {
+  int width_px = 0;
+  int height_px = 0;
+  int color_space = 0;
+};
+
+absl::StatusOr<JpegHeader> readHeader(const std::string& name, std::span<const uint8_t> bytes,
+                                      void* handle) {
+  JpegHeader header;
+  int subsampling = 0;
+  if (tjDecompressHeader3(handle, bytes.data(), bytes.size(), &header.width_px, &header.height_px,
+                          &subsampling, &header.color_space) != 0) {
+    return refuseFile(name, absl::StrCat("is no JPEG: ", tjGetErrorStr2(handle)));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));
+  if (header.color_space == TJCS_CMYK || header.color_space == TJCS_YCCK) {
+    return refuseFile(name, "is a CMYK JPEG; accepted are grey, YCbCr and RGB");
+  }
+  return header;
+}
+
 }  // namespace
+
+absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint8_t> bytes) {
+  const JpegHandle handle(tjInitDecompress());
+  const absl::StatusOr<JpegHeader> header = readHeader(name, bytes, handle.get());
+  if (!header.ok()) return header.status();
+  Picture picture{.width_px = static_cast<uint32_t>(header->width_px),
+                  .height_px = static_cast<uint32_t>(header->height_px),
+                  .channels = 3,
+                  .bits = 8,
+                  .bytes = {}};
+  picture.bytes.resize(size_t{3} * picture.width_px * picture.height_px);
+  // TJFLAG_STOPONWARNING: a truncated file is an error, not a half grey picture. TJFLAG_LIMITSCANS:
+  // 500 scans at most, against files made to take for ever.
+  if (tjDecompress2(handle.get(), bytes.data(), bytes.size(), picture.bytes.data(),
+                    header->width_px, 0, header->height_px, TJPF_RGB,
+                    TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
+    return absl::DataLossError(absl::StrCat(name, ": ", tjGetErrorStr2(handle.get())));
+  }
+  return picture;
+}
+
+absl::StatusOr<Picture> readJpeg(const std::filesystem::path& path) {
+  const absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  return decodeJpeg(path.string(), *bytes);
+}
 
 absl::StatusOr<PlaneImage> readJpegColor(const std::filesystem::path& path) {
   absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
   if (!bytes.ok()) return bytes.status();
   const JpegHandle handle(tjInitDecompress());
-  int width = 0, height = 0, subsampling = 0, color_space = 0;
-  if (tjDecompressHeader3(handle.get(), bytes->data(), bytes->size(), &width, &height, &subsampling,
-                          &color_space) != 0) {
-    return refuseFile(path.string(), absl::StrCat("is no JPEG: ", tjGetErrorStr2(handle.get())));
+  const absl::StatusOr<JpegHeader> header = readHeader(path.string(), *bytes, handle.get());
+  if (!header.ok()) return header.status();
+  if (!isBaseline(*bytes) || header->color_space == TJCS_RGB) {
+    absl::StatusOr<Picture> picture = decodeJpeg(path.string(), *bytes);
+    if (!picture.ok()) return picture.status();
+    return colorPlane(*std::move(picture), false);
   }
-  if (absl::Status size = checkPlaneSize(path.string(), width, height); !size.ok()) return size;
-  if (color_space == TJCS_CMYK || color_space == TJCS_YCCK) {
-    return refuseFile(path.string(), "is a CMYK JPEG; accepted are grey, YCbCr and RGB");
-  }
-  PlaneImage image{.width_px = static_cast<uint32_t>(width),
-                   .height_px = static_cast<uint32_t>(height),
-                   .encoding = v1::PLANE_ENCODING_JPEG,
-                   .has_alpha = false,
-                   .bytes = {}};
-  if (isBaseline(*bytes) && color_space != TJCS_RGB) {
-    image.bytes = *std::move(bytes);
-    return image;
-  }
-  image.encoding = v1::PLANE_ENCODING_RGB8;
-  image.bytes.resize(size_t{3} * image.width_px * image.height_px);
-  // TJFLAG_STOPONWARNING: a truncated file is an error, not a half grey picture. TJFLAG_LIMITSCANS:
-  // 500 scans at most, against files made to take for ever.
-  if (tjDecompress2(handle.get(), bytes->data(), bytes->size(), image.bytes.data(), width, 0,
-                    height, TJPF_RGB, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
-    return absl::DataLossError(absl::StrCat(path.string(), ": ", tjGetErrorStr2(handle.get())));
-  }
-  return image;
+  return PlaneImage{.width_px = static_cast<uint32_t>(header->width_px),
+                    .height_px = static_cast<uint32_t>(header->height_px),
+                    .encoding = v1::PLANE_ENCODING_JPEG,
+                    .has_alpha = false,
+                    .bytes = *std::move(bytes)};
 }
 
 }  // namespace viewloom::files

@@ -3,13 +3,21 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
-#include "files/plane_image.h"
+#include "files/picture.h"
 
 namespace viewloom::files {
 
 // JPEG (baseline, grey or YCbCr: the file's own bytes) or RGB8 (progressive and others, decoded).
 // CMYK is refused.
 absl::StatusOr<PlaneImage> readJpegColor(const std::filesystem::path& path);
+
+// The same pixels, always decoded to three channels.
+absl::StatusOr<Picture> readJpeg(const std::filesystem::path& path);
+
+// Of a whole file in memory; `name` is for messages.
+absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint8_t> bytes);
 
 }  // namespace viewloom::files

@@ -13,6 +13,7 @@ namespace viewloom::files {
 struct LoadedPlane {
   v1::Plane plane;  // complete but for compression
   SharedBytes bytes;
+  uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
 };
 
 // Relative file names are taken from `folder`. What the manifest leaves open comes from the file:
@@ -20,7 +21,7 @@ struct LoadedPlane {
 // STRAIGHT for PNG with alpha, else OPAQUE.
 absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder);
-// 8-bit PNG samples count 0..255, or, as WINDOW depth, 0..1.
+// 8-bit PNG and JPEG samples count 0..255, or, as WINDOW depth, 0..1.
 absl::StatusOr<LoadedPlane> loadDepthPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder);
 

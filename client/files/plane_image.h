@@ -2,7 +2,10 @@
 // One plane as a file gave it, in an encoding of the wire.
 #pragma once
 
+#include <OpenEXR/ImfChromaticities.h>
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +21,9 @@ struct PlaneImage {
   uint32_t height_px = 0;
   v1::PlaneEncoding encoding = v1::PLANE_ENCODING_UNSPECIFIED;
   bool has_alpha = false;
-  std::vector<uint8_t> bytes;  // packed, top row first
+  uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
+  std::optional<Imf::Chromaticities> chromaticities;  // colour whose file states them
+  std::vector<uint8_t> bytes;                         // packed, top row first
 };
 
 // Refuses what no plane may be, before memory is spent on it.

@@ -4,15 +4,18 @@
 
 #include <filesystem>
 
-#include "files/plane_image.h"
+#include "files/picture.h"
 
 namespace viewloom::files {
 
-// RGB8 or RGBA8 as stored; 16 bits come as RGBA16F: sRGB decoded to linear light, or, when
-// linear_samples, just divided by 65535. Palettes and grey are expanded; gamma chunks are ignored.
-absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples);
+enum class PngUse { kColor, kDepth };
 
-// One channel, DEPTH_U16: 16 bits as stored; 8 bits as 0..255, or, when spread, 0..65535.
+// Palettes are expanded and, for colour, grey: three or four channels. Gamma chunks are ignored.
+// For depth, samples of less than 8 bits are refused.
+absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PngUse use);
+
+// As colorPlane and depthPlane make it.
+absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples);
 absl::StatusOr<PlaneImage> readPngDepth(const std::filesystem::path& path, bool spread);
 
 }  // namespace viewloom::files

@@ -22,12 +22,28 @@ absl::Status missing(v1::AtlasPlane plane) {
       absl::StrCat("the atlas has no whole ", nameOf(plane), "; it has to be asked for"));
 }
 
-std::vector<const AtlasBand*> bandsOf(const Atlas& atlas, v1::AtlasPlane plane) {
+std::vector<const AtlasBand*> bandsOf(const Atlas& atlas, v1::AtlasPlane plane, uint32_t image) {
   std::vector<const AtlasBand*> bands;
   for (const AtlasBand& band : atlas.bands) {
-    if (band.plane == plane && band.image_index == 0) bands.push_back(&band);
+    if (band.plane == plane && band.image_index == image) bands.push_back(&band);
   }
   return bands;
+}
+
+// Servers that know of one image alone leave the count out.
+uint32_t imageCount(const Atlas& atlas) {
+  return std::max(atlas.layout->image_count(), 1u);
+}
+
+uint32_t imageHeight(const Atlas& atlas) {
+  return atlas.layout->size().height() / imageCount(atlas);
+}
+
+constexpr v1::AtlasPlane kChannelPlanes[] = {v1::ATLAS_PLANE_RED, v1::ATLAS_PLANE_GREEN,
+                                             v1::ATLAS_PLANE_BLUE};
+
+bool isJpeg(v1::BandEncoding encoding) {
+  return encoding == v1::BAND_ENCODING_JPEG || encoding == v1::BAND_ENCODING_JPEG_PLANES;
 }
 
 uint32_t channelsOf(v1::AtlasPlane plane) {
@@ -35,20 +51,23 @@ uint32_t channelsOf(v1::AtlasPlane plane) {
   return plane == v1::ATLAS_PLANE_DEPTH ? 4 : 1;
 }
 
-absl::Status decodeJpeg(const std::string& jpeg, AtlasPicture& picture) {
+// Of one image, into its rows of the picture.
+absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_height,
+                        AtlasPicture& picture) {
   const std::unique_ptr<void, int (*)(void*)> handle(tjInitDecompress(), &tjDestroy);
   const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
   int width = 0, height = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(handle.get(), bytes, jpeg.size(), &width, &height, &subsampling,
                           &color_space) != 0 ||
-      width != static_cast<int>(picture.width_px) ||
-      height != static_cast<int>(picture.height_px)) {
+      width != static_cast<int>(picture.width_px) || height != static_cast<int>(image_height)) {
     return absl::DataLossError(absl::StrCat("the JPEG is ", width, "x", height,
                                             " px; the layout says ", picture.width_px, "x",
-                                            picture.height_px));
+                                            image_height));
   }
-  if (tjDecompress2(handle.get(), bytes, jpeg.size(), picture.samples.data(), width, 0, height,
-                    TJPF_RGB, TJFLAG_STOPONWARNING) != 0) {
+  const size_t image_bytes = size_t{picture.width_px} * image_height * picture.channels;
+  if (tjDecompress2(handle.get(), bytes, jpeg.size(), &picture.samples[image * image_bytes], width,
+                    0, height, picture.channels == 1 ? TJPF_GRAY : TJPF_RGB,
+                    TJFLAG_STOPONWARNING) != 0) {
     return absl::DataLossError(tjGetErrorStr2(handle.get()));
   }
   return absl::OkStatus();
@@ -80,19 +99,23 @@ size_t Atlas::byteCount() const {
 }
 
 bool hasWholePlane(const Atlas& atlas, v1::AtlasPlane plane) {
-  uint64_t next_row = 0;
-  for (const AtlasBand* band : bandsOf(atlas, plane)) {
-    if (band->first_row != next_row) return false;
-    next_row += band->row_count;
+  for (uint32_t image = 0; image < imageCount(atlas); ++image) {
+    uint64_t next_row = 0;
+    for (const AtlasBand* band : bandsOf(atlas, plane, image)) {
+      if (band->first_row != next_row) return false;
+      next_row += band->row_count;
+    }
+    if (next_row == 0 || next_row != imageHeight(atlas)) return false;
   }
-  return next_row > 0 && next_row == atlas.layout->size().height();
+  return true;
 }
 
-absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas) {
-  if (!hasWholePlane(atlas, v1::ATLAS_PLANE_COLOR)) return missing(v1::ATLAS_PLANE_COLOR);
+absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas, v1::AtlasPlane plane,
+                                          uint32_t image) {
+  if (!hasWholePlane(atlas, plane) || image >= imageCount(atlas)) return missing(plane);
   std::string jpeg;
-  for (const AtlasBand* band : bandsOf(atlas, v1::ATLAS_PLANE_COLOR)) {
-    if (band->encoding != v1::BAND_ENCODING_JPEG) {
+  for (const AtlasBand* band : bandsOf(atlas, plane, image)) {
+    if (!isJpeg(band->encoding)) {
       return absl::FailedPreconditionError("the colour of the atlas did not come as JPEG");
     }
     jpeg += band->bytes;
@@ -100,24 +123,56 @@ absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas) {
   return jpeg;
 }
 
+namespace {
+
+absl::Status decodeImage(const Atlas& atlas, v1::AtlasPlane plane, uint32_t image,
+                         AtlasPicture& picture) {
+  const std::vector<const AtlasBand*> bands = bandsOf(atlas, plane, image);
+  if (isJpeg(bands.front()->encoding)) {
+    const absl::StatusOr<std::string> jpeg = joinJpegBands(atlas, plane, image);
+    if (!jpeg.ok()) return jpeg.status();
+    return decodeJpeg(*jpeg, image, imageHeight(atlas), picture);
+  }
+  const size_t row_bytes = size_t{picture.width_px} * picture.channels;
+  const size_t first_row = size_t{image} * imageHeight(atlas);
+  for (const AtlasBand* band : bands) {
+    VIEWLOOM_RETURN_IF_ERROR(unpackBand(*band,
+                                        &picture.samples[row_bytes * (first_row + band->first_row)],
+                                        row_bytes * band->row_count));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<AtlasPicture> joinChannels(const Atlas& atlas) {
+  AtlasPicture joined{.width_px = atlas.layout->size().width(),
+                      .height_px = atlas.layout->size().height(),
+                      .channels = 3,
+                      .samples = {}};
+  joined.samples.resize(size_t{3} * joined.width_px * joined.height_px);
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const absl::StatusOr<AtlasPicture> grey = decodePlane(atlas, kChannelPlanes[channel]);
+    if (!grey.ok()) return grey.status();
+    for (size_t i = 0; i < grey->samples.size(); ++i) {
+      joined.samples[3 * i + channel] = grey->samples[i];
+    }
+  }
+  return joined;
+}
+
+}  // namespace
+
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane) {
+  if (plane == v1::ATLAS_PLANE_COLOR && hasWholePlane(atlas, v1::ATLAS_PLANE_RED)) {
+    return joinChannels(atlas);
+  }
   if (!hasWholePlane(atlas, plane)) return missing(plane);
   AtlasPicture picture{.width_px = atlas.layout->size().width(),
                        .height_px = atlas.layout->size().height(),
                        .channels = channelsOf(plane),
                        .samples = {}};
-  const size_t row_bytes = size_t{picture.width_px} * picture.channels;
-  picture.samples.resize(row_bytes * picture.height_px);
-  const std::vector<const AtlasBand*> bands = bandsOf(atlas, plane);
-  if (bands.front()->encoding == v1::BAND_ENCODING_JPEG) {
-    const absl::StatusOr<std::string> jpeg = joinJpegBands(atlas);
-    if (!jpeg.ok()) return jpeg.status();
-    VIEWLOOM_RETURN_IF_ERROR(decodeJpeg(*jpeg, picture));
-    return picture;
-  }
-  for (const AtlasBand* band : bands) {
-    VIEWLOOM_RETURN_IF_ERROR(unpackBand(*band, &picture.samples[row_bytes * band->first_row],
-                                        row_bytes * band->row_count));
+  picture.samples.resize(size_t{picture.width_px} * picture.channels * picture.height_px);
+  for (uint32_t image = 0; image < imageCount(atlas); ++image) {
+    VIEWLOOM_RETURN_IF_ERROR(decodeImage(atlas, plane, image, picture));
   }
   return picture;
 }

@@ -16,7 +16,7 @@ namespace viewloom {
 struct AtlasBand {
   uint32_t image_index = 0;
   v1::AtlasPlane plane = v1::ATLAS_PLANE_COLOR;
-  uint32_t first_row = 0;
+  uint32_t first_row = 0;  // of its image
   uint32_t row_count = 0;
   v1::BandEncoding encoding = v1::BAND_ENCODING_JPEG;
   std::string bytes;
@@ -39,14 +39,17 @@ struct AtlasPicture {
   std::vector<uint8_t> samples;
 };
 
-// Whether the bands of the plane cover the atlas without gap or overlap.
+// Whether the bands of the plane cover every image of the atlas without gap or overlap.
 bool hasWholePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
-// The colour plane as one JPEG file, byte for byte as the server encoded it. FAILED_PRECONDITION
-// when it was not sent as JPEG.
-absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas);
+// A colour plane of one image as one JPEG file, byte for byte as the server encoded it: COLOR, or
+// of JPEG_PLANES RED, GREEN and BLUE, which are grey. FAILED_PRECONDITION when it was not sent so.
+absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas,
+                                          v1::AtlasPlane plane = v1::ATLAS_PLANE_COLOR,
+                                          uint32_t image = 0);
 
-// Decodes one plane: COLOR to RGB, MASK to one byte, DEPTH to four. FAILED_PRECONDITION when the
+// Decodes one plane of the whole atlas, its images one below the other: COLOR to RGB, also from its
+// channels; RED, GREEN, BLUE and MASK to one byte, DEPTH to four. FAILED_PRECONDITION when the
 // atlas does not have it, DATA_LOSS when its bytes do not decode to the size of the layout.
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
 

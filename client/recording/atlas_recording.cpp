@@ -35,6 +35,7 @@ std::string problemOf(const v1::AtlasLayout& layout) {
       uint64_t{layout.rows()} * layout.tile_size().height() + layout.padding_top_px() <= height &&
       layout.view_count() <= uint64_t{layout.columns()} * layout.rows();
   if (!has_room) return "has an atlas without room for its views";
+  if (layout.image_count() > height) return "has an atlas of more images than it has rows";
   if (!isFileNamePart(layout.suffix())) return "has a suffix that is no part of a file name";
   return "";
 }

@@ -8,7 +8,7 @@
 #include "base/status.h"
 #include "config/config.h"
 #include "lib/wire_frame.h"
-#include "viewloom/v1/display.pb.h"
+#include "viewloom/v1/atlas.pb.h"
 
 namespace viewloom {
 

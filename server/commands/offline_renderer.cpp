@@ -78,6 +78,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
                            .row_count_max = std::min(kBandRows, size_px.height),
                            .tile_count_max = atlas.layout->columns * atlas.layout->rows,
                            .walk_count = job.walk_count,
+                           .sample_count = job.sample_count,
                            .outputs = outputs});
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
     const uint32_t row_count = std::min(kBandRows, size_px.height - row);

@@ -75,6 +75,7 @@ class StageBench {
         device, TraceSlotShape{.width_px = layout_->size_px.width,
                                .row_count_max = bandRowCount(encoding_),
                                .tile_count_max = layout_->columns * layout_->rows,
+                               .sample_count = job_.sample_count,
                                .outputs = {.color = tracer_.colorForm(directForm(encoding_))}});
   }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/status.h"
@@ -23,7 +24,35 @@ struct TileOrigin {
   uint32_t y_px = 0;
 };
 
-// A grid of equal tiles. view_indices is the only statement about order.
+// Microlenses in front of a panel: each px is seen through the middle of its lens alone. Px from
+// the top left of the panel.
+struct MicrolensRays {
+  double lens_pitch_px = 1;
+  glm::dvec2 first_px{0.0};  // upper left corner of the first lens
+  uint32_t columns = 1;
+  uint32_t rows = 1;
+  glm::dvec2 middle_px{0.0};  // of the panel, in front of the display's eye
+  double m_per_px = 1;        // of the scene, where the panel is
+  double distance_m = 0;      // from the display's eye to the panel
+  bool is_flipped = false;    // each px shows what is seen through its lens in the other direction
+};
+
+// A lenticular panel: every subpixel is seen from a place of its own on the line of eyes, which its
+// lens sends it to; at z of the way from the first view's outer end to the last one's,
+// x = distance * tan(view_cone * (z - 1/2)), as between the views of a quilt.
+struct LenticularRays {
+  Calibration calibration;
+  double view_cone_rad = 0;
+  double distance_m = 1;    // from the line of eyes to the panel
+  uint32_t view_count = 0;  // z is that of the nearest of so many views; 0 = its own
+};
+
+// All rays of a view come from its eye.
+struct PinholeRays {};
+
+using DisplayRays = std::variant<PinholeRays, LenticularRays, MicrolensRays>;
+
+// A grid of equal tiles. `order` is the only statement about where views are.
 struct AtlasLayout {
   SizePx size_px;
   uint32_t columns = 1;
@@ -33,10 +62,19 @@ struct AtlasLayout {
   double aspect = 1;  // of a view as shown
   uint32_t padding_right_px = 0;
   uint32_t padding_top_px = 0;
-  double view_cone_rad = 0;     // quilts
-  double focal_distance_m = 0;  // quilts and stereo
+  double view_cone_rad = 0;     // quilts and lenticular panels
+  double focal_distance_m = 0;  // quilts, stereo, lenticular panels and grids of cameras
   std::string suffix;           // quilts: "_qs8x6a0.75"
   std::vector<View> views;      // [view]
+  DisplayRays rays;
+  std::vector<RaySample> samples = {RaySample{}};  // of each px
+  // Seen from beside, px stay on what is so far in front of their view; kNoFocus_m: no such plane.
+  double eye_focus_m = kNoFocus_m;
+  glm::dvec2 view_pitch_m{0.0};  // between the eyes of neighbouring views, to the right and up
+  // So many images of equal height, one below the other, each encoded by itself.
+  uint32_t image_count = 1;
+
+  SizePx imageSize() const { return {size_px.width, size_px.height / image_count}; }
 
   TileOrigin tileOrigin(uint32_t view) const;
   // The view whose tile stands in this column and this row from the top; views.size() = none.

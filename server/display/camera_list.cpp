@@ -1,9 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/camera_list.h"
 
+#include <cmath>
+
 #include "absl/strings/str_cat.h"
+#include "display/field_checks.h"
+#include "display/focal_window.h"
 
 namespace viewloom {
+
+namespace {
+
+absl::Status complete(CameraGrid& grid) {
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(grid.columns, kCameraCountMax, "cameras.grid.columns"));
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(grid.rows, kCameraCountMax, "cameras.grid.rows"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(grid.spacing_m.x, 0, kCameraSpacingMax_m, "cameras.grid.spacing_x_m"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(grid.spacing_m.y, 0, kCameraSpacingMax_m, "cameras.grid.spacing_y_m"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkOptionalDistance(grid.focal_distance_m, "cameras.grid.focal_distance_m"));
+  return checkOptionalAngle(grid.fov_y_rad, "cameras.grid.fov_y_rad");
+}
+
+uint32_t viewCount(const CamerasSpec& cameras) {
+  return cameras.grid ? cameras.grid->count() : static_cast<uint32_t>(cameras.cameras.size());
+}
+
+// Of tiles, where they are not given.
+uint32_t usualColumns(const CamerasSpec& cameras) {
+  switch (cameras.arrangement) {
+    case TileArrangement::kRow:
+      return viewCount(cameras);
+    case TileArrangement::kQuad:
+      return 2;
+    case TileArrangement::kSeparate:
+      return 1;
+    case TileArrangement::kGrid:
+      break;
+  }
+  if (cameras.grid) return cameras.grid->columns;
+  return static_cast<uint32_t>(std::ceil(std::sqrt(double{1} * viewCount(cameras))));
+}
+
+absl::Status completeArrangement(CamerasSpec& cameras) {
+  const uint32_t columns = usualColumns(cameras);
+  if (cameras.arrangement != TileArrangement::kGrid && cameras.columns != 0 &&
+      cameras.columns != columns) {
+    return invalidField("cameras.columns",
+                        absl::StrCat("got ", cameras.columns, ", the arrangement has ", columns));
+  }
+  if (cameras.arrangement == TileArrangement::kQuad && viewCount(cameras) != 4) {
+    return invalidField("cameras.arrangement", absl::StrCat("got QUAD_2X2 for ", viewCount(cameras),
+                                                            " views, accepted are four"));
+  }
+  if (cameras.columns == 0) cameras.columns = columns;
+  return checkCount(cameras.columns, kCameraCountMax, "cameras.columns");
+}
+
+}  // namespace
+
+absl::Status complete(CamerasSpec& cameras) {
+  if (cameras.grid) {
+    if (!cameras.cameras.empty()) {
+      return invalidField("cameras.grid", "got one beside cameras, accepted is one of the two");
+    }
+    VIEWLOOM_RETURN_IF_ERROR(complete(*cameras.grid));
+  }
+  const uint64_t count =
+      cameras.grid ? uint64_t{cameras.grid->columns} * cameras.grid->rows : cameras.cameras.size();
+  if (count < 1 || count > kCameraCountMax) {
+    return invalidField(cameras.grid ? "cameras.grid" : "cameras.cameras",
+                        absl::StrCat("got ", count, ", accepted is 1..", kCameraCountMax));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(checkSize(cameras.tile_size_px, kEyeSidePxMax, "cameras.tile_size"));
+  VIEWLOOM_RETURN_IF_ERROR(completeArrangement(cameras));
+  return validateCameras(cameras.cameras, "cameras.cameras");
+}
+
+TileGrid tileGrid(const CamerasSpec& cameras) {
+  const uint32_t count = viewCount(cameras);
+  const uint32_t rows = (count + cameras.columns - 1) / cameras.columns;
+  return {.size_field = "cameras.tile_size",
+          .columns = cameras.columns,
+          .rows = rows,
+          .tile_size_px = cameras.tile_size_px,
+          .order = cameras.order,
+          .view_count = count,
+          .width_px = uint64_t{cameras.columns} * cameras.tile_size_px.width,
+          .height_px = uint64_t{rows} * cameras.tile_size_px.height,
+          .image_count = cameras.arrangement == TileArrangement::kSeparate ? count : 1};
+}
 
 absl::Status validateCameras(const std::vector<ViewCamera>& cameras, const std::string& field) {
   for (size_t i = 0; i < cameras.size(); ++i) {
@@ -30,6 +117,26 @@ std::vector<View> cameraViews(const std::vector<ViewCamera>& cameras, SizePx til
                                              : std::get<Intrinsics>(camera.projection)}});
   }
   return views;
+}
+
+void describe(const CamerasSpec& cameras, const StreamDefaults& defaults, AtlasLayout& layout) {
+  if (!cameras.grid) {
+    layout.views = cameraViews(cameras.cameras, cameras.tile_size_px);
+    return;
+  }
+  const CameraGrid& grid = *cameras.grid;
+  layout.focal_distance_m = focalDistance(grid.focal_distance_m, defaults);
+  layout.eye_focus_m = layout.focal_distance_m;
+  layout.view_pitch_m = grid.spacing_m;
+  const FocalWindow window =
+      focalWindow(layout.focal_distance_m, grid.fov_y_rad, layout.aspect, defaults);
+  const double upwards = cameras.order == TileOrder::kBottomLeft ? 1.0 : -1.0;
+  for (uint32_t view = 0; view < grid.count(); ++view) {
+    const glm::dvec2 place(view % grid.columns - (grid.columns - 1) / 2.0,
+                           upwards * (view / grid.columns - (grid.rows - 1) / 2.0));
+    layout.views.push_back(
+        {cameraThroughWindow(window, place * grid.spacing_m, cameras.tile_size_px)});
+  }
 }
 
 }  // namespace viewloom

@@ -42,6 +42,8 @@ class KeyText {
     add(quilt.fov_y_rad);
     add(static_cast<uint32_t>(quilt.order));
     add(quilt.view_count);
+    add(static_cast<uint32_t>(quilt.convention));
+    add(quilt.depthiness);
   }
   void add(const StereoSpec& stereo) {
     text_ += "stereo ";
@@ -58,10 +60,49 @@ class KeyText {
     add(cameras.tile_size_px);
     add(cameras.columns);
     add(static_cast<uint32_t>(cameras.order));
+    add(static_cast<uint32_t>(cameras.arrangement));
+    if (cameras.grid) add(*cameras.grid);
+  }
+  void add(const LenticularSpec& lenticular) {
+    text_ += "lenticular ";
+    Calibration calibration = *lenticular.calibration;
+    calibration.serial.clear();
+    calibration.config_version.clear();
+    absl::StrAppend(&text_, writeCalibration(calibration), " ");
+    add(lenticular.view_count);
+    add(lenticular.view_cone_rad);
+    add(lenticular.focal_distance_m);
+    add(lenticular.fov_y_rad);
+  }
+  void add(const IntegralSpec& integral) {
+    text_ += "integral ";
+    add(integral.panel_px);
+    for (const double length_m :
+         {integral.pixel_pitch_m, integral.lens_pitch_m, integral.focal_length_m}) {
+      add(length_m);
+    }
+    add(integral.lens_columns);
+    add(integral.lens_rows);
+    add(integral.offset_px);
+    add(static_cast<uint32_t>(integral.is_flipped));
+    add(integral.scale);
+    add(integral.distance_m);
   }
   std::string take() { return std::move(text_); }
 
  private:
+  void add(glm::dvec2 pair) {
+    add(pair.x);
+    add(pair.y);
+  }
+  void add(const CameraGrid& grid) {
+    text_ += "grid ";
+    add(grid.columns);
+    add(grid.rows);
+    add(grid.spacing_m);
+    add(grid.focal_distance_m);
+    add(grid.fov_y_rad);
+  }
   void add(const Fov& fov) {
     text_ += "fov ";
     for (const double angle : {fov.left_rad, fov.right_rad, fov.up_rad, fov.down_rad}) add(angle);
@@ -85,16 +126,17 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.tolerance_px);
   key.add(static_cast<uint32_t>(spec.outside_fill));
   key.add(spec.background_rgb);
+  key.add(spec.filter.sample_count);
+  if (spec.filter.sample_count > 1) key.add(spec.filter.width);
   return key.take();
 }
 
 std::string encodingKey(const EncodingSpec& encoding) {
   KeyText key;
   key.add(static_cast<uint32_t>(encoding.color));
-  if (encoding.color == BandEncoding::kJpeg) {
-    key.add(encoding.jpeg_quality);
-    key.add(static_cast<uint32_t>(encoding.chroma));
-  }
+  const bool is_jpeg = encoding.color == BandEncoding::kJpeg;
+  if (is_jpeg || encoding.color == BandEncoding::kJpegPlanes) key.add(encoding.jpeg_quality);
+  if (is_jpeg) key.add(static_cast<uint32_t>(encoding.chroma));
   key.add(static_cast<uint32_t>(encoding.with_depth));
   key.add(static_cast<uint32_t>(encoding.with_mask));
   if (encoding.with_depth || encoding.with_mask) key.add(static_cast<uint32_t>(encoding.planes));

@@ -23,9 +23,9 @@ double focalDistance(double wanted_m, const StreamDefaults& defaults);
 FocalWindow focalWindow(double distance_m, double fov_y_rad, double aspect,
                         const StreamDefaults& defaults);
 
-// The off-axis pinhole at (eye_x_m, 0, 0), looking along -z, whose tile shows exactly the window.
+// The off-axis pinhole at (eye_m, 0), looking along -z, whose tile shows exactly the window.
 // Tile pixels need not be square: a tile of another shape than the window is stretched
 // (anamorphic).
-Camera cameraThroughWindow(const FocalWindow& window, double eye_x_m, SizePx tile_size_px);
+Camera cameraThroughWindow(const FocalWindow& window, glm::dvec2 eye_m, SizePx tile_size_px);
 
 }  // namespace viewloom

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -74,6 +77,17 @@ std::span<const Preset> allPresets() {
 const Preset* findPreset(std::string_view name) {
   const auto found = std::ranges::lower_bound(kPresets, name, {}, &Preset::name);
   return found != kPresets.end() && found->name == name ? &*found : nullptr;
+}
+
+absl::Status checkPreset(std::string_view name, std::string_view field) {
+  if (findPreset(name) != nullptr) return absl::OkStatus();
+  std::string names;
+  for (const Preset& preset : kPresets) {
+    if (!names.empty()) names += ", ";
+    names += preset.name;
+  }
+  return fieldError(absl::StatusCode::kNotFound, field,
+                    strCat("there is no \"", name, "\"; there are ", names));
 }
 
 }  // namespace viewloom

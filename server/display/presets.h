@@ -5,7 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "display/display_spec.h"
+#include "base/status.h"
+#include "frame/size.h"
 
 namespace viewloom {
 
@@ -24,5 +25,7 @@ struct Preset {
 std::span<const Preset> allPresets();
 // nullptr when there is none.
 const Preset* findPreset(std::string_view name);
+// NOT_FOUND with those that there are.
+absl::Status checkPreset(std::string_view name, std::string_view field);
 
 }  // namespace viewloom

@@ -2,13 +2,89 @@
 #include "display/quilt.h"
 
 #include <cmath>
+#include <numbers>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "display/field_checks.h"
 #include "display/focal_window.h"
+#include "display/presets.h"
 
 namespace viewloom {
+namespace {
 
 SizePx quiltTileSize(const QuiltSpec& quilt) {
   return {quilt.size_px.width / quilt.columns, quilt.size_px.height / quilt.rows};
+}
+
+absl::Status applyPreset(QuiltSpec& quilt) {
+  if (quilt.preset.empty()) return absl::OkStatus();
+  VIEWLOOM_RETURN_IF_ERROR(checkPreset(quilt.preset, "quilt.preset"));
+  const Preset* preset = findPreset(quilt.preset);
+  const auto fill = [](auto& given, auto value) {
+    if (given == 0) given = value;
+  };
+  fill(quilt.columns, preset->columns);
+  fill(quilt.rows, preset->rows);
+  if (quilt.size_px == SizePx{}) quilt.size_px = preset->size_px;
+  fill(quilt.aspect, preset->aspect);
+  fill(quilt.view_cone_rad, preset->view_cone_deg * std::numbers::pi / 180);
+  return absl::OkStatus();
+}
+
+absl::Status completeDepthiness(QuiltSpec& quilt) {
+  if (quilt.depthiness == 0) quilt.depthiness = 1;
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(quilt.depthiness, kDepthinessMin, kDepthinessMax, "quilt.depthiness"));
+  // Each formula takes the tangent of one angle, which has to stay in front of the eyes.
+  const bool takes_half = quilt.convention != CameraConvention::kBridge;
+  const double widest_rad =
+      takes_half ? quilt.depthiness * quilt.view_cone_rad : 2 * quilt.view_cone_rad;
+  if (widest_rad <= kViewAngleMax_rad) return absl::OkStatus();
+  return invalidField("quilt.depthiness",
+                      absl::StrCat("it widens the cone of ", quilt.view_cone_rad, " rad to ",
+                                   widest_rad, ", accepted is up to ", kViewAngleMax_rad));
+}
+
+}  // namespace
+
+absl::Status complete(QuiltSpec& quilt) {
+  VIEWLOOM_RETURN_IF_ERROR(applyPreset(quilt));
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.columns, kQuiltGridMax, "quilt.columns"));
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.rows, kQuiltGridMax, "quilt.rows"));
+  VIEWLOOM_RETURN_IF_ERROR(checkSize(quilt.size_px, kQuiltSidePxMax, "quilt.size"));
+  if (quilt.size_px.width < quilt.columns) {
+    return invalidField("quilt.size.width",
+                        absl::StrCat("got ", quilt.size_px.width, " px for ", quilt.columns,
+                                     " columns, accepted is 1 px a tile or more"));
+  }
+  if (quilt.size_px.height < quilt.rows) {
+    return invalidField("quilt.size.height",
+                        absl::StrCat("got ", quilt.size_px.height, " px for ", quilt.rows,
+                                     " rows, accepted is 1 px a tile or more"));
+  }
+  if (quilt.aspect != 0) {
+    VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.aspect, kAspectMin, kAspectMax, "quilt.aspect"));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(quilt.view_cone_rad, "quilt.view_cone_rad"));
+  if (quilt.view_cone_rad == 0) quilt.view_cone_rad = kDefaultViewCone_rad;
+  VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(quilt.focal_distance_m, "quilt.focal_distance_m"));
+  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(quilt.fov_y_rad, "quilt.fov_y_rad"));
+  const uint32_t tile_count = quilt.columns * quilt.rows;
+  if (quilt.view_count == 0) quilt.view_count = tile_count;
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.view_count, tile_count, "quilt.view_count"));
+  return completeDepthiness(quilt);
+}
+
+TileGrid tileGrid(const QuiltSpec& quilt) {
+  return {.size_field = "quilt.size",
+          .columns = quilt.columns,
+          .rows = quilt.rows,
+          .tile_size_px = quiltTileSize(quilt),
+          .order = quilt.order,
+          .view_count = quilt.view_count,
+          .width_px = quilt.size_px.width,
+          .height_px = quilt.size_px.height};
 }
 
 double quiltAspect(const QuiltSpec& quilt) {
@@ -17,17 +93,32 @@ double quiltAspect(const QuiltSpec& quilt) {
   return double{1} * tile.width / tile.height;
 }
 
-std::vector<View> quiltViews(const QuiltSpec& quilt, const StreamDefaults& defaults) {
-  const double distance_m = focalDistance(quilt.focal_distance_m, defaults);
-  const FocalWindow window = focalWindow(distance_m, quilt.fov_y_rad, quiltAspect(quilt), defaults);
-  std::vector<View> views;
-  views.reserve(quilt.view_count);
-  for (uint32_t i = 0; i < quilt.view_count; ++i) {
-    const double angle_rad = quilt.view_cone_rad * ((i + 0.5) / quilt.view_count - 0.5);
-    const double eye_x_m = distance_m * std::tan(angle_rad);
-    views.push_back({cameraThroughWindow(window, eye_x_m, quiltTileSize(quilt))});
+double quiltEye(const QuiltSpec& quilt, uint32_t view, double distance_m) {
+  const double count = quilt.view_count;
+  if (quilt.convention == CameraConvention::kWebxr) {
+    const double share = (view + 0.5) / count - 0.5;
+    return distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share);
   }
-  return views;
+  const double share = count > 1 ? view / (count - 1) - 0.5 : 0.0;
+  return quilt.convention == CameraConvention::kCore
+             ? distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share)
+             : distance_m * quilt.depthiness * std::tan(quilt.view_cone_rad) * share;
+}
+
+void describe(const QuiltSpec& quilt, const StreamDefaults& defaults, AtlasLayout& layout) {
+  layout.aspect = quiltAspect(quilt);
+  layout.view_cone_rad = quilt.view_cone_rad;
+  layout.focal_distance_m = focalDistance(quilt.focal_distance_m, defaults);
+  layout.suffix = absl::StrFormat("_qs%ux%ua%g", quilt.columns, quilt.rows, layout.aspect);
+  const FocalWindow window =
+      focalWindow(layout.focal_distance_m, quilt.fov_y_rad, layout.aspect, defaults);
+  const auto eye = [&](uint32_t view) { return quiltEye(quilt, view, layout.focal_distance_m); };
+  for (uint32_t view = 0; view < quilt.view_count; ++view) {
+    layout.views.push_back({cameraThroughWindow(window, {eye(view), 0}, layout.tile_size_px)});
+  }
+  layout.eye_focus_m = layout.focal_distance_m;
+  const uint32_t last = quilt.view_count - 1;
+  if (last > 0) layout.view_pitch_m.x = (eye(last) - eye(0)) / last;
 }
 
 }  // namespace viewloom

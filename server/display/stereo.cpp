@@ -1,19 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/stereo.h"
 
+#include "absl/strings/str_cat.h"
 #include "display/camera_list.h"
+#include "display/field_checks.h"
 #include "display/focal_window.h"
 
 namespace viewloom {
 
-std::vector<View> stereoViews(const StereoSpec& stereo, const StreamDefaults& defaults) {
-  if (!stereo.eyes.empty()) return cameraViews(stereo.eyes, stereo.eye_size_px);
+absl::Status complete(StereoSpec& stereo) {
+  VIEWLOOM_RETURN_IF_ERROR(checkSize(stereo.eye_size_px, kEyeSidePxMax, "stereo.eye_size"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(stereo.eye_distance_m, 0, kEyeDistanceMax_m, "stereo.eye_distance_m"));
+  if (stereo.eye_distance_m == 0) stereo.eye_distance_m = kDefaultEyeDistance_m;
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkOptionalDistance(stereo.focal_distance_m, "stereo.focal_distance_m"));
+  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(stereo.fov_y_rad, "stereo.fov_y_rad"));
+  if (!stereo.eyes.empty() && stereo.eyes.size() != 2) {
+    return invalidField("stereo.eyes",
+                        absl::StrCat("got ", stereo.eyes.size(), ", accepted is none or two"));
+  }
+  return validateCameras(stereo.eyes, "stereo.eyes");
+}
+
+TileGrid tileGrid(const StereoSpec& stereo) {
+  const bool beside = stereo.layout == StereoLayout::kSideBySide;
+  const uint32_t columns = beside ? 2 : 1;
+  const uint32_t rows = beside ? 1 : 2;
+  return {.size_field = "stereo.eye_size",
+          .columns = columns,
+          .rows = rows,
+          .tile_size_px = stereo.eye_size_px,
+          .order = TileOrder::kTopLeft,
+          .view_count = 2,
+          .width_px = uint64_t{columns} * stereo.eye_size_px.width,
+          .height_px = uint64_t{rows} * stereo.eye_size_px.height,
+          .image_count = stereo.layout == StereoLayout::kSeparate ? 2u : 1u};
+}
+
+void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLayout& layout) {
+  layout.focal_distance_m = focalDistance(stereo.focal_distance_m, defaults);
+  layout.eye_focus_m = layout.focal_distance_m;
+  layout.view_pitch_m.x = stereo.eye_distance_m;
+  if (!stereo.eyes.empty()) {
+    layout.views = cameraViews(stereo.eyes, stereo.eye_size_px);
+    return;
+  }
   const double aspect = double{1} * stereo.eye_size_px.width / stereo.eye_size_px.height;
-  const FocalWindow window = focalWindow(focalDistance(stereo.focal_distance_m, defaults),
-                                         stereo.fov_y_rad, aspect, defaults);
-  const double half_m = stereo.eye_distance_m / 2;
-  return {{cameraThroughWindow(window, -half_m, stereo.eye_size_px)},
-          {cameraThroughWindow(window, half_m, stereo.eye_size_px)}};
+  const FocalWindow window =
+      focalWindow(layout.focal_distance_m, stereo.fov_y_rad, aspect, defaults);
+  for (const double side : {-0.5, 0.5}) {
+    layout.views.push_back(
+        {cameraThroughWindow(window, {side * stereo.eye_distance_m, 0}, stereo.eye_size_px)});
+  }
 }
 
 }  // namespace viewloom

@@ -2,14 +2,18 @@
 // Stereo pairs: two off-axis eyes on a line, or two given cameras.
 #pragma once
 
-#include <vector>
-
 #include "display/atlas_layout.h"
+#include "display/tile_grid.h"
 
 namespace viewloom {
 
-// Expects a completed spec. Left, right; without given cameras at -/+ half the eye distance, both
-// framing one rectangle on the focal plane.
-std::vector<View> stereoViews(const StereoSpec& stereo, const StreamDefaults& defaults);
+// Errors name the field as "stereo.eye_size".
+absl::Status complete(StereoSpec& stereo);
+
+// What follows expects a completed spec.
+TileGrid tileGrid(const StereoSpec& stereo);
+// Left, right; without given cameras at -/+ half the eye distance, both framing one rectangle on
+// the focal plane.
+void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLayout& layout);
 
 }  // namespace viewloom

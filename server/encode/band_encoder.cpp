@@ -14,8 +14,12 @@ void checkPlane(std::span<const uint8_t> bytes, size_t row_count, size_t stride_
   VIEWLOOM_CHECK(bytes.size() >= (row_count - 1) * stride_bytes + row_bytes);
 }
 
+bool isColor(AtlasPlane plane) {
+  return plane != AtlasPlane::kDepth && plane != AtlasPlane::kMask;
+}
+
 void checkPlanes(const BandPixels& pixels, const EncodingSpec& encoding) {
-  if (pixels.plane != AtlasPlane::kColor || pixels.form == ColorForm::kRgba) {
+  if (!isColor(pixels.plane) || pixels.form == ColorForm::kRgba) {
     const size_t sample_bytes = pixels.plane == AtlasPlane::kMask ? 1 : 4;
     return checkPlane(pixels.bytes, pixels.row_count, pixels.stride_bytes,
                       sample_bytes * pixels.width_px);
@@ -47,17 +51,17 @@ BandEncoder::~BandEncoder() = default;
 
 EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& encoding,
                                 const AtlasLayout& layout) {
-  checkShape(pixels, encoding, layout.size_px);
-  EncodedBand band = {
-      .plane = pixels.plane,
-      .first_row = pixels.first_row,
-      .row_count = pixels.row_count,
-      .encoding = pixels.plane == AtlasPlane::kColor ? encoding.color : encoding.planes,
-      .bytes = nullptr};
+  checkShape(pixels, encoding, layout.imageSize());
+  EncodedBand band = {.plane = pixels.plane,
+                      .first_row = pixels.first_row,
+                      .row_count = pixels.row_count,
+                      .encoding = isColor(pixels.plane) ? encoding.color : encoding.planes,
+                      .bytes = nullptr};
   switch (band.encoding) {
     case BandEncoding::kJpeg:
-      VIEWLOOM_CHECK(pixels.plane == AtlasPlane::kColor);
-      band.bytes = jpeg_->encode(pixels, encoding, layout.size_px.height);
+    case BandEncoding::kJpegPlanes:
+      VIEWLOOM_CHECK(isColor(pixels.plane));
+      band.bytes = jpeg_->encode(pixels, encoding, layout.imageSize().height);
       break;
     case BandEncoding::kZstd:
       band.bytes = lossless_->encodeZstd(pixels);

@@ -19,7 +19,8 @@ struct BandPixels {
   uint32_t width_px = 0;   // of the atlas
   // Of kColor; JPEG takes its directForm() beside kRgba, lossless encodings take kRgba alone.
   ColorForm form = ColorForm::kRgba;
-  // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored, or uint8_t[row][x] Y; kDepth:
+  // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored, or uint8_t[row][x] Y; kRed, kGreen
+  // and kBlue: as kColor, of which they are one channel, never in another form than kRgba; kDepth:
   // float[row][x] in 1/m; kMask: uint8_t[row][x], a RayClass.
   std::span<const uint8_t> bytes;
   size_t stride_bytes = 0;  // from row to row

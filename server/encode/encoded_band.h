@@ -2,8 +2,10 @@
 // What leaves the encoders: bands, and the atlas they make. Immutable, shared by all who watch.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/byte_pool.h"
@@ -13,7 +15,27 @@
 
 namespace viewloom {
 
-enum class AtlasPlane : uint8_t { kColor, kDepth, kMask };
+// kRed, kGreen and kBlue: channels of colour that are images of their own.
+enum class AtlasPlane : uint8_t { kColor, kRed, kGreen, kBlue, kDepth, kMask };
+
+inline constexpr std::array kColorPlane = {AtlasPlane::kColor};
+inline constexpr std::array kChannelPlanes = {AtlasPlane::kRed, AtlasPlane::kGreen,
+                                              AtlasPlane::kBlue};
+
+// As which planes colour goes out.
+inline std::span<const AtlasPlane> colorPlanes(const EncodingSpec& encoding) {
+  if (encoding.color == BandEncoding::kJpegPlanes) return kChannelPlanes;
+  return kColorPlane;
+}
+
+// All planes of an atlas, in the order of their bands.
+inline std::vector<AtlasPlane> planesOf(const EncodingSpec& encoding) {
+  const std::span<const AtlasPlane> color = colorPlanes(encoding);
+  std::vector<AtlasPlane> planes(color.begin(), color.end());
+  if (encoding.with_depth) planes.push_back(AtlasPlane::kDepth);
+  if (encoding.with_mask) planes.push_back(AtlasPlane::kMask);
+  return planes;
+}
 
 // Values of the mask plane; those of proto RayClass.
 enum class RayClass : uint8_t { kPadding, kHit, kHitAssumed, kHidden, kOutside, kEmpty };

@@ -25,17 +25,27 @@ constexpr size_t kFirstStream_bytes = size_t{64} * 1024;
   failCheck(__FILE__, __LINE__, "libjpeg accepts the band");
 }
 
+bool isChannel(const BandPixels& pixels) {
+  return pixels.plane != AtlasPlane::kColor;
+}
+
+void setColorSpace(jpeg_compress_struct& compressor, const BandPixels& pixels) {
+  const bool is_rgba = pixels.form == ColorForm::kRgba;
+  compressor.input_components = isChannel(pixels) ? 1 : is_rgba ? 4 : 3;
+  compressor.in_color_space = isChannel(pixels) ? JCS_GRAYSCALE
+                              : is_rgba         ? JCS_EXT_RGBX
+                                                : JCS_YCbCr;
+}
+
 void setParameters(jpeg_compress_struct& compressor, const BandPixels& pixels,
                    const EncodingSpec& encoding) {
   compressor.image_width = pixels.width_px;
   compressor.image_height = pixels.row_count;
-  const bool is_rgba = pixels.form == ColorForm::kRgba;
-  compressor.input_components = is_rgba ? 4 : 3;
-  compressor.in_color_space = is_rgba ? JCS_EXT_RGBX : JCS_YCbCr;
+  setColorSpace(compressor, pixels);
   jpeg_set_defaults(&compressor);
-  compressor.raw_data_in = !is_rgba;
+  compressor.raw_data_in = pixels.form != ColorForm::kRgba;
   jpeg_set_quality(&compressor, static_cast<int>(encoding.jpeg_quality), TRUE);
-  const int luma_sampling = encoding.chroma == Chroma::k420 ? 2 : 1;
+  const int luma_sampling = !isChannel(pixels) && encoding.chroma == Chroma::k420 ? 2 : 1;
   compressor.comp_info[0].h_samp_factor = luma_sampling;
   compressor.comp_info[0].v_samp_factor = luma_sampling;
   compressor.restart_in_rows = 1;
@@ -107,6 +117,18 @@ void JpegEncoder::writeRgba(const BandPixels& pixels) {
   }
 }
 
+void JpegEncoder::writeChannel(const BandPixels& pixels) {
+  const auto channel = static_cast<size_t>(pixels.plane) - static_cast<size_t>(AtlasPlane::kRed);
+  channel_row_.resize(pixels.width_px);
+  while (compressor_.next_scanline < compressor_.image_height) {
+    const uint8_t* const rgba =
+        pixels.bytes.data() + compressor_.next_scanline * pixels.stride_bytes;
+    for (size_t x = 0; x < channel_row_.size(); ++x) channel_row_[x] = rgba[4 * x + channel];
+    JSAMPROW row = channel_row_.data();
+    jpeg_write_scanlines(&compressor_, &row, 1);
+  }
+}
+
 // An MCU row at a time, past libjpeg's conversion and downsampling. Below the last row that is
 // there, it goes on.
 void JpegEncoder::writePlanes(const BandPixels& pixels) {
@@ -131,7 +153,9 @@ void JpegEncoder::writePlanes(const BandPixels& pixels) {
 size_t JpegEncoder::compress(const BandPixels& pixels, const EncodingSpec& encoding) {
   setParameters(compressor_, pixels, encoding);
   jpeg_start_compress(&compressor_, TRUE);
-  if (pixels.form == ColorForm::kRgba)
+  if (isChannel(pixels))
+    writeChannel(pixels);
+  else if (pixels.form == ColorForm::kRgba)
     writeRgba(pixels);
   else
     writePlanes(pixels);

@@ -24,7 +24,8 @@ class JpegEncoder {
   JpegEncoder(const JpegEncoder&) = delete;
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
-  // pixels.plane is kColor. Samples that are Y'CbCr already are taken as they are.
+  // pixels.plane is kColor, or a channel of it, which makes a grey JPEG. Samples that are Y'CbCr
+  // already are taken as they are.
   SharedBytes encode(const BandPixels& pixels, const EncodingSpec& encoding,
                      uint32_t image_height_px);
 
@@ -36,6 +37,7 @@ class JpegEncoder {
   static void growStream(Destination& destination);
 
   void writeRgba(const BandPixels& pixels);
+  void writeChannel(const BandPixels& pixels);
   void writePlanes(const BandPixels& pixels);
   // Fills stream_ with the band as a JPEG of its own; returns its length.
   size_t compress(const BandPixels& pixels, const EncodingSpec& encoding);
@@ -46,6 +48,7 @@ class JpegEncoder {
   std::unique_ptr<JpegMemory> memory_;
   Destination destination_;
   std::vector<uint8_t> stream_;  // never shrinks
+  std::vector<uint8_t> channel_row_;
 };
 
 }  // namespace viewloom

@@ -20,8 +20,12 @@ size_t packedSampleBytes(AtlasPlane plane) {
       return sizeof(float);
     case AtlasPlane::kMask:
       return 1;
+    case AtlasPlane::kRed:
+    case AtlasPlane::kGreen:
+    case AtlasPlane::kBlue:
+      break;  // of JPEG alone
   }
-  failCheck(__FILE__, __LINE__, "plane is one of the three");
+  failCheck(__FILE__, __LINE__, "plane is packed without loss");
 }
 
 size_t packedRowBytes(const BandPixels& pixels) {

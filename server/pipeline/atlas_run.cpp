@@ -14,9 +14,9 @@ uint32_t ceilDivide(uint32_t value, uint32_t by) {
 AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   AtlasOutput output;
   output.band_row_count = bandRowCount(display->encoding);
-  output.bands_per_plane = ceilDivide(layout.size_px.height, output.band_row_count);
-  const uint32_t plane_count = 1u + display->encoding.with_depth + display->encoding.with_mask;
-  output.bands.resize(size_t{plane_count} * output.bands_per_plane);
+  output.bands_per_image = ceilDivide(layout.imageSize().height, output.band_row_count);
+  output.bands_per_plane = layout.image_count * output.bands_per_image;
+  output.bands.resize(planesOf(display->encoding).size() * output.bands_per_plane);
   output.display = std::move(display);
   return output;
 }
@@ -25,7 +25,9 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
 
 AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays)
     : job(std::move(atlas_job)), picture(std::move(resolved)) {
-  planes.color = directForm(displays.front()->encoding);
+  // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
+  const bool is_one_image = picture->layout->image_count == 1;
+  planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
   for (ActiveDisplayPtr& display : displays) {
     if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;
     planes.depth |= display->encoding.with_depth;
@@ -37,19 +39,28 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDi
   strips_left_ = stripCount();
 }
 
+uint32_t AtlasRun::stripsPerImage() const {
+  return ceilDivide(picture->layout->imageSize().height, strip_row_count);
+}
+
 uint32_t AtlasRun::stripCount() const {
-  return ceilDivide(picture->layout->size_px.height, strip_row_count);
+  return picture->layout->image_count * stripsPerImage();
+}
+
+uint32_t AtlasRun::firstRow(uint32_t strip) const {
+  return imageOf(strip) * picture->layout->imageSize().height + rowInImage(strip);
 }
 
 uint32_t AtlasRun::rowCount(uint32_t strip) const {
-  return std::min(strip_row_count, picture->layout->size_px.height - firstRow(strip));
+  return std::min(strip_row_count, picture->layout->imageSize().height - rowInImage(strip));
 }
 
 TraceSlotShape AtlasRun::stripShape() const {
   return {.width_px = picture->layout->size_px.width,
           .row_count_max = strip_row_count,
-          .tile_count_max = static_cast<uint32_t>(picture->tilesOf(0).size()),
+          .tile_count_max = static_cast<uint32_t>(picture->tileCount()),
           .walk_count = picture->walk_count,
+          .sample_count = picture->sample_count,
           .outputs = planes};
 }
 

@@ -24,10 +24,11 @@ struct AtlasOutput {
   ActiveDisplayPtr display;
   std::vector<EncodedBand> bands;  // [plane][band], every one written once, by one thread
   uint32_t band_row_count = 0;     // divides the run's
+  uint32_t bands_per_image = 0;
   uint32_t bands_per_plane = 0;
 };
 
-// Traced in strips of band_row_count rows, all displays of the picture at once.
+// Traced in strips of strip_row_count rows, each of one image, all displays of the picture at once.
 // Thread-safety: next_strip is the trace loop's; strips are noted from any thread.
 class AtlasRun {
  public:
@@ -35,7 +36,10 @@ class AtlasRun {
   AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays);
 
   uint32_t stripCount() const;
-  uint32_t firstRow(uint32_t strip) const { return strip * strip_row_count; }
+  uint32_t imageOf(uint32_t strip) const { return strip / stripsPerImage(); }
+  // In its image, and in the atlas.
+  uint32_t rowInImage(uint32_t strip) const { return strip % stripsPerImage() * strip_row_count; }
+  uint32_t firstRow(uint32_t strip) const;
   uint32_t rowCount(uint32_t strip) const;
   TraceSlotShape stripShape() const;
 
@@ -58,6 +62,8 @@ class AtlasRun {
   int64_t tracedNs() const;
 
  private:
+  uint32_t stripsPerImage() const;
+
   std::atomic<uint32_t> strips_left_;
   mutable std::mutex mutex_;
   Coverage coverage_;

@@ -18,15 +18,16 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
 }  // namespace
 
 struct EncodePool::StripPlanes {
-  BandPixels color;
+  uint32_t image = 0;
+  BandPixels color;  // rows counted in its image
   std::span<const float> depth;
   std::span<const uint8_t> mask;
 
   // A plane of the whole strip.
   BandPixels pixels(AtlasPlane plane) const {
-    if (plane == AtlasPlane::kColor) return color;
     BandPixels pixels = color;
     pixels.plane = plane;
+    if (plane != AtlasPlane::kDepth && plane != AtlasPlane::kMask) return pixels;
     pixels.form = ColorForm::kRgba;
     pixels.bytes = plane == AtlasPlane::kDepth ? bytesOf(depth) : mask;
     pixels.stride_bytes = pixels.bytes.size() / pixels.row_count;
@@ -80,8 +81,8 @@ void EncodePool::serve(TracedStrip strip, Worker& worker) {
   run.noteTraced(slot.coverage(), links_.clock.nowNs());
   const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};
   BandPixels color = colorPixels(slot.color(), slot.ycbcr(), size_px, run.planes.color);
-  color.first_row = run.firstRow(strip.strip);
-  encode(run, {color, slot.depth(), slot.mask()}, worker.encoder);
+  color.first_row = run.rowInImage(strip.strip);
+  encode(run, {run.imageOf(strip.strip), color, slot.depth(), slot.mask()}, worker.encoder);
   strip.trace.reset();  // room for the next strip before the atlas goes out
   if (run.noteEncoded()) publisher_.complete(run);
 }
@@ -101,9 +102,11 @@ void EncodePool::serve(SweepPart part, Worker& worker) {
   const auto rowsOfStrip = [&]<typename T>(const std::vector<T>& plane) {
     return plane.empty() ? std::span<const T>() : std::span<const T>(plane).subspan(first, count);
   };
-  const BandPixels color = rowsOf(colorPixels(atlas.color, atlas.ycbcr, size_px, run->planes.color),
-                                  run->firstRow(part.index), run->rowCount(part.index));
-  encode(*run, {color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)}, worker.encoder);
+  BandPixels color = rowsOf(colorPixels(atlas.color, atlas.ycbcr, size_px, run->planes.color),
+                            run->firstRow(part.index), run->rowCount(part.index));
+  color.first_row = run->rowInImage(part.index);
+  encode(*run, {run->imageOf(part.index), color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)},
+         worker.encoder);
   part.sweep.reset();  // room for the next sweep before the atlas goes out
   if (run->noteEncoded()) publisher_.complete(*run);
 }
@@ -116,14 +119,14 @@ void EncodePool::encodeOutput(AtlasRun& run, const StripPlanes& planes, AtlasOut
                               BandEncoder& encoder) {
   const EncodingSpec& encoding = output.display->encoding;
   uint32_t plane_rank = 0;
-  for (const AtlasPlane plane : {AtlasPlane::kColor, AtlasPlane::kDepth, AtlasPlane::kMask}) {
-    if (plane == AtlasPlane::kDepth && !encoding.with_depth) continue;
-    if (plane == AtlasPlane::kMask && !encoding.with_mask) continue;
+  for (const AtlasPlane plane : planesOf(encoding)) {
     const BandPixels pixels = planes.pixels(plane);
     for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
       const BandPixels band = rowsOf(pixels, row, output.band_row_count);
-      const uint32_t index = band.first_row / output.band_row_count;
+      const uint32_t index =
+          planes.image * output.bands_per_image + band.first_row / output.band_row_count;
       EncodedBand packed = encoder.encode(band, encoding, *run.picture->layout);
+      packed.image_index = planes.image;
       links_.metrics.bands_encoded.add();
       links_.metrics.encoded_bytes.add(static_cast<double>(packed.bytes->size()));
       output.bands[plane_rank * output.bands_per_plane + index] = std::move(packed);

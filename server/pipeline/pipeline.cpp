@@ -26,7 +26,18 @@ int64_t rayCount(const StereoSpec& stereo) {
   return 2 * int64_t(stereo.eye_size_px.area());
 }
 int64_t rayCount(const CamerasSpec& cameras) {
-  return int64_t(cameras.cameras.size() * cameras.tile_size_px.area());
+  const size_t count = cameras.grid ? cameras.grid->count() : cameras.cameras.size();
+  return int64_t(count * cameras.tile_size_px.area());
+}
+int64_t rayCount(const LenticularSpec& lenticular) {
+  return 3 * int64_t(lenticular.calibration->screen_px.area());
+}
+int64_t rayCount(const IntegralSpec& integral) {
+  return int64_t(integral.panel_px.area());
+}
+int64_t rayCount(const DisplaySpec& spec) {
+  const int64_t px_count = std::visit([](const auto& kind) { return rayCount(kind); }, spec.kind);
+  return px_count * spec.filter.sample_count;
 }
 
 using OnFailure = std::function<void(const std::exception&)>;
@@ -96,10 +107,9 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   std::set<std::string_view> offered;
   for (const ActiveDisplayPtr& display : displays) {
     if (!offered.insert(display->picture_key).second) continue;
-    const auto due_ns = [](const auto& kind) { return kDueNsPerRay * rayCount(kind); };
     traces.offer({.picture_key = display->picture_key,
                   .structure = resident,
-                  .deadline_ns = now_ns + std::visit(due_ns, display->spec.kind),
+                  .deadline_ns = now_ns + kDueNsPerRay * rayCount(display->spec),
                   .ticket = ticket});
   }
   gpu_wake_up.ring();

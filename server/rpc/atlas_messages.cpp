@@ -25,6 +25,12 @@ v1::AtlasPlane planeToProto(AtlasPlane plane) {
   switch (plane) {
     case AtlasPlane::kColor:
       return v1::ATLAS_PLANE_COLOR;
+    case AtlasPlane::kRed:
+      return v1::ATLAS_PLANE_RED;
+    case AtlasPlane::kGreen:
+      return v1::ATLAS_PLANE_GREEN;
+    case AtlasPlane::kBlue:
+      return v1::ATLAS_PLANE_BLUE;
     case AtlasPlane::kDepth:
       return v1::ATLAS_PLANE_DEPTH;
     case AtlasPlane::kMask:

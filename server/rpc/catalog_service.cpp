@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/catalog_service.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/check.h"
+#include "display/integral.h"
+#include "display/panels.h"
 #include "display/presets.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
@@ -30,11 +33,10 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
 }
 
 // The grid of a preset does not depend on what a stream would give: any source will do.
-AtlasLayout layoutOfPreset(const Preset& preset) {
-  QuiltSpec quilt;
-  quilt.preset = std::string(preset.name);
+template <typename Kind>
+v1::AtlasLayout gridOfPreset(Kind kind) {
   DisplaySpec spec;
-  spec.kind = quilt;
+  spec.kind = std::move(kind);
   const absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(spec);
   VIEWLOOM_CHECK(completed.ok());
   constexpr SizePx kAnySize{.width = 1, .height = 1};
@@ -44,18 +46,45 @@ AtlasLayout layoutOfPreset(const Preset& preset) {
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(*completed, any_source);
   VIEWLOOM_CHECK(layout.ok());
   layout->focal_distance_m = 0;  // from the stream
-  return *std::move(layout);
+  return gridToProto(*layout);
 }
 
-v1::ListPresetsResponse presetsToProto() {
-  v1::ListPresetsResponse proto;
+void addQuiltPresets(v1::ListPresetsResponse& proto) {
   for (const Preset& preset : allPresets()) {
     v1::Preset& entry = *proto.add_presets();
     entry.set_name(std::string(preset.name));
     entry.set_device(std::string(preset.device));
-    *entry.mutable_layout() = gridToProto(layoutOfPreset(preset));
+    *entry.mutable_layout() = gridOfPreset(QuiltSpec{.preset = entry.name()});
     entry.set_note(std::string(preset.note));
+    entry.add_kinds("quilt");
+    const std::optional<Calibration> panel = panelOfPreset(preset.name);
+    if (!panel) continue;
+    entry.add_kinds("lenticular");
+    *entry.mutable_panel_size() = sizeToProto(panel->screen_px);
+    entry.set_panel_dpi(panel->dpi);
   }
+}
+
+void addIntegralPresets(v1::ListPresetsResponse& proto) {
+  constexpr double kMetresPerInch = 0.0254;
+  for (const IntegralPreset& preset : integralPresets()) {
+    v1::Preset& entry = *proto.add_presets();
+    entry.set_name(preset.name);
+    entry.set_device(preset.device);
+    *entry.mutable_layout() = gridOfPreset(IntegralSpec{.preset = preset.name});
+    entry.set_note(preset.note);
+    entry.add_kinds("integral");
+    *entry.mutable_panel_size() = sizeToProto(preset.panel_px);
+    entry.set_panel_dpi(kMetresPerInch / preset.pixel_pitch_m);
+  }
+}
+
+v1::ListPresetsResponse presetsToProto() {
+  v1::ListPresetsResponse proto;
+  addQuiltPresets(proto);
+  addIntegralPresets(proto);
+  std::sort(proto.mutable_presets()->begin(), proto.mutable_presets()->end(),
+            [](const v1::Preset& a, const v1::Preset& b) { return a.name() < b.name(); });
   return proto;
 }
 

@@ -24,7 +24,21 @@ constexpr EnumRow<v1::TileOrder, TileOrder> kCamerasOrders[] = {
 constexpr EnumRow<v1::StereoLayout, StereoLayout> kStereoLayouts[] = {
     {v1::STEREO_LAYOUT_UNSPECIFIED, StereoLayout::kSideBySide},
     {v1::STEREO_LAYOUT_SIDE_BY_SIDE, StereoLayout::kSideBySide},
-    {v1::STEREO_LAYOUT_TOP_BOTTOM, StereoLayout::kTopBottom}};
+    {v1::STEREO_LAYOUT_TOP_BOTTOM, StereoLayout::kTopBottom},
+    {v1::STEREO_LAYOUT_SEPARATE, StereoLayout::kSeparate}};
+
+constexpr EnumRow<v1::CameraConvention, CameraConvention> kConventions[] = {
+    {v1::CAMERA_CONVENTION_UNSPECIFIED, CameraConvention::kWebxr},
+    {v1::CAMERA_CONVENTION_WEBXR, CameraConvention::kWebxr},
+    {v1::CAMERA_CONVENTION_CORE, CameraConvention::kCore},
+    {v1::CAMERA_CONVENTION_BRIDGE, CameraConvention::kBridge}};
+
+constexpr EnumRow<v1::TileArrangement, TileArrangement> kArrangements[] = {
+    {v1::TILE_ARRANGEMENT_UNSPECIFIED, TileArrangement::kGrid},
+    {v1::TILE_ARRANGEMENT_ATLAS, TileArrangement::kGrid},
+    {v1::TILE_ARRANGEMENT_ROW, TileArrangement::kRow},
+    {v1::TILE_ARRANGEMENT_QUAD_2X2, TileArrangement::kQuad},
+    {v1::TILE_ARRANGEMENT_SEPARATE_VIEWS, TileArrangement::kSeparate}};
 
 constexpr EnumRow<v1::OutsideFill, OutsideFill> kOutsideFills[] = {
     {v1::OUTSIDE_FILL_UNSPECIFIED, OutsideFill::kBorder},
@@ -52,6 +66,8 @@ absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
 absl::StatusOr<QuiltSpec> quiltFromProto(const v1::QuiltDisplay& proto) {
   const auto order = enumFromProto(proto.order(), "order", kQuiltOrders);
   VIEWLOOM_RETURN_IF_ERROR(order.status());
+  const auto convention = enumFromProto(proto.convention(), "convention", kConventions);
+  VIEWLOOM_RETURN_IF_ERROR(convention.status());
   return QuiltSpec{.preset = proto.preset(),
                    .columns = proto.columns(),
                    .rows = proto.rows(),
@@ -61,7 +77,9 @@ absl::StatusOr<QuiltSpec> quiltFromProto(const v1::QuiltDisplay& proto) {
                    .focal_distance_m = proto.focal_distance_m(),
                    .fov_y_rad = proto.fov_y_rad(),
                    .order = *order,
-                   .view_count = proto.view_count()};
+                   .view_count = proto.view_count(),
+                   .convention = *convention,
+                   .depthiness = proto.depthiness()};
 }
 
 absl::StatusOr<StereoSpec> stereoFromProto(const v1::StereoDisplay& proto) {
@@ -84,10 +102,44 @@ absl::StatusOr<CamerasSpec> camerasDisplayFromProto(const v1::CamerasDisplay& pr
   VIEWLOOM_RETURN_IF_ERROR(order.status());
   auto cameras = camerasFromProto(proto.cameras(), "cameras");
   VIEWLOOM_RETURN_IF_ERROR(cameras.status());
-  return CamerasSpec{.cameras = *std::move(cameras),
-                     .tile_size_px = sizeFromProto(proto.tile_size()),
-                     .columns = proto.columns(),
-                     .order = *order};
+  const auto arrangement = enumFromProto(proto.arrangement(), "arrangement", kArrangements);
+  VIEWLOOM_RETURN_IF_ERROR(arrangement.status());
+  CamerasSpec spec{.cameras = *std::move(cameras),
+                   .tile_size_px = sizeFromProto(proto.tile_size()),
+                   .columns = proto.columns(),
+                   .order = *order,
+                   .arrangement = *arrangement};
+  if (proto.has_grid()) {
+    spec.grid = CameraGrid{.columns = proto.grid().columns(),
+                           .rows = proto.grid().rows(),
+                           .spacing_m = {proto.grid().spacing_x_m(), proto.grid().spacing_y_m()},
+                           .focal_distance_m = proto.grid().focal_distance_m(),
+                           .fov_y_rad = proto.grid().fov_y_rad()};
+  }
+  return spec;
+}
+
+absl::StatusOr<LenticularSpec> lenticularFromProto(const v1::LenticularDisplay& proto) {
+  return LenticularSpec{.preset = proto.preset(),
+                        .calibration_json = proto.calibration_json(),
+                        .view_count = proto.view_count(),
+                        .view_cone_rad = proto.view_cone_rad(),
+                        .focal_distance_m = proto.focal_distance_m(),
+                        .fov_y_rad = proto.fov_y_rad()};
+}
+
+absl::StatusOr<IntegralSpec> integralFromProto(const v1::IntegralDisplay& proto) {
+  return IntegralSpec{.preset = proto.preset(),
+                      .panel_px = sizeFromProto(proto.panel_size()),
+                      .pixel_pitch_m = proto.pixel_pitch_m(),
+                      .lens_pitch_m = proto.lens_pitch_m(),
+                      .focal_length_m = proto.focal_length_m(),
+                      .lens_columns = proto.lens_columns(),
+                      .lens_rows = proto.lens_rows(),
+                      .offset_px = {proto.offset_x_px(), proto.offset_y_px()},
+                      .is_flipped = proto.flipped(),
+                      .scale = proto.scale(),
+                      .distance_m = proto.distance_m()};
 }
 
 // One of the converters above, its errors seen from the display.
@@ -107,15 +159,15 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
     case v1::Display::kCameras:
       return assignKind(camerasDisplayFromProto(proto.cameras()), "cameras", spec);
     case v1::Display::kLenticular:
-      return notServedYet("lenticular");
+      return assignKind(lenticularFromProto(proto.lenticular()), "lenticular", spec);
     case v1::Display::kIntegral:
-      return notServedYet("integral");
+      return assignKind(integralFromProto(proto.integral()), "integral", spec);
     case v1::Display::kRgbd:
       return notServedYet("rgbd");
     case v1::Display::KIND_NOT_SET:
       break;
   }
-  return invalidField("kind", "got none; accepted: quilt, stereo or cameras");
+  return invalidField("kind", "got none; accepted: quilt, stereo, cameras, lenticular or integral");
 }
 
 absl::Status refuseEffects(const v1::Effects& effects) {
@@ -131,6 +183,8 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   DisplaySpec spec;
   VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
   VIEWLOOM_RETURN_IF_ERROR(refuseEffects(proto.effects()));
+  if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();
+  if (proto.filter().width() != 0) spec.filter.width = proto.filter().width();
   if (proto.has_world_pose()) {
     const auto pose = poseFromProto(proto.world_pose(), "world_pose");
     VIEWLOOM_RETURN_IF_ERROR(pose.status());

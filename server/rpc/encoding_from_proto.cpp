@@ -9,12 +9,14 @@ namespace {
 constexpr EnumRow<v1::BandEncoding, BandEncoding> kColorEncodings[] = {
     {v1::BAND_ENCODING_UNSPECIFIED, BandEncoding::kJpeg},
     {v1::BAND_ENCODING_JPEG, BandEncoding::kJpeg},
+    {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
     {v1::BAND_ENCODING_RAW, BandEncoding::kRaw}};
 
 constexpr EnumRow<v1::BandEncoding, BandEncoding> kPlaneEncodings[] = {
     {v1::BAND_ENCODING_UNSPECIFIED, BandEncoding::kZstd},
     {v1::BAND_ENCODING_JPEG, BandEncoding::kJpeg},
+    {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
     {v1::BAND_ENCODING_RAW, BandEncoding::kRaw}};
 
@@ -25,7 +27,8 @@ constexpr EnumRow<v1::ChromaSubsampling, Chroma> kChromas[] = {
 
 }  // namespace
 
-absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto) {
+absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
+                                               const DisplaySpec& display) {
   EncodingSpec encoding;
   const auto color = enumFromProto(proto.color(), "color", kColorEncodings);
   VIEWLOOM_RETURN_IF_ERROR(color.status());
@@ -35,11 +38,16 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto) {
   VIEWLOOM_RETURN_IF_ERROR(planes.status());
   encoding.color = *color;
   encoding.chroma = *chroma;
+  if (std::holds_alternative<LenticularSpec>(display.kind)) {
+    if (proto.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.color = BandEncoding::kJpegPlanes;
+    if (proto.chroma() == v1::CHROMA_SUBSAMPLING_UNSPECIFIED) encoding.chroma = Chroma::k444;
+  }
   encoding.planes = *planes;
   if (proto.jpeg_quality() != 0) encoding.jpeg_quality = proto.jpeg_quality();
   encoding.with_depth = proto.with_depth();
   encoding.with_mask = proto.with_mask();
   VIEWLOOM_RETURN_IF_ERROR(validateEncodingSpec(encoding));
+  VIEWLOOM_RETURN_IF_ERROR(validateEncodingOf(display, encoding));
   return encoding;
 }
 

@@ -4,11 +4,12 @@
 
 #include "base/status.h"
 #include "display/display_spec.h"
-#include "viewloom/v1/display.pb.h"
+#include "viewloom/v1/atlas.pb.h"
 
 namespace viewloom {
 
 // Errors name the field as in proto AtlasEncoding.
-absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto);
+absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
+                                               const DisplaySpec& display);
 
 }  // namespace viewloom

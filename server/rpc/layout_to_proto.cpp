@@ -8,6 +8,8 @@ namespace viewloom {
 
 v1::BandEncoding bandEncodingToProto(BandEncoding encoding) {
   switch (encoding) {
+    case BandEncoding::kJpegPlanes:
+      return v1::BAND_ENCODING_JPEG_PLANES;
     case BandEncoding::kJpeg:
       return v1::BAND_ENCODING_JPEG;
     case BandEncoding::kZstd:
@@ -46,6 +48,7 @@ v1::AtlasLayout gridToProto(const AtlasLayout& layout) {
   proto.set_view_cone_rad(layout.view_cone_rad);
   proto.set_focal_distance_m(layout.focal_distance_m);
   proto.set_suffix(layout.suffix);
+  proto.set_image_count(layout.image_count);
   return proto;
 }
 

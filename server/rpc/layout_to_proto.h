@@ -4,7 +4,7 @@
 
 #include "display/atlas_layout.h"
 #include "display/display_spec.h"
-#include "viewloom/v1/display.pb.h"
+#include "viewloom/v1/atlas.pb.h"
 
 namespace viewloom {
 

@@ -4,7 +4,7 @@
 
 #include "frame/frame_sink.h"
 #include "frame/stage_times.h"
-#include "viewloom/v1/display.pb.h"
+#include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {

@@ -74,7 +74,8 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
 absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(request.stream(), "open.stream"));
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "open"));
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setEncoding(request.encoding()), "open"));
+  encoding_proto_ = request.encoding();
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "open"));
   if (!request.wait_for_stream() && !parts_.directory.exists(request.stream())) {
     return noSuchStream(request.stream(), parts_.directory);
   }
@@ -91,9 +92,8 @@ absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
   if (request.has_display()) {
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "change"));
   }
-  if (request.has_encoding()) {
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setEncoding(request.encoding()), "change"));
-  }
+  if (request.has_encoding()) encoding_proto_ = request.encoding();
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "change"));
   return takeSeat("change.display");
 }
 
@@ -105,8 +105,9 @@ absl::Status WatchCall::setDisplay(const v1::Display& proto) {
   return withFieldPrefix(status, "display");
 }
 
-absl::Status WatchCall::setEncoding(const v1::AtlasEncoding& proto) {
-  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(proto);
+// What is left open depends on the display.
+absl::Status WatchCall::settleEncoding() {
+  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(encoding_proto_, spec_);
   if (encoding.ok()) encoding_ = *encoding;
   return withFieldPrefix(encoding.status(), "encoding");
 }

@@ -37,7 +37,7 @@ class WatchCall final : public BidiCall {
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);
   absl::Status setDisplay(const v1::Display& proto);
-  absl::Status setEncoding(const v1::AtlasEncoding& proto);
+  absl::Status settleEncoding();
   absl::Status takeSeat(const std::string& field);
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
@@ -51,6 +51,7 @@ class WatchCall final : public BidiCall {
   // Of the reads.
   std::string stream_;  // empty before the call was opened
   DisplaySpec spec_;
+  v1::AtlasEncoding encoding_proto_;  // as it was asked for
   EncodingSpec encoding_;
 
   // Under mutex_.

@@ -38,7 +38,7 @@ SweepView sweepView(const abi::ViewParams& tile) {
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
-  if (job.walk_count != 1) return std::nullopt;
+  if (job.walk_count != 1 || job.hasEyesBeside()) return std::nullopt;
   const SizePx tile_px = job.layout->tile_size_px;
   const bool is_swept = std::all_of(job.tiles.begin(), job.tiles.end(), [&](const auto& tile) {
     return tile.is_used == 0 || canSweep(tile, tile_px, inv_z_max);
@@ -47,23 +47,38 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
   SweepPlan plan;
   plan.tile_height_ = tile_px.height;
   plan.color_reach_ = viewloom::colorReach(job.tiles, tile_px);
-  for (uint32_t index = 0; index < job.tiles.size(); ++index) {
-    const abi::ViewParams& tile = job.tiles[index];
-    plan.views_.push_back(tile.is_used == 0 ? SweepView{} : sweepView(tile));
-    if (tile.is_used != 0) plan.addTile(index, tile);
+  for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
+    plan.groups_.emplace_back();
+    plan.views_.emplace_back();
+    const std::span<const abi::ViewParams> tiles = job.tilesOf(0, sample);
+    for (uint32_t index = 0; index < tiles.size(); ++index) {
+      const abi::ViewParams& tile = tiles[index];
+      plan.views_.back().push_back(tile.is_used == 0 ? SweepView{} : sweepView(tile));
+      if (tile.is_used != 0) plan.addTile(index, tile);
+    }
   }
+  plan.group_count_ = uint32_t(plan.groups_.front().size());
+  // What rounds to other groups from sample to sample cannot be added up row by row.
+  const auto isAlike = [&](const std::vector<SweptTiles>& groups) {
+    return std::equal(groups.begin(), groups.end(), plan.groups_.front().begin(),
+                      plan.groups_.front().end(),
+                      [](const SweptTiles& a, const SweptTiles& b) { return a.tiles == b.tiles; });
+  };
+  if (!std::all_of(plan.groups_.begin(), plan.groups_.end(), isAlike)) return std::nullopt;
   return plan;
 }
 
+// To the last of the samples.
 void SweepPlan::addTile(uint32_t index, const abi::ViewParams& tile) {
+  std::vector<SweptTiles>& groups = groups_.back();
   const double z = double{tile.direction.z};
   const double step_px = double{tile.direction_dy.y} / z;
   const double first_px = double{tile.direction.y} / z + 0.5 * step_px;
-  auto group = std::find_if(groups_.begin(), groups_.end(), [&](const SweptTiles& known) {
+  auto group = std::find_if(groups.begin(), groups.end(), [&](const SweptTiles& known) {
     return known.first_px == first_px && known.step_px == step_px;
   });
-  if (group == groups_.end()) {
-    group = groups_.insert(
+  if (group == groups.end()) {
+    group = groups.insert(
         group, {.first_px = first_px, .step_px = step_px, .tolerance = tile.inv_z_tolerance});
   }
   group->tolerance = std::min(group->tolerance, tile.inv_z_tolerance);

@@ -31,25 +31,30 @@ class SweepPlan {
   // The form in which whole rows can be coloured: that one, if all views look along the same rows,
   // else kRgba.
   ColorForm colorForm(ColorForm wanted) const {
-    return groups_.size() == 1 ? wanted : ColorForm::kRgba;
+    return group_count_ == 1 ? wanted : ColorForm::kRgba;
   }
 
   // How far colour is averaged.
   const ColorReach& colorReach() const { return color_reach_; }
 
-  // Tile row r of group g is row g * height + r of the plan.
-  uint32_t rowCount() const { return uint32_t(groups_.size()) * tile_height_; }
+  // Tile row r of group g is row g * height + r of the plan; every sample of a px has the same
+  // tiles in it.
+  uint32_t rowCount() const { return group_count_ * tile_height_; }
+  uint32_t sampleCount() const { return uint32_t(groups_.size()); }
   uint32_t tileRow(uint32_t row) const { return row % tile_height_; }
-  const SweptTiles& groupOf(uint32_t row) const { return groups_[row / tile_height_]; }
-  const SweepView& viewOf(uint32_t tile) const { return views_[tile]; }
+  const SweptTiles& groupOf(uint32_t row, uint32_t sample = 0) const {
+    return groups_[sample][row / tile_height_];
+  }
+  const SweepView& viewOf(uint32_t tile, uint32_t sample = 0) const { return views_[sample][tile]; }
 
  private:
   void addTile(uint32_t index, const abi::ViewParams& tile);
 
   uint32_t tile_height_ = 1;
+  uint32_t group_count_ = 0;
   ColorReach color_reach_;
-  std::vector<SweptTiles> groups_;
-  std::vector<SweepView> views_;  // [tile]
+  std::vector<std::vector<SweptTiles>> groups_;  // [sample][group]
+  std::vector<std::vector<SweepView>> views_;    // [sample][tile]
 };
 
 }  // namespace viewloom

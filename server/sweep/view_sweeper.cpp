@@ -70,9 +70,41 @@ struct ViewSweeper::Piece {
 template <typename Takes, typename RowOf>
 void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf) {
   const SweepPlan& plan = *piece.picture.plan;
+  if (plan.sampleCount() == 1) return sweepSample(piece, index, 0, takes, rowOf);
+  const std::vector<uint32_t>& tiles = plan.groupOf(index).tiles;
+  const uint32_t width_px = piece.picture.job->layout->tile_size_px.width;
+  sums_.begin(uint32_t(tiles.size()), width_px);
+  sampled_.resize(tiles.size() * width_px);
+  const auto sampledRow = [&](uint32_t tile, uint32_t) {
+    const auto rank = std::lower_bound(tiles.begin(), tiles.end(), tile) - tiles.begin();
+    return sampled_.data() + size_t(rank) * width_px;
+  };
+  for (uint32_t sample = 0; sample < plan.sampleCount(); ++sample) {
+    sweepSample(piece, index, sample, takes, sampledRow);
+    for (uint32_t rank = 0; rank < tiles.size(); ++rank) {
+      if (takes(tiles[rank])) sums_.add(rank, sampledRow(tiles[rank], 0));
+    }
+  }
+  for (uint32_t rank = 0; rank < tiles.size(); ++rank) {
+    if (!takes(tiles[rank])) continue;
+    uint32_t* const rgba = rowOf(tiles[rank], plan.tileRow(index));
+    sums_.mean(rank, plan.sampleCount(), rgba);
+    if (!piece.outputs.linear) continue;
+    const size_t first = firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index));
+    for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
+      piece.atlas.linear[4 * first + i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
+    }
+  }
+}
+
+// The same of one of the samples of each px. What else than colour is wanted is that of the first.
+template <typename Takes, typename RowOf>
+void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, const Takes& takes,
+                              const RowOf& rowOf) {
+  const SweepPlan& plan = *piece.picture.plan;
   const TraceJob& job = *piece.picture.job;
   const uint32_t width_px = job.layout->tile_size_px.width;
-  const SweptTiles& group = plan.groupOf(index);
+  const SweptTiles& group = plan.groupOf(index, sample);
   const uint32_t tile_row = plan.tileRow(index);
   const double y_px = group.first_px + group.step_px * tile_row;
   SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance, group.px_per_inv_z);
@@ -82,7 +114,7 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
       std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   for (const uint32_t tile : group.tiles) {
     if (!takes(tile)) continue;
-    const SweepView& view = plan.viewOf(tile);
+    const SweepView& view = plan.viewOf(tile, sample);
     row.cleanMixedTexels(std::min(std::abs(view.eye_px_m) * inv_z_near, 1.0F));
     paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
     uint32_t* const rgba = rowOf(tile, tile_row);
@@ -90,7 +122,7 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
              rgba);
     findEdgeBlends(row, view, width_px, row_);
     applyEdgeBlends(row_.blends, rgba);
-    if (piece.outputs.wantsOnlyColor()) continue;
+    if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;
     describeSwept({.row = row,
                    .view = view,
                    .fill = piece.fill,

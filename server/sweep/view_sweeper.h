@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/worker_pool.h"
+#include "sweep/light_sums.h"
 #include "sweep/surface_row_builder.h"
 #include "sweep/sweep_plan.h"
 #include "sweep/ycbcr_rows.h"
@@ -48,10 +49,15 @@ class ViewSweeper {
 
   template <typename Takes, typename RowOf>
   void sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf);
+  template <typename Takes, typename RowOf>
+  void sweepSample(Piece& piece, uint32_t index, uint32_t sample, const Takes& takes,
+                   const RowOf& rowOf);
 
   SurfaceRowBuilder builder_;
   SweptRow row_;
   YcbcrRows ycbcr_rows_;
+  LightSums sums_;  // of px with several samples
+  std::vector<uint32_t> sampled_;
 };
 
 // The whole atlas by all workers; `sweepers`: one each, kept from atlas to atlas.

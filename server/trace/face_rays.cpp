@@ -35,11 +35,12 @@ bool mayEnter(const abi::ViewParams& tile, SizePx tile_px, SizePx size_px, float
 
 }  // namespace
 
-bool raysMayEnterFace(std::span<const abi::ViewParams> tiles, SizePx tile_px, SizePx size_px,
-                      double inv_z_max) {
+bool raysMayEnterFace(const TileRays& rays, SizePx size_px, double inv_z_max) {
   const float inv_z_near = std::max(float(inv_z_max), abi::kInvZNearMin) * abi::kInvZNearMargin;
-  return std::any_of(tiles.begin(), tiles.end(), [&](const abi::ViewParams& tile) {
-    return tile.is_used != 0 && mayEnter(tile, tile_px, size_px, inv_z_near);
+  // Rays from eyes between two that do not enter may do so.
+  if (rays.are_bounds) return true;
+  return std::any_of(rays.tiles.begin(), rays.tiles.end(), [&](const abi::ViewParams& tile) {
+    return tile.is_used != 0 && mayEnter(tile, rays.tile_px, size_px, inv_z_near);
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "display/ray_extent.h"
 #include "frame/cube_map.h"
 
 namespace viewloom {
@@ -53,18 +54,76 @@ bool isPlainTile(const abi::ViewParams& tile, SizePx tile_px, float inv_z_near) 
   return true;
 }
 
-// What all views see of one structure.
-void addTiles(TraceJob& job, const Pose& display_pose, const Camera& camera, SizePx size_px) {
+// A structure that views look at.
+struct SeenWalk {
+  Camera camera;
+  SizePx size_px;
+};
+
+// What all views see of it, each px from where the sample has it.
+void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
+              const RaySample& sample) {
   const AtlasLayout& layout = *job.layout;
   for (uint32_t row = 0; row < layout.rows; ++row) {
     for (uint32_t column = 0; column < layout.columns; ++column) {
       const uint32_t view = layout.viewAt(column, row);
+      if (view >= layout.views.size()) {
+        job.tiles.push_back(abi::ViewParams{});
+        continue;
+      }
+      const View sampled{sampledCamera(layout.views[view].camera, sample, layout.eye_focus_m)};
       job.tiles.push_back(
-          view < layout.views.size()
-              ? makeViewParams(layout.views[view], display_pose, camera, size_px, job.tolerance_px)
-              : abi::ViewParams{});
+          makeViewParams(sampled, display_pose, seen.camera, seen.size_px, job.tolerance_px));
     }
   }
+}
+
+abi::EyeAxes makeEyeAxes(const TraceJob& job, const Pose& display_pose, const Camera& camera) {
+  const Pose source_from_view =
+      compose(inverse(camera.pose), compose(display_pose, job.layout->views.front().camera.pose));
+  const auto axis = [&](double x, double y) {
+    return abi::vec3(
+        homogeneousPx(camera.intrinsics, source_from_view.orientation * glm::dvec3(x, y, 0)));
+  };
+  return {.right = axis(1, 0), .up = axis(0, 1), .inv_focus = float(1 / job.layout->eye_focus_m)};
+}
+
+// The tolerance of every tile is what the outermost eye asks for.
+void addBounds(TraceJob& job, const Pose& display_pose, const SeenWalk& seen) {
+  const RayExtent extent = rayExtent(*job.layout);
+  RayBounds bounds{.eye_axes = makeEyeAxes(job, display_pose, seen.camera),
+                   .extent = {},
+                   .extent_px = extent.size_px};
+  float tolerance = float(kInvZToleranceMax);
+  for (const Camera& corner : extent.corners) {
+    bounds.extent.push_back(
+        makeViewParams({corner}, display_pose, seen.camera, seen.size_px, job.tolerance_px));
+    tolerance = std::min(tolerance, bounds.extent.back().inv_z_tolerance);
+  }
+  const auto walk = uint32_t(job.bounds.size());
+  const size_t count = job.tileCount();
+  for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
+    abi::ViewParams* const tiles = &job.tiles[(size_t{sample} * job.walk_count + walk) * count];
+    for (size_t i = 0; i < count; ++i) tiles[i].inv_z_tolerance = tolerance;
+  }
+  job.bounds.push_back(std::move(bounds));
+}
+
+std::vector<SeenWalk> seenWalks(std::span<const SeenSource> sources) {
+  std::vector<SeenWalk> walks;
+  for (const SeenSource& source : sources) {
+    if (!source.is_cube_map) {
+      walks.push_back({source.camera, source.size_px});
+      continue;
+    }
+    const uint32_t side_px = source.size_px.width;
+    const uint32_t whole_px = side_px + 2 * abi::kCubeApron_px;
+    for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
+      walks.push_back({cubeFaceCamera(source.camera.pose, face, side_px, abi::kCubeApron_px),
+                       {whole_px, whole_px}});
+    }
+  }
+  return walks;
 }
 
 }  // namespace
@@ -74,6 +133,11 @@ SeenSource seenSource(const SourceFormat& source) {
   return {.camera = source.camera,
           .size_px = source.is_cube_map ? cubeFaceSize(plane_px) : plane_px,
           .is_cube_map = source.is_cube_map};
+}
+
+TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
+  if (!job.hasEyesBeside()) return {job.tilesOf(walk, sample), job.layout->tile_size_px};
+  return {job.bounds[walk].extent, job.bounds[walk].extent_px, true};
 }
 
 bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max) {
@@ -143,21 +207,17 @@ void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSo
     job.sources.push_back({.first_walk = job.walk_count, .walk_count = walk_count});
     job.walk_count += walk_count;
   }
+  const AtlasLayout& layout = *job.layout;
+  const std::vector<SeenWalk> walks = seenWalks(sources);
+  job.sample_count = uint32_t(layout.samples.size());
   job.tiles.clear();
-  job.tiles.reserve(size_t{job.walk_count} * job.layout->columns * job.layout->rows);
-  for (const SeenSource& source : sources) {
-    if (!source.is_cube_map) {
-      addTiles(job, display_pose, source.camera, source.size_px);
-      continue;
-    }
-    const uint32_t side_px = source.size_px.width;
-    const uint32_t whole_px = side_px + 2 * abi::kCubeApron_px;
-    for (uint32_t face = 0; face < kCubeFaceCount; ++face) {
-      addTiles(job, display_pose,
-               cubeFaceCamera(source.camera.pose, face, side_px, abi::kCubeApron_px),
-               {whole_px, whole_px});
-    }
+  job.tiles.reserve(size_t{job.sample_count} * job.walk_count * layout.columns * layout.rows);
+  for (const RaySample& sample : layout.samples) {
+    for (const SeenWalk& walk : walks) addTiles(job, display_pose, walk, sample);
   }
+  job.bounds.clear();
+  if (std::holds_alternative<PinholeRays>(layout.rays)) return;
+  for (const SeenWalk& walk : walks) addBounds(job, display_pose, walk);
 }
 
 }  // namespace viewloom

@@ -52,22 +52,43 @@ struct JobSource {
   bool isCubeMap() const { return walk_count > 1; }
 };
 
+// Of rays from many eyes, how one structure sees them.
+struct RayBounds {
+  abi::EyeAxes eye_axes;
+  // Tiles of extent_px whose rays enclose them.
+  std::vector<abi::ViewParams> extent;
+  SizePx extent_px;
+};
+
 struct TraceJob {
   std::shared_ptr<const AtlasLayout> layout;
   double tolerance_px = 0;
   // Row-major from the top left; is_used = 0 where no view stands. The same for each walk, one
-  // after the other.
+  // after the other, and all that for each sample of a px.
   std::vector<abi::ViewParams> tiles;
-  uint32_t walk_count = 1;  // structures that rays are walked in
+  uint32_t walk_count = 1;    // structures that rays are walked in
+  uint32_t sample_count = 1;  // rays of a px
+  // Of displays whose rays do not all come from their view's eye, [walk]; else empty.
+  std::vector<RayBounds> bounds;
   std::vector<JobSource> sources;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
 
-  std::span<const abi::ViewParams> tilesOf(uint32_t walk) const {
-    const size_t count = tiles.size() / walk_count;
-    return {tiles.data() + walk * count, count};
+  std::span<const abi::ViewParams> tilesOf(uint32_t walk, uint32_t sample = 0) const {
+    const size_t count = tileCount();
+    return {tiles.data() + (size_t{sample} * walk_count + walk) * count, count};
   }
+  size_t tileCount() const { return tiles.size() / (size_t{sample_count} * walk_count); }
+  bool hasEyesBeside() const { return !bounds.empty(); }
 };
+
+// The tiles that tell of all rays of a walk: their own, or those that enclose them.
+struct TileRays {
+  std::span<const abi::ViewParams> tiles;
+  SizePx tile_px;
+  bool are_bounds = false;
+};
+TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample);
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, std::span<const SeenSource> sources);

@@ -43,7 +43,7 @@ uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
 bool TraceSlotShape::holds(const TraceSlotShape& other) const {
   return width_px >= other.width_px && row_count_max >= other.row_count_max &&
          tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
-         outputs == other.outputs;
+         sample_count >= other.sample_count && outputs == other.outputs;
 }
 
 AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
@@ -53,11 +53,13 @@ AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk
   return {.row_count = uint32_t(rows), .stride = uint32_t(steps * kAnswersStep)};
 }
 
-uint64_t TraceSlot::tilesOffset(uint32_t walk, uint32_t walk_count, size_t tile_count) {
+static_assert(sizeof(abi::TraceExtras) <= kDescriptorAlignment_bytes);
+
+uint64_t TraceSlot::tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count) {
   const uint64_t tiles_bytes = tile_count * sizeof(abi::ViewParams);
   const uint64_t stride = (tiles_bytes + kDescriptorAlignment_bytes - 1) /
                           kDescriptorAlignment_bytes * kDescriptorAlignment_bytes;
-  return extrasOffset(walk_count) + walk * stride;
+  return extrasOffset(part_count) + part * stride;
 }
 
 ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
@@ -88,8 +90,8 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   records_ =
       planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
-  const uint64_t params_bytes =
-      tilesOffset(shape.walk_count, shape.walk_count, shape.tile_count_max);
+  const uint32_t part_count = shape.sample_count * shape.walk_count;
+  const uint64_t params_bytes = tilesOffset(part_count, part_count, shape.tile_count_max);
   upload_ = Buffer(
       device,
       {.size_bytes = params_bytes, .intent = MemoryIntent::kUpload, .debug_name = "trace upload"});
@@ -98,6 +100,10 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
     answers_ =
         Buffer(device, {.size_bytes = answersBytes(shape), .debug_name = "answers of sources"});
   }
+  if (shape.sample_count > 1) {
+    sample_ = Buffer(device, {.size_bytes = area_px * sizeof(uint32_t), .debug_name = "sample"});
+    sums_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::vec3), .debug_name = "sums"});
+  }
 }
 
 uint64_t TraceSlot::sizeBytes() const {
@@ -105,7 +111,8 @@ uint64_t TraceSlot::sizeBytes() const {
   for (const ReadablePlane* plane : {&color_, &depth_, &mask_, &linear_, &records_, &counters_}) {
     total_bytes += plane->bytes().size();
   }
-  return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes();
+  return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
+         sample_.sizeBytes() + sums_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {

@@ -18,6 +18,7 @@ struct TraceSlotShape {
   uint32_t row_count_max = 0;
   uint32_t tile_count_max = 0;
   uint32_t walk_count = 1;
+  uint32_t sample_count = 1;
   TraceOutputs outputs;
 
   // Whether a slot of this shape can hold a band of that one.
@@ -85,9 +86,14 @@ class TraceSlot {
   const Buffer& rgba() const {
     return shape_.outputs.color == ColorForm::kRgba ? color_.target() : unpacked_;
   }
-  // Of each walk in the parameters: its abi::TraceExtras, and after all of those its tiles.
-  static uint64_t extrasOffset(uint32_t walk) { return walk * kDescriptorAlignment_bytes; }
-  static uint64_t tilesOffset(uint32_t walk, uint32_t walk_count, size_t tile_count);
+  // Where walks store colour of one sample of several.
+  const Buffer& sampleTarget(const TraceJob& job) const {
+    return job.sample_count == 1 ? rgba() : sample_;
+  }
+  // Of each walk of each sample in the parameters: its abi::TraceExtras, and after all of those its
+  // tiles. `part`: counts through the walks of the first sample, then of the next.
+  static uint64_t extrasOffset(uint32_t part) { return part * kDescriptorAlignment_bytes; }
+  static uint64_t tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count);
 
   TraceSlotShape shape_;
   SizePx band_px_;  // of the band in it
@@ -101,6 +107,8 @@ class TraceSlot {
   Buffer upload_;   // parameters
   Buffer params_;   // the same, on the device
   Buffer answers_;  // abi::RayAnswer, of several walks
+  Buffer sample_;   // RGBA of one of several samples
+  Buffer sums_;     // light of those before it
 };
 
 }  // namespace viewloom

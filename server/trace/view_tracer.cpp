@@ -8,6 +8,7 @@
 #include "gpu/barrier.h"
 #include "shaders/walk_views.h"
 #include "trace/band_params.h"
+#include "trace/ray_sources.h"
 
 namespace viewloom {
 namespace {
@@ -54,7 +55,7 @@ uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
 
 bool hasUnusedPixels(const TraceJob& job) {
   const AtlasLayout& layout = *job.layout;
-  return layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
+  return job.hasEyesBeside() || layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
          layout.views.size() < size_t{layout.columns} * layout.rows;
 }
 
@@ -70,7 +71,7 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 }  // namespace
 
 ViewTracer::ViewTracer(const Device& device)
-    : device_(&device), averager_(device), packer_(device) {}
+    : device_(&device), averager_(device), packer_(device), blender_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -93,7 +94,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.rays_are_plain,
                                   variant.eyes_in_plane,
                                   variant.is_one_of_several,
-                                  variant.is_cube_face};
+                                  variant.is_cube_face,
+                                  variant.rays};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -104,7 +106,9 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
   return *made;
 }
 
-abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, const TraceSlot& slot) {
+abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, const TraceJob& job,
+                                            uint32_t part, const TraceSlot& slot) {
+  const uint32_t walk = part % job.walk_count;
   abi::TraceExtras extras{
       .depth = addressOf(slot.depth_),
       .mask = addressOf(slot.mask_),
@@ -114,7 +118,10 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .color_size_px = {},
       .color_stride = structure.colorStride(),
       .focal_px = abi::vec2(structure.sourceCamera().intrinsics.focal_px),
-      .principal_px = abi::vec2(structure.sourceCamera().intrinsics.principal_px)};
+      .principal_px = abi::vec2(structure.sourceCamera().intrinsics.principal_px),
+      .eye_axes = job.hasEyesBeside() ? job.bounds[walk].eye_axes : abi::EyeAxes{},
+      .microlenses = microlensesOf(*job.layout),
+      .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count)};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
   }
@@ -124,27 +131,31 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
 void ViewTracer::fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
                             TraceSlot& slot) {
   std::byte* const to = slot.upload_.mapped().data();
-  for (uint32_t walk = 0; walk < structures.size(); ++walk) {
-    const abi::TraceExtras extras = describeExtras(*structures[walk], slot);
-    const std::span<const abi::ViewParams> tiles = job.tilesOf(walk);
-    std::memcpy(to + TraceSlot::extrasOffset(walk), &extras, sizeof extras);
-    std::memcpy(to + TraceSlot::tilesOffset(walk, job.walk_count, tiles.size()), tiles.data(),
+  const uint32_t part_count = job.sample_count * job.walk_count;
+  for (uint32_t part = 0; part < part_count; ++part) {
+    const uint32_t walk = part % job.walk_count;
+    const abi::TraceExtras extras = describeExtras(*structures[walk], job, part, slot);
+    const std::span<const abi::ViewParams> tiles = job.tilesOf(walk, part / job.walk_count);
+    std::memcpy(to + TraceSlot::extrasOffset(part), &extras, sizeof extras);
+    std::memcpy(to + TraceSlot::tilesOffset(part, part_count, tiles.size()), tiles.data(),
                 tiles.size_bytes());
   }
 }
 
 std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t walk,
-                                                   const TraceSlot& slot) {
-  const std::span<const abi::ViewParams> tiles = job.tilesOf(walk);
+                                                   uint32_t sample, const TraceSlot& slot) {
+  const std::span<const abi::ViewParams> tiles = job.tilesOf(walk, sample);
+  const uint32_t part = sample * job.walk_count + walk;
+  const uint32_t part_count = job.sample_count * job.walk_count;
   return {{.binding = abi::kBindingViews,
            .kind = DescriptorKind::kStorage,
            .buffer = slot.params_.handle(),
-           .offset_bytes = TraceSlot::tilesOffset(walk, job.walk_count, tiles.size()),
+           .offset_bytes = TraceSlot::tilesOffset(part, part_count, tiles.size()),
            .size_bytes = tiles.size_bytes()},
           {.binding = abi::kBindingExtras,
            .kind = DescriptorKind::kUniform,
            .buffer = slot.params_.handle(),
-           .offset_bytes = TraceSlot::extrasOffset(walk),
+           .offset_bytes = TraceSlot::extrasOffset(part),
            .size_bytes = sizeof(abi::TraceExtras)}};
 }
 
@@ -173,26 +184,32 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
 void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
-  const std::span<const abi::ViewParams> tiles = walk.job.tilesOf(walk.index);
+  const TileRays rays = raysOf(walk.job, walk.index, walk.sample);
   const double inv_z_max = structure.stats().inv_z_max;
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
   const bool is_one_of_several = walk.job.walk_count > 1;
+  const bool eyes_in_plane = eyesAreInPlane(
+      rays.tiles, is_one_of_several ? std::max(inv_z_max, kInvZOfOthers) : inv_z_max);
+  // Of rays between others, plain as well if they are linear in their eye, all at one depth.
+  const bool rays_are_plain =
+      (eyes_in_plane || !rays.are_bounds) && raysArePlain(rays.tiles, rays.tile_px, inv_z_max);
   const ColorAverager::Color color =
-      averager_.record(commands, structure, colorReach(tiles, layout.tile_size_px));
-  const ComputePass& walk_views =
-      pass({.reads_by_address = structure.readsByAddress(),
-            .wanted = is_one_of_several ? 0 : wantedFlags(walk.slot.shape_.outputs),
-            .color_format = color.format,
-            .pixels_per_invocation = pixels,
-            .lanes_are_views = lanes_are_views,
-            .color_is_scaled = structure.shape().colorIsScaled(),
-            .rays_are_plain = raysArePlain(tiles, layout.tile_size_px, inv_z_max),
-            .eyes_in_plane = eyesAreInPlane(
-                tiles, is_one_of_several ? std::max(inv_z_max, kInvZOfOthers) : inv_z_max),
-            .is_one_of_several = is_one_of_several,
-            .is_cube_face = structure.shape().is_cube_face});
-  std::vector<Descriptor> descriptors = describeParams(walk.job, walk.index, walk.slot);
+      averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));
+  const ComputePass& walk_views = pass(
+      {.reads_by_address = structure.readsByAddress(),
+       .wanted = is_one_of_several || walk.sample > 0 ? 0 : wantedFlags(walk.slot.shape_.outputs),
+       .color_format = color.format,
+       .pixels_per_invocation = pixels,
+       .lanes_are_views = lanes_are_views,
+       .color_is_scaled = structure.shape().colorIsScaled(),
+       .rays_are_plain = rays_are_plain,
+       .eyes_in_plane = eyes_in_plane,
+       .is_one_of_several = is_one_of_several,
+       .is_cube_face = structure.shape().is_cube_face,
+       .rays = raySourceOf(layout)});
+  std::vector<Descriptor> descriptors =
+      describeParams(walk.job, walk.index, walk.sample, walk.slot);
   for (const Descriptor& descriptor :
        {structure.measuredDescriptor(), walk.target,
         structure.structure().asTexels(abi::kBindingStructure),
@@ -206,37 +223,53 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
                     rows.row_count);
 }
 
+void ViewTracer::recordSamples(vk::CommandBuffer commands,
+                               std::span<const StructureSlot* const> structures,
+                               const TraceJob& job, BandRows rows, TraceSlot& slot) {
+  const BlendTarget blended{
+      .sample = slot.sampleTarget(job),
+      .sums = slot.sums_,
+      .band = slot.rgba(),
+      .linear_address = slot.linear_.isEmpty() ? 0 : slot.linear_.target().address(),
+      .px_count = uint32_t(slot.band_px_.area())};
+  for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
+    if (job.walk_count == 1) {
+      const Descriptor band = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
+      recordWalk(commands, {*structures[0], job, 0, sample, slot, band}, rows);
+    } else {
+      recordMerged(commands, structures, job, rows, sample, slot);
+    }
+    if (job.sample_count > 1) blender_.record(commands, blended, job.layout->samples, sample);
+  }
+}
+
 void ViewTracer::recordBand(vk::CommandBuffer commands,
                             std::span<const StructureSlot* const> structures, const TraceJob& job,
                             BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   const AtlasLayout& layout = *job.layout;
-  VIEWLOOM_CHECK(slot.shape_.width_px >= layout.size_px.width &&
-                 slot.shape_.row_count_max >= rows.row_count &&
-                 slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
-                 slot.shape_.walk_count >= job.walk_count);
+  VIEWLOOM_CHECK(
+      slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
+      slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
+      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count);
   VIEWLOOM_CHECK(structures.size() == job.walk_count);
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   const uint64_t area_px = slot.band_px_.area();
   fillParams(structures, job, slot);
 
+  const uint32_t part_count = job.sample_count * job.walk_count;
   if (timer) timer->recordBegin(commands, "trace");
-  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = TraceSlot::tilesOffset(job.walk_count, job.walk_count,
-                                                                    job.tilesOf(0).size())});
+  commands.copyBuffer(
+      slot.upload_.handle(), slot.params_.handle(),
+      vk::BufferCopy{.size = TraceSlot::tilesOffset(part_count, part_count, job.tileCount())});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
-    commands.fillBuffer(slot.rgba().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
+    commands.fillBuffer(slot.sampleTarget(job).handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
     for (const ReadablePlane* plane : {&slot.depth_, &slot.mask_, &slot.linear_, &slot.records_}) {
       recordClear(commands, *plane, 0);
     }
   }
   recordTransferToCompute(commands);
-  if (job.walk_count == 1) {
-    const Descriptor band = wholeBuffer(abi::kBindingBand, slot.rgba());
-    recordWalk(commands, {*structures[0], job, 0, slot, band}, rows);
-  } else {
-    recordMerged(commands, structures, job, rows, slot);
-  }
+  recordSamples(commands, structures, job, rows, slot);
   const ColorForm form = slot.shape_.outputs.color;
   if (form != ColorForm::kRgba) {
     packer_.record(commands, slot.rgba(), slot.color_.target(), slot.band_px_, form);

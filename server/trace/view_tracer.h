@@ -7,12 +7,14 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "gpu/compute_pass.h"
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
 #include "trace/band_packer.h"
 #include "trace/color_averager.h"
+#include "trace/sample_blender.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
 
@@ -52,6 +54,7 @@ class ViewTracer {
     uint32_t eyes_in_plane;
     uint32_t is_one_of_several;
     uint32_t is_cube_face;
+    uint32_t rays;  // abi::kRaysOf...
 
     auto operator<=>(const Variant&) const = default;
   };
@@ -61,26 +64,30 @@ class ViewTracer {
     const StructureSlot& structure;
     const TraceJob& job;
     uint32_t index;
+    uint32_t sample;
     const TraceSlot& slot;
     Descriptor target;
   };
 
-  static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceSlot& slot);
+  static abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceJob& job,
+                                         uint32_t part, const TraceSlot& slot);
   static void fillParams(std::span<const StructureSlot* const> structures, const TraceJob& job,
                          TraceSlot& slot);
-  static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t walk,
+  static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t walk, uint32_t sample,
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                    const TraceJob& job, BandRows rows, TraceSlot& slot);
+                    const TraceJob& job, BandRows rows, uint32_t sample, TraceSlot& slot);
+  void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                     const TraceJob& job, BandRows rows, TraceSlot& slot);
   uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                       const TraceJob& job, BandRows piece, const AnswersLayout& answers,
-                       const TraceSlot& slot);
+                       const TraceJob& job, BandRows piece, uint32_t sample,
+                       const AnswersLayout& answers, const TraceSlot& slot);
   void recordJoins(vk::CommandBuffer commands, const TraceJob& job, uint64_t walked,
                    uint32_t answer_count, const AnswersLayout& answers, const TraceSlot& slot);
   const ComputePass& pass(const Variant& variant);
-  const ComputePass& mergePass(uint32_t wanted);
+  const ComputePass& mergePass(uint32_t wanted, uint32_t rays);
   const ComputePass& joinPass();
 
   const Device* device_;
@@ -88,7 +95,9 @@ class ViewTracer {
   std::map<Variant, std::unique_ptr<ComputePass>> passes_;
   ColorAverager averager_;
   BandPacker packer_;
-  std::map<uint32_t, std::unique_ptr<ComputePass>> merge_passes_;  // by abi::kWant... flags
+  SampleBlender blender_;
+  // By abi::kWant... flags and abi::kRaysOf...
+  std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ComputePass>> merge_passes_;
   std::unique_ptr<ComputePass> join_pass_;
 };
 

@@ -4,6 +4,7 @@
 #define VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 
 #include "shared/gpu_types.h"
+#include "shared/lenticular.h"
 #include "shared/structure_abi.h"
 
 VIEWLOOM_ABI_BEGIN
@@ -59,6 +60,40 @@ VIEWLOOM_ABI_CONST uint kClassCount = 6u;
 VIEWLOOM_ABI_CONST uint kCounterSets = 16u;
 VIEWLOOM_ABI_CONST uint kCounterStride = 16u;  // of 4 bytes: a cache line
 
+// Where the rays of a px come from: specialisation constant of walk_views.comp and
+// merge_sources.comp.
+VIEWLOOM_ABI_CONST uint kRaysOfPinholes = 0u;     // all from the eye of their view
+VIEWLOOM_ABI_CONST uint kRaysOfMicrolenses = 1u;  // each from the middle of its lens
+VIEWLOOM_ABI_CONST uint kRaysOfLenticular = 2u;   // each from where its lens sends a subpixel
+
+// A view's eye moved by a metre, in homogeneous image coordinates of the source.
+struct EyeAxes {
+  vec3 right;
+  vec3 up;
+  // 1/m: where px stay, seen from beside, along the view's axis; 0 = only at infinity
+  float inv_focus;
+};
+
+// Microlenses in front of a panel (server/display/atlas_layout.h); px from its top left.
+struct Microlenses {
+  vec2 first_px;  // upper left corner of the first lens
+  float pitch_px;
+  float slope_per_px;  // by which a ray leans for a px beside its lens's middle; < 0: flipped
+  uvec2 count;
+  vec2 middle_px;  // of the panel, in front of the display's eye
+  float m_per_px;
+  float distance_m;  // from the display's eye to the panel
+};
+
+// A lenticular panel: which eye on the line of eyes a subpixel is seen from.
+struct LenticularEyes {
+  Lenticular lens;
+  uint channel;     // 0 red, 1 green, 2 blue
+  uint view_count;  // views that subpixels show the nearest of; 0 = each its own
+  float view_cone_rad;
+  float distance_m;  // from the line of eyes to the panel
+};
+
 // The full answer to a ray, for tests, statistics and the heat map.
 struct RayRecord {
   float x_px;  // of the hit, in the source
@@ -86,6 +121,10 @@ struct TraceExtras {
   // The source's pinhole, px of its depth planes: for what several sources are weighed by.
   vec2 focal_px;
   vec2 principal_px;
+  // Of rays that do not come from their view's eye.
+  EyeAxes eye_axes;
+  Microlenses microlenses;
+  LenticularEyes lenticular;
 };
 
 // What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
@@ -152,6 +191,19 @@ struct AveragePush {
 
 VIEWLOOM_ABI_CONST uint kBindingMeans = 14u;  // storage, written: uint per texel of all layers
 
+// One of several samples of a band's px, added to the sums of those before; the last one makes px
+// of the sums.
+struct BlendPush {
+  uint px_count;
+  uint is_first;
+  uint is_last;
+  vec3 weights;    // of its red, green and blue
+  Address linear;  // vec4[rows][width] as in TraceExtras, written by the last; or 0
+};
+
+VIEWLOOM_ABI_CONST uint kBindingSample = 15u;  // storage, read: uint per px, as in the band
+VIEWLOOM_ABI_CONST uint kBindingSums = 16u;    // storage: linear light, vec3 per px
+
 // A band's colour, packed as planes of Y'CbCr.
 struct PackPush {
   uint width_px;
@@ -180,12 +232,16 @@ VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 56);
-static_assert(sizeof(TraceExtras) == 76);
+static_assert(sizeof(EyeAxes) == 28);
+static_assert(sizeof(Microlenses) == 40);
+static_assert(sizeof(Lenticular) == 72);
+static_assert(sizeof(TraceExtras) == 232);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 96);
 static_assert(sizeof(AveragePush) == 104);
 static_assert(sizeof(PackPush) == 12);
+static_assert(sizeof(BlendPush) == 32);
 static_assert(sizeof(RayRecord) == 24);
 #endif
 

@@ -9,6 +9,7 @@
 
 layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWant... flags
+layout(constant_id = kOwnConstants + 1u) const uint kRays = kRaysOfPinholes;
 layout(push_constant, scalar) uniform Push {
   MergePush push;
 };
@@ -41,6 +42,7 @@ RayAnswer loadAnswer(uint source) {
 
 #include "lib/class_counts.glsl"
 #include "lib/merge.glsl"
+#include "lib/ray_source.glsl"
 #include "lib/srgb.glsl"
 
 uvec2 unpackSize(uint size_px) {
@@ -76,7 +78,9 @@ void main() {
   const bool exists = column < tile_grid.x && tile_row < tile_grid.y;
   const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
   uvec3 counts = uvec3(0u);
-  if (exists && views[tile].is_used != 0u) {
+  const uvec2 first_px = uvec2(column * tile_size.x, push.padding_top_px + tile_row * tile_size.y);
+  const Aim aim = aimOf(vec2(uvec2(x_px, row) - first_px) + 0.5);
+  if (exists && aim.is_used && views[tile].is_used != 0u) {
     answer_index = gl_WorkGroupID.y * push.atlas_width_px + x_px;
     const Merged merged = mergeAnswers(push.source_count);
     store((push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x_px, merged);

@@ -26,6 +26,7 @@ layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
 layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
 // A face of a cube map: join_faces.comp makes one answer of those of all six.
 layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
+layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
 const bool kSeesThrough = kColorFormat == kColorRgba16f;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
@@ -56,6 +57,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/face_ray.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
+#include "lib/ray_source.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/walk.glsl"
 
@@ -121,12 +123,9 @@ struct Run {
   uint first_index;
 };
 
-// The bound where the rays of a run may start. Rays between two plain ones are plain, and pass no
-// cell outside the rectangle around those.
-float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
-  const vec2 size_px = vec2(scene.extent.size_px);
-  const vec3 first = rayDirection(view, vec2(float(run.first_x) + 0.5, run.tile_y));
-  const vec3 last = first + float(run.count - 1u) * view.direction_dx;
+// The bound where rays may start that lie between two. Rays between two plain ones are plain, and
+// pass no cell outside the rectangle around those.
+float boundBetween(Scene scene, vec3 near_eye, vec3 first, vec3 last) {
   if (!kRaysArePlain && !(isPlainRay(near_eye, first) && isPlainRay(near_eye, last))) {
     return scene.inv_z_near;
   }
@@ -139,20 +138,39 @@ float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
   return startBound(scene, low_px, high_px);
 }
 
+// Of a run whose rays come from one eye.
+float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
+  const vec3 first = rayDirection(view, vec2(float(run.first_x) + 0.5, run.tile_y));
+  return boundBetween(scene, near_eye, first, first + float(run.count - 1u) * view.direction_dx);
+}
+
 // A px of a run, traced.
 struct Traced {
   Ray ray;
   Walk walk;
+  ViewParams view;  // from the eye of this px
   vec3 direction;
   Seen seen;
   bool is_known;  // its colour; else the background
+  bool is_used;   // else it is no px of the display
   FaceStretch stretch;  // of a face of a cube map
 };
 
 Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
                   vec3 background) {
   Traced traced;
-  traced.direction = rayDirection(view, vec2(float(run.first_x + i) + 0.5, run.tile_y));
+  const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
+  traced.is_used = aim.is_used;
+  if (kRays != kRaysOfPinholes) {
+    view = viewFrom(view, extras.eye_axes, aim.eye_m);
+    if (kEyesInPlane) view.eye.z = 0.0;
+    near_eye = view.eye * scene.inv_z_near;
+  }
+  traced.view = view;
+  traced.direction = rayDirection(view, aim.tile_px);
+  if (kRays != kRaysOfPinholes) {
+    bound = boundBetween(scene, near_eye, traced.direction, traced.direction);
+  }
   const vec2 size_px = vec2(scene.extent.size_px);
   const Ray ray =
       kIsCubeFace ? makeFaceRay(near_eye, traced.direction, size_px, scene.inv_z_near,
@@ -189,19 +207,19 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
     if (kIsOneOfSeveral) {
       const vec4 codes = vec4(codesOfBlend(px.seen.color), px.is_known ? 1.0 : 0.0);
       RayAnswer answer =
-          answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), view, px.ray, px.direction,
-                   px.walk, classOf(px.walk), codes);
+          answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), px.view, px.ray,
+                   px.direction, px.walk, classOf(px.walk), codes);
       if (kIsCubeFace) {
         markFaceAnswer(answer, px.stretch, px.walk, vec2(scene.extent.size_px));
       }
       answers[run.first_index + i] = answer;
-    } else if (isOwn(run, i)) {
+    } else if (px.is_used && isOwn(run, i)) {
       storeColor(run.first_index + i, px.seen);
-      storeOthers(run.first_index + i, px.walk, px.ray, view.eye, px.direction);
+      storeOthers(run.first_index + i, px.walk, px.ray, px.view.eye, px.direction);
       count(counts, classOf(px.walk));
     }
-    const bool may_be_edge =
-        !kIsOneOfSeveral && i > 0u && mayBeEdge(scene, inv_z_before, px.seen.inv_z);
+    const bool may_be_edge = !kIsOneOfSeveral && kRays == kRaysOfPinholes && i > 0u &&
+                             mayBeEdge(scene, inv_z_before, px.seen.inv_z);
     const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
     edges |= i > 32u ? uvec2(0u, bit) : uvec2(bit, 0u);
     inv_z_before = px.seen.inv_z;
@@ -262,8 +280,9 @@ void main() {
     Run run;
     const uint first_x = run_in_tile * kPixelsPerInvocation;
     const bool has_trail = first_x + kPixelsPerInvocation < tile_size.x;
-    run.lead = kIsOneOfSeveral ? 0u : min(first_x, 1u);
-    run.trail = has_trail && !kIsOneOfSeveral ? 1u : 0u;
+    const bool looks_for_edges = !kIsOneOfSeveral && kRays == kRaysOfPinholes;
+    run.lead = looks_for_edges ? min(first_x, 1u) : 0u;
+    run.trail = has_trail && looks_for_edges ? 1u : 0u;
     run.first_x = first_x - run.lead;
     run.count = min(first_x + kPixelsPerInvocation, tile_size.x) + run.trail - run.first_x;
     run.tile_y = float(row - push.padding_top_px - tile_row * tile_size.y) + 0.5;

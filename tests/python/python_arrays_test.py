@@ -16,7 +16,7 @@ from viewloom.atlas_inbox import AtlasInbox
 from viewloom.camera import pose_from
 from viewloom.display import display_from
 from viewloom.frame_messages import CHUNK_BYTES_MAX, frame_messages
-from viewloom.v1 import display_pb2, frame_pb2
+from viewloom.v1 import atlas_pb2, display_pb2, frame_pb2
 from viewloom.v1.display_service_pb2 import StreamAtlasesResponse
 
 COLOR = np.zeros((4, 6, 3), np.uint8)
@@ -181,11 +181,11 @@ class Wire(unittest.TestCase):
 def answers(sequence, layout=None, size=(2, 2), value=9):
     """The messages of an atlas of raw colour, all samples the same."""
     width, height = size
-    layout = layout or display_pb2.AtlasLayout(
+    layout = layout or atlas_pb2.AtlasLayout(
         size={"width": width, "height": height}, columns=1, rows=1, view_count=1,
         tile_size={"width": width, "height": height})
-    band = {"sequence": sequence, "plane": display_pb2.ATLAS_PLANE_COLOR, "row_count": height,
-            "encoding": display_pb2.BAND_ENCODING_RAW, "data": bytes([value]) * width * height * 3,
+    band = {"sequence": sequence, "plane": atlas_pb2.ATLAS_PLANE_COLOR, "row_count": height,
+            "encoding": atlas_pb2.BAND_ENCODING_RAW, "data": bytes([value]) * width * height * 3,
             "last_piece": True}
     return [StreamAtlasesResponse(layout=layout),
             StreamAtlasesResponse(header={"sequence": sequence, "band_count": 1}),
@@ -228,10 +228,10 @@ class Inbox(unittest.TestCase):
     def test_bytes_that_are_no_picture_of_the_layout_are_data_loss(self):
         file = io.BytesIO()
         Image.new("RGB", (3, 2)).save(file, "JPEG")
-        jpeg, zstd = display_pb2.BAND_ENCODING_JPEG, display_pb2.BAND_ENCODING_ZSTD
+        jpeg, zstd = atlas_pb2.BAND_ENCODING_JPEG, atlas_pb2.BAND_ENCODING_ZSTD
         pack = zstandard.ZstdCompressor().compress
         for encoding, data, words in (
-                (display_pb2.BAND_ENCODING_RAW, bytes(13), "has 13 bytes, expected 12"),
+                (atlas_pb2.BAND_ENCODING_RAW, bytes(13), "has 13 bytes, expected 12"),
                 (zstd, pack(bytes(13)), "holds 13 bytes, expected 12"),
                 (zstd, pack(bytes(12))[:-1], "does not unpack"), (zstd, b"no zstd", "does not"),
                 (jpeg, file.getvalue(), "is 3x2 px, the layout 2x2"),
@@ -248,7 +248,7 @@ class Inbox(unittest.TestCase):
             self.inbox.take().color
 
     def test_views_are_cut_by_order_and_padding(self):
-        layout = display_pb2.AtlasLayout(
+        layout = atlas_pb2.AtlasLayout(
             size={"width": 7, "height": 5}, columns=2, rows=2, view_count=3, padding_top_px=1,
             padding_right_px=1, tile_size={"width": 3, "height": 2})
         picture = np.arange(35).reshape(5, 7)

@@ -10,7 +10,7 @@ import numpy as np
 import scene
 import viewloom
 from viewloom.v1 import ingest_service_pb2 as ingest
-from viewloom.v1.display_pb2 import RAY_CLASS_HIDDEN, RAY_CLASS_HIT, RAY_CLASS_HIT_ASSUMED
+from viewloom.v1.atlas_pb2 import RAY_CLASS_HIDDEN, RAY_CLASS_HIT, RAY_CLASS_HIT_ASSUMED
 
 LOSSLESS = viewloom.encoding(lossless=True, depth=True, mask=True)
 FINE_JPEG = viewloom.encoding(jpeg_quality=95, chroma=444)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Atlases of a real server as numpy arrays, while frames come, and what it refuses."""
 
+import json
 import unittest
 import urllib.request
 
@@ -10,7 +11,7 @@ import numpy as np
 
 import scene
 import viewloom
-from viewloom.v1 import display_pb2
+from viewloom.v1 import atlas_pb2, display_pb2
 
 LOSSLESS = viewloom.encoding(lossless=True)
 FRAMES = 8
@@ -60,7 +61,7 @@ class Watching(unittest.TestCase):
             self.assertEqual(next(watcher).layout.view_count, 2)
             watcher.change(scene.quilt(3, 2), LOSSLESS)
             atlas = next(atlas for atlas in watcher if atlas.layout.view_count == 6)
-            self.assertEqual(atlas.layout.encoding.color, display_pb2.BAND_ENCODING_ZSTD)
+            self.assertEqual(atlas.layout.encoding.color, atlas_pb2.BAND_ENCODING_ZSTD)
             self.assertEqual(atlas.color.shape, (2 * scene.HEIGHT_PX, 3 * scene.WIDTH_PX, 3))
             with self.assertRaisesRegex(viewloom.BadInput, "no file; use color"):
                 atlas.jpeg
@@ -106,6 +107,24 @@ class Watching(unittest.TestCase):
             direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
             with direct.open(self.daemon.url + "still/scene/portrait") as reply:
                 self.assertEqual(reply.read(), still.jpeg)
+
+    def test_panels_come_as_channels_and_views_as_images_of_their_own(self):
+        panel = {"lenticular": {"calibration_json": json.dumps(
+            {"pitch": 40, "slope": -6.5, "center": 0.3, "DPI": 320, "screenW": 96, "screenH": 70})}}
+        apart = scene.cameras([-0.1, 0.0, 0.1], columns=0)
+        apart["cameras"]["arrangement"] = "TILE_ARRANGEMENT_SEPARATE_VIEWS"
+        with self.server.publish("scene") as publisher:
+            publisher.send(scene.source(scene.noise_color(), scene.step_depth())).result(
+                viewloomd.PATIENCE_S)
+            usual, exact = [self.server.still("scene", panel, encoding=encoding)
+                            for encoding in (viewloom.encoding(jpeg_quality=100), LOSSLESS)]
+            views = self.server.still("scene", apart, encoding=LOSSLESS)
+        self.assertEqual(usual.layout.encoding.color, atlas_pb2.BAND_ENCODING_JPEG_PLANES)
+        self.assertEqual(usual.color.shape, (70, 96, 3))
+        self.assertLess(np.abs(usual.color.astype(int) - exact.color).max(), 6)
+        self.assertEqual(views.image_count, 3)
+        np.testing.assert_array_equal(views.view(1), views.plane(atlas_pb2.ATLAS_PLANE_COLOR, 1))
+        np.testing.assert_array_equal(views.view(1), scene.noise_color())
 
     def test_refusals_name_the_field(self):
         with self.server.publish("scene") as publisher:

@@ -13,7 +13,7 @@ import io
 import grpc
 from PIL import Image
 
-from viewloom.v1 import display_pb2, display_service_pb2, display_service_pb2_grpc
+from viewloom.v1 import atlas_pb2, display_pb2, display_service_pb2, display_service_pb2_grpc
 
 
 def receive_quilt(address, stream, display):
@@ -30,7 +30,7 @@ def receive_quilt(address, stream, display):
                 layout = message.layout
             elif kind == "header":  # one that was begun before, and not ended, is discarded
                 header, jpeg = message.header, bytearray()
-            elif kind == "band" and message.band.plane == display_pb2.ATLAS_PLANE_COLOR:
+            elif kind == "band" and message.band.plane == atlas_pb2.ATLAS_PLANE_COLOR:
                 jpeg += message.band.data
             elif kind == "end":
                 return layout, header, bytes(jpeg)

@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 from PIL.JpegImagePlugin import JpegImageFile
 
 from viewloom.errors import BadInput, data_loss
-from viewloom.v1 import display_pb2
-from viewloom.v1.display_pb2 import AtlasLayout
+from viewloom.v1 import atlas_pb2, display_pb2
+from viewloom.v1.atlas_pb2 import AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasHeader
 
 # Of a plane that is not a JPEG: sample type and samples a pixel.
-_SAMPLES = {display_pb2.ATLAS_PLANE_COLOR: ("u1", 3), display_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
-            display_pb2.ATLAS_PLANE_MASK: ("u1", 1)}
+_SAMPLES = {atlas_pb2.ATLAS_PLANE_COLOR: ("u1", 3), atlas_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
+            atlas_pb2.ATLAS_PLANE_MASK: ("u1", 1)}
+_CHANNELS = (atlas_pb2.ATLAS_PLANE_RED, atlas_pb2.ATLAS_PLANE_GREEN, atlas_pb2.ATLAS_PLANE_BLUE)
+_JPEGS = (atlas_pb2.BAND_ENCODING_JPEG, atlas_pb2.BAND_ENCODING_JPEG_PLANES)
 
 
 @dataclasses.dataclass
@@ -28,10 +30,10 @@ class Band:
     """A full-width strip as it came, its pieces joined."""
 
     image_index: int
-    plane: display_pb2.AtlasPlane
+    plane: atlas_pb2.AtlasPlane
     first_row: int
     row_count: int
-    encoding: display_pb2.BandEncoding
+    encoding: atlas_pb2.BandEncoding
     data: bytearray
 
 
@@ -88,59 +90,77 @@ class Atlas:
     bands: list[Band] = dataclasses.field(repr=False)
     skipped: int = 0
 
-    def plane(self, plane: display_pb2.AtlasPlane, image_index: int = 0) -> NDArray[Any]:
-        """A plane of display_pb2.AtlasPlane, decoded. Raises BadInput when it was not asked for."""
+    @property
+    def image_count(self) -> int:
+        """Images of equal height that the atlas is, one below the other."""
+        return max(self.layout.image_count, 1)
+
+    def plane(self, plane: atlas_pb2.AtlasPlane, image_index: int = 0) -> NDArray[Any]:
+        """A plane of atlas_pb2.AtlasPlane of one image, decoded.
+
+        Raises BadInput when it was not asked for.
+        """
         bands = [band for band in self.bands
                  if band.plane == plane and band.image_index == image_index]
         if not bands:
-            name = display_pb2.AtlasPlane.Name(plane)
+            name = atlas_pb2.AtlasPlane.Name(plane)
             raise BadInput("plane", f"{name} of image {image_index} did not come: ask for it with "
                            "encoding=viewloom.encoding(...)")
-        if bands[0].encoding == display_pb2.BAND_ENCODING_JPEG:
-            size = self.layout.size
-            return _decode_jpeg(b"".join(band.data for band in bands), (size.width, size.height))
-        return self._unpacked(bands, plane)
+        height = self.layout.size.height // self.image_count
+        if bands[0].encoding in _JPEGS:
+            return _decode_jpeg(b"".join(band.data for band in bands),
+                                (self.layout.size.width, height))
+        return self._unpacked(bands, plane, height)
 
-    def _unpacked(self, bands: list[Band], plane: display_pb2.AtlasPlane) -> NDArray[Any]:
+    def _whole(self, plane: atlas_pb2.AtlasPlane) -> NDArray[Any]:
+        images = [self.plane(plane, image) for image in range(self.image_count)]
+        return images[0] if len(images) == 1 else np.concatenate(images)
+
+    def _unpacked(self, bands: list[Band], plane: atlas_pb2.AtlasPlane,
+                  height: int) -> NDArray[Any]:
         sample_type, channels = _SAMPLES[plane]
-        size = self.layout.size
-        row_bytes = size.width * channels * np.dtype(sample_type).itemsize
+        width = self.layout.size.width
+        row_bytes = width * channels * np.dtype(sample_type).itemsize
         pieces = []
         row = 0
         for band in bands:
             wanted_bytes = band.row_count * row_bytes
-            is_packed = band.encoding == display_pb2.BAND_ENCODING_ZSTD
+            is_packed = band.encoding == atlas_pb2.BAND_ENCODING_ZSTD
             pieces.append(_inflate(band, wanted_bytes) if is_packed else bytes(band.data))
             if len(pieces[-1]) != wanted_bytes or band.first_row != row:
                 raise data_loss(f"the band at row {band.first_row} has {len(pieces[-1])} bytes, "
                                 f"expected {wanted_bytes} at row {row}")
             row += band.row_count
-        if row != size.height:
-            raise data_loss(f"the bands have {row} rows, the layout {size.height}")
-        shape = (size.height, size.width) + ((channels,) if channels > 1 else ())
+        if row != height:
+            raise data_loss(f"the bands have {row} rows, the layout {height}")
+        shape = (height, width) + ((channels,) if channels > 1 else ())
         return np.frombuffer(b"".join(pieces), sample_type).reshape(shape)
 
     @functools.cached_property
     def color(self) -> NDArray[np.uint8]:
         """uint8[height_px][width_px][3], sRGB, top row first. Read-only, as all pictures are."""
-        return self.plane(display_pb2.ATLAS_PLANE_COLOR)
+        if any(band.plane in _CHANNELS for band in self.bands):
+            channels = np.stack([self._whole(plane) for plane in _CHANNELS], axis=-1)
+            channels.flags.writeable = False
+            return channels
+        return self._whole(atlas_pb2.ATLAS_PLANE_COLOR)
 
     @functools.cached_property
     def inv_z(self) -> NDArray[np.float32]:
         """float32[height_px][width_px]: 1/Z of each view, 1/m; 0 = infinitely far."""
-        return self.plane(display_pb2.ATLAS_PLANE_DEPTH)
+        return self._whole(atlas_pb2.ATLAS_PLANE_DEPTH)
 
     @functools.cached_property
     def mask(self) -> NDArray[np.uint8]:
-        """uint8[height_px][width_px]: how each ray ended, of display_pb2.RayClass."""
-        return self.plane(display_pb2.ATLAS_PLANE_MASK)
+        """uint8[height_px][width_px]: how each ray ended, of atlas_pb2.RayClass."""
+        return self._whole(atlas_pb2.ATLAS_PLANE_MASK)
 
     @functools.cached_property
     def jpeg(self) -> bytes:
-        """The colour as one JPEG file, byte for byte as the server made it."""
+        """The colour of the first image as one JPEG file, byte for byte as the server made it."""
         bands = [band for band in self.bands
-                 if band.plane == display_pb2.ATLAS_PLANE_COLOR and band.image_index == 0]
-        if not bands or bands[0].encoding != display_pb2.BAND_ENCODING_JPEG:
+                 if band.plane == atlas_pb2.ATLAS_PLANE_COLOR and band.image_index == 0]
+        if not bands or bands[0].encoding != atlas_pb2.BAND_ENCODING_JPEG:
             raise BadInput("encoding", "is not JPEG: there is no file; use color")
         return b"".join(band.data for band in bands)
 

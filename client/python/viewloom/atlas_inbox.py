@@ -8,7 +8,7 @@ from typing import Optional
 from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
 from viewloom.v1 import display_service_pb2
-from viewloom.v1.display_pb2 import AtlasLayout
+from viewloom.v1.atlas_pb2 import AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
 
 # More than any atlas: 16384x16384 px of colour, depth and mask, not packed.

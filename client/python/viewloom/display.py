@@ -7,13 +7,13 @@ from typing import Any, Mapping, Optional, Union
 
 from viewloom.errors import BadInput
 from viewloom.messages import message_from
-from viewloom.v1 import display_pb2
+from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.display_service_pb2 import ChangeDisplay, OpenDisplay, StreamAtlasesRequest
 
 DisplayLike = Union[display_pb2.Display, Mapping[str, Any], str]
-EncodingLike = Union[display_pb2.AtlasEncoding, Mapping[str, Any], None]
+EncodingLike = Union[atlas_pb2.AtlasEncoding, Mapping[str, Any], None]
 
-_CHROMAS = {420: display_pb2.CHROMA_SUBSAMPLING_420, 444: display_pb2.CHROMA_SUBSAMPLING_444}
+_CHROMAS = {420: atlas_pb2.CHROMA_SUBSAMPLING_420, 444: atlas_pb2.CHROMA_SUBSAMPLING_444}
 
 
 def display_from(display: DisplayLike) -> display_pb2.Display:
@@ -25,7 +25,7 @@ def display_from(display: DisplayLike) -> display_pb2.Display:
 
 
 def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
-             jpeg_quality: int = 0, chroma: Optional[int] = None) -> display_pb2.AtlasEncoding:
+             jpeg_quality: int = 0, chroma: Optional[int] = None) -> atlas_pb2.AtlasEncoding:
     """How atlases are to come.
 
     lossless:      colour as it was traced, instead of as a JPEG.
@@ -35,16 +35,16 @@ def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
     """
     if chroma is not None and chroma not in _CHROMAS:
         raise BadInput("chroma", f"is {chroma}, must be 420 or 444")
-    return display_pb2.AtlasEncoding(
-        color=display_pb2.BAND_ENCODING_ZSTD if lossless else display_pb2.BAND_ENCODING_JPEG,
+    return atlas_pb2.AtlasEncoding(
+        color=atlas_pb2.BAND_ENCODING_ZSTD if lossless else atlas_pb2.BAND_ENCODING_UNSPECIFIED,
         jpeg_quality=jpeg_quality, with_depth=depth, with_mask=mask,
-        chroma=display_pb2.CHROMA_SUBSAMPLING_UNSPECIFIED if chroma is None else _CHROMAS[chroma])
+        chroma=atlas_pb2.CHROMA_SUBSAMPLING_UNSPECIFIED if chroma is None else _CHROMAS[chroma])
 
 
-def _encoding_from(given: EncodingLike) -> Optional[display_pb2.AtlasEncoding]:
+def _encoding_from(given: EncodingLike) -> Optional[atlas_pb2.AtlasEncoding]:
     if given is None:
         return None
-    return message_from(given, display_pb2.AtlasEncoding(), "encoding",
+    return message_from(given, atlas_pb2.AtlasEncoding(), "encoding",
                          "of viewloom.encoding(), a mapping or an AtlasEncoding")
 
 

@@ -109,8 +109,8 @@ TEST_F(FrameManifestTest, namesTheFieldAndTheFileAtFault) {
   EXPECT_THAT(refusal(source(layer("none.png", "depth.png"))), HasSubstr("none.png: no such file"));
   EXPECT_THAT(refusal(source(layer("color.gif", "depth.png"))),
               HasSubstr("sources[0].layers[0].color.file: is color.gif; accepted as colour are"));
-  EXPECT_THAT(refusal(source(layer("color.png", "depth.jpg"))),
-              HasSubstr("sources[0].layers[0].depth.file: is depth.jpg; accepted as depth are"));
+  EXPECT_THAT(refusal(source(layer("color.png", "depth.gif"))),
+              HasSubstr("sources[0].layers[0].depth.file: is depth.gif; accepted as depth are"));
 }
 
 TEST_F(FrameManifestTest, refusesDepthPlanesOfDifferentSizes) {

@@ -105,9 +105,17 @@ TEST(PngImage, readsInterlacedFiles) {
 
 TEST(PngImage, refusesColourAsDepth) {
   const TestFolder folder;
-  const auto file = writePng(folder, 1, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3});
+  const auto file = writePng(folder, 1, 1, 8, PNG_COLOR_TYPE_RGB, {10, 200, 30});
   EXPECT_THAT(std::string(readPngDepth(file, false).status().message()),
-              HasSubstr("has 3 channels of 8 bits; accepted as depth is grey of 8 or 16"));
+              HasSubstr("is coloured; accepted as depth is grey of 8 or 16 bits"));
+}
+
+TEST(PngImage, readsGreyThatIsStoredAsColourAsDepth) {
+  const TestFolder folder;
+  const auto file = writePng(folder, 2, 1, 8, PNG_COLOR_TYPE_RGB, {9, 9, 9, 250, 250, 250});
+  const auto image = readPngDepth(file, false);
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->bytes, ElementsAre(9, 0, 250, 0));
 }
 
 TEST(PngImage, refusesTruncatedFilesAtEveryLength) {

@@ -173,11 +173,32 @@ TEST(CompleteDisplaySpec, changesNothingOnASecondPass) {
   EXPECT_EQ(displayKey(*once), displayKey(*twice));
 }
 
+TEST(CompleteDisplaySpec, changesNoPanelOnASecondPass) {
+  for (const DisplaySpec& spec : {DisplaySpec{.kind = LenticularSpec{.preset = "16_gen3_l"}},
+                                  DisplaySpec{.kind = IntegralSpec{.preset = "near_eye_2013"}}}) {
+    const auto once = completeDisplaySpec(spec);
+    ASSERT_TRUE(once.ok()) << once.status();
+    const auto twice = completeDisplaySpec(*once);
+    ASSERT_TRUE(twice.ok()) << twice.status();
+    EXPECT_EQ(displayKey(*once), displayKey(*twice));
+  }
+}
+
 TEST(ValidateEncodingSpec, refusesWhatNoEncoderDoes) {
   EXPECT_TRUE(validateEncodingSpec({}).ok());
   EXPECT_EQ(fieldOf(validateEncodingSpec({.jpeg_quality = 0})), "jpeg_quality");
   EXPECT_EQ(fieldOf(validateEncodingSpec({.jpeg_quality = 101})), "jpeg_quality");
   EXPECT_EQ(fieldOf(validateEncodingSpec({.planes = BandEncoding::kJpeg})), "planes");
+}
+
+TEST(DisplayKey, isTheSameForPanelsThatDifferInTheirSerialNumber) {
+  LenticularSpec lenticular{.preset = "portrait"};
+  const auto panel = completeDisplaySpec({.kind = lenticular});
+  ASSERT_TRUE(panel.ok()) << panel.status();
+  Calibration calibration = *std::get<LenticularSpec>(panel->kind).calibration;
+  calibration.serial = "LKG-TEST";
+  lenticular.calibration_json = writeCalibration(calibration);
+  EXPECT_EQ(displayKey(*completeDisplaySpec({.kind = lenticular})), displayKey(*panel));
 }
 
 TEST(DisplayKey, isTheSameForAPresetAndItsNumbers) {
@@ -187,13 +208,39 @@ TEST(DisplayKey, isTheSameForAPresetAndItsNumbers) {
   EXPECT_EQ(displayKey(*named), displayKey(*completeDisplaySpec({.kind = numbers})));
 }
 
-TEST(DisplayKey, differsWithEveryFieldThatChangesThePicture) {
-  std::vector<std::string> keys;
-  const auto add = [&](const DisplaySpec& spec) {
+class DifferingKeys : public testing::Test {
+ protected:
+  void add(const DisplaySpec& spec) {
     const auto completed = completeDisplaySpec(spec);
     ASSERT_TRUE(completed.ok()) << completed.status();
-    keys.push_back(displayKey(*completed));
-  };
+    keys_.push_back(displayKey(*completed));
+  }
+
+  void TearDown() override {
+    std::ranges::sort(keys_);
+    EXPECT_EQ(std::ranges::adjacent_find(keys_), keys_.end());
+  }
+
+ private:
+  std::vector<std::string> keys_;
+};
+
+TEST_F(DifferingKeys, followFromEveryFieldThatChangesThePictureOfAPanel) {
+  LenticularSpec lenticular{.preset = "portrait"};
+  add({.kind = lenticular});
+  lenticular.view_count = 48;
+  add({.kind = lenticular});
+  lenticular.preset = "go_p";
+  add({.kind = lenticular});
+  IntegralSpec integral{.preset = "near_eye_2013"};
+  add({.kind = integral});
+  integral.is_flipped = true;
+  add({.kind = integral});
+  integral.offset_px.y = 1;
+  add({.kind = integral});
+}
+
+TEST_F(DifferingKeys, followFromEveryFieldThatChangesThePicture) {
   QuiltSpec quilt = goodQuilt();
   add({.kind = quilt});
   add({.kind = quilt, .world_pose = Pose{}});
@@ -218,8 +265,21 @@ TEST(DisplayKey, differsWithEveryFieldThatChangesThePicture) {
   add({.kind = cameras});
   cameras.order = TileOrder::kBottomLeft;
   add({.kind = cameras});
-  std::ranges::sort(keys);
-  EXPECT_EQ(std::ranges::adjacent_find(keys), keys.end());
+  cameras.arrangement = TileArrangement::kSeparate;
+  add({.kind = cameras});
+  cameras.cameras.clear();
+  cameras.grid = CameraGrid{.columns = 2, .rows = 2};
+  add({.kind = cameras});
+  cameras.grid->spacing_m.y = 0.5;
+  add({.kind = cameras});
+  quilt.convention = CameraConvention::kCore;
+  add({.kind = quilt});
+  quilt.depthiness = 1.5;
+  add({.kind = quilt});
+  add({.kind = quilt, .filter = {.sample_count = 4}});
+  add({.kind = quilt, .filter = {.sample_count = 4, .width = 2}});
+  stereo.layout = StereoLayout::kSeparate;
+  add({.kind = stereo});
 }
 
 TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
@@ -228,6 +288,9 @@ TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
   EXPECT_EQ(encodingKey({.planes = BandEncoding::kRaw}), encodingKey({}));
   EXPECT_NE(encodingKey({.jpeg_quality = 10}), encodingKey({.jpeg_quality = 90}));
   EXPECT_NE(encodingKey({.chroma = Chroma::k444}), encodingKey({}));
+  EXPECT_EQ(encodingKey({.color = BandEncoding::kJpegPlanes, .chroma = Chroma::k444}),
+            encodingKey({.color = BandEncoding::kJpegPlanes}));
+  EXPECT_NE(encodingKey({.color = BandEncoding::kJpegPlanes}), encodingKey({}));
   EXPECT_NE(encodingKey({.with_mask = true}), encodingKey({.with_depth = true}));
 }
 

@@ -181,5 +181,65 @@ TEST(CameraViews, turnAnglesIntoTilePixels) {
   EXPECT_NEAR(project(layout.views[0], {1, -1, -1}).y, 100, kRounding_px);
 }
 
+TEST(QuiltViews, standWhereEachConventionHasThem) {
+  QuiltSpec quilt{.columns = 3, .rows = 1, .size_px = {300, 100}, .view_cone_rad = 0.6};
+  quilt.focal_distance_m = 2;
+  quilt.depthiness = 1.25;
+  const auto eyes = [&](CameraConvention convention) {
+    quilt.convention = convention;
+    std::vector<double> x_m;
+    for (const View& view : layoutOf({.kind = quilt}, offAxisStream()).views) {
+      x_m.push_back(view.camera.pose.position_m.x);
+    }
+    return x_m;
+  };
+  // Thirds of 0.75 rad, from their middles; halves of it, from its edges; and evenly along tan 0.6.
+  const double third_m = 2 * std::tan(0.25);
+  const double half_m = 2 * std::tan(0.375);
+  const double even_m = 2 * 1.25 * std::tan(0.6) / 2;
+  const auto near = [](double x_m) { return testing::DoubleNear(x_m, 1e-12); };
+  EXPECT_THAT(eyes(CameraConvention::kWebxr),
+              testing::ElementsAre(near(-third_m), near(0), near(third_m)));
+  EXPECT_THAT(eyes(CameraConvention::kCore),
+              testing::ElementsAre(near(-half_m), near(0), near(half_m)));
+  EXPECT_THAT(eyes(CameraConvention::kBridge),
+              testing::ElementsAre(near(-even_m), near(0), near(even_m)));
+}
+
+TEST(CameraGrid, countsItsEyesFromTheLeftAndAsItsTilesAre) {
+  CamerasSpec cameras{.tile_size_px = {40, 30}};
+  cameras.grid = CameraGrid{.columns = 3, .rows = 2, .spacing_m = {0.1, 0.2}};
+  const AtlasLayout from_top = layoutOf({.kind = cameras}, offAxisStream());
+  ASSERT_EQ(from_top.views.size(), 6u);
+  EXPECT_EQ(from_top.columns, 3u);
+  EXPECT_NEAR(from_top.views[0].camera.pose.position_m.x, -0.1, 1e-12);
+  EXPECT_NEAR(from_top.views[0].camera.pose.position_m.y, 0.1, 1e-12);
+  EXPECT_NEAR(from_top.views[5].camera.pose.position_m.x, 0.1, 1e-12);
+  EXPECT_NEAR(from_top.views[5].camera.pose.position_m.y, -0.1, 1e-12);
+  cameras.order = TileOrder::kBottomLeft;
+  EXPECT_NEAR(layoutOf({.kind = cameras}, offAxisStream()).views[0].camera.pose.position_m.y, -0.1,
+              1e-12);
+  // All frame one rectangle of the focal plane.
+  const glm::dvec3 point_m(0.3, -0.2, -from_top.focal_distance_m);
+  for (const View& view : from_top.views) {
+    EXPECT_NEAR(project(view, point_m).x, project(from_top.views[0], point_m).x, kRounding_px);
+    EXPECT_NEAR(project(view, point_m).y, project(from_top.views[0], point_m).y, kRounding_px);
+  }
+}
+
+TEST(CameraGrid, liesAsItIsArranged) {
+  CamerasSpec cameras{.tile_size_px = {40, 30}};
+  cameras.grid = CameraGrid{.columns = 2, .rows = 2};
+  const auto sizeOf = [&](TileArrangement arrangement) {
+    cameras.arrangement = arrangement;
+    return layoutOf({.kind = cameras}, offAxisStream()).size_px;
+  };
+  EXPECT_EQ(sizeOf(TileArrangement::kGrid), (SizePx{80, 60}));
+  EXPECT_EQ(sizeOf(TileArrangement::kRow), (SizePx{160, 30}));
+  EXPECT_EQ(sizeOf(TileArrangement::kQuad), (SizePx{80, 60}));
+  EXPECT_EQ(sizeOf(TileArrangement::kSeparate), (SizePx{40, 120}));
+  EXPECT_EQ(layoutOf({.kind = cameras}, offAxisStream()).image_count, 4u);
+}
+
 }  // namespace
 }  // namespace viewloom

@@ -146,6 +146,35 @@ TEST(BandEncoder, makesABaselineJpegThatDecodesToThePicture) {
   EXPECT_LT(rootMeanSquareDifference(picture, decoded.rgbx), 1);
 }
 
+TEST(BandEncoder, packsEachChannelAsAGreyJpeg) {
+  BytePool pool(4);
+  BandEncoder encoder(pool);
+  const Picture picture({77, 150});
+  const EncodingSpec encoding = {.color = BandEncoding::kJpegPlanes, .jpeg_quality = 100};
+  for (size_t channel = 0; channel < 3; ++channel) {
+    Bytes grey;
+    for (uint32_t row = 0; row < 150; row += 64) {
+      BandPixels pixels = picture.band(row, std::min(64u, 150 - row));
+      pixels.plane = kChannelPlanes[channel];
+      const EncodedBand band = encoder.encode(pixels, encoding, layoutOf(picture.size_px));
+      EXPECT_EQ(band.encoding, BandEncoding::kJpegPlanes);
+      EXPECT_EQ(band.plane, kChannelPlanes[channel]);
+      grey.insert(grey.end(), band.bytes->begin(), band.bytes->end());
+    }
+    const DecodedJpeg decoded = decodeJpeg(grey);
+    EXPECT_EQ(decoded.size_px, picture.size_px);
+    EXPECT_EQ(decoded.warning_count, 0);
+    int furthest = 0;
+    for (uint32_t y = 0; y < 150; ++y) {
+      for (uint32_t x = 0; x < 77; ++x) {
+        const int wanted = picture.rgbx[y * picture.stride_bytes + 4 * x + channel];
+        furthest = std::max(furthest, std::abs(decoded.rgbx[(77 * y + x) * 4] - wanted));
+      }
+    }
+    EXPECT_LE(furthest, 2);  // of quantising by 1 and two roundings of the transform
+  }
+}
+
 TEST(BandEncoder, givesTheSameBytesWhicheverInstanceAndOrderPacksThem) {
   BytePool pool(8);
   const Picture picture({400, 640});

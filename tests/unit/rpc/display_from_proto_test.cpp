@@ -86,7 +86,7 @@ TEST(DisplayFromProto, takesEveryNumberOver) {
 }
 
 TEST(EncodingFromProto, fillsInTheDefaultsOfTheProto) {
-  EXPECT_EQ(*encodingFromProto({}), EncodingSpec{});
+  EXPECT_EQ(*encodingFromProto({}, {}), EncodingSpec{});
 }
 
 TEST(EncodingFromProto, takesEveryChoiceOver) {
@@ -97,7 +97,7 @@ TEST(EncodingFromProto, takesEveryChoiceOver) {
   proto.set_with_depth(true);
   proto.set_with_mask(true);
   proto.set_planes(v1::BAND_ENCODING_RAW);
-  EXPECT_EQ(*encodingFromProto(proto), (EncodingSpec{.color = BandEncoding::kZstd,
+  EXPECT_EQ(*encodingFromProto(proto, {}), (EncodingSpec{.color = BandEncoding::kZstd,
                                                      .jpeg_quality = 3,
                                                      .chroma = Chroma::k444,
                                                      .with_depth = true,

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/file_options.h"
+
+namespace viewloom::cli {
+
+void addFileOptions(CLI::App& app, FileFeedOptions& options) {
+  const char* const group = "What";
+  app.add_option("colour", options.colors,
+                 "Colour files, one a frame: .exr (with depth in Z), .png, .jpg, .pfm, .yuv")
+      ->group(group);
+  app.add_option("--depth", options.depths,
+                 "Depth files, one a frame: .exr, .png, .jpg, .pfm, .yuv")
+      ->group(group);
+  app.add_option("--deep", options.deeps,
+                 "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "
+                 "with the least occlusion error, which is told")
+      ->group(group);
+  app.add_flag(
+         "--black-sky", options.loader.has_black_sky,
+         "Light that all samples of a deep px let through comes from a black sky, not from what "
+         "lies beside the px")
+      ->group(group);
+  app.add_option("--view", options.view, "View of multi-view EXR files, as right or left")
+      ->group(group);
+  app.add_option("--manifest", options.manifests,
+                 "FrameManifest JSON files, one a frame: layers, cameras, everything")
+      ->group(group);
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds which files of a folder make a frame: alone, or as a pair of colour and depth.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/frame_loader.h"
+
+namespace viewloom::cli {
+
+// By its name: small letters, without separators, and without the words that tell colour (color,
+// colour, rgb, image, beauty) from depth (depth, disparity, disp). A pair has equal keys:
+// frame_0001.png and frame_0001_depth.png, Image0001.exr and Depth0001.exr, rgb-7.jpg and
+// depth-7.png.
+struct PairKey {
+  std::string key;
+  bool is_depth = false;
+};
+PairKey pairKey(const std::string& file_name);
+
+// Thread-safety: none; one owner.
+class FilePairs {
+ public:
+  FilePairs(std::filesystem::path folder, inputs::InputSettings settings, std::string view)
+      : folder_(std::move(folder)), settings_(std::move(settings)), view_(std::move(view)) {}
+
+  // The frame that a complete file makes, alone or with its other half that came before. Nothing
+  // for halves without the other, and for files that are no pictures. Errors name the file: it is
+  // broken.
+  absl::StatusOr<std::optional<FrameFiles>> add(const std::string& file_name);
+
+  // Files that waited for their other half too long: more than kWaitingMax others did.
+  std::vector<std::string> takeGivenUp();
+
+  static constexpr size_t kWaitingMax = 256;
+
+ private:
+  absl::StatusOr<bool> isWhole(const std::string& file) const;
+  std::optional<FrameFiles> pairUp(const std::string& file_name);
+
+  const std::filesystem::path folder_;
+  const inputs::InputSettings settings_;
+  const std::string view_;
+  std::map<std::string, std::string> colors_;  // waiting, by key
+  std::map<std::string, std::string> depths_;
+  std::deque<std::string> waiting_;  // names, the oldest first; some may be paired since
+  std::vector<std::string> given_up_;
+};
+
+}  // namespace viewloom::cli

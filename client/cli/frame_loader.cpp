@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frame_loader.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "inputs/depth_format.h"
+
+namespace viewloom::cli {
+
+const std::string& FrameFiles::name() const {
+  if (!manifest.empty()) return manifest;
+  return deep.empty() ? input.color : deep;
+}
+
+absl::StatusOr<LoadedFiles> FrameLoader::loadDeep(const std::string& file) const {
+  v1::FrameManifest manifest;
+  v1::SourceFiles& source = *manifest.add_sources();
+  source.set_connection_tolerance(options_.input.connection_tolerance);
+  v1::DeepFile& deep = *source.mutable_deep();
+  deep.set_file(file);
+  deep.set_layers(options_.deep_layer_count_max);
+  deep.set_black_sky(options_.has_black_sky);
+  deep.set_primaries(options_.input.primaries);
+  v1::DepthFormat planar;
+  planar.set_meaning(v1::DEPTH_MEANING_PLANAR);
+  *deep.mutable_depth() = inputs::withSettings(planar, options_.input);
+  absl::StatusOr<files::LoadedFrame> frame = files::loadFrame(manifest, "");
+  if (!frame.ok()) return frame.status();
+  v1::Source& loaded = *frame->wire.header.mutable_sources(0);
+  *loaded.mutable_camera() =
+      inputs::settleCamera(options_.input, {}, loaded.layers(0).planes(1).size());
+  return LoadedFiles{.frame = *std::move(frame), .how = {}};
+}
+
+absl::StatusOr<LoadedFiles> FrameLoader::load(const FrameFiles& files) {
+  if (!files.manifest.empty()) {
+    const std::filesystem::path path = files.manifest;
+    const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);
+    if (!manifest.ok()) return manifest.status();
+    absl::StatusOr<files::LoadedFrame> frame = files::loadFrame(*manifest, path.parent_path());
+    if (!frame.ok()) return frame.status();
+    return LoadedFiles{.frame = *std::move(frame), .how = {}};
+  }
+  if (!files.deep.empty()) return loadDeep(files.deep);
+  absl::StatusOr<inputs::ReadInput> read = reader_.read(files.input);
+  if (!read.ok()) return read.status();
+  return LoadedFiles{.frame = std::move(read->frame), .how = std::move(read->how)};
+}
+
+bool isExr(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".exr";
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/inspect_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/str_cat.h"
+#include "cli/file_options.h"
+#include "cli/inspection_report.h"
+#include "cli/plane_options.h"
+#include "cli/report_error.h"
+#include "files/exr_description.h"
+#include "files/file_bytes.h"
+#include "files/png_writer.h"
+
+namespace viewloom::cli {
+namespace {
+
+struct InspectOptions {
+  FileFeedOptions files;
+  uint32_t layer_count = 0;
+  std::string picture;
+  bool as_json = false;
+};
+
+// Files are named in one list, whatever they are: manifests and deep files tell themselves.
+void sortFiles(FileFeedOptions& options) {
+  if (!options.depths.empty()) return;
+  for (std::string& file : std::exchange(options.colors, {})) {
+    if (file.ends_with(".json")) {
+      options.manifests.push_back(std::move(file));
+      continue;
+    }
+    bool is_deep = false;
+    if (isExr(file)) {
+      const absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
+      // What cannot be read is told when its turn comes.
+      is_deep = description.ok() && description->isDeep();
+    }
+    (is_deep ? options.deeps : options.colors).push_back(std::move(file));
+  }
+}
+
+absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader& loader,
+                                           const inputs::InputSettings& settings) {
+  InspectedFile inspected{.file = files.name()};
+  absl::StatusOr<std::string> format = describeFormat(files.name());
+  if (!format.ok()) return format.status();
+  inspected.format = *std::move(format);
+  absl::StatusOr<LoadedFiles> loaded = loader.load(files);
+  if (!loaded.ok()) return loaded.status();
+  inspected.loaded = *std::move(loaded);
+  auto sources = inspect::inspectFrame(inspected.loaded.frame);
+  if (!sources.ok()) return sources.status();
+  inspected.sources = *std::move(sources);
+  const bool is_stated =
+      !files.manifest.empty() ||
+      (inspected.loaded.how && inspected.loaded.how->source.camera().has_intrinsics());
+  inspected.camera_is_assumed = !is_stated && !settings.fov_y_deg && !settings.focal_px;
+  return inspected;
+}
+
+absl::Status writePicture(const InspectedFile& inspected, const std::string& path) {
+  const auto picture = inspect::drawInspection(inspected.sources.front().layers.front(),
+                                               *inspected.loaded.frame.wire.planes.front());
+  if (!picture.ok()) return picture.status();
+  const auto png = files::encodePng(picture->rgb, picture->width_px, picture->height_px, 3);
+  if (!png.ok()) return png.status();
+  return files::writeFileWhole(path, *png);
+}
+
+int inspectAll(const InspectOptions& options, const std::vector<FrameFiles>& frames,
+               const CommonOptions& common) {
+  FrameLoader loader(options.files.loader);
+  nlohmann::json reports = nlohmann::json::array();
+  int exit_code = kExitDone;
+  bool has_picture = options.picture.empty();
+  for (const FrameFiles& files : frames) {
+    const auto inspected = inspectFiles(files, loader, options.files.loader.input);
+    if (!inspected.ok()) {
+      reportError(inspected.status(), common);
+      exit_code = kExitUsage;
+      continue;
+    }
+    if (!std::exchange(has_picture, true)) {
+      if (absl::Status written = writePicture(*inspected, options.picture); !written.ok()) {
+        return reportError(written, common);
+      }
+    }
+    if (options.as_json) {
+      reports.push_back(reportJson(*inspected));
+    } else {
+      std::fputs(reportText(*inspected).c_str(), stdout);
+    }
+  }
+  if (options.as_json) std::printf("%s\n", reports.dump(2).c_str());
+  return exit_code;
+}
+
+int inspect(const InspectOptions& options, const CommonOptions& common) {
+  InspectOptions sorted = options;
+  sorted.files.loader.deep_layer_count_max = options.layer_count;
+  sortFiles(sorted.files);
+  absl::StatusOr<std::vector<FrameFiles>> frames = framesOf(sorted.files);
+  if (frames.ok() && frames->empty()) {
+    frames = absl::InvalidArgumentError("what to inspect? Accepted are image files and manifests");
+  }
+  if (!frames.ok()) {
+    reportError(frames.status(), common);
+    return kExitUsage;
+  }
+  return inspectAll(sorted, *frames, common);
+}
+
+}  // namespace
+
+RunCommand addInspectCommand(CLI::App& app) {
+  const auto options = std::make_shared<InspectOptions>();
+  app.footer(
+      "Examples:\n"
+      "  viewloom inspect render.0001.exr --picture look.png\n"
+      "  viewloom inspect photo.png --depth photo_depth.png --input relative --depth-near 0.8 "
+      "--depth-far 12\n"
+      "  viewloom inspect holiday_rgbd.png --input rgbd --depth-near 1 --depth-far inf --json");
+  addFileOptions(app, options->files);
+  app.add_option("--layers", options->layer_count, "At most of deep files, 1..4 [4]")
+      ->check(CLI::Range(1, 4))
+      ->group("What");
+  app.add_option("--picture", options->picture,
+                 "PNG to write: colour of the first frame beside its depth, white near, magenta "
+                 "without surface");
+  app.add_flag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
+  addPlaneOptions(app, options->files.loader.input);
+  return [options](const CommonOptions& common) { return inspect(*options, common); };
+}
+
+}  // namespace viewloom::cli

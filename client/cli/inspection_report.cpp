@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/inspection_report.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "base/str_cat.h"
+#include "cli/file_frames.h"
+#include "cli/status_line.h"
+#include "files/exr_description.h"
+
+namespace viewloom::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string sizeText(const v1::SizePx& size) {
+  return strCat(size.width(), "x", size.height());
+}
+
+// The rest of an enum's name, in small letters: "PLANE_ENCODING_DEPTH_F32" gives "depth_f32".
+std::string wordOf(const std::string& name, const std::string& prefix) {
+  std::string word = name.substr(std::min(prefix.size(), name.size()));
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+std::string encodingOf(const v1::Plane& plane) {
+  return wordOf(v1::PlaneEncoding_Name(plane.encoding()), "PLANE_ENCODING_");
+}
+std::string transferOf(const v1::Plane& plane) {
+  return wordOf(v1::ColorTransfer_Name(plane.transfer()), "COLOR_TRANSFER_");
+}
+std::string primariesOf(const v1::Plane& plane) {
+  return wordOf(v1::ColorPrimaries_Name(plane.primaries()), "COLOR_PRIMARIES_");
+}
+std::string alphaOf(const v1::Plane& plane) {
+  return wordOf(v1::AlphaMode_Name(plane.alpha()), "ALPHA_MODE_");
+}
+std::string meaningOf(const v1::Plane& plane) {
+  return wordOf(v1::DepthMeaning_Name(plane.depth().meaning()), "DEPTH_MEANING_");
+}
+
+double scaleOf(const v1::DepthFormat& format) {
+  return format.scale() == 0 ? 1 : format.scale();
+}
+
+// As "metres along the view axis = sample x 0.001 + 0; 0 is no surface".
+std::string depthText(const v1::Plane& plane) {
+  const v1::DepthFormat& format = plane.depth();
+  std::string text;
+  if (format.meaning() == v1::DEPTH_MEANING_WINDOW) {
+    text = strCat("window depth ", format.min_depth(), "..",
+                  format.max_depth() == 0 ? 1 : format.max_depth(), ", near ", format.near_z_m(),
+                  " m, far ", format.far_z_m(), " m",
+                  format.near_z_m() > format.far_z_m() ? ", reversed" : "");
+  } else {
+    const char* const what = format.meaning() == v1::DEPTH_MEANING_DISPARITY ? "1/Z in 1/m"
+                             : format.meaning() == v1::DEPTH_MEANING_RAY_DISTANCE
+                                 ? "metres from the eye"
+                                 : "metres along the view axis";
+    text = strCat(what, " = sample x ", scaleOf(format), " + ", format.offset());
+  }
+  if (!format.has_invalid_value()) return text;
+  return strCat(text, "; ", format.invalid_value(),
+                format.invalid_is_far() ? " is infinitely far" : " is no surface");
+}
+
+// Of an image around the axis.
+double fovDegrees(double focal_px, uint32_t side_px) {
+  return 2 * std::atan(0.5 * side_px / focal_px) * 180 / std::numbers::pi;
+}
+
+std::string cameraText(const v1::Camera& camera, const v1::SizePx& size, bool is_assumed) {
+  const v1::Vector3& at = camera.pose().position();
+  std::string text = strCat("at ", at.x(), " ", at.y(), " ", at.z(), " m");
+  if (camera.has_intrinsics()) {
+    const v1::Intrinsics& i = camera.intrinsics();
+    text = strCat(text, ", ", formatNumber(fovDegrees(i.focal_x_px(), size.width()), 1), " x ",
+                  formatNumber(fovDegrees(i.focal_y_px(), size.height()), 1),
+                  " degrees, focal length ", formatNumber(i.focal_x_px(), 1), " px, axis at ",
+                  formatNumber(i.principal_x_px(), 1), ", ", formatNumber(i.principal_y_px(), 1));
+  }
+  return is_assumed ? strCat(text, " (assumed: give --fov or --focal-px)") : text;
+}
+
+std::string percentText(uint64_t count, uint64_t of) {
+  return strCat(formatNumber(100.0 * double(count) / double(std::max<uint64_t>(of, 1)), 1), " %");
+}
+
+void addLine(std::string& text, const std::string& what, const std::string& line) {
+  text += "  " + what + std::string(what.size() < 10 ? 10 - what.size() : 1, ' ') + line + "\n";
+}
+
+void addLayer(std::string& text, const inspect::LayerInspection& layer) {
+  addLine(text, "colour",
+          strCat(sizeText(layer.color.size()), " px, ", encodingOf(layer.color), ", ",
+                 transferOf(layer.color), ", ", primariesOf(layer.color), ", alpha ",
+                 alphaOf(layer.color)));
+  addLine(text, "depth",
+          strCat(sizeText(layer.depth.size()), " px, ", encodingOf(layer.depth), ": ",
+                 depthText(layer.depth)));
+  const inspect::DepthSamples& samples = layer.samples;
+  const inspect::DepthMeasures& measures = layer.measures;
+  if (samples.surface_count > 0) {
+    addLine(text, "range",
+            strCat(1 / measures.inv_z_max, " .. ", 1 / measures.inv_z_min, " m, median ",
+                   1 / measures.inv_z_median, " m"));
+    addLine(text, "measured",
+            strCat("step ", measures.step, " 1/m, noise ", measures.noise_sigma, " 1/m"));
+  }
+  const uint64_t all = samples.sampleCount();
+  addLine(text, "samples",
+          strCat(percentText(samples.surface_count, all), " surface, ",
+                 percentText(samples.sky_count, all), " infinitely far, ",
+                 percentText(samples.invalid_count, all), " invalid, ",
+                 percentText(samples.bad_count, all), " NaN or negative"));
+  for (const inspect::Suspicion& suspicion : layer.suspicions) {
+    addLine(text, "warning", strCat(suspicion.kind, ": ", suspicion.sentence));
+  }
+}
+
+Json layerJson(const inspect::LayerInspection& layer) {
+  const inspect::DepthSamples& samples = layer.samples;
+  const inspect::DepthMeasures& measures = layer.measures;
+  const v1::DepthFormat& format = layer.depth.depth();
+  Json depth = {{"width_px", samples.width_px},
+                {"height_px", samples.height_px},
+                {"encoding", encodingOf(layer.depth)},
+                {"meaning", meaningOf(layer.depth)},
+                {"scale", scaleOf(format)},
+                {"offset", format.offset()},
+                {"surface_count", samples.surface_count},
+                {"sky_count", samples.sky_count},
+                {"invalid_count", samples.invalid_count},
+                {"bad_count", samples.bad_count},
+                {"step_per_m", measures.step},
+                {"noise_sigma_per_m", measures.noise_sigma}};
+  if (format.meaning() == v1::DEPTH_MEANING_WINDOW) {
+    depth["near_m"] = format.near_z_m();
+    // JSON has no infinity.
+    depth["far_m"] = std::isinf(format.far_z_m()) ? Json("inf") : Json(format.far_z_m());
+  }
+  if (format.has_invalid_value()) {
+    depth["invalid_value"] = format.invalid_value();
+    depth["invalid_is_far"] = format.invalid_is_far();
+  }
+  if (samples.surface_count > 0) {
+    depth["min_m"] = 1 / measures.inv_z_max;
+    depth["median_m"] = 1 / measures.inv_z_median;
+    depth["max_m"] = 1 / measures.inv_z_min;
+  }
+  Json warnings = Json::array();
+  for (const inspect::Suspicion& suspicion : layer.suspicions) {
+    warnings.push_back({{"kind", suspicion.kind}, {"sentence", suspicion.sentence}});
+  }
+  return {{"color",
+           {{"width_px", layer.color.size().width()},
+            {"height_px", layer.color.size().height()},
+            {"encoding", encodingOf(layer.color)},
+            {"transfer", transferOf(layer.color)},
+            {"primaries", primariesOf(layer.color)},
+            {"alpha", alphaOf(layer.color)}}},
+          {"depth", depth},
+          {"warnings", warnings}};
+}
+
+Json cameraJson(const v1::Camera& camera, bool is_assumed) {
+  const v1::Vector3& at = camera.pose().position();
+  const v1::Quaternion& turn = camera.pose().orientation();
+  Json json = {{"position_m", {at.x(), at.y(), at.z()}},
+               {"orientation_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}},
+               {"is_assumed", is_assumed}};
+  if (camera.has_intrinsics()) {
+    const v1::Intrinsics& i = camera.intrinsics();
+    json["focal_px"] = {i.focal_x_px(), i.focal_y_px()};
+    json["principal_px"] = {i.principal_x_px(), i.principal_y_px()};
+  }
+  return json;
+}
+
+std::string kindOf(const InspectedFile& inspected) {
+  if (inspected.loaded.how) return nameOf(inspected.loaded.how->kind);
+  return inspected.loaded.frame.deep.empty() ? "manifest" : "deep";
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> describeFormat(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (!isExr(file)) {
+    return extension == ".json" ? "FrameManifest" : extension.empty() ? "" : extension.substr(1);
+  }
+  const absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
+  if (!description.ok()) return description.status();
+  const size_t part_count = description->parts.size();
+  std::string text = strCat("OpenEXR, ", part_count, part_count == 1 ? " part" : " parts");
+  for (const files::ExrDescribedPart& part : description->parts) {
+    text = strCat(text, "; ", part.name.empty() ? "" : part.name + ": ", part.type, " ",
+                  part.width_px, "x", part.height_px, " px:");
+    for (const files::ExrDescribedChannel& channel : part.channels) {
+      text = strCat(text, " ", channel.name, " (", channel.type, ")");
+    }
+  }
+  return text;
+}
+
+std::string reportText(const InspectedFile& inspected) {
+  std::string text = inspected.file + "\n";
+  addLine(text, "file", inspected.format);
+  addLine(text, "read as", kindOf(inspected) + (inspected.loaded.how ? " (--input)" : ""));
+  if (inspected.loaded.how) {
+    for (const std::string& note : inspected.loaded.how->notes) addLine(text, "", note);
+  }
+  for (const files::DeepReport& deep : inspected.loaded.frame.deep) {
+    addLine(text, "", noteOf(deep));
+  }
+  for (size_t source = 0; source < inspected.sources.size(); ++source) {
+    const inspect::SourceInspection& its = inspected.sources[source];
+    if (inspected.sources.size() > 1) addLine(text, "source", strCat(source));
+    addLine(text, "camera",
+            cameraText(its.camera, its.layers.front().depth.size(), inspected.camera_is_assumed));
+    for (size_t layer = 0; layer < its.layers.size(); ++layer) {
+      if (its.layers.size() > 1) addLine(text, "layer", strCat(layer));
+      addLayer(text, its.layers[layer]);
+    }
+  }
+  return text;
+}
+
+Json reportJson(const InspectedFile& inspected) {
+  Json json = {{"file", inspected.file},
+               {"format", inspected.format},
+               {"input", kindOf(inspected)},
+               {"notes", Json::array()},
+               {"sources", Json::array()}};
+  if (inspected.loaded.how) json["notes"] = inspected.loaded.how->notes;
+  for (const inspect::SourceInspection& source : inspected.sources) {
+    Json layers = Json::array();
+    for (const inspect::LayerInspection& layer : source.layers) layers.push_back(layerJson(layer));
+    json["sources"].push_back(
+        {{"camera", cameraJson(source.camera, inspected.camera_is_assumed)}, {"layers", layers}});
+  }
+  return json;
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// An inspected frame for people and for machines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/frame_loader.h"
+#include "inspect/inspection.h"
+
+namespace viewloom::cli {
+
+struct InspectedFile {
+  std::string file;
+  std::string format;  // "OpenEXR, 1 part, channels R (half), ..."
+  LoadedFiles loaded;
+  std::vector<inspect::SourceInspection> sources;
+  bool camera_is_assumed = false;
+};
+
+// What there is to say about the file itself, before its planes are read.
+absl::StatusOr<std::string> describeFormat(const std::string& file);
+
+// Several lines, each ended.
+std::string reportText(const InspectedFile& inspected);
+
+nlohmann::json reportJson(const InspectedFile& inspected);
+
+}  // namespace viewloom::cli

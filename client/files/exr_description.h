@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the header of an OpenEXR file says: its parts, their channels, and what is told of camera
+// and colour.
+#pragma once
+
+#include <OpenEXR/ImfChromaticities.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+
+namespace viewloom::files {
+
+struct ExrDescribedChannel {
+  // By which readExrColor and readExrDepth find it: with the part's name before it where the file
+  // has several parts and the channel does not carry it already.
+  std::string name;
+  std::string type;  // "half", "float", "uint"
+};
+
+struct ExrDescribedPart {
+  std::string name;      // "" = none
+  std::string type;      // "scanlineimage", "tiledimage", "deepscanline", "deeptile"
+  int64_t width_px = 0;  // of the display window
+  int64_t height_px = 0;
+  std::vector<ExrDescribedChannel> channels;
+
+  bool isDeep() const { return type.starts_with("deep"); }
+};
+
+// As in the file, unchecked: 16 numbers in the order in which vectors are rows.
+using ExrMatrix = std::array<double, 16>;
+
+struct ExrDescription {
+  std::vector<ExrDescribedPart> parts;
+  std::vector<std::string> views;
+  // Of the first part. Numbers and texts by the attribute's name, numbers as text.
+  std::map<std::string, std::string> texts;
+  std::optional<ExrMatrix> world_to_camera;
+  std::optional<ExrMatrix> world_to_ndc;
+  std::optional<Imf::Chromaticities> chromaticities;
+  double pixel_aspect = 1;  // width of a px divided by its height
+
+  bool isDeep() const;
+};
+
+absl::StatusOr<ExrDescription> describeExr(const std::filesystem::path& path);
+
+}  // namespace viewloom::files

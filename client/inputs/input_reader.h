@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames of input files, as any tool of InputKind writes them.
+#pragma once
+
+#include <optional>
+
+#include "base/status.h"
+#include "files/frame_manifest.h"
+#include "inputs/depth_format.h"
+#include "inputs/interpretation.h"
+
+namespace viewloom::inputs {
+
+struct ReadInput {
+  Interpretation how;
+  files::LoadedFrame frame;  // with its camera; not numbered
+};
+
+// Keeps what has to be the same from frame to frame. Thread-safety: none; one owner.
+class InputReader {
+ public:
+  explicit InputReader(InputSettings settings) : settings_(std::move(settings)) {}
+
+  const InputSettings& settings() const { return settings_; }
+
+  // Errors name the file or the option.
+  absl::StatusOr<ReadInput> read(const InputFiles& files);
+
+ private:
+  absl::Status settleDepth(const Interpretation& how, files::LoadedFrame& frame);
+
+  InputSettings settings_;
+  // Of floats without a scale: those of the first frame, so that later ones do not pulse.
+  std::optional<SampleRange> float_range_;
+};
+
+// The camera of a depth plane of this size: what the settings say, else what files state, else a
+// vertical field of view of 40 degrees around the middle.
+v1::Camera settleCamera(const InputSettings& settings, const Interpretation& how,
+                        const v1::SizePx& depth_size);
+
+}  // namespace viewloom::inputs

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user says about input files: which tool wrote them, and what their samples mean where the
+// files do not say it themselves.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewloom/v1/frame.pb.h"
+#include "viewloom/v1/manifest.pb.h"
+
+namespace viewloom::inputs {
+
+enum class InputKind {
+  kAuto,      // by the file's header, else kPlain
+  kPlain,     // colour and depth as the settings say
+  kBlender,   // multilayer EXR of Blender
+  kUnreal,    // EXR of Unreal's Movie Render Queue
+  kRgbd,      // colour and depth halves of one picture
+  k2dPlusZ,   // 2D-plus-Depth: disparity about a screen, beside the colour
+  kSensor,    // depth camera: whole numbers of millimetres, 0 = nothing measured
+  kOpenXr,    // depth buffer between two planes
+  kTmiv,      // MPEG's test model: camera JSON, normalised disparity
+  kIphone,    // disparity in 1/m, or normalised between two of them
+  kRelative,  // inverse depth of unknown scale, as networks estimate it
+};
+
+// As --input takes it: "blender".
+std::string nameOf(InputKind kind);
+
+// What is not given comes from the kind of input.
+struct InputSettings {
+  InputKind kind = InputKind::kAuto;
+
+  v1::DepthMeaning depth_meaning = v1::DEPTH_MEANING_UNSPECIFIED;
+  std::optional<double> depth_scale;
+  std::optional<double> depth_offset;
+  std::optional<double> near_m;  // of the nearest code, or of the window's near plane
+  std::optional<double> far_m;
+  std::optional<double> min_depth;
+  std::optional<double> max_depth;
+  std::optional<double> depth_invalid;
+  bool depth_invalid_is_far = false;
+  bool depth_far_zero = false;
+  double connection_tolerance = 0;  // 1/m; 0 = measured
+
+  v1::ColorTransfer transfer = v1::COLOR_TRANSFER_UNSPECIFIED;
+  v1::ColorPrimaries primaries = v1::COLOR_PRIMARIES_UNSPECIFIED;
+  v1::AlphaMode alpha = v1::ALPHA_MODE_UNSPECIFIED;
+
+  std::optional<double> fov_y_deg;   // 40 without any word of a camera
+  std::optional<double> focal_px;    // instead of fov_y_deg; vertical, in px of the depth
+  std::vector<double> principal_px;  // none = the middle
+  std::optional<double> pixel_aspect;
+  bool looks_along_minus_z = false;  // cameras of EXR matrices: else along +z
+
+  v1::ImagePart depth_side = v1::IMAGE_PART_RIGHT;  // kRgbd, k2dPlusZ
+  bool is_black_near = false;                       // kRgbd, kRelative
+  double screen_m = 1;                              // k2dPlusZ
+  double factor = 64;                               // k2dPlusZ, of 64 = 100 %
+  double screen_code = 128;                         // k2dPlusZ: the code that lies in the screen
+  std::string camera_file;                          // kTmiv
+  std::string camera_name;                          // kTmiv; "" = by the name of the depth file
+};
+
+// The files of one frame.
+struct InputFiles {
+  std::string color;
+  std::string depth;         // "" = the colour file has depth, too
+  std::string view;          // of multi-view EXR files; "" = the default one
+  uint32_t video_frame = 0;  // of .yuv files
+};
+
+}  // namespace viewloom::inputs

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads from an EXR file's header which tool wrote it, where its colour and depth are, and which
+// camera saw them.
+#pragma once
+
+#include "base/status.h"
+#include "inputs/interpretation.h"
+
+namespace viewloom::inputs {
+
+// Completes `result`, whose kind is kAuto's kPlain, or what the settings demand.
+absl::Status interpretExr(const InputSettings& settings, const InputFiles& files,
+                          Interpretation& result);
+
+}  // namespace viewloom::inputs

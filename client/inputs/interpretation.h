@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What input files are, by their headers and by what the user says, before any pixel is read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "inputs/input_settings.h"
+
+namespace viewloom::inputs {
+
+// What is left to settle once the depth is there.
+enum class DepthRange {
+  kStated,      // nothing: the format is complete
+  kNormalised,  // the format follows from the range of the samples (normalisedFormat)
+  k2dPlusZ,     // ... by twoDPlusZFormat
+};
+
+struct Interpretation {
+  InputKind kind = InputKind::kPlain;     // never kAuto
+  v1::SourceFiles source;                 // one layer; the camera as far as files state it
+  std::optional<v1::SizePx> camera_size;  // px that the camera's intrinsics count; none = depth's
+  double pixel_aspect = 1;                // width of a px divided by its height
+  DepthRange range = DepthRange::kStated;
+  uint32_t video_frame_count = 1;  // of .yuv files
+  std::vector<std::string> notes;  // what a user may want to know, a sentence each
+};
+
+// INVALID_ARGUMENT with the option or the file at fault and what is accepted.
+absl::StatusOr<Interpretation> interpret(const InputSettings& settings, const InputFiles& files);
+
+}  // namespace viewloom::inputs

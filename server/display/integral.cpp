@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "display/integral.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "display/field_checks.h"
+
+namespace viewloom {
+namespace {
+
+constexpr IntegralPreset kPresets[] = {
+    {.name = "near_eye_2013",
+     .device = "Near-eye display of Lanman and Luebke, 2013",
+     .panel_px = {1280, 720},
+     .pixel_pitch_m = 15.36e-3 / 1280,
+     .lens_pitch_m = 1e-3,
+     .focal_length_m = 3.3e-3,
+     .note = "a Sony ECX332A of 15.36 x 8.64 mm; the paper crops it to 15 x 8 lenses"},
+};
+
+absl::Status applyPreset(IntegralSpec& integral) {
+  if (integral.preset.empty()) return absl::OkStatus();
+  const auto preset =
+      std::find_if(std::begin(kPresets), std::end(kPresets),
+                   [&](const auto& known) { return integral.preset == known.name; });
+  if (preset == std::end(kPresets)) {
+    return fieldError(
+        absl::StatusCode::kNotFound, "integral.preset",
+        absl::StrCat("there is no \"", integral.preset, "\"; there is ", kPresets[0].name));
+  }
+  const auto fill = [](double& given, double value) {
+    if (given == 0) given = value;
+  };
+  if (integral.panel_px == SizePx{}) integral.panel_px = preset->panel_px;
+  fill(integral.pixel_pitch_m, preset->pixel_pitch_m);
+  fill(integral.lens_pitch_m, preset->lens_pitch_m);
+  fill(integral.focal_length_m, preset->focal_length_m);
+  return absl::OkStatus();
+}
+
+absl::Status checkLength(double length_m, const std::string& field) {
+  return checkRange(length_m, kPanelLengthMin_m, kPanelLengthMax_m, field);
+}
+
+// As many whole lenses as the panel has room for, and no more than what covers it.
+absl::Status completeLensCount(uint32_t& count, uint32_t side_px, double lens_px,
+                               const std::string& field) {
+  if (count == 0) count = std::max(1u, static_cast<uint32_t>(side_px / lens_px));
+  return checkCount(count, static_cast<uint32_t>(std::ceil(side_px / lens_px)), field);
+}
+
+}  // namespace
+
+std::span<const IntegralPreset> integralPresets() {
+  return kPresets;
+}
+
+absl::Status complete(IntegralSpec& integral) {
+  VIEWLOOM_RETURN_IF_ERROR(applyPreset(integral));
+  VIEWLOOM_RETURN_IF_ERROR(checkSize(integral.panel_px, kQuiltSidePxMax, "integral.panel_size"));
+  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.pixel_pitch_m, "integral.pixel_pitch_m"));
+  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.lens_pitch_m, "integral.lens_pitch_m"));
+  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.focal_length_m, "integral.focal_length_m"));
+  const double lens_px = integral.lens_pitch_m / integral.pixel_pitch_m;
+  if (lens_px < kLensPxMin || lens_px > kLensPxMax) {
+    return invalidField(
+        "integral.lens_pitch_m",
+        absl::StrCat("a lens covers ", lens_px, " px, accepted is ", kLensPxMin, "..", kLensPxMax));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_columns, integral.panel_px.width,
+                                             lens_px, "integral.lens_columns"));
+  VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_rows, integral.panel_px.height, lens_px,
+                                             "integral.lens_rows"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(integral.offset_px.x, -kLensPxMax, kLensPxMax, "integral.offset_x_px"));
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(integral.offset_px.y, -kLensPxMax, kLensPxMax, "integral.offset_y_px"));
+  if (integral.scale == 0) integral.scale = 1;
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(integral.scale, kPanelScaleMin, kPanelScaleMax, "integral.scale"));
+  return checkOptionalDistance(integral.distance_m, "integral.distance_m");
+}
+
+TileGrid tileGrid(const IntegralSpec& integral) {
+  return {.size_field = "integral.panel_size",
+          .columns = 1,
+          .rows = 1,
+          .tile_size_px = integral.panel_px,
+          .order = TileOrder::kTopLeft,
+          .view_count = 1,
+          .width_px = integral.panel_px.width,
+          .height_px = integral.panel_px.height};
+}
+
+void describe(const IntegralSpec& integral, const StreamDefaults&, AtlasLayout& layout) {
+  const double lens_px = integral.lens_pitch_m / integral.pixel_pitch_m;
+  const double focal_px = integral.focal_length_m / integral.pixel_pitch_m;
+  const glm::dvec2 middle_px = 0.5 * glm::dvec2(integral.panel_px.width, integral.panel_px.height);
+  const glm::dvec2 lens_count(integral.lens_columns, integral.lens_rows);
+  layout.rays =
+      MicrolensRays{.lens_pitch_px = lens_px,
+                    .first_px = middle_px + integral.offset_px - 0.5 * lens_px * lens_count,
+                    .columns = integral.lens_columns,
+                    .rows = integral.lens_rows,
+                    .middle_px = middle_px,
+                    .m_per_px = integral.pixel_pitch_m * integral.scale,
+                    .distance_m = integral.distance_m,
+                    .is_flipped = integral.is_flipped};
+  // What a lens shows is what a pinhole in its middle sees, px of the panel away from that.
+  layout.views = {{Camera{.intrinsics = {.focal_px = glm::dvec2(focal_px)}}}};
+  // From an eye further away, a px of a lens is seen through the whole of it.
+  layout.view_pitch_m = glm::dvec2(integral.lens_pitch_m * integral.scale);
+}
+
+}  // namespace viewloom

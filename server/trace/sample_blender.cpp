@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/sample_blender.h"
+
+#include <algorithm>
+
+#include "gpu/barrier.h"
+#include "shaders/blend_samples.h"
+#include "structure/structure_slot.h"
+#include "trace/band_params.h"
+
+namespace viewloom {
+namespace {
+
+constexpr DescriptorSlot kSlots[] = {{abi::kBindingSample, DescriptorKind::kStorage},
+                                     {abi::kBindingSums, DescriptorKind::kStorage},
+                                     {abi::kBindingBand, DescriptorKind::kStorage}};
+
+// Groups a row of the dispatch: bands have more px than a row may have groups.
+constexpr uint32_t kGroupsPerRow = 1024;
+
+// Of one channel.
+float weightOf(const std::vector<RaySample>& samples, uint32_t index, uint8_t channel) {
+  if ((samples[index].channels & channel) == 0) return 0;
+  const auto counts = [&](const RaySample& sample) { return (sample.channels & channel) != 0; };
+  return 1.0F / float(std::count_if(samples.begin(), samples.end(), counts));
+}
+
+}  // namespace
+
+const ComputePass& SampleBlender::pass() {
+  std::lock_guard lock(mutex_);
+  if (!pass_) {
+    pass_ = std::make_unique<ComputePass>(*device_,
+                                          ComputePassOptions{.spirv = blend_samples_spirv,
+                                                             .push_bytes = sizeof(abi::BlendPush),
+                                                             .descriptors = kSlots,
+                                                             .debug_name = "blend samples"});
+  }
+  return *pass_;
+}
+
+void SampleBlender::record(vk::CommandBuffer commands, const BlendTarget& target,
+                           const std::vector<RaySample>& samples, uint32_t index) {
+  const abi::BlendPush push{
+      .px_count = target.px_count,
+      .is_first = index == 0,
+      .is_last = index + 1 == samples.size(),
+      .weights = {weightOf(samples, index, kRedChannel), weightOf(samples, index, kGreenChannel),
+                  weightOf(samples, index, kBlueChannel)},
+      .linear = addressWords(target.linear_address)};
+  const Descriptor bindings[] = {wholeBuffer(abi::kBindingSample, target.sample),
+                                 wholeBuffer(abi::kBindingSums, target.sums),
+                                 wholeBuffer(abi::kBindingBand, target.band)};
+  const ComputePass& blend = pass();
+  recordComputeBarrier(commands);
+  blend.recordDescriptors(commands, bindings);
+  const uint32_t groups = groupCount(target.px_count);
+  blend.record(commands, push, std::min(groups, kGroupsPerRow),
+               (groups + kGroupsPerRow - 1) / kGroupsPerRow);
+  recordComputeBarrier(commands);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes px of bands out of several samples of each, in light.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "display/ray_samples.h"
+#include "gpu/buffer.h"
+#include "gpu/compute_pass.h"
+#include "gpu/descriptor.h"
+
+namespace viewloom {
+
+// What is blended where: `sample` is read, `band` written by the last of sample_count.
+struct BlendTarget {
+  const Buffer& sample;         // R, G, B, ignored, uint32_t per px
+  const Buffer& sums;           // linear light, float[3] per px
+  const Buffer& band;           // as `sample`
+  uint64_t linear_address = 0;  // of TraceExtras::linear; 0 = not wanted
+  uint32_t px_count = 0;
+};
+
+// The device must outlive it. Thread-safety: all methods may be called from any thread.
+class SampleBlender {
+ public:
+  explicit SampleBlender(const Device& device) : device_(&device) {}
+
+  // Adds sample `index` of `samples`, which come in order. Each channel is the mean of those that
+  // count for it. Waits for the compute work before it, and what follows may write the next one.
+  void record(vk::CommandBuffer commands, const BlendTarget& target,
+              const std::vector<RaySample>& samples, uint32_t index);
+
+ private:
+  const ComputePass& pass();
+
+  const Device* device_;
+  std::mutex mutex_;  // guards pass_
+  std::unique_ptr<ComputePass> pass_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kind of display of a whole server, as a client decodes it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "base/clock.h"
+#include "e2e/wire_frames.h"
+#include "gpu/test_device.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "lib/watcher.h"
+#include "service.h"
+
+namespace viewloom::test {
+namespace {
+
+constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
+
+Config anyPorts() {
+  Config config;
+  config.validation = true;
+  config.grpc.address = "127.0.0.1:0";
+  config.http.address = "127.0.0.1:0";
+  return config;
+}
+
+v1::OpenDisplay openScene() {
+  v1::OpenDisplay open;
+  open.set_stream("scene");
+  open.set_count(1);
+  open.mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
+  return open;
+}
+
+v1::CamerasDisplay& cameraGrid(v1::OpenDisplay& open) {
+  v1::CamerasDisplay& cameras = *open.mutable_display()->mutable_cameras();
+  cameras.mutable_tile_size()->set_width(61);
+  cameras.mutable_tile_size()->set_height(39);
+  v1::CameraGrid& grid = *cameras.mutable_grid();
+  grid.set_columns(3);
+  grid.set_rows(2);
+  grid.set_spacing_x_m(0.1);
+  grid.set_spacing_y_m(0.08);
+  return cameras;
+}
+
+v1::StereoDisplay& eyes(v1::OpenDisplay& open) {
+  v1::StereoDisplay& stereo = *open.mutable_display()->mutable_stereo();
+  stereo.mutable_eye_size()->set_width(75);
+  stereo.mutable_eye_size()->set_height(131);
+  return stereo;
+}
+
+// A panel of 201 x 130 px.
+v1::LenticularDisplay& panel(v1::OpenDisplay& open) {
+  v1::LenticularDisplay& lenticular = *open.mutable_display()->mutable_lenticular();
+  lenticular.set_calibration_json(
+      R"({"pitch":{"value":40},"slope":{"value":-6.5},"center":{"value":0.3},)"
+      R"("DPI":{"value":320},"screenW":{"value":201},"screenH":{"value":130}})");
+  return lenticular;
+}
+
+double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.samples.size(); ++i) {
+    const double difference = double(a.samples[i]) - double(b.samples[i]);
+    sum += difference * difference;
+  }
+  return 10 * std::log10(255.0 * 255 * double(a.samples.size()) / sum);
+}
+
+class ServiceDisplaysTest : public DeviceNeededTest {
+ protected:
+  void SetUp() override {
+    DeviceNeededTest::SetUp();
+    if (IsSkipped()) return;
+    service_.emplace(anyPorts(), clock_,
+                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
+    Publisher publisher(makeChannel(service_->grpcAddress()),
+                        {.stream = "scene", .session_id = "", .backoff = {}}, {});
+    publisher.offer(syntheticWireFrame({160, 90}, 2, 0));
+    const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
+    ASSERT_TRUE(end.ok()) << end;
+  }
+
+  void TearDown() override {
+    if (IsSkipped()) return;
+    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+  }
+
+  // Its one atlas.
+  Atlas atlasOf(const v1::OpenDisplay& open) {
+    std::mutex mutex;
+    std::condition_variable came;
+    std::optional<Atlas> atlas;
+    const Watcher watcher(makeChannel(service_->grpcAddress()), open,
+                          {.on_layout = {},
+                           .on_atlas =
+                               [&](const Atlas& given) {
+                                 std::lock_guard lock(mutex);
+                                 atlas = given;
+                                 came.notify_all();
+                               },
+                           .on_connection = {}});
+    std::unique_lock lock(mutex);
+    EXPECT_TRUE(came.wait_for(lock, kGiveUpAfter, [&] { return atlas.has_value(); }));
+    return atlas.value();
+  }
+
+  static AtlasPicture colorOf(const Atlas& atlas) {
+    auto picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+    EXPECT_TRUE(picture.ok()) << picture.status();
+    return *std::move(picture);
+  }
+
+  SteadyClock clock_;
+  std::optional<Service> service_;
+};
+
+TEST_F(ServiceDisplaysTest, sendsEachViewAsAnImageOfItsOwn) {
+  v1::OpenDisplay together = openScene();
+  cameraGrid(together);
+  v1::OpenDisplay apart = openScene();
+  cameraGrid(apart).set_arrangement(v1::TILE_ARRANGEMENT_SEPARATE_VIEWS);
+  const Atlas atlas = atlasOf(together);
+  const Atlas images = atlasOf(apart);
+  EXPECT_EQ(atlas.layout->columns(), 3u);
+  ASSERT_EQ(images.layout->image_count(), 6u);
+  ASSERT_EQ(images.layout->view_count(), 6u);
+  for (uint32_t view = 0; view < 6; ++view) {
+    EXPECT_EQ(cutView(colorOf(images), *images.layout, view).samples,
+              cutView(colorOf(atlas), *atlas.layout, view).samples)
+        << view;
+  }
+  apart.mutable_encoding()->set_color(v1::BAND_ENCODING_JPEG);
+  apart.mutable_encoding()->set_chroma(v1::CHROMA_SUBSAMPLING_444);
+  apart.mutable_encoding()->set_jpeg_quality(95);
+  const Atlas jpegs = atlasOf(apart);
+  EXPECT_GT(psnrDb(colorOf(jpegs), colorOf(images)), 30);
+  for (uint32_t view = 0; view < 6; ++view) {
+    EXPECT_TRUE(joinJpegBands(jpegs, v1::ATLAS_PLANE_COLOR, view).ok()) << view;
+  }
+}
+
+TEST_F(ServiceDisplaysTest, sendsTheEyesAsTwoImages) {
+  v1::OpenDisplay together = openScene();
+  eyes(together).set_layout(v1::STEREO_LAYOUT_TOP_BOTTOM);
+  v1::OpenDisplay apart = openScene();
+  eyes(apart).set_layout(v1::STEREO_LAYOUT_SEPARATE);
+  const Atlas images = atlasOf(apart);
+  EXPECT_EQ(images.layout->image_count(), 2u);
+  EXPECT_EQ(colorOf(images).samples, colorOf(atlasOf(together)).samples);
+}
+
+TEST_F(ServiceDisplaysTest, sendsPanelsAsOneImagePerChannelUnlessAskedOtherwise) {
+  v1::OpenDisplay raw = openScene();
+  panel(raw);
+  v1::OpenDisplay usual = raw;
+  usual.clear_encoding();
+  const AtlasPicture exact = colorOf(atlasOf(raw));
+  EXPECT_EQ(exact.width_px, 201u);
+  EXPECT_EQ(exact.height_px, 130u);
+  const Atlas planes = atlasOf(usual);
+  EXPECT_EQ(planes.layout->encoding().color(), v1::BAND_ENCODING_JPEG_PLANES);
+  for (const v1::AtlasPlane plane :
+       {v1::ATLAS_PLANE_RED, v1::ATLAS_PLANE_GREEN, v1::ATLAS_PLANE_BLUE}) {
+    EXPECT_TRUE(joinJpegBands(planes, plane).ok()) << plane;
+  }
+  const double planes_db = psnrDb(colorOf(planes), exact);
+  v1::OpenDisplay shared = raw;
+  shared.mutable_encoding()->set_color(v1::BAND_ENCODING_JPEG);
+  const double shared_db = psnrDb(colorOf(atlasOf(shared)), exact);
+  std::cout << "planes: " << planes_db << " dB, one 4:4:4 JPEG: " << shared_db << " dB\n";
+  EXPECT_GT(planes_db, shared_db);
+}
+
+TEST_F(ServiceDisplaysTest, averagesSamplesOfSweptAndWalkedViewsAlike) {
+  v1::OpenDisplay quilt = openScene();
+  *quilt.mutable_display() = openQuilt("scene", {240, 120}).display();
+  quilt.mutable_display()->mutable_filter()->set_sample_count(4);
+  const Atlas swept = atlasOf(quilt);
+  // What is turned by a twentieth of a degree cannot be swept, and looks the same.
+  v1::Pose& pose = *quilt.mutable_display()->mutable_world_pose();
+  pose.mutable_orientation()->set_z(5e-4);
+  pose.mutable_orientation()->set_w(1);
+  const Atlas walked = atlasOf(quilt);
+  EXPECT_EQ(swept.header.method(), v1::TRACE_METHOD_SWEEP);
+  EXPECT_EQ(walked.header.method(), v1::TRACE_METHOD_WALK);
+  EXPECT_GT(psnrDb(colorOf(swept), colorOf(walked)), 30);
+  EXPECT_GT(swept.header.coverage().hit(), 0.5);
+}
+
+TEST_F(ServiceDisplaysTest, servesMicrolensPanels) {
+  v1::OpenDisplay open = openScene();
+  v1::IntegralDisplay& integral = *open.mutable_display()->mutable_integral();
+  integral.set_preset("near_eye_2013");
+  integral.mutable_panel_size()->set_width(320);
+  integral.mutable_panel_size()->set_height(180);
+  const Atlas atlas = atlasOf(open);
+  EXPECT_EQ(atlas.header.method(), v1::TRACE_METHOD_WALK);
+  const AtlasPicture picture = colorOf(atlas);
+  // Three lenses of 83 1/3 px stand in the middle of 320 px: the columns beside them are black.
+  EXPECT_EQ(picture.samples[3 * (90 * 320 + 10)], 0);
+  EXPECT_NE(picture.samples[3 * (90 * 320 + 160) + 2], 0);
+}
+
+}  // namespace
+}  // namespace viewloom::test
