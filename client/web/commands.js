@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is watched here, as commands and addresses to watch it elsewhere.
+
+const kGrpcPort = 50051;  // viewloomd's own; the page cannot know another
+const kLoopback = ['localhost', '127.0.0.1', '[::1]'];
+// Parameters of /ws, and the options of `viewloom watch` that mean the same.
+const kEncodingOptions = {quality: '--quality'};
+const kOptions = {
+  ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
+  focus_m: '--focal-distance', fov_deg: '--fov',
+};
+const kRadPerDeg = Math.PI / 180;
+
+const byId = (id) => document.getElementById(id);
+
+// For a POSIX shell.
+function quoted(text) {
+  return /^[\w.:/=+,-]+$/.test(text) ? text : `'${text.replaceAll('\'', '\'\\\'\'')}'`;
+}
+
+// The quilt as a Display message in JSON: for what no option says.
+function displayFile(parameters) {
+  const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
+  const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
+  return JSON.stringify({quilt: {
+    columns: number('columns'), rows: number('rows'),
+    size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
+    viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),
+  }});
+}
+
+// parameters: URLSearchParams of /ws
+function watchCommand(parameters) {
+  const words = ['viewloom'];
+  if (!kLoopback.includes(location.hostname)) {
+    words.push('--server', `${location.hostname}:${kGrpcPort}`);
+  }
+  words.push('watch', parameters.get('stream'));
+  // An aspect beside that of a tile is told by a file alone.
+  const isFile = parameters.has('aspect') && !parameters.has('preset');
+  if (isFile) words.push('--display', 'display.json');
+  for (const [name, option] of Object.entries(isFile ? kEncodingOptions : kOptions)) {
+    if (parameters.has(name)) words.push(option, parameters.get(name));
+  }
+  if (!isFile && parameters.has('width') && parameters.has('height')) {
+    words.push('--size', `${parameters.get('width')}x${parameters.get('height')}`);
+  }
+  if (parameters.get('chroma') === '444') words.push('--444');
+  const watch = [...words, '--out', 'atlases'].map(quoted).join(' ');
+  if (!isFile) return watch;
+  return `echo ${quoted(displayFile(parameters))} > display.json && ${watch}`;
+}
+
+function stillCommand(parameters, suffix) {
+  const query = new URLSearchParams(parameters);
+  query.delete('stream');
+  const file = `${encodeURIComponent(parameters.get('stream'))}${suffix}.jpg`;
+  const url = new URL(`/still/${file}`, location.href);
+  url.search = query;
+  return `curl -o ${quoted(decodeURIComponent(file))} ${quoted(url.href)}`;
+}
+
+function socketAddress(parameters) {
+  const url = new URL(`/ws?${parameters}`, location.href);
+  url.protocol = url.protocol.replace('http', 'ws');
+  return url.href;
+}
+
+async function copy(field, button) {
+  field.select();
+  let isCopied = false;
+  try {
+    await navigator.clipboard.writeText(field.value);
+    isCopied = true;
+  } catch {  // pages by plain http from elsewhere have no clipboard, only what is selected
+    isCopied = document.execCommand('copy');
+  }
+  button.textContent = isCopied ? 'Copied' : 'Selected';
+  setTimeout(() => { button.textContent = 'Copy'; }, 1500);
+}
+
+export class Commands {
+  constructor() {
+    for (const name of ['watch', 'still', 'socket']) {
+      const [field, button] = [byId(`command-${name}`), byId(`copy-${name}`)];
+      button.addEventListener('click', () => copy(field, button));
+      field.addEventListener('focus', () => field.select());
+    }
+  }
+
+  // parameters: URLSearchParams of /ws; layout: of an atlas that they gave
+  show(parameters, layout) {
+    const texts = {
+      watch: watchCommand(parameters),
+      still: stillCommand(parameters, layout.suffix),
+      socket: socketAddress(parameters),
+    };
+    for (const [name, text] of Object.entries(texts)) {
+      if (byId(`command-${name}`).value !== text) byId(`command-${name}`).value = text;
+    }
+  }
+}
