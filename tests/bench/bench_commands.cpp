@@ -17,6 +17,7 @@
 
 #include "base/log.h"
 #include "bench/cpu/cpu_rivals.h"
+#include "bench/display_bench.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
@@ -153,6 +154,7 @@ int runBench(int argc, char** argv) {
   app.require_subcommand(1);
   addCommand(app, "trace", "Build and trace whole atlases", Work::kBuildAndTrace);
   addCommand(app, "build", "Build structures alone", Work::kBuild);
+  addDisplaysCommand(app);
   addUplinkCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;

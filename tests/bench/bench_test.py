@@ -97,6 +97,15 @@ class BenchTest(unittest.TestCase):
         (ratio,) = report["ratios"]
         self.assertEqual(ratio["what"], "2-D structure / copy, build")
 
+    def test_displays(self):
+        report = run("displays", "--json", "--rounds", "1", "--miniature", "16", "--cone", "2",
+                     "--only", "portrait")
+        displays = {display["name"]: display for display in report["displays"]}
+        self.assertEqual(list(displays), ["portrait quilt", "portrait native"] + [
+            f"portrait native, {views} views" for views in (8, 24, 48, 96)])
+        self.assertEqual(displays["portrait native"]["width_px"], 1536 // 16)
+        self.assertTrue(all(display["trace_ms"] > 0 for display in displays.values()))
+
     def test_uplink(self):
         report = run("uplink", "--json", "--rounds", "1", "--miniature", "4")
         f32, f32_zstd, u16_zstd, predicted = report["forms"]
