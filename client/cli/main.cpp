@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `viewloom` command: publish, watch, list.
+// The `viewloom` command.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <utility>
 #include <vector>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/interrupt.h"
-#include "cli/list_command.h"
-#include "cli/publish_command.h"
-#include "cli/watch_command.h"
 #include "lib/channel.h"
 
 namespace viewloom::cli {
@@ -26,15 +24,7 @@ int run(int argc, char** argv) {
       ->envname("VIEWLOOM_SERVER_ADDRESS")
       ->capture_default_str();
 
-  std::vector<std::pair<CLI::App*, RunCommand>> commands;
-  const auto add = [&](const char* name, const char* description, auto add_command) {
-    CLI::App* command = app.add_subcommand(name, description);
-    commands.emplace_back(command, add_command(*command));
-  };
-  add("publish", "Send the synthetic scene, image files or manifests as a stream",
-      addPublishCommand);
-  add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
-  add("list", "Show the streams, displays and presets of a server", addListCommand);
+  const std::vector<std::pair<CLI::App*, RunCommand>> commands = addCommands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/commands.h"
+
+#include "cli/list_command.h"
+#include "cli/publish_command.h"
+#include "cli/show_command.h"
+#include "cli/watch_command.h"
+
+namespace viewloom::cli {
+
+std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
+  std::vector<std::pair<CLI::App*, RunCommand>> commands;
+  const auto add = [&](const char* name, const char* description, auto add_command) {
+    CLI::App* command = app.add_subcommand(name, description);
+    commands.emplace_back(command, add_command(*command));
+  };
+  add("publish", "Send the synthetic scene, image files or manifests as a stream",
+      addPublishCommand);
+  add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
+  add("show", "Show a stream on a light-field panel, or in a window", addShowCommand);
+  add("list", "Show the streams, displays and presets of a server", addListCommand);
+  return commands;
+}
+
+}  // namespace viewloom::cli
