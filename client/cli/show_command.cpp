@@ -15,6 +15,7 @@
 #include "show/device_preset.h"
 #include "show/find_calibration.h"
 #include "show/show_session.h"
+#include "show/tune_session.h"
 
 namespace viewloom::cli {
 namespace {
@@ -32,15 +33,18 @@ struct ShowOptions {
   uint32_t pair_distance = 0;
   std::string views_between = "blend";
   bool has_statistics = false;
+  bool is_tuning = false;
+  std::string out_file = "visual.json";
 };
+
+constexpr char kNoPanel[] =
+    " is for a calibrated panel, and none is plugged in: plug in its USB storage, or name its "
+    "visual.json with --calibration";
 
 absl::Status checkMode(show::ShowMode mode, bool is_calibrated) {
   const bool is_for_panel = mode == show::ShowMode::kNative || mode == show::ShowMode::kWeave;
   if (!is_for_panel || is_calibrated) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      strCat("--mode ", show::nameOf(mode),
-             " is for a calibrated panel, and none is plugged in: plug in its USB storage, or name "
-             "its visual.json with --calibration"));
+  return absl::InvalidArgumentError(strCat("--mode ", show::nameOf(mode), kNoPanel));
 }
 
 // What a calibration says about the quilt to ask for, where the user has not.
@@ -81,21 +85,38 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
                               .is_windowed = options.is_windowed};
 }
 
-int run(const ShowOptions& options, const CommonOptions& common) {
-  const absl::StatusOr<show::SessionOptions> session = makeSession(options);
-  if (!session.ok()) {
-    reportError(session.status(), common);
-    return kExitUsage;
+absl::Status tune(const ShowOptions& options, StatusLine& line) {
+  const auto calibration = show::chooseCalibration(options.calibration_file, "/");
+  if (!calibration.ok()) return calibration.status();
+  if (!calibration->has_value()) {
+    return absl::InvalidArgumentError(strCat("--tune", kNoPanel));
   }
+  return show::tunePanel(
+      {.calibration = **calibration,
+       .out = options.out_file,
+       .monitor = options.monitor,
+       .is_windowed = options.is_windowed},
+      {.is_interrupted = &isInterrupted, .say = [&](const std::string& text) { line.say(text); }});
+}
+
+absl::Status showOn(const ShowOptions& options, const CommonOptions& common, StatusLine& line) {
+  const absl::StatusOr<show::SessionOptions> session = makeSession(options);
+  if (!session.ok()) return session.status();
+  return show::showStream(makeChannel(common.server), *session,
+                          {.is_interrupted = &isInterrupted,
+                           .say = [&](const std::string& text) { line.say(text); },
+                           .on_connection = sayConnections(line, common)});
+}
+
+int run(const ShowOptions& options, const CommonOptions& common) {
   StatusLine line(true);
   const absl::Status status =
-      show::showStream(makeChannel(common.server), *session,
-                       {.is_interrupted = &isInterrupted,
-                        .say = [&](const std::string& text) { line.say(text); },
-                        .on_connection = sayConnections(line, common)});
+      options.is_tuning ? tune(options, line) : showOn(options, common, line);
   if (status.ok()) return kExitDone;
   const int exit_code = reportError(status, common);
-  return status.code() == absl::StatusCode::kInvalidArgument ? kExitUsage : exit_code;
+  const bool is_usage = status.code() == absl::StatusCode::kInvalidArgument ||
+                        status.code() == absl::StatusCode::kNotFound;
+  return is_usage ? kExitUsage : exit_code;
 }
 
 }  // namespace
@@ -108,7 +129,8 @@ RunCommand addShowCommand(CLI::App& app) {
       "Examples:\n"
       "  viewloom show                          on the panel whose USB storage is plugged in\n"
       "  viewloom show --monitor 1 --calibration visual.json --mode weave\n"
-      "  viewloom show --windowed --mode pair   two views side by side, in a window");
+      "  viewloom show --windowed --mode pair   two views side by side, in a window\n"
+      "  viewloom show --tune --out visual.json adjust the calibration by eye");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
   app.add_option(
          "--mode", options->mode,
@@ -128,6 +150,13 @@ RunCommand addShowCommand(CLI::App& app) {
       ->check(CLI::IsMember({"blend", "nearest"}))
       ->capture_default_str();
   app.add_flag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
+  auto* tune = app.add_flag("--tune", options->is_tuning,
+                            "Adjust pitch, slope and centre by eye; its keys stand on the screen")
+                   ->group("Calibration");
+  app.add_option("--out", options->out_file, "The calibration that --tune writes")
+      ->needs(tune)
+      ->capture_default_str()
+      ->group("Calibration");
   addDisplayOptions(app, options->display);
   return [options](const CommonOptions& common) -> int { return run(*options, common); };
 }

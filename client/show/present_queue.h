@@ -55,12 +55,6 @@ class PresentQueue {
     return next_ns;
   }
 
-  // Pictures of a display that is no longer wanted.
-  void clear() {
-    std::lock_guard lock(mutex_);
-    waiting_.clear();
-  }
-
   uint64_t droppedCount() const {
     std::lock_guard lock(mutex_);
     return dropped_count_;

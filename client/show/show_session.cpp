@@ -13,8 +13,8 @@
 #include "show/display_link.h"
 #include "show/present_queue.h"
 #include "show/show_statistics.h"
-#include "show/show_window.h"
 #include "show/shown_atlas.h"
+#include "show/stage.h"
 #include "show/text_overlay.h"
 
 namespace viewloom::show {
@@ -100,9 +100,7 @@ class ShowSession {
   std::optional<double> latency_s_;
 
   // In the order in which they need one another.
-  std::unique_ptr<SdlVideo> video_;
-  std::unique_ptr<ShowWindow> window_;
-  std::unique_ptr<Painter> painter_;
+  Stage stage_;
   std::unique_ptr<ShownAtlas> shown_;
   std::unique_ptr<TextOverlay> overlay_;
   Arrivals arrivals_;
@@ -110,32 +108,18 @@ class ShowSession {
 };
 
 absl::Status ShowSession::openWindow() {
-  absl::StatusOr<std::unique_ptr<SdlVideo>> video = SdlVideo::start();
-  if (!video.ok()) return video.status();
-  video_ = *std::move(video);
   const std::optional<Calibration>& panel = options_.calibration;
   const bool is_for_panel =
       settings_.mode == ShowMode::kNative || settings_.mode == ShowMode::kWeave;
-  const std::optional<SizePx> panel_px =
-      is_for_panel ? std::optional(panel->screen_px) : std::nullopt;
-  const absl::StatusOr<Monitor> monitor =
-      chooseMonitor(listMonitors(), {options_.monitor, panel_px, options_.is_windowed});
-  if (!monitor.ok()) return monitor.status();
-  absl::StatusOr<std::unique_ptr<ShowWindow>> window =
-      ShowWindow::open({.title = strCat("viewloom: ", options_.stream),
-                        .monitor = *monitor,
-                        .is_windowed = options_.is_windowed,
-                        .windowed_px = panel ? panel->screen_px : kPlainWindow_px});
-  if (!window.ok()) return window.status();
-  window_ = *std::move(window);
-  if (panel_px) {
-    const absl::Status native = checkNativePixels(window_->sizePx(), *panel_px);
-    if (!native.ok() && !options_.is_windowed) return native;
-    if (!native.ok()) callbacks_.say(std::string(native.message()));
-  }
-  absl::StatusOr<std::unique_ptr<Painter>> painter = Painter::make(window_->isGles());
-  if (!painter.ok()) return painter.status();
-  painter_ = *std::move(painter);
+  absl::StatusOr<Stage> stage =
+      openStage({.title = strCat("viewloom: ", options_.stream),
+                 .monitor = options_.monitor,
+                 .is_windowed = options_.is_windowed,
+                 .windowed_px = panel ? panel->screen_px : kPlainWindow_px,
+                 .panel_px = is_for_panel ? std::optional(panel->screen_px) : std::nullopt},
+                callbacks_.say);
+  if (!stage.ok()) return stage.status();
+  stage_ = *std::move(stage);
   shown_ = std::make_unique<ShownAtlas>();
   return absl::OkStatus();
 }
@@ -208,7 +192,7 @@ absl::Status ShowSession::handleEvent(const SDL_Event& event) {
 
 absl::Status ShowSession::act(ShowAction action) {
   const bool is_on_panel =
-      options_.calibration && window_->sizePx() == options_.calibration->screen_px;
+      options_.calibration && stage_.window->sizePx() == options_.calibration->screen_px;
   const ShowAbilities abilities{.can_weave = is_on_panel, .can_native = is_on_panel && can_native_};
   switch (applyAction(action, shown_->layout(), abilities, settings_)) {
     case ShowEffect::kNone:
@@ -220,7 +204,7 @@ absl::Status ShowSession::act(ShowAction action) {
       is_stale_ = true;
       break;
     case ShowEffect::kFullScreen:
-      window_->toggleFullScreen();
+      stage_.window->toggleFullScreen();
       is_stale_ = true;
       break;
     case ShowEffect::kNewDisplay: {
@@ -260,11 +244,11 @@ absl::Status ShowSession::present(const DecodedAtlas& atlas) {
 }
 
 absl::Status ShowSession::redraw() {
-  const SizePx window_px = window_->sizePx();
-  painter_->begin(window_px);
-  shown_->draw(settings_, options_.calibration, window_px, *painter_);
+  const SizePx window_px = stage_.window->sizePx();
+  stage_.painter->begin(window_px);
+  shown_->draw(settings_, options_.calibration, window_px, *stage_.painter);
   if (settings_.has_statistics) VIEWLOOM_RETURN_IF_ERROR(drawStatistics());
-  window_->swap();
+  stage_.window->swap();
   is_stale_ = false;
   return absl::OkStatus();
 }
@@ -286,7 +270,7 @@ absl::Status ShowSession::drawStatistics() {
       .latency_s = latency_s_,
       .frame_number = shown_->header().frame_number(),
       .is_connected = arrivals_.is_connected};
-  return overlay_->draw(describe(statistics, settings_, shown_->layout()), *painter_);
+  return overlay_->draw(describe(statistics, settings_, shown_->layout()), *stage_.painter);
 }
 
 }  // namespace

@@ -74,39 +74,41 @@ def resized(view, width, height):
     return along_rows[top] * (1 - share_y) + along_rows[bottom] * share_y
 
 
-def pick(stack, views):
-    """From float64[views][h][w][3], each subpixel of the view that views[h][w][3] names."""
-    return numpy.take_along_axis(stack, views[None], axis=0)[0]
+def pick(views, size_px, *choices):
+    """For each choice[h][w][3] of views, each subpixel of the view that it names."""
+    picked = [numpy.empty(choice.shape, numpy.float32) for choice in choices]
+    for index, view in enumerate(views):
+        picture = resized(view, *size_px)  # one at a time: a panel's 48 views would fill 10 GB
+        for choice, into in zip(choices, picked):
+            numpy.copyto(into, picture, where=choice == index, casting="same_kind")
+    return picked
 
 
 def woven(calibration, views, is_blended):
-    """Two pictures of float64[height][width][3]: what has to be shown, and what else may be."""
-    width, height = panel_size_px(calibration)
-    stack = numpy.stack([resized(view, width, height) for view in views])
-    count = len(views)
-    position = view_coordinates(calibration) * count
+    """Two pictures of float[height][width][3]: what has to be shown, and what else may be."""
+    size_px, count = panel_size_px(calibration), len(views)
+    coordinates = view_coordinates(calibration)
     if not is_blended:
-        nearest = numpy.floor(position).astype(int) % count
+        position = coordinates * count
         border = numpy.round(position)
         is_near = numpy.abs(position - border) < BORDER * count
+        nearest = numpy.floor(position).astype(int) % count
         below, above = (border - 1).astype(int) % count, border.astype(int) % count
         other = numpy.where(is_near, numpy.where(nearest == below, above, below), nearest)
-        return pick(stack, nearest), pick(stack, other)
-    position = numpy.clip(position - 0.5, 0, count - 1)
-    lower = numpy.minimum(position.astype(int), count - 1)
+        return pick(views, size_px, nearest, other)
+    position = numpy.clip(coordinates * count - 0.5, 0, count - 1)
+    lower = position.astype(int)
     upper = numpy.minimum(lower + 1, count - 1)
-    share = position - lower
-    shown = pick(stack, lower) * (1 - share) + pick(stack, upper) * share
     # From the last view to the first, where lens follows lens.
-    coordinate = view_coordinates(calibration)
-    is_near = numpy.minimum(coordinate, 1 - coordinate) < BORDER
-    ends = numpy.where(coordinate < 0.5, count - 1, 0)
-    return shown, numpy.where(is_near, pick(stack, ends), shown)
+    is_near = numpy.minimum(coordinates, 1 - coordinates) < BORDER
+    ends = numpy.where(coordinates < 0.5, count - 1, 0)
+    below, above, end = pick(views, size_px, lower, upper, ends)
+    shown = below + (above - below) * (position - lower)
+    return shown, numpy.where(is_near, end, shown)
 
 
 def wrong_subpixels(screen, shown, other, tolerance):
     """How many subpixels of the screen are neither what has to be shown nor what may be."""
-    got = screen.astype(float)
-    is_right = numpy.abs(got - shown) <= tolerance
-    is_right |= numpy.abs(got - other) <= tolerance
-    return int((~is_right).sum())
+    is_wrong = numpy.abs(screen - shown) > tolerance
+    is_wrong &= numpy.abs(screen - other) > tolerance
+    return int(is_wrong.sum())
