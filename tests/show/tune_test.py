@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`viewloom show --tune`: the pattern px by px, what keys make of it, and the file that is written."""
+"""`viewloom show --tune`: its pattern px by px, what keys make of it, the file that is written."""
 
 import json
 import pathlib
