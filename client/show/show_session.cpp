@@ -126,10 +126,7 @@ absl::Status ShowSession::openWindow() {
 
 v1::AtlasEncoding ShowSession::encoding() const {
   v1::AtlasEncoding encoding = options_.encoding;
-  if (settings_.mode == ShowMode::kNative && encoding.color() == v1::BAND_ENCODING_JPEG) {
-    // Every subpixel is of another view: the server knows which JPEG keeps them apart.
-    encoding.set_color(v1::BAND_ENCODING_UNSPECIFIED);
-    encoding.set_chroma(v1::CHROMA_SUBSAMPLING_UNSPECIFIED);
+  if (settings_.mode == ShowMode::kNative) {
     encoding.set_jpeg_quality(std::max(encoding.jpeg_quality(), kNativeJpegQuality));
   }
   return encoding;

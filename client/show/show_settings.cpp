@@ -66,6 +66,13 @@ uint32_t pairDistance(const ShowSettings& settings, const v1::AtlasLayout& layou
   return std::max(layout.view_count() / 8, 1u);
 }
 
+// What keys have changed, into a quilt or a panel.
+template <typename Kind>
+void turn(const ShowSettings& settings, Kind& kind) {
+  if (settings.focal_distance_m > 0) kind.set_focal_distance_m(settings.focal_distance_m);
+  if (settings.view_cone_rad > 0) kind.set_view_cone_rad(settings.view_cone_rad);
+}
+
 }  // namespace
 
 std::string_view nameOf(ShowMode mode) {
@@ -161,11 +168,14 @@ v1::Display displayFor(const ShowSettings& settings, const v1::Display& asked,
                        const std::optional<Calibration>& calibration) {
   v1::Display display = asked;
   if (settings.mode == ShowMode::kNative && calibration) {
-    display.mutable_lenticular()->set_calibration_json(writeCalibration(*calibration));
+    v1::LenticularDisplay& panel = *display.mutable_lenticular();
+    panel.set_calibration_json(writeCalibration(*calibration));
+    panel.set_view_cone_rad(asked.quilt().view_cone_rad());
+    panel.set_focal_distance_m(asked.quilt().focal_distance_m());
+    panel.set_fov_y_rad(asked.quilt().fov_y_rad());
+    turn(settings, panel);
   } else if (display.has_quilt()) {
-    v1::QuiltDisplay& quilt = *display.mutable_quilt();
-    if (settings.focal_distance_m > 0) quilt.set_focal_distance_m(settings.focal_distance_m);
-    if (settings.view_cone_rad > 0) quilt.set_view_cone_rad(settings.view_cone_rad);
+    turn(settings, *display.mutable_quilt());
   } else if (display.has_stereo() && settings.focal_distance_m > 0) {
     display.mutable_stereo()->set_focal_distance_m(settings.focal_distance_m);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "show/shown_atlas.h"
 
+#include <cmath>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -89,7 +90,7 @@ void ShownAtlas::drawViews(const ShowSettings& settings, SizePx window_px, Paint
     painter.place(texture_, areaOfView(*layout_, first), fitInto(area, aspect));
     return;
   }
-  area.width_px = window_px.width / 2;  // an odd column stays black
+  area.width_px = std::floor(area.width_px / 2);  // an odd column stays black
   painter.place(texture_, areaOfView(*layout_, first), fitInto(area, aspect));
   area.left_px = area.width_px;
   painter.place(texture_, areaOfView(*layout_, secondView(settings, *layout_)),

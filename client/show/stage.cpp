@@ -21,7 +21,7 @@ absl::StatusOr<Stage> openStage(const StageOptions& options,
                         .windowed_px = options.windowed_px});
   if (!window.ok()) return window.status();
   if (options.panel_px) {
-    const absl::Status native = checkNativePixels((*window)->sizePx(), *options.panel_px);
+    absl::Status native = checkNativePixels((*window)->sizePx(), *options.panel_px);
     if (!native.ok() && !options.is_windowed) return native;
     if (!native.ok()) say(std::string(native.message()));
   }

@@ -9,7 +9,7 @@
 #include "show/gl_texture.h"
 #include "show/painter.h"
 
-struct _TTF_Font;
+struct _TTF_Font;  // NOLINT(bugprone-reserved-identifier): SDL_ttf's name
 
 namespace viewloom::show {
 

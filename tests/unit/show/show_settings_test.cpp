@@ -108,13 +108,17 @@ TEST(ShowDisplay, isWhatWasAskedForWithWhatKeysChanged) {
 TEST(ShowDisplay, ofTheNativeModeIsThePanelItself) {
   v1::Display asked;
   asked.mutable_quilt()->set_preset("portrait");
+  asked.mutable_quilt()->set_fov_y_rad(0.25);
   asked.set_tolerance_px(0.5);
   const Calibration calibration{
       .pitch = 50, .slope = -7, .dpi = 324, .screen_px = {1536, 2048}, .serial = "LKG-P"};
-  const v1::Display display =
-      displayFor({.mode = ShowMode::kNative}, asked, std::optional(calibration));
+  const v1::Display display = displayFor(
+      {.mode = ShowMode::kNative, .focal_distance_m = 3, .view_cone_rad = 0.5}, asked, calibration);
   ASSERT_TRUE(display.has_lenticular());
   EXPECT_EQ(*parseCalibration(display.lenticular().calibration_json()), calibration);
+  EXPECT_EQ(display.lenticular().focal_distance_m(), 3);
+  EXPECT_EQ(display.lenticular().view_cone_rad(), 0.5);
+  EXPECT_EQ(display.lenticular().fov_y_rad(), 0.25);
   EXPECT_EQ(display.tolerance_px(), 0.5);
 }
 
