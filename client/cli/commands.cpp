@@ -5,6 +5,7 @@
 #include "cli/list_command.h"
 #include "cli/publish_command.h"
 #include "cli/record_command.h"
+#include "cli/show_command.h"
 #include "cli/watch_command.h"
 
 namespace viewloom::cli {
@@ -19,6 +20,7 @@ std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
       addPublishCommand);
   add("inspect", "Say what files hold, how they are read, what is wrong", addInspectCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
+  add("show", "Show a stream on a light-field panel, or in a window", addShowCommand);
   add("record", "Keep the atlases of a stream in a file", addRecordCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
   return commands;

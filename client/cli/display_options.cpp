@@ -57,6 +57,9 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
   app.add_flag("--444", options.is_444, "JPEG colour at full resolution")->group("Encoding");
   app.add_flag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
       ->group("Encoding");
+}
+
+void addMaskOption(CLI::App& app, DisplayOptions& options) {
   app.add_flag("--mask", options.has_mask,
                "Also get the mask of ray classes: 1 hit .. 3 hidden, 4 outside, 5 empty")
       ->group("Encoding");

@@ -32,6 +32,7 @@ struct DisplayOptions {
 };
 
 void addDisplayOptions(CLI::App& app, DisplayOptions& options);
+void addMaskOption(CLI::App& app, DisplayOptions& options);
 
 // The px of the device itself instead of a quilt.
 void addPanelOptions(CLI::App& app, DisplayOptions& options);

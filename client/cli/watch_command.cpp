@@ -202,6 +202,7 @@ RunCommand addWatchCommand(CLI::App& app) {
   app.add_flag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
   addPanelOptions(app, options->display);
+  addMaskOption(app, options->display);
   return [options](const CommonOptions& common) -> int { return WatchRun(*options, common).run(); };
 }
 

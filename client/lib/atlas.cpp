@@ -177,18 +177,24 @@ absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plan
   return picture;
 }
 
-AtlasPicture cutView(const AtlasPicture& picture, const v1::AtlasLayout& layout, uint32_t view) {
+TilePlace placeOfView(const v1::AtlasLayout& layout, uint32_t view) {
   VIEWLOOM_CHECK(view < layout.view_count());
   const uint32_t column = view % layout.columns();
   const uint32_t row_in_order = view / layout.columns();
   const bool from_bottom = layout.order() == v1::TILE_ORDER_BOTTOM_LEFT;
   const uint32_t row = from_bottom ? layout.rows() - 1 - row_in_order : row_in_order;
+  return {.left_px = column * layout.tile_size().width(),
+          .top_px = layout.padding_top_px() + row * layout.tile_size().height()};
+}
+
+AtlasPicture cutView(const AtlasPicture& picture, const v1::AtlasLayout& layout, uint32_t view) {
   AtlasPicture cut{.width_px = layout.tile_size().width(),
                    .height_px = layout.tile_size().height(),
                    .channels = picture.channels,
                    .samples = {}};
-  const size_t x = size_t{column} * cut.width_px;
-  const size_t y = layout.padding_top_px() + size_t{row} * cut.height_px;
+  const TilePlace place = placeOfView(layout, view);
+  const size_t x = place.left_px;
+  const size_t y = place.top_px;
   VIEWLOOM_CHECK(x + cut.width_px <= picture.width_px && y + cut.height_px <= picture.height_px);
   const size_t cut_row_bytes = size_t{cut.width_px} * cut.channels;
   for (size_t i = 0; i < cut.height_px; ++i) {

@@ -53,6 +53,15 @@ absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas,
 // atlas does not have it, DATA_LOSS when its bytes do not decode to the size of the layout.
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
+// Where the tile of a view begins in the atlas.
+struct TilePlace {
+  uint32_t left_px = 0;
+  uint32_t top_px = 0;
+};
+
+// view < layout.view_count().
+TilePlace placeOfView(const v1::AtlasLayout& layout, uint32_t view);
+
 // Cuts one view out of a decoded plane, by the order, columns and tile size of the layout.
 AtlasPicture cutView(const AtlasPicture& picture, const v1::AtlasLayout& layout, uint32_t view);
 

@@ -29,12 +29,9 @@ double eyeOffset(const SourceView& source, double span_px) {
 // Off-axis, onto what the source sees at the focal distance. Camera space: x right, y up.
 View viewThroughWindow(const SourceView& source, const glm::dvec2& eye_m, SizePx tile_px) {
   const StreamDefaults defaults = defaultsOf(source);
-  FocalWindow window =
+  const FocalWindow window =
       focalWindow(defaults.focal_distance_m, 0, double(tile_px.width) / tile_px.height, defaults);
-  window.center_m.y -= eye_m.y;
-  View view{cameraThroughWindow(window, eye_m.x, tile_px)};
-  view.camera.pose.position_m.y = eye_m.y;
-  return view;
+  return {cameraThroughWindow(window, eye_m, tile_px)};
 }
 
 AtlasLayout emptyGrid(const SourceView& source, uint32_t columns, uint32_t rows, SizePx tile_px) {

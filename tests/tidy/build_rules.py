@@ -10,8 +10,9 @@ from tree import Finding
 PICTURES = (".png", ".jpg", ".jpeg")
 GENERATED = re.compile(r"(\.pb\.(h|cc)|_pb2(_grpc)?\.py|\.spv|\.o|\.a|\.so|\.pyc|\.class|\.log)$"
                        r"|(^|/)(build|__pycache__|node_modules|CMakeFiles)/")
-SOURCES = (".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js", ".css", ".html")
-PAGE = (".html", ".css", ".js")
+SOURCES = (".cpp", ".h", ".comp", ".vert", ".frag", ".glsl", ".proto", ".py", ".js", ".css",
+           ".html")
+EMBEDDED = (".html", ".css", ".js", ".vert", ".frag")
 MARKDOWN_LINK = re.compile(r"\]\(([^)\s]+)\)|<img[^>]*src=\"([^\"]+)\"")
 
 
@@ -67,9 +68,9 @@ def _names(word, relative, words):
 def _is_listed(path, words_of_folder):
     """Whether a list in the file's folder or above it names the file relative to itself.
 
-    The page is embedded by the server's list, which is not above it.
+    The page and the client's shaders are embedded by lists that are not above them.
     """
-    if path.endswith(PAGE):
+    if path.endswith(EMBEDDED):
         return any(_names(word, os.path.basename(path), words)
                    for words in words_of_folder.values() for word in words)
     folder = os.path.dirname(path)

@@ -47,12 +47,16 @@ LAYERS = {
     "client/inspect": (["base", "frame", "files", SHADERS_SHARED], ["absl", "glm", "protobuf"]),
     "client/lib": (["base", "frame"], ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/recording": (["base", "lib"], ["absl", "protobuf"]),
-    "client/cli": (["base", "frame", "lib", "files", "inputs", "inspect", "recording", "synthetic"],
+    "client/show": (["base", "frame/size.h", "calibration", "lib", "files/file_bytes.h"],
+                    ["absl", "epoxy", "grpc", "protobuf", "sdl"]),
+    "client/cli": (["base", "calibration", "frame", "lib", "files", "inputs", "inspect",
+                    "recording", "show", "synthetic"],
                    ["absl", "glm", "grpc", "protobuf", "cli11", "jpeg", "nlohmann"]),
     "shaders/shared": ([], ["glm"]),
     "shaders/lib": ([SHADERS_SHARED], []),
     "shaders/structure": (["shaders/lib", SHADERS_SHARED], []),
     "shaders/trace": (["shaders/lib", SHADERS_SHARED], []),
+    "shaders/show": ([SHADERS_SHARED], []),
 }
 
 # These join the stages, so they may include everything (main.cpp, service and their parts).
@@ -70,7 +74,7 @@ THIRD_PARTY = [
     ("zstd", r"zstd(_errors)?\.h"), ("jpeg", r"turbojpeg\.h|jpeglib\.h|jerror\.h|jmorecfg\.h"),
     ("png", r"png\.h"), ("openexr", r"OpenEXR/|Imath/|Imf|Imath"), ("cli11", r"CLI/"),
     ("vulkan", r"vulkan/"), ("boost", r"boost/"), ("zlib", r"zlib\.h"),
-    ("highway", r"hwy/"),
+    ("highway", r"hwy/"), ("sdl", r"SDL\w*\.h"), ("epoxy", r"epoxy/"),
     ("grpc", r"grpcpp/|grpc/|.*\.grpc\.pb\.h"),
     ("protobuf", r"google/protobuf/|.*\.pb\.h"),
     ("gtest", r"gtest/|gmock/"), ("benchmark", r"benchmark/"),
@@ -147,7 +151,7 @@ def _judge(tree, path, target):
 
 
 def check(tree):
-    for path in tree.text_files(".h", ".cpp", ".glsl", ".comp"):
+    for path in tree.text_files(".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"):
         for number, line in enumerate(tree.lines(path), 1):
             match = INCLUDE.match(line)
             if match:

@@ -7,10 +7,11 @@ import re
 
 from tree import Finding, VENDORED
 
-SOURCES = (".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js", ".css", ".html", ".sh", ".cmake",
-           ".toml", ".service", ".yml", ".yaml")
+SHADERS = (".comp", ".vert", ".frag", ".glsl")
+SOURCES = SHADERS + (".cpp", ".h", ".proto", ".py", ".js", ".css", ".html", ".sh", ".cmake",
+                     ".toml", ".service", ".yml", ".yaml")
 SOURCE_NAMES = ("CMakeLists.txt", "Dockerfile", ".clang-tidy")
-MEASURED = (".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js")
+MEASURED = SHADERS + (".cpp", ".h", ".proto", ".py", ".js")
 
 LINES_MAX = 300
 COLUMNS_MAX = 100
@@ -94,7 +95,7 @@ def _python_functions(text):
 
 
 def check_functions(tree):
-    for path in tree.text_files(".cpp", ".h", ".comp", ".glsl", ".js", ".py"):
+    for path in tree.text_files(".cpp", ".h", ".js", ".py", *SHADERS):
         lines = tree.lines(path)
         found = _python_functions("\n".join(lines)) if path.endswith(".py") \
             else _braced_functions(lines)
@@ -125,7 +126,7 @@ def check_names(tree):
         if is_source(path) and not stem_is_free and not re.fullmatch(r"[a-z0-9_.-]+|\w+\.cmake",
                                                                      name):
             yield Finding(path, 0, "name", "files are snake_case")
-    for path in tree.text_files(".cpp", ".h", ".comp", ".glsl", ".proto", ".py", ".js"):
+    for path in tree.text_files(*MEASURED):
         for number, line in enumerate(tree.lines(path), 1):
             match = VAGUE_TYPE.search(line.split("//")[0])
             if match:

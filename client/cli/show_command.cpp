@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/show_command.h"
+
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "base/str_cat.h"
+#include "cli/display_options.h"
+#include "cli/interrupt.h"
+#include "cli/report_error.h"
+#include "cli/status_line.h"
+#include "lib/channel.h"
+#include "show/device_preset.h"
+#include "show/find_calibration.h"
+#include "show/show_session.h"
+#include "show/tune_session.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+struct ShowOptions {
+  std::string stream = "demo";
+  DisplayOptions display;
+  std::string mode;  // "": native on a calibrated panel, else view
+  std::string calibration_file;
+  std::optional<int> monitor;
+  bool is_windowed = false;
+  std::optional<uint32_t> view;
+  uint32_t pair_distance = 0;
+  std::string views_between = "blend";
+  bool has_statistics = false;
+  bool is_tuning = false;
+  std::string out_file = "visual.json";
+};
+
+constexpr char kNoPanel[] =
+    " is for a calibrated panel, and none is plugged in: plug in its USB storage, or name its "
+    "visual.json with --calibration";
+
+absl::Status checkMode(show::ShowMode mode, bool is_calibrated) {
+  const bool is_for_panel = mode == show::ShowMode::kNative || mode == show::ShowMode::kWeave;
+  if (!is_for_panel || is_calibrated) return absl::OkStatus();
+  return absl::InvalidArgumentError(strCat("--mode ", show::nameOf(mode), kNoPanel));
+}
+
+// What a calibration says about the quilt to ask for, where the user has not.
+absl::StatusOr<v1::Display> displayOf(DisplayOptions options,
+                                      const std::optional<Calibration>& calibration) {
+  const bool is_said = !options.file.empty() || !options.preset.empty() || options.columns > 0;
+  if (!calibration || is_said) return makeDisplay(options);
+  options.preset = show::presetOf(*calibration);
+  absl::StatusOr<v1::Display> display = makeDisplay(options);
+  if (!display.ok()) return display;
+  v1::QuiltDisplay& quilt = *display->mutable_quilt();
+  quilt.set_aspect(double{1} * calibration->screen_px.width / calibration->screen_px.height);
+  if (options.view_cone_deg == 0) {
+    quilt.set_view_cone_rad(calibration->view_cone_deg * kRadPerDeg);
+  }
+  return display;
+}
+
+absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
+  const auto calibration = show::chooseCalibration(options.calibration_file, "/");
+  if (!calibration.ok()) return calibration.status();
+  const show::ShowMode usual =
+      calibration->has_value() ? show::ShowMode::kNative : show::ShowMode::kView;
+  const show::ShowMode mode = show::modeNamed(options.mode).value_or(usual);
+  VIEWLOOM_RETURN_IF_ERROR(checkMode(mode, calibration->has_value()));
+  const absl::StatusOr<v1::Display> display = displayOf(options.display, *calibration);
+  if (!display.ok()) return display.status();
+  return show::SessionOptions{.stream = options.stream,
+                              .display = *display,
+                              .encoding = makeEncoding(options.display),
+                              .calibration = *calibration,
+                              .settings = {.mode = mode,
+                                           .view = options.view,
+                                           .pair_distance = options.pair_distance,
+                                           .is_blended = options.views_between == "blend",
+                                           .has_statistics = options.has_statistics},
+                              .monitor = options.monitor,
+                              .is_windowed = options.is_windowed};
+}
+
+absl::Status tune(const ShowOptions& options, StatusLine& line) {
+  const auto calibration = show::chooseCalibration(options.calibration_file, "/");
+  if (!calibration.ok()) return calibration.status();
+  if (!calibration->has_value()) {
+    return absl::InvalidArgumentError(strCat("--tune", kNoPanel));
+  }
+  return show::tunePanel(
+      {.calibration = **calibration,
+       .out = options.out_file,
+       .monitor = options.monitor,
+       .is_windowed = options.is_windowed},
+      {.is_interrupted = &isInterrupted, .say = [&](const std::string& text) { line.say(text); }});
+}
+
+absl::Status showOn(const ShowOptions& options, const CommonOptions& common, StatusLine& line) {
+  const absl::StatusOr<show::SessionOptions> session = makeSession(options);
+  if (!session.ok()) return session.status();
+  return show::showStream(makeChannel(common.server), *session,
+                          {.is_interrupted = &isInterrupted,
+                           .say = [&](const std::string& text) { line.say(text); },
+                           .on_connection = sayConnections(line, common)});
+}
+
+int run(const ShowOptions& options, const CommonOptions& common) {
+  StatusLine line(true);
+  const absl::Status status =
+      options.is_tuning ? tune(options, line) : showOn(options, common, line);
+  if (status.ok()) return kExitDone;
+  const int exit_code = reportError(status, common);
+  const bool is_usage = status.code() == absl::StatusCode::kInvalidArgument ||
+                        status.code() == absl::StatusCode::kNotFound;
+  return is_usage ? kExitUsage : exit_code;
+}
+
+}  // namespace
+
+RunCommand addShowCommand(CLI::App& app) {
+  const auto options = std::make_shared<ShowOptions>();
+  app.footer(
+      "Keys: left/right view, up/down focus, [ ] cone, m mode, b blend, i statistics,\n"
+      "      f full screen, escape or q end\n"
+      "Examples:\n"
+      "  viewloom show                          on the panel whose USB storage is plugged in\n"
+      "  viewloom show --monitor 1 --calibration visual.json --mode weave\n"
+      "  viewloom show --windowed --mode pair   two views side by side, in a window\n"
+      "  viewloom show --tune --out visual.json adjust the calibration by eye");
+  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
+  app.add_option(
+         "--mode", options->mode,
+         "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
+         "two side by side; quilt [native on a calibrated panel, else view]")
+      ->check(CLI::IsMember({"native", "weave", "view", "pair", "quilt"}));
+  app.add_option("--calibration", options->calibration_file,
+                 "The panel's visual.json [the one on its USB storage]");
+  app.add_option("--monitor", options->monitor,
+                 "Number of the monitor [the one of the panel's size]");
+  app.add_flag("--windowed", options->is_windowed, "A window instead of the full screen");
+  app.add_option("--view", options->view, "View to show first, from 0 [the middle one]");
+  app.add_option("--pair-distance", options->pair_distance,
+                 "Views between the two of a pair [an eighth of all]");
+  app.add_option("--between-views", options->views_between,
+                 "Of a woven quilt: blend neighbouring views, or show the nearest")
+      ->check(CLI::IsMember({"blend", "nearest"}))
+      ->capture_default_str();
+  app.add_flag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
+  auto* tune = app.add_flag("--tune", options->is_tuning,
+                            "Adjust pitch, slope and centre by eye; its keys stand on the screen")
+                   ->group("Calibration");
+  app.add_option("--out", options->out_file, "The calibration that --tune writes")
+      ->needs(tune)
+      ->capture_default_str()
+      ->group("Calibration");
+  addDisplayOptions(app, options->display);
+  return [options](const CommonOptions& common) -> int { return run(*options, common); };
+}
+
+}  // namespace viewloom::cli

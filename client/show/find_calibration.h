@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a device's calibration comes from: a file, or the storage that the device plugs in as.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "calibration/calibration.h"
+
+namespace viewloom::show {
+
+// LKG_calibration/visual.json on everything mounted below media, run/media and mnt, sorted. root:
+// of the file system.
+std::vector<std::filesystem::path> findCalibrationFiles(const std::filesystem::path& root);
+
+// INVALID_ARGUMENT with the path and the key that is wrong.
+absl::StatusOr<Calibration> readCalibrationFile(const std::filesystem::path& path);
+
+// The named file; else the one that is found; else none. INVALID_ARGUMENT when there are several.
+absl::StatusOr<std::optional<Calibration>> chooseCalibration(const std::string& named,
+                                                             const std::filesystem::path& root);
+
+}  // namespace viewloom::show

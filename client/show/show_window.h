@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window system, and one window with an OpenGL context: its px are drawn as they are, without
+// scaling and without colour management.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/status.h"
+#include "frame/size.h"
+#include "show/monitors.h"
+
+struct SDL_Window;
+
+namespace viewloom::show {
+
+// The window system, for as long as this lives. Ctrl-C stays the program's.
+// Thread-safety: main thread.
+class SdlVideo {
+ public:
+  // FAILED_PRECONDITION when there is no screen.
+  static absl::StatusOr<std::unique_ptr<SdlVideo>> start();
+  ~SdlVideo();
+  SdlVideo(const SdlVideo&) = delete;
+  SdlVideo& operator=(const SdlVideo&) = delete;
+
+ private:
+  SdlVideo() = default;
+};
+
+struct WindowOptions {
+  std::string title;
+  Monitor monitor;
+  bool is_windowed = false;
+  SizePx windowed_px;  // without frame and buttons
+};
+
+// OpenGL 3.3, or OpenGL ES 3.0 where that is all there is; its context is current.
+// Thread-safety: main thread.
+class ShowWindow {
+ public:
+  // FAILED_PRECONDITION when there is no such window or no such OpenGL.
+  static absl::StatusOr<std::unique_ptr<ShowWindow>> open(const WindowOptions& options);
+  ~ShowWindow();
+  ShowWindow(const ShowWindow&) = delete;
+  ShowWindow& operator=(const ShowWindow&) = delete;
+
+  // What can be drawn on, in px of the screen.
+  SizePx sizePx() const;
+  bool isGles() const { return is_gles_; }
+  void toggleFullScreen();
+  // Shows what was drawn; returns when the screen has taken it.
+  void swap();
+
+ private:
+  ShowWindow() = default;
+
+  SDL_Window* window_ = nullptr;
+  void* context_ = nullptr;  // SDL_GLContext
+  bool is_gles_ = false;
+};
+
+}  // namespace viewloom::show
