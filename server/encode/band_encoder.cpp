@@ -57,7 +57,7 @@ EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
   switch (band.encoding) {
     case BandEncoding::kJpeg:
       VIEWLOOM_CHECK(pixels.plane == AtlasPlane::kColor);
-      band.bytes = jpeg_->encode(pixels, encoding, layout.size_px.height);
+      band.bytes = jpeg_->encode(pixels, encoding, layout);
       break;
     case BandEncoding::kZstd:
       band.bytes = lossless_->encodeZstd(pixels);
