@@ -28,7 +28,7 @@ build_packages=(
   prometheus-cpp-dev
 )
 test_packages=(
-  libbenchmark-dev libgmock-dev libgtest-dev vulkan-validationlayers
+  libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   clang clang-tidy libembree-dev
 )
