@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `viewloom` command: publish, watch, list.
+// The `viewloom` command: publish, watch, list, cast.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <vector>
 
+#include "cli/cast_command.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/list_command.h"
@@ -25,16 +26,15 @@ int run(int argc, char** argv) {
   app.add_option("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
       ->envname("VIEWLOOM_SERVER_ADDRESS")
       ->capture_default_str();
-
   std::vector<std::pair<CLI::App*, RunCommand>> commands;
   const auto add = [&](const char* name, const char* description, auto add_command) {
     CLI::App* command = app.add_subcommand(name, description);
     commands.emplace_back(command, add_command(*command));
   };
-  add("publish", "Send the synthetic scene, image files or manifests as a stream",
-      addPublishCommand);
+  add("publish", "Send the synthetic scene, image files or manifests", addPublishCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
+  add("cast", "Have Looking Glass Bridge show a stream", addCastCommand);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

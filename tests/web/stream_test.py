@@ -184,7 +184,8 @@ class Streams(unittest.TestCase):
         self.assertEqual(refused.read_reply().status, 200)
 
     def test_redirects_to_the_url_whose_suffix_says_how_views_lie(self):
-        for target in ("/stream/painted/portrait", "/stream/painted_qs5x9a1.6.mjpg?preset=portrait"):
+        for target in ("/stream/painted/portrait",
+                       "/stream/painted_qs5x9a1.6.mjpg?preset=portrait"):
             reply = fetch(self.server.port, target)
             self.assertEqual((reply.status, reply.headers["location"]),
                              (302, "/stream/painted_qs8x6a0.75.mjpg?preset=portrait"))
