@@ -30,7 +30,7 @@ build_packages=(
   fonts-dejavu-core libepoxy-dev libsdl2-dev libsdl2-ttf-dev
 )
 test_packages=(
-  libbenchmark-dev libgmock-dev libgtest-dev vulkan-validationlayers
+  libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   xdotool xvfb
   clang clang-tidy libembree-dev

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/cast_command.h"
 #include "cli/inspect_command.h"
 #include "cli/list_command.h"
 #include "cli/publish_command.h"
@@ -23,6 +24,7 @@ std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
   add("show", "Show a stream on a light-field panel, or in a window", addShowCommand);
   add("record", "Keep the atlases of a stream in a file", addRecordCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
+  add("cast", "Have Looking Glass Bridge show a stream", addCastCommand);
   return commands;
 }
 

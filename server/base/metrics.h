@@ -91,6 +91,7 @@ class Metrics {
 
   Counter frames_received;   // whole
   Counter frames_refused;    // by the checks of their header or bytes
+  Counter frames_unchanged;  // the same as the resident one
   Counter received_bytes;    // of planes, as they came on the wire
   Counter structures_built;
   Labelled<TraceMethod, Counter> atlases_traced;     // {method}

@@ -61,7 +61,7 @@ EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
     case BandEncoding::kJpeg:
     case BandEncoding::kJpegPlanes:
       VIEWLOOM_CHECK(isColor(pixels.plane));
-      band.bytes = jpeg_->encode(pixels, encoding, layout.imageSize().height);
+      band.bytes = jpeg_->encode(pixels, encoding, layout);
       break;
     case BandEncoding::kZstd:
       band.bytes = lossless_->encodeZstd(pixels);

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "base/check.h"
+#include "encode/quilt_exif.h"
 
 namespace viewloom {
 namespace {
@@ -164,19 +165,23 @@ size_t JpegEncoder::compress(const BandPixels& pixels, const EncodingSpec& encod
 }
 
 SharedBytes JpegEncoder::encode(const BandPixels& pixels, const EncodingSpec& encoding,
-                                uint32_t image_height_px) {
+                                const AtlasLayout& layout) {
   const size_t stream_bytes = compress(pixels, encoding);
   const JpegHeader header = readHeader(stream_);
+  const uint32_t image_height_px = layout.imageSize().height;
   const bool is_first = pixels.first_row == 0;
   const bool is_last = pixels.first_row + pixels.row_count == image_height_px;
   stream_[header.height_offset] = static_cast<uint8_t>(image_height_px >> 8);
   stream_[header.height_offset + 1] = static_cast<uint8_t>(image_height_px);
   stream_[stream_bytes - 1] = is_last ? kEoi : kRst7;
 
-  const size_t begin = is_first ? 0 : header.size_bytes;
+  const std::vector<uint8_t> exif = is_first ? quiltExif(layout) : std::vector<uint8_t>();
+  const size_t begin = is_first ? kMarker_bytes : header.size_bytes;
   // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
-  BytePool::Buffer bytes = pool_.take(std::bit_ceil(stream_bytes - begin));
-  bytes->assign(stream_.data() + begin, stream_.data() + stream_bytes);
+  BytePool::Buffer bytes = pool_.take(std::bit_ceil(exif.size() + stream_bytes));
+  if (is_first) bytes->assign(stream_.data(), stream_.data() + begin);
+  bytes->insert(bytes->end(), exif.begin(), exif.end());
+  bytes->insert(bytes->end(), stream_.data() + begin, stream_.data() + stream_bytes);
   return bytes;
 }
 

@@ -25,9 +25,9 @@ class JpegEncoder {
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
   // pixels.plane is kColor, or a channel of it, which makes a grey JPEG. Samples that are Y'CbCr
-  // already are taken as they are.
+  // already are taken as they are. The first band of a quilt says how its views lie (quilt_exif.h).
   SharedBytes encode(const BandPixels& pixels, const EncodingSpec& encoding,
-                     uint32_t image_height_px);
+                     const AtlasLayout& layout);
 
  private:
   // libjpeg's view of stream_: grows it when it is full.

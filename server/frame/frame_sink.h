@@ -11,7 +11,13 @@
 
 namespace viewloom {
 
-enum class FrameOutcome : uint8_t { kTraced, kBuiltWithoutDisplay, kReplaced, kRefused };
+enum class FrameOutcome : uint8_t {
+  kTraced,
+  kBuiltWithoutDisplay,
+  kReplaced,
+  kRefused,
+  kUnchanged
+};
 
 struct DisplayReport {
   uint64_t display_id = 0;

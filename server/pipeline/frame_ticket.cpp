@@ -25,6 +25,12 @@ void FrameTicket::noteBuilt(const SourceStats& stats, bool is_watched) {
   if (!is_watched) report_.outcome = FrameOutcome::kBuiltWithoutDisplay;
 }
 
+void FrameTicket::noteUnchanged(const SourceStats& stats) {
+  std::lock_guard lock(mutex_);
+  report_.outcome = FrameOutcome::kUnchanged;
+  report_.stats = stats;
+}
+
 void FrameTicket::noteTraced(const DisplayReport& display) {
   std::lock_guard lock(mutex_);
   report_.outcome = FrameOutcome::kTraced;

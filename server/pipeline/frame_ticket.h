@@ -22,6 +22,8 @@ class FrameTicket {
   void noteRefused(std::string reason);
   // Resident; `is_watched` = displays wait for it, so without an atlas it was replaced.
   void noteBuilt(const SourceStats& stats, bool is_watched);
+  // Nothing is made of it: the resident frame, of which these are the stats, is the same.
+  void noteUnchanged(const SourceStats& stats);
   void noteTraced(const DisplayReport& display);
 
  private:

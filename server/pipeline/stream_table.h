@@ -36,6 +36,7 @@ class PipelineStream {
   const std::string name;
   LatestMailbox<OfferedFrame> inbox;
   SlotPool<StructureBuild> slots;
+  FramePtr resident_frame;                 // of which the resident structure was made
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
   std::optional<double> focal_distance_m;  // from the first frame, then held
   FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "frame/same_content.h"
 
 namespace viewloom {
 namespace {
@@ -63,6 +64,7 @@ bool StructureLoop::serve(PipelineStream& stream) {
       links_.metrics.replaced[HandOver::kStructure].add();
     }
     stream.next = std::move(newest);
+    if (dropUnchanged(stream)) return true;
   }
   if (!stream.next) return false;
   std::shared_ptr<StructureBuild> slot;
@@ -77,6 +79,17 @@ bool StructureLoop::serve(PipelineStream& stream) {
   }
   if (!slot) return false;
   build(stream, *std::exchange(stream.next, std::nullopt), std::move(slot));
+  return true;
+}
+
+// The frame is compared with the resident one, not with the last: that may have been replaced or
+// refused. That a display needs the walk stays noted for the next build.
+bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
+  const ResidentPtr resident = stream.resident();
+  if (!resident || !haveSameContent(*stream.resident_frame, *stream.next->frame)) return false;
+  links_.metrics.frames_unchanged.add();
+  stream.next->ticket->noteUnchanged(resident->stats);
+  stream.next.reset();
   return true;
 }
 
@@ -113,9 +126,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   const int64_t started_ns = links_.clock.nowNs();
   if (slot->is_walked) slot->walked->structure.upload(*offered.frame);
   const int64_t uploaded_ns = links_.clock.nowNs();
-  // Takes the frame over; else its planes go back to their pool.
   if (slot->is_swept) slot->swept.prepare(offered.frame, workers_);
-  offered.frame.reset();
   if (slot->is_walked) gpu_.build(*slot);
   structure->built_at_ns = links_.clock.nowNs();
   structure->upload_ns = uploaded_ns - started_ns;
@@ -130,6 +141,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
 
   count(*structure);
   stream.setResident(std::move(structure));
+  stream.resident_frame = std::move(offered.frame);
   on_resident_(stream, std::move(offered.ticket));
 }
 

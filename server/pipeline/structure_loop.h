@@ -13,9 +13,9 @@
 
 namespace viewloom {
 
-// One thread: takes a frame, gives it the forms that displays need (those of the walk are built by
-// the GPU loop), makes it resident. It uploads while the GPU loop traces what is resident already.
-// Thread-safety: stop() from one thread, once.
+// One thread: takes a frame, unless it is the resident one once more, gives it the forms that
+// displays need (those of the walk are built by the GPU loop), makes it resident. It uploads while
+// the GPU loop traces what is resident already. Thread-safety: stop() from one thread, once.
 class StructureLoop {
  public:
   // `on_resident` is called on the loop's thread; the ticket is of the structure's frame.
@@ -32,6 +32,7 @@ class StructureLoop {
  private:
   void run(const std::stop_token& stop);
   bool serve(PipelineStream& stream);
+  bool dropUnchanged(PipelineStream& stream) const;
   std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
   void count(const ResidentStructure& structure) const;

@@ -16,6 +16,8 @@ v1::FrameOutcome outcomeToProto(FrameOutcome outcome) {
       return v1::FRAME_OUTCOME_REPLACED;
     case FrameOutcome::kRefused:
       return v1::FRAME_OUTCOME_REFUSED;
+    case FrameOutcome::kUnchanged:
+      return v1::FRAME_OUTCOME_UNCHANGED;
   }
   VIEWLOOM_CHECK(false && "unknown FrameOutcome");
   return v1::FRAME_OUTCOME_UNSPECIFIED;
@@ -72,7 +74,8 @@ v1::FrameReport reportToProto(const FrameReport& report) {
     *entry.mutable_times() = timesToProto(display.times);
   }
   const bool built = report.outcome == FrameOutcome::kTraced ||
-                     report.outcome == FrameOutcome::kBuiltWithoutDisplay;
+                     report.outcome == FrameOutcome::kBuiltWithoutDisplay ||
+                     report.outcome == FrameOutcome::kUnchanged;
   if (built) *proto.mutable_stats() = statsToProto(report.stats);
   return proto;
 }

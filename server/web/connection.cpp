@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "web/multipart_stream.h"
+#include "web/viewer.h"
+
 namespace viewloom {
 namespace {
 
@@ -50,6 +53,16 @@ std::vector<net::const_buffer> bodyOf(const HttpReply& reply) {
   return body;
 }
 
+// Without what says how long the body is, and what becomes of the connection.
+http::response<http::empty_body> headOf(const HttpReply& reply) {
+  http::response<http::empty_body> head(http::int_to_status(reply.status), kHttpVersion11);
+  head.set(http::field::server, "viewloom");
+  head.set("X-Content-Type-Options", "nosniff");
+  if (!reply.type.empty()) head.set(http::field::content_type, reply.type);
+  for (const auto& [name, value] : reply.headers) head.set(name, value);
+  return head;
+}
+
 }  // namespace
 
 Connection::Connection(WebContext& context, tcp::socket socket)
@@ -77,8 +90,8 @@ void Connection::startRefused() {
 
 void Connection::leave() {
   net::post(strand_, [self = shared_from_this()] {
-    if (self->viewer_) {
-      self->viewer_->leave();
+    if (self->live_reader_) {
+      self->live_reader_->leave();
     } else if (self->idle_) {
       self->stream_.close();
     }
@@ -87,8 +100,8 @@ void Connection::leave() {
 
 void Connection::cut() {
   net::post(strand_, [self = shared_from_this()] {
-    if (self->viewer_) {
-      self->viewer_->cut();
+    if (self->live_reader_) {
+      self->live_reader_->cut();
     } else {
       self->stream_.close();
     }
@@ -114,6 +127,8 @@ net::awaitable<void> Connection::serve() {
       co_return;
     }
     if (!reply) reply = co_await answer(context_, request);
+    const bool is_played = reply->live && parser.get().method() != http::verb::head;
+    if (is_played && co_await play(*reply)) co_return;
     keep = parser.get().keep_alive() && !context_.draining;
     co_await write(*reply, parser, keep, error);
     if (error) break;
@@ -155,20 +170,32 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
     co_await write(reply, parser, false, error);
     co_return;
   }
-  viewer_ = std::make_shared<Viewer>(context_, std::move(stream_), url->parameters);
-  if (context_.draining) viewer_->leave();
-  co_await viewer_->run(parser.release());
+  const auto viewer = std::make_shared<Viewer>(context_, std::move(stream_), url->parameters);
+  live_reader_ = viewer;
+  if (context_.draining) viewer->leave();
+  co_await viewer->run(parser.release());
+}
+
+net::awaitable<bool> Connection::play(HttpReply& reply) {
+  const auto player = std::make_shared<MultipartStream>(context_, strand_);
+  if (const absl::Status status = player->subscribe(*reply.live); !status.ok()) {
+    reply = errorReply(status);
+    co_return false;
+  }
+  live_reader_ = player;
+  if (context_.draining) player->leave();
+  http::response<http::empty_body> head = headOf(reply);
+  head.keep_alive(false);
+  context_.metrics.http_responses[HttpAnswer::kSuccess].add();
+  co_await player->run(std::move(stream_), std::move(head));
+  co_return true;
 }
 
 net::awaitable<void> Connection::write(const HttpReply& reply, const Parser& parser, bool keep,
                                        ErrorCode& error) {
   const std::vector<net::const_buffer> body = bodyOf(reply);
-  http::response<http::empty_body> response(http::int_to_status(reply.status), kHttpVersion11);
-  response.set(http::field::server, "viewloom");
-  response.set("X-Content-Type-Options", "nosniff");
-  if (!reply.type.empty()) response.set(http::field::content_type, reply.type);
-  for (const auto& [name, value] : reply.headers) response.set(name, value);
-  if (reply.status != kNotModified) response.content_length(net::buffer_size(body));
+  http::response<http::empty_body> response = headOf(reply);
+  if (reply.status != kNotModified && !reply.live) response.content_length(net::buffer_size(body));
   response.keep_alive(keep);
   http::response_serializer<http::empty_body> serializer(response);
   stream_.expires_after(context_.options.transfer_timeout);

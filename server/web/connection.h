@@ -7,8 +7,8 @@
 
 #include "web/asio.h"
 #include "web/http_reply.h"
+#include "web/live_reader.h"
 #include "web/routes.h"
-#include "web/viewer.h"
 #include "web/web_context.h"
 
 namespace viewloom {
@@ -36,15 +36,17 @@ class Connection : public std::enable_shared_from_this<Connection> {
   net::awaitable<void> refuse();
   net::awaitable<void> read(Parser& parser, ErrorCode& error);
   net::awaitable<void> watch(Parser& parser, const HttpRequest& request);
+  // True when the connection went to the player; else nothing was written, and `reply` says why.
+  net::awaitable<bool> play(HttpReply& reply);
   net::awaitable<void> write(const HttpReply& reply, const Parser& parser, bool keep,
                              ErrorCode& error);
 
   WebContext& context_;
   const net::any_io_executor strand_;
-  beast::tcp_stream stream_;  // until upgraded
+  beast::tcp_stream stream_;  // until a live reader has it
   beast::flat_buffer buffer_;
-  std::shared_ptr<Viewer> viewer_;  // once upgraded
-  bool idle_ = false;               // waits for a request of which nothing has come
+  std::shared_ptr<LiveReader> live_reader_;
+  bool idle_ = false;  // waits for a request of which nothing has come
 };
 
 }  // namespace viewloom

@@ -2,6 +2,7 @@
 // What is answered to an HTTP request, apart from how it is written.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,10 +10,12 @@
 
 #include "base/byte_pool.h"
 #include "base/status.h"
+#include "web/watch_request.h"
 
 namespace viewloom {
 
-// The body is `text`, or the bytes of `fixed` (of the program itself), or `shared` joined.
+// The body is `text`, or the bytes of `fixed` (of the program itself), or `shared` joined; or,
+// where `live` is set, the atlases of that as they come, without end.
 struct HttpReply {
   unsigned status = 200;
   std::string type;  // MIME
@@ -20,6 +23,7 @@ struct HttpReply {
   std::string text;
   std::string_view fixed;
   std::vector<SharedBytes> shared;
+  std::optional<WatchRequest> live{};
 };
 
 unsigned httpStatusOf(absl::StatusCode code);

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "web/catalog_json.h"
+#include "web/multipart_stream.h"
 #include "web/page_assets.h"
 #include "web/still.h"
 #include "web/watch_request.h"
@@ -68,7 +69,7 @@ HttpReply notFoundReply(const std::string& path) {
       absl::StatusCode::kNotFound, "url",
       absl::StrCat("there is no ", path,
                    "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
-                   "/still/STREAM/PRESET and /ws?stream=STREAM")));
+                   "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
 }
 
 }  // namespace
@@ -104,6 +105,7 @@ net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
   if (url->path == "/healthz") co_return healthReply(context);
   if (url->path == kWebSocketPath) co_return webSocketReply(context, *url);
   if (url->path.starts_with("/still/")) co_return co_await answerStill(context, *url);
+  if (url->path.starts_with("/stream/")) co_return answerStream(context, *url);
   co_return notFoundReply(url->path);
 }
 

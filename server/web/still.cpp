@@ -3,56 +3,21 @@
 
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "absl/strings/str_cat.h"
 #include "web/atlas_inbox.h"
 #include "web/atlas_message.h"
-#include "web/watch_request.h"
+#include "web/catalog_json.h"
+#include "web/quilt_address.h"
 
 namespace viewloom {
 namespace {
 
-constexpr std::string_view kRoot = "/still/";
-constexpr std::string_view kSuffixBegin = "_qs";
-constexpr std::string_view kExtension = ".jpg";
+constexpr const char* kLayoutExtension = ".json";
 
-// A still's path taken apart: /still/STREAM/PRESET or /still/STREAM_qs8x6a0.75.jpg.
-struct StillName {
-  QueryParameters parameters;  // of the URL and of its path
-  std::string suffix;          // empty in the first form
-};
-
-// "_qs8x6a0.75" → columns, rows, aspect; whether they are numbers is for others to check.
-bool readSuffix(std::string_view suffix, QueryParameters& parameters) {
-  const size_t x = suffix.find('x', kSuffixBegin.size());
-  const size_t a = suffix.find('a', kSuffixBegin.size());
-  if (x == std::string_view::npos || a == std::string_view::npos || a < x) return false;
-  parameters.emplace("columns", suffix.substr(kSuffixBegin.size(), x - kSuffixBegin.size()));
-  parameters.emplace("rows", suffix.substr(x + 1, a - x - 1));
-  parameters.emplace("aspect", suffix.substr(a + 1));
-  return true;
-}
-
-absl::StatusOr<StillName> parseStillName(const Url& url) {
-  std::string_view rest = std::string_view(url.path).substr(kRoot.size());
-  StillName name{.parameters = url.parameters, .suffix = ""};
-  const size_t slash = rest.find('/');
-  const size_t suffix = rest.rfind(kSuffixBegin);
-  if (slash != std::string_view::npos) {
-    name.parameters["preset"] = rest.substr(slash + 1);
-    name.parameters["stream"] = rest.substr(0, slash);
-    return name;
-  }
-  if (suffix != std::string_view::npos && rest.ends_with(kExtension)) {
-    name.suffix = rest.substr(suffix, rest.size() - suffix - kExtension.size());
-    name.parameters["stream"] = rest.substr(0, suffix);
-    if (name.parameters.contains("preset")) return name;
-    if (readSuffix(name.suffix, name.parameters)) return name;
-  }
-  return fieldError(absl::StatusCode::kNotFound, "url",
-                    "accepted are /still/STREAM/PRESET and /still/STREAM_qs8x6a0.75.jpg");
-}
-
-HttpReply stillReply(const EncodedAtlas& atlas) {
+HttpReply stillReply(const EncodedAtlas& atlas, const std::string& extension) {
+  if (extension == kLayoutExtension) return jsonReply(layoutJson(*atlas.layout).dump());
   HttpReply reply;
   reply.type = "image/jpeg";
   reply.headers = {{"Cache-Control", "no-store"},
@@ -62,7 +27,8 @@ HttpReply stillReply(const EncodedAtlas& atlas) {
   return reply;
 }
 
-net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
+net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request,
+                                    std::string extension) {
   const auto executor = co_await net::this_coro::executor;
   const auto deadline =
       std::make_shared<net::steady_timer>(executor, context.options.still_timeout);
@@ -73,7 +39,7 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
       context.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox);
   if (!subscription.ok()) co_return errorReply(subscription.status());
   for (;;) {
-    if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas);
+    if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas, extension);
     if (const auto ended = inbox->ended()) {
       co_return errorReply(ended->ok() ? absl::UnavailableError("the server drains") : *ended);
     }
@@ -90,20 +56,11 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request) {
 }  // namespace
 
 net::awaitable<HttpReply> answerStill(WebContext& context, Url url) {
-  const absl::StatusOr<StillName> name = parseStillName(url);
-  if (!name.ok()) co_return errorReply(name.status());
-  const absl::StatusOr<WatchRequest> request = parseWatchRequest(name->parameters, context.streams);
-  if (!request.ok()) co_return errorReply(request.status());
-  const absl::StatusOr<std::string> suffix = quiltSuffix(request->display);
-  if (!suffix.ok()) co_return errorReply(suffix.status());
-  if (*suffix != name->suffix) {
-    QueryParameters parameters = name->parameters;
-    parameters.erase("stream");
-    const std::string query = queryString(parameters);
-    co_return redirectReply(absl::StrCat(std::string(kRoot), request->stream, *suffix, ".jpg",
-                                         query.empty() ? "" : "?", query));
-  }
-  co_return co_await takeAtlas(context, *request);
+  const QuiltAddressForm form{.root = "/still/", .extensions = {".jpg", kLayoutExtension}};
+  const absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form, context.streams);
+  if (!address.ok()) co_return errorReply(address.status());
+  if (!address->redirect.empty()) co_return redirectReply(address->redirect);
+  co_return co_await takeAtlas(context, address->request, address->extension);
 }
 
 }  // namespace viewloom

@@ -9,10 +9,9 @@
 
 namespace viewloom {
 
-// Answers /still/STREAM_qs8x6a0.75.jpg with the parameters of parseWatchRequest. Where no parameter
-// gives them, columns, rows and aspect are those of the suffix. /still/STREAM/PRESET, and a suffix
-// that does not fit the parameters, redirect to the URL that does. Runs on the caller's strand;
-// waits for the atlas at most as long as options.still_timeout.
+// Answers /still/STREAM_qs8x6a0.75.jpg and /still/STREAM/PRESET (see quilt_address.h); with .json
+// the layout of that JPEG. Runs on the caller's strand; waits for the atlas at most as long as
+// options.still_timeout.
 net::awaitable<HttpReply> answerStill(WebContext& context, Url url);
 
 }  // namespace viewloom

@@ -12,6 +12,7 @@
 
 #include "web/asio.h"
 #include "web/atlas_inbox.h"
+#include "web/live_reader.h"
 #include "web/url.h"
 #include "web/watch_request.h"
 #include "web/web_context.h"
@@ -28,17 +29,17 @@ namespace viewloom {
 // kept.
 //
 // Thread-safety: run() once, leave() from the strand of the stream; everything happens on it.
-class Viewer : public std::enable_shared_from_this<Viewer> {
+class Viewer final : public LiveReader, public std::enable_shared_from_this<Viewer> {
  public:
   Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters);
-  ~Viewer();
+  ~Viewer() override;
 
   // Shakes hands and serves until either side goes.
   net::awaitable<void> run(http::request<http::empty_body> request);
   // Sends a close frame (going away) as soon as the atlas under way is written.
-  void leave();
+  void leave() override;
   // Ends the connection at once.
-  void cut();
+  void cut() override;
 
  private:
   struct UnderWay {

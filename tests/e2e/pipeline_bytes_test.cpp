@@ -76,6 +76,7 @@ TEST_F(PipelineBytesTest, comeInOrderOfSequenceAndFrame) {
   for (uint64_t number = 1; number <= kFrameCount; ++number) {
     auto frame = std::make_shared<Frame>(*first);
     frame->format.number = number;
+    frame->format.exposure_ev = 0.01 * static_cast<double>(number);  // none is like another
     server.offer(frame);
     if (number % 3 == 0) server.reports.waitForReports(number);
   }

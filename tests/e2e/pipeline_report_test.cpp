@@ -26,6 +26,7 @@ TEST_F(PipelineReportTest, reportsEveryFrameExactlyOnceHoweverFastTheyCome) {
   for (uint64_t number = 1; number <= kFrameCount; ++number) {
     auto frame = std::make_shared<Frame>(*first);
     frame->format.number = number;
+    frame->format.exposure_ev = 0.01 * static_cast<double>(number);  // none is like another
     server.offer(frame);
   }
   const auto reports = server.reports.waitForReports(kFrameCount);
@@ -97,7 +98,9 @@ TEST_F(PipelineReportTest, finishesWhatHasBegunAndReportsTheRestWhenItDrains) {
   constexpr uint64_t kFrameCount = 4;
   Server server(device());
   const Viewer viewer = watch(server, smallQuilt({800, 600}));
-  for (uint64_t number = 1; number <= kFrameCount; ++number) server.offer(syntheticFrame(number));
+  for (uint64_t number = 1; number <= kFrameCount; ++number) {
+    server.offer(syntheticFrame(number, {160, 90}, 2, 0.1 * static_cast<double>(number)));
+  }
   server.pipeline.drain();
   server.offer(syntheticFrame(kFrameCount + 1));
   const auto reports = server.reports.waitForReports(kFrameCount + 1);

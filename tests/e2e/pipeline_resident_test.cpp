@@ -81,7 +81,7 @@ TEST_F(PipelineResidentTest, walksWhatCannotBeSweptFromTheSameFrame) {
   EXPECT_GT(walked[0]->coverage.hit, 0u);
 
   // Now that the stream is walked, its next frame is built for both.
-  server.offer(syntheticFrame(8));
+  server.offer(syntheticFrame(8, {160, 90}, 2, 1));
   EXPECT_EQ(quilt.subscriber->waitForAtlases(2).at(1)->method, swept[0]->method);
   EXPECT_EQ(camera.subscriber->waitForAtlases(2).at(1)->method, TraceMethod::kWalk);
   EXPECT_EQ(server.metrics.structures_built.value(), 2);

@@ -102,13 +102,12 @@ TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
        .on_report = [&](const v1::FrameReport& report) { reported.add(report.number()); },
        .on_wanted = {},
        .on_connection = {}});
-  const WireFrame frame = syntheticWireFrame({160, 90}, 2, 0);
-  publisher.offer(frame);
+  publisher.offer(syntheticWireFrame({160, 90}, 2, 0));
   ASSERT_TRUE(first_log.waitFor(1));
   ASSERT_TRUE(second_log.waitFor(1));
   for (uint64_t number = 2; number <= kFrameCount; ++number) {
     ASSERT_TRUE(reported.waitFor(number - 1));
-    publisher.offer(frame);
+    publisher.offer(syntheticWireFrame({160, 90}, 2, 0.1 * static_cast<double>(number)));
     ASSERT_TRUE(first_log.waitFor(number));
     ASSERT_TRUE(second_log.waitFor(number));
   }

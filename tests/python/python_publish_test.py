@@ -42,13 +42,15 @@ class Publishing(unittest.TestCase):
     def test_a_frame_is_reported(self):
         with self.server.publish("reported") as publisher:
             self.assertEqual(publisher.accepted.layer_count_max, 4)
-            source = scene.source(scene.noise_color(), scene.step_depth())
-            reports = [publisher.send(source, capture_time_ns=40 + number).result(
-                viewloomd.PATIENCE_S) for number in (1, 2)]
+            color = scene.noise_color()
+            reports = [publisher.send(scene.source(shown, scene.step_depth()),
+                                      capture_time_ns=40 + number).result(viewloomd.PATIENCE_S)
+                       for number, shown in ((1, color), (2, 255 - color), (3, 255 - color))]
             still = self.server.still("reported", scene.own_place())
-            self.assertEqual([report.number for report in reports], [1, 2])
-            self.assertEqual({report.outcome for report in reports},
-                             {ingest.FRAME_OUTCOME_BUILT_WITHOUT_DISPLAY})
+            self.assertEqual([report.number for report in reports], [1, 2, 3])
+            self.assertEqual([report.outcome for report in reports],
+                             [ingest.FRAME_OUTCOME_BUILT_WITHOUT_DISPLAY] * 2 +
+                             [ingest.FRAME_OUTCOME_UNCHANGED])
             self.assertAlmostEqual(reports[0].stats.inv_z_max, 1 / scene.NEAR_M, delta=1e-4)
             self.assertEqual((still.header.frame_number, still.header.capture_time_ns), (2, 42))
 

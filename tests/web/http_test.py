@@ -97,6 +97,12 @@ class Answers(unittest.TestCase):
                   "tile_size": {"width": 80, "height": 80}}
         self.assertEqual([decode_view(image, layout, view) for view in range(8)], list(range(8)))
 
+    def test_tells_the_layout_of_a_still_beside_it(self):
+        layout = fetch(self.port, f"/still/painted_qs4x2a1.json?{SMALL}").json()
+        self.assertEqual([layout["columns"], layout["rows"], layout["view_count"]], [4, 2, 8])
+        self.assertEqual((layout["size"], layout["suffix"]),
+                         ({"width": 320, "height": 160}, "_qs4x2a1"))
+
     def test_redirects_a_short_still_to_the_one_with_the_suffix(self):
         reply = fetch(self.port, "/still/painted/portrait")
         self.assertEqual(reply.status, 302)

@@ -67,5 +67,11 @@ TEST_F(FrameTicketTest, saysWhyAFrameWasRefused) {
   EXPECT_EQ(reports_.at(0).reason, "too large");
 }
 
+TEST_F(FrameTicketTest, saysThatNothingWasMadeOfAFrame) {
+  makeTicket()->noteUnchanged({.depth_step = 0.5});
+  EXPECT_EQ(reports_.at(0).outcome, FrameOutcome::kUnchanged);
+  EXPECT_EQ(reports_.at(0).stats.depth_step, 0.5);
+}
+
 }  // namespace
 }  // namespace viewloom

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking Glass Bridge, told over its HTTP interface which quilt to show.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/status.h"
+#include "bridge/http_request.h"
+#include "bridge/quilt.h"
+
+namespace viewloom::bridge {
+
+struct BridgeDisplay {
+  int index = 0;
+  std::string name;                         // hardware id, as LKG-P02283
+  std::optional<QuiltShape> default_quilt;  // what the device says it wants
+};
+
+// Bridge takes PUT and JSON, and answers everything else with 200 and an empty body. Statuses say
+// what came and what to do: UNAVAILABLE where nobody listens, DEADLINE_EXCEEDED,
+// FAILED_PRECONDITION for answers that no Bridge gives. Thread-safety: none; one owner.
+class Bridge {
+ public:
+  Bridge(HttpAddress address, std::chrono::milliseconds timeout);
+  // Leaves the orchestration, if it was entered.
+  ~Bridge();
+  Bridge(const Bridge&) = delete;
+  Bridge& operator=(const Bridge&) = delete;
+
+  // First.
+  absl::Status enter();
+  // The light-field displays; FAILED_PRECONDITION when there is none.
+  absl::StatusOr<std::vector<BridgeDisplay>> displays();
+  // Makes the display show the quilt. Two playlists take turns, so that what stands is shown until
+  // the next one is there.
+  absl::Status play(const AddressedQuilt& quilt, int display_index);
+
+ private:
+  // The payload's value.
+  absl::StatusOr<nlohmann::json> call(const std::string& endpoint, nlohmann::json arguments);
+  absl::Status checkedCall(const std::string& endpoint, const nlohmann::json& arguments);
+  std::string asked(const std::string& endpoint) const;
+
+  const HttpAddress address_;
+  const std::chrono::milliseconds timeout_;
+  std::string orchestration_;  // empty before enter()
+  uint64_t play_count_ = 0;
+};
+
+}  // namespace viewloom::bridge

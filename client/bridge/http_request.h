@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// One request over HTTP and its answer.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/status.h"
+
+namespace viewloom::bridge {
+
+struct HttpAddress {
+  std::string host;  // a name or an address; IPv6 without brackets
+  uint16_t port = 0;
+
+  bool isLoopback() const;
+  // "http://localhost:33334"
+  std::string url() const;
+};
+
+// Reads http://HOST[:PORT][/]. INVALID_ARGUMENT, saying `option`, for anything else.
+absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t default_port,
+                                             std::string_view option);
+
+struct HttpRequest {
+  std::string method;  // GET or PUT
+  std::string target;  // begins with '/'
+  std::string json;    // the body; empty = none
+};
+
+struct HttpResponse {
+  unsigned status = 0;
+  std::string location;  // header; empty when not given
+  std::string body;
+};
+
+// Blocks until the answer is there, at most so long (looking up a name takes its own time).
+// UNAVAILABLE when nobody can be reached, DEADLINE_EXCEEDED, DATA_LOSS for an answer that is no
+// HTTP or longer than 4 MiB. Thread-safety: may be called from any thread.
+absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,
+                                      std::chrono::milliseconds timeout);
+
+}  // namespace viewloom::bridge

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bridge/quilt_page.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
+namespace viewloom::bridge {
+namespace {
+
+using nlohmann::json;
+
+constexpr unsigned kHttpOk = 200;
+constexpr unsigned kHttpFound = 302;
+
+absl::Status checkName(const std::string& what, const std::string& name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](char character) {
+    return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '.' ||
+           character == '_' || character == '-';
+  });
+  if (is_plain) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      what, ": got \"", name, "\"; accepted are letters, digits, dots, hyphens and underscores"));
+}
+
+std::string targetOf(const QuiltQuery& query) {
+  std::string target = absl::StrCat("/still/", query.stream);
+  std::string parameters = query.parameters;
+  if (query.preset.empty()) {
+    absl::StrAppendFormat(&target, "_qs%ux%ua%g.json", query.shape.columns, query.shape.rows,
+                          query.shape.aspect);
+    absl::StrAppend(&parameters, parameters.empty() ? "" : "&", "width=", query.shape.width_px,
+                    "&height=", query.shape.height_px);
+  } else {
+    absl::StrAppend(&target, "/", query.preset);
+  }
+  return absl::StrCat(target, parameters.empty() ? "" : "?", parameters);
+}
+
+// The same address with another ending; an aspect may have a dot, a query too.
+std::string withExtension(const std::string& target, std::string_view extension) {
+  const size_t query = std::min(target.find('?'), target.size());
+  const size_t dot = target.rfind('.', query);
+  if (dot == std::string::npos) return target;
+  return absl::StrCat(target.substr(0, dot), std::string(extension), target.substr(query));
+}
+
+absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& target,
+                                 std::chrono::milliseconds timeout) {
+  absl::StatusOr<HttpResponse> response =
+      exchange(page, {.method = "GET", .target = target, .json = ""}, timeout);
+  if (response.ok()) return response;
+  const std::string reason(response.status().message());
+  if (absl::IsDeadlineExceeded(response.status())) {
+    return absl::DeadlineExceededError(absl::StrCat("the page at ", page.url(),
+                                                    " gave no answer within ", timeout.count(),
+                                                    " ms; wait longer with --timeout SECONDS"));
+  }
+  return absl::UnavailableError(
+      absl::StrCat("no page of viewloomd at ", page.url(), " (", reason,
+                   "); start `viewloomd serve`, or name its page with --address http://HOST:PORT"));
+}
+
+absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
+  const json answer = json::parse(response.body, nullptr, false);
+  const json path = answer.is_object() ? answer.value("error", json()) : json();
+  const json message = path.is_object() ? path.value("message", json()) : json();
+  if (message.is_string()) return absl::FailedPreconditionError(message.get<std::string>());
+  return absl::FailedPreconditionError(
+      absl::StrCat(page.url(), " answered with HTTP status ", response.status,
+                   "; check that --address names the page of a viewloomd"));
+}
+
+}  // namespace
+
+absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
+                                         std::chrono::milliseconds timeout) {
+  VIEWLOOM_RETURN_IF_ERROR(checkName("stream", query.stream));
+  VIEWLOOM_RETURN_IF_ERROR(checkName("--preset", query.preset));
+  std::string target = targetOf(query);
+  absl::StatusOr<HttpResponse> response = get(page, target, timeout);
+  VIEWLOOM_RETURN_IF_ERROR(response.status());
+  if (response->status == kHttpFound) {  // to the suffix as the server writes it
+    target = withExtension(response->location, ".json");
+    response = get(page, target, timeout);
+    VIEWLOOM_RETURN_IF_ERROR(response.status());
+  }
+  const json layout = json::parse(response->body, nullptr, false);
+  if (response->status != kHttpOk || !layout.is_object()) return refused(page, *response);
+  AddressedQuilt quilt;
+  try {
+    quilt = {.uri = "",
+             .columns = layout.at("columns").get<uint32_t>(),
+             .rows = layout.at("rows").get<uint32_t>(),
+             .view_count = layout.at("view_count").get<uint32_t>(),
+             .aspect = layout.at("aspect").get<double>()};
+  } catch (const json::exception&) {
+    return refused(page, *response);
+  }
+  std::string shown = withExtension(target, query.is_motion ? ".mjpg" : ".jpg");
+  if (query.is_motion) shown.replace(0, std::string_view("/still/").size(), "/stream/");
+  quilt.uri = page.url() + shown;
+  return quilt;
+}
+
+}  // namespace viewloom::bridge

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks the page of a viewloomd at which address a stream's quilt is.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "base/status.h"
+#include "bridge/http_request.h"
+#include "bridge/quilt.h"
+
+namespace viewloom::bridge {
+
+struct QuiltQuery {
+  std::string stream;
+  std::string preset;  // empty = `shape`
+  QuiltShape shape;
+  std::string parameters;  // further ones of the URL: "quality=90&cone_deg=35"
+  bool is_motion = false;  // motion JPEG instead of a still
+};
+
+// Waits until there is an atlas to show. UNAVAILABLE where nobody listens, INVALID_ARGUMENT for a
+// name that cannot be one, DEADLINE_EXCEEDED, FAILED_PRECONDITION with the server's own words where
+// it refuses. Thread-safety: may be called from any thread.
+absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
+                                         std::chrono::milliseconds timeout);
+
+}  // namespace viewloom::bridge

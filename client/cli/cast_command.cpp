@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cast_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "base/str_cat.h"
+#include "bridge/bridge.h"
+#include "bridge/quilt_page.h"
+#include "cli/interrupt.h"
+
+namespace viewloom::cli {
+namespace {
+
+using bridge::AddressedQuilt;
+using bridge::Bridge;
+using bridge::BridgeDisplay;
+using bridge::HttpAddress;
+using bridge::QuiltQuery;
+
+constexpr std::chrono::milliseconds kTick{20};  // how soon an interrupt is seen
+constexpr uint16_t kBridgePort = 33334;
+constexpr uint16_t kPagePort = 8080;
+constexpr int kFirstDisplay = -1;
+
+struct CastOptions {
+  std::string stream = "demo";
+  std::string bridge = "http://localhost:33334";
+  std::string address = "http://127.0.0.1:8080";
+  std::string preset;
+  double view_cone_deg = 0;
+  double focal_distance_m = 0;
+  uint32_t jpeg_quality = 85;
+  int display_index = kFirstDisplay;
+  double every_s = 0;
+  bool is_motion = false;
+  double timeout_s = 15;
+};
+
+std::chrono::milliseconds milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<int64_t>(1e3 * seconds));
+}
+
+int fail(const absl::Status& status) {
+  std::fprintf(stderr, "viewloom: %s\n", std::string(status.message()).c_str());
+  if (absl::IsInvalidArgument(status)) return kExitUsage;
+  return absl::IsUnavailable(status) ? kExitNoServer : kExitFailed;
+}
+
+absl::StatusOr<BridgeDisplay> pick(const std::vector<BridgeDisplay>& displays, int index) {
+  std::string there;
+  for (const BridgeDisplay& display : displays) {
+    if (index == kFirstDisplay || display.index == index) return display;
+    there += strCat(there.empty() ? "" : ", ", display.index, " (", display.name, ")");
+  }
+  return absl::InvalidArgumentError(
+      strCat("--head ", index, ": Bridge has no such display; there are ", there));
+}
+
+absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDisplay& display) {
+  QuiltQuery query{.stream = options.stream,
+                   .preset = options.preset,
+                   .shape = {},
+                   .parameters = strCat("quality=", options.jpeg_quality),
+                   .is_motion = options.is_motion};
+  if (options.view_cone_deg > 0) query.parameters += strCat("&cone_deg=", options.view_cone_deg);
+  if (options.focal_distance_m > 0)
+    query.parameters += strCat("&focus_m=", options.focal_distance_m);
+  if (!options.preset.empty()) return query;
+  if (!display.default_quilt) {
+    return absl::FailedPreconditionError(
+        strCat(display.name,
+               " does not say which quilt it wants; name one with --preset, see "
+               "`viewloom list presets`"));
+  }
+  query.shape = *display.default_quilt;
+  return query;
+}
+
+// Shows the quilt, and again every so often, until it is interrupted.
+absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& to) {
+  VIEWLOOM_RETURN_IF_ERROR(to.enter());
+  const absl::StatusOr<std::vector<BridgeDisplay>> displays = to.displays();
+  VIEWLOOM_RETURN_IF_ERROR(displays.status());
+  const absl::StatusOr<BridgeDisplay> display = pick(*displays, options.display_index);
+  VIEWLOOM_RETURN_IF_ERROR(display.status());
+  const absl::StatusOr<QuiltQuery> query = makeQuery(options, *display);
+  VIEWLOOM_RETURN_IF_ERROR(query.status());
+  const absl::StatusOr<AddressedQuilt> quilt =
+      bridge::findQuilt(page, *query, milliseconds(options.timeout_s));
+  VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+  do {
+    VIEWLOOM_RETURN_IF_ERROR(to.play(*quilt, display->index));
+    std::printf("%s shows %s\n", display->name.c_str(), quilt->uri.c_str());
+    std::fflush(stdout);
+    const auto due = std::chrono::steady_clock::now() + milliseconds(options.every_s);
+    while (!isInterrupted() && std::chrono::steady_clock::now() < due) {
+      std::this_thread::sleep_for(kTick);
+    }
+  } while (options.every_s > 0 && !isInterrupted());
+  return absl::OkStatus();
+}
+
+int run(const CastOptions& options) {
+  const absl::StatusOr<HttpAddress> bridge_address =
+      bridge::parseHttpAddress(options.bridge, kBridgePort, "--bridge");
+  if (!bridge_address.ok()) return fail(bridge_address.status());
+  const absl::StatusOr<HttpAddress> page =
+      bridge::parseHttpAddress(options.address, kPagePort, "--address");
+  if (!page.ok()) return fail(page.status());
+  if (page->isLoopback() && !bridge_address->isLoopback()) {
+    return fail(absl::InvalidArgumentError(
+        strCat("--address ", page->url(), ": Bridge at ", bridge_address->url(),
+               " cannot reach it there; let viewloomd listen on the network (--http.address) and "
+               "give the address that the display's machine sees")));
+  }
+  Bridge to(*bridge_address, milliseconds(options.timeout_s));
+  const absl::Status status = cast(options, *page, to);
+  return status.ok() ? int{kExitDone} : fail(status);
+}
+
+}  // namespace
+
+RunCommand addCastCommand(CLI::App& app) {
+  const auto options = std::make_shared<CastOptions>();
+  app.footer(
+      "Examples:\n"
+      "  viewloom cast                                    the demo, as the display wants it\n"
+      "  viewloom cast scan --preset portrait --every 2\n"
+      "  viewloom cast --bridge http://10.0.0.7 --address http://10.0.0.5:8080");
+  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
+  app.add_option("--bridge", options->bridge, "Looking Glass Bridge")->capture_default_str();
+  app.add_option("--address", options->address, "The page of viewloomd, as Bridge reaches it")
+      ->capture_default_str();
+  app.add_option("--preset", options->preset,
+                 "A named device, see `viewloom list presets` [the quilt that the display wants]");
+  app.add_option("--cone", options->view_cone_deg, "Angle between the outermost views, degrees")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--focal-distance", options->focal_distance_m,
+                 "Metres to the plane without parallax [by the content]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--quality", options->jpeg_quality, "JPEG quality")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app.add_option("--head", options->display_index, "Bridge's index of the display [the first]")
+      ->check(CLI::Range(0, 255));
+  auto* every = app.add_option("--every", options->every_s,
+                               "Hand the still over again after so many seconds, until Ctrl-C")
+                    ->check(CLI::Range(0.1, 86400.0));
+  app.add_flag("--motion", options->is_motion,
+               "Hand over the motion JPEG stream instead of stills; not tried on a display yet")
+      ->excludes(every);
+  app.add_option("--timeout", options->timeout_s, "Seconds for any answer")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  return [options](const CommonOptions&) -> int { return run(*options); };
+}
+
+}  // namespace viewloom::cli

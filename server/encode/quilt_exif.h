@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a quilt's JPEG says about itself, for players that read it instead of its name.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "display/atlas_layout.h"
+
+namespace viewloom {
+
+// An APP1 segment, marker and length included, that belongs right behind SOI: Exif with one
+// UserComment, {"LKGNumViews":48,"LKGRows":6,"LKGColumns":8,"LKGAspect":0.75,"LKGType":"quilt"}.
+// Empty for layouts that are no quilt.
+std::vector<uint8_t> quiltExif(const AtlasLayout& layout);
+
+}  // namespace viewloom

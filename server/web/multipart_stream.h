@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// One player that is sent atlas after atlas as the parts of one endless reply (motion JPEG).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "web/asio.h"
+#include "web/atlas_inbox.h"
+#include "web/http_reply.h"
+#include "web/live_reader.h"
+#include "web/url.h"
+#include "web/watch_request.h"
+#include "web/web_context.h"
+
+namespace viewloom {
+
+// Answers /stream/STREAM_qs8x6a0.75.mjpg and /stream/STREAM/PRESET (see quilt_address.h): a reply
+// whose `live` is set, or the error or redirect.
+HttpReply answerStream(const WebContext& context, const Url& url);
+
+// multipart/x-mixed-replace: each part is one whole JPEG. The boundary goes out with the part that
+// it ends, because players show a part when they see its end. While a part is being written only
+// the newest atlas is kept, so a slow player skips atlases and costs no memory. In the end comes
+// the closing boundary, behind an empty part.
+//
+// Thread-safety: subscribe() and run() once; everything happens on the strand.
+class MultipartStream final : public LiveReader,
+                              public std::enable_shared_from_this<MultipartStream> {
+ public:
+  MultipartStream(WebContext& context, net::any_io_executor strand);
+  ~MultipartStream() override;
+
+  // Errors as Broadcaster::subscribe.
+  absl::Status subscribe(const WatchRequest& request);
+  // Serves until either side goes. `head`: the reply up to its body.
+  net::awaitable<void> run(beast::tcp_stream stream, http::response<http::empty_body> head);
+  void leave() override;
+  void cut() override;
+
+ private:
+  net::awaitable<void> readUntilGone();
+  net::awaitable<void> writeParts(ErrorCode& error);
+  net::awaitable<void> writePart(const EncodedAtlas& atlas, ErrorCode& error);
+  net::awaitable<void> writeText(std::string text, ErrorCode& error);
+  void wake() { awake_.cancel(); }
+
+  WebContext& context_;
+  net::steady_timer awake_;                  // never expires: waiting for it is waiting for wake()
+  std::optional<beast::tcp_stream> stream_;  // from run() on
+  std::shared_ptr<AtlasInbox> inbox_;
+  std::unique_ptr<Broadcaster::Subscription> subscription_;
+  bool leaving_ = false;
+  bool gone_ = false;
+};
+
+}  // namespace viewloom
