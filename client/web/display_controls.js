@@ -29,6 +29,11 @@ export class DisplayControls {
     });
   }
 
+  // As if the sliders had been moved there.
+  take(parameters) {
+    this.#change(parameters);
+  }
+
   // Another stream or device: its focal distance becomes the middle of the slider.
   forget() {
     this.#neutral_m = 0;

@@ -14,6 +14,7 @@ export class Look {
   #last_ms = 0;
   #running = false;
   #drag = null;
+  #active = true;
 
   // onLook(position)
   constructor(canvas, slider, onLook) {
@@ -27,41 +28,50 @@ export class Look {
       canvas.addEventListener(end, () => { this.#drag = null; });
     }
     canvas.addEventListener('keydown', (event) => this.#key(event));
-    slider.addEventListener('input', () => this.#take(slider.valueAsNumber));
+    slider.addEventListener('input', () => this.take(slider.valueAsNumber));
     this.#run();
   }
 
-  #down(event) {
-    if (event.pointerType === 'mouse') return;
-    event.target.setPointerCapture(event.pointerId);
-    this.#drag = {x: event.clientX, from: this.#target};
-  }
-
-  #move(event) {
-    const width = event.target.clientWidth;
-    if (event.pointerType === 'mouse') {
-      this.#take((event.clientX - event.target.getBoundingClientRect().left) / width);
-    } else if (this.#drag) {
-      this.#take(this.#drag.from - (event.clientX - this.#drag.x) / width);
-    }
-  }
-
-  #key(event) {
-    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -6, PageUp: 6}[event.key];
-    const ends = {Home: 0, End: 1}[event.key];
-    if (steps === undefined && ends === undefined) return;
-    event.preventDefault();
-    this.#take(ends ?? this.#target + steps * kKeyStep);
-  }
-
-  #take(target) {
+  // 0..1; what lies beyond is brought there.
+  take(target) {
     this.swaying = false;
     this.#target = Math.min(1, Math.max(0, target));
     this.#run();
   }
 
+  // While another mode is on, the eye stands still.
+  set active(isActive) {
+    this.#active = isActive;
+    if (isActive) this.#run();
+  }
+
+  #down(event) {
+    if (event.pointerType === 'mouse' || !this.#active) return;
+    event.target.setPointerCapture(event.pointerId);
+    this.#drag = {x: event.clientX, from: this.#target};
+  }
+
+  #move(event) {
+    if (!this.#active) return;
+    const width = event.target.clientWidth;
+    if (event.pointerType === 'mouse') {
+      this.take((event.clientX - event.target.getBoundingClientRect().left) / width);
+    } else if (this.#drag) {
+      this.take(this.#drag.from - (event.clientX - this.#drag.x) / width);
+    }
+  }
+
+  #key(event) {
+    if (!this.#active) return;
+    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -6, PageUp: 6}[event.key];
+    const ends = {Home: 0, End: 1}[event.key];
+    if (steps === undefined && ends === undefined) return;
+    event.preventDefault();
+    this.take(ends ?? this.#target + steps * kKeyStep);
+  }
+
   #run() {
-    if (this.#running) return;
+    if (this.#running || !this.#active) return;
     this.#running = true;
     this.#last_ms = performance.now();
     requestAnimationFrame((now_ms) => this.#step(now_ms));
@@ -79,7 +89,7 @@ export class Look {
     if (settled) this.#position = this.#target;
     if (!this.slider.matches(':active')) this.slider.valueAsNumber = this.#position;
     this.onLook(this.#position);
-    this.#running = !settled;
+    this.#running = !settled && this.#active;
     if (this.#running) requestAnimationFrame((next_ms) => this.#step(next_ms));
   }
 }

@@ -1,54 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer page: joins the choices, the connection, the picture and the figures.
+// The viewer page: joins the choices, the modes, the connection, the picture and the figures.
+import {keepInAddress, pageParameters} from './address.js';
 import {AtlasStream} from './atlas_stream.js';
 import {AutoDetail} from './auto_detail.js';
+import {Commands} from './commands.js';
 import {Decoder} from './decoder.js';
+import {DepthBudget} from './depth_budget.js';
+import {watchDeviceSize} from './device_size.js';
+import {DisplayChoice} from './display_choice.js';
 import {DisplayControls} from './display_controls.js';
+import {EyeMode} from './eye_mode.js';
+import {Figures} from './figures.js';
 import {Look} from './look.js';
-import {Panel} from './panel.js';
+import {Modes} from './modes.js';
+import {notice, say} from './notice.js';
+import {PanelMode} from './panel_mode.js';
+import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
+import {StreamList} from './stream_list.js';
+import {Tilt} from './tilt.js';
+import {Weaver} from './weaver.js';
 
-const kPoll_ms = 2000;
+const kRetry_ms = 2000;
 const kHiddenGrace_ms = 5000;
-const kNoticeTime_ms = 6000;
-const kDefaultPreset = 'portrait';
+const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
 const root = document.documentElement;
-const panel = new Panel();
-const controls = new DisplayControls((parameters) => stream.change(parameters));
-const autoDetail = new AutoDetail(() => stream.change(sizeParameters(pageParameters())));
-let presets = [];
 let watching = null;  // name of the stream
-let publishing = true;  // whether the stream's publisher was there when last asked
-let noticeTimer = 0;
 let hiddenTimer = 0;
+
+const figures = new Figures();
+const commands = new Commands();
+const controls = new DisplayControls((parameters) => stream.change(parameters));
+const budget = new DepthBudget((parameters) => controls.take(parameters));
+const autoDetail = new AutoDetail(() => stream.change(display.size()));
+const display = new DisplayChoice(autoDetail, () => { if (watching) watch(watching); });
 
 const stage = new Stage(byId('stage'), (atlas) => {
   if (!atlas.acknowledged) {
     atlas.acknowledged = true;
     stream.shown(atlas.header.delivery);
-    panel.noteShown(atlas);
-    if (byId('detail').value === 'auto') autoDetail.note(atlas.header, performance.now());
+    figures.noteShown(atlas);
+    if (display.isAutomatic) autoDetail.note(atlas.header, performance.now());
   }
   root.dataset.sequence = atlas.header.sequence;
 });
 
 const decoder = new Decoder(
     (atlas) => {
+      const {layout} = atlas.header;
       setState('live');
       stage.show(atlas);
-      controls.show(atlas.header.layout);
+      single.layoutChanged(layout.view_count);
+      controls.show(layout);
+      budget.show(atlas.header.depth_budget);
+      commands.show(stream.parameters, layout);
       nameView();
     },
     (atlas) => {
       stream.shown(atlas.header.delivery);
-      panel.noteDropped();
+      figures.noteDropped();
     });
 
 const stream = new AtlasStream({
   onAtlas(atlas) {
-    panel.noteArrived();
+    figures.noteArrived();
     decoder.decode(atlas);
   },
   onLive() {
@@ -62,9 +79,47 @@ const stream = new AtlasStream({
   onRefused(error) { notice(error.message, 'bad'); },
 });
 
-new Look(byId('stage'), byId('view'), (position) => {
+const look = new Look(byId('stage'), byId('view'), (position) => {
   stage.look(position);
   nameView();
+});
+new Tilt(byId('tilt'), (position) => look.take(position));
+const single = new SingleMode(stage);
+const weaver = new Weaver(byId('woven'));
+const panelMode = new PanelMode(weaver, () => stage.invalidate());
+const eyeMode = new EyeMode(weaver, () => panelMode.calibration, () => stage.invalidate());
+watchDeviceSize(byId('woven'), (size_px) => {
+  panelMode.resize(size_px);
+  eyeMode.resize(size_px);
+  stage.invalidate();
+});
+
+// Draws by WebGL as long as the mode lasts.
+async function paint(mode) {
+  stage.painter = mode;
+  try {
+    await mode.enter();
+  } catch (error) {
+    notice(error.message, 'bad', Infinity);
+  }
+  stage.invalidate();
+}
+
+function setWhole(isWhole) {
+  stage.whole = isWhole;
+  stage.invalidate();
+}
+
+const modes = new Modes({
+  look: {enter: () => { look.active = true; }, leave: () => { look.active = false; }},
+  single,
+  quilt: {enter: () => setWhole(true), leave: () => setWhole(false)},
+  panel: {enter: () => paint(panelMode), leave: () => panelMode.leave()},
+  eye: {enter: () => paint(eyeMode)},
+}, (mode) => {
+  if (mode !== 'panel' && mode !== 'eye') stage.painter = null;
+  stage.invalidate();
+  keepInAddress({mode: mode === 'look' ? null : mode});
 });
 
 function nameView() {
@@ -77,128 +132,46 @@ function nameView() {
 function setState(state) {
   root.dataset.state = state;
   byId('welcome').hidden = state !== 'no-stream';
-}
-
-function notice(text, kind = '', time_ms = kNoticeTime_ms) {
-  const shown = byId('notice');
-  clearTimeout(noticeTimer);
-  shown.textContent = text;
-  shown.dataset.kind = kind;
-  shown.hidden = text === '';
-  if (text && time_ms !== Infinity) noticeTimer = setTimeout(() => notice(''), time_ms);
-}
-
-// The page's own parameters are those of /ws. What it has no control for is passed on as it is.
-function pageParameters() {
-  return new URLSearchParams(location.search);
-}
-
-function chosenPreset() {
-  return presets.find(({name}) => name === byId('preset').value);
-}
-
-// Width and height of the quilt: the address's or the preset's, times the detail.
-function sizeParameters(parameters) {
-  const chosen = byId('detail').value;
-  const detail = chosen === 'auto' ? autoDetail.detail : Number(chosen);
-  const size = {};
-  for (const side of ['width', 'height']) {
-    const full_px = Number(parameters.get(side) ?? chosenPreset()?.size[side]);
-    if (full_px) size[side] = Math.round(full_px * detail);
-  }
-  return size;
-}
-
-function watchParameters() {
-  const parameters = pageParameters();
-  const size = sizeParameters(parameters);
-  parameters.delete('detail');
-  parameters.set('stream', watching);
-  if (chosenPreset()) parameters.set('preset', chosenPreset().name);
-  for (const [side, length_px] of Object.entries(size)) parameters.set(side, length_px);
-  return parameters;
+  say({
+    'live': `Live: ${watching}, ${stage.layout?.view_count ?? ''} views.`,
+    'connecting': `Connecting to ${watching}.`,
+    'no-stream': 'No stream is live.',
+  }[state] ?? '');
 }
 
 function watch(name) {
   watching = name;
-  publishing = true;
-  panel.clear();
+  streams.restart();
+  figures.clear();
   controls.forget();
   setState('connecting');
-  stream.open(watchParameters());
+  stream.open(display.parameters(name));
 }
 
-// A choice made by hand is kept in the address, so that a reload and a link show the same.
-function choose(changes) {
-  const parameters = pageParameters();
-  for (const [name, value] of Object.entries(changes)) {
-    if (value === null) parameters.delete(name);
-    else parameters.set(name, value);
-  }
-  history.replaceState(null, '', `?${parameters}`);
-  if (watching) watch(watching);
-}
-
-async function fetchStreams() {
-  const reply = await fetch('/api/streams', {cache: 'no-store'});
-  return (await reply.json()).streams;
-}
-
-function showStreams(streams) {
-  const select = byId('stream');
-  const label = ({name, live}) => live ? name : `${name} (still)`;
-  const wanted = streams.map(label).join('\n');
-  if (select.dataset.shown !== wanted) {
-    select.dataset.shown = wanted;
-    select.replaceChildren(...streams.map((entry) => new Option(label(entry), entry.name)));
-  }
-  select.disabled = streams.length === 0;
-  if (watching) select.value = watching;
-}
-
-function notePublisher(entry) {
-  if (!entry || entry.live === publishing) return;
-  publishing = entry.live;
-  notice(publishing ? '' : 'The publisher left. This is its last frame.', '', Infinity);
-}
-
-// Looks for streams; watches the one asked for, else the first that is live, else the first.
-async function poll() {
-  try {
-    const streams = await fetchStreams();
-    const asked = pageParameters().get('stream');
-    const found = streams.find(({name}) => name === asked) ??
-        streams.find(({live}) => live) ?? streams[0];
-    if (!watching && found) watch(found.name);
-    showStreams(streams);
-    notePublisher(streams.find(({name}) => name === watching));
-    if (!watching && !found) {
-      setState('no-stream');
-      notice('');
-    }
-  } catch {
-    if (!watching) notice('The server does not answer. Trying again.', 'bad', Infinity);
-  }
-  setTimeout(poll, kPoll_ms);
-}
+const streams = new StreamList({
+  asked: () => pageParameters().get('stream'),
+  watching: () => watching,
+  onFound: watch,
+  onNone() {
+    setState('no-stream');
+    notice('');
+  },
+  onPublisher(isThere) {
+    notice(isThere ? '' : 'The publisher left. This is its last frame.', '', Infinity);
+  },
+  onSilence() { if (!watching) notice(kSilence, 'bad', Infinity); },
+});
 
 async function start() {
-  const parameters = pageParameters();
   try {
-    presets = (await (await fetch('/api/presets')).json()).presets;
+    display.show((await (await fetch('/api/presets')).json()).presets);
   } catch {
-    setTimeout(start, kPoll_ms);
-    notice('The server does not answer. Trying again.', 'bad', Infinity);
+    setTimeout(start, kRetry_ms);
+    notice(kSilence, 'bad', Infinity);
     return;
   }
-  const options = presets.map(({name, device}) => new Option(device, name));
-  if (parameters.has('columns')) options.unshift(new Option('as in the address', ''));
-  byId('preset').replaceChildren(...options);
-  const standard = parameters.has('columns') ? '' : kDefaultPreset;
-  byId('preset').value = parameters.get('preset') ?? standard;
-  byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
-  if (byId('detail').selectedIndex < 0) byId('detail').value = 'auto';  // none of the choices
-  poll();
+  modes.choose(pageParameters().get('mode'));
+  streams.poll();
 }
 
 function toggle(id, key, apply) {
@@ -212,8 +185,13 @@ function toggle(id, key, apply) {
   keys[key] = flip;
 }
 
-const keys = {f: () => byId('fullscreen').click()};
-toggle('quilt', 'q', (on) => { stage.whole = on; stage.invalidate(); });
+const keys = {
+  f: () => byId('fullscreen').click(),
+  q: () => modes.choose(modes.mode === 'quilt' ? 'look' : 'quilt'),
+};
+modes.radios.forEach((radio, index) => {
+  keys[String(index + 1)] = () => modes.choose(radio.value);
+});
 toggle('blend', 'b', (on) => { stage.blend = on; stage.invalidate(); });
 toggle('details', 'i', (on) => { byId('panel').hidden = !on; });
 byId('fullscreen').addEventListener('click', () => {
@@ -221,20 +199,14 @@ byId('fullscreen').addEventListener('click', () => {
   else document.querySelector('main').requestFullscreen();
 });
 document.addEventListener('keydown', (event) => {
-  if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches('select')) return;
+  const isTyped = event.target.matches('select, textarea, input:not([type=range], [type=radio])');
+  if (event.ctrlKey || event.altKey || event.metaKey || isTyped) return;
   keys[event.key.toLowerCase()]?.();
 });
 
 byId('stream').addEventListener('change', ({target}) => {
-  watching = target.value;
-  choose({stream: target.value});
-});
-byId('preset').addEventListener('change', ({target}) => {
-  choose({preset: target.value || null, columns: null, rows: null, width: null, height: null,
-          aspect: null, cone_deg: null, focus_m: null});
-});
-byId('detail').addEventListener('change', ({target}) => {
-  choose({detail: target.value});
+  keepInAddress({stream: target.value});
+  watch(target.value);
 });
 
 // Nobody looks: the display need not be traced.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws one view of the newest atlas, two neighbouring ones mixed, or the whole of it.
+// Draws one view of the newest atlas, two neighbouring ones mixed, or the whole of it; or lets a
+// painter draw.
+import {watchDeviceSize} from './device_size.js';
 
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
 const kTileEdge_px = 0.5;
@@ -25,8 +27,10 @@ export class Stage {
     this.context = canvas.getContext('2d', {alpha: false});
     this.position = 0.5;  // 0 = leftmost view, 1 = rightmost
     this.whole = false;
+    this.single = null;    // the number of the one view shown, from 0, whatever the position
     this.blend = false;
-    new ResizeObserver(() => this.#resize()).observe(canvas);
+    this.painter = null;   // {draw(atlas)}: draws elsewhere
+    watchDeviceSize(canvas, (size_px) => this.#resize(size_px));
   }
 
   get layout() { return this.#atlas?.header.layout ?? null; }
@@ -39,7 +43,7 @@ export class Stage {
 
   look(position) {
     this.position = Math.min(1, Math.max(0, position));
-    if (!this.whole) this.invalidate();
+    if (!this.whole && this.single === null && !this.painter) this.invalidate();
   }
 
   invalidate() {
@@ -51,14 +55,19 @@ export class Stage {
     });
   }
 
-  #resize() {
-    const scale = window.devicePixelRatio || 1;
-    this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * scale));
-    this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * scale));
+  #resize({width, height}) {
+    this.canvas.width = Math.max(1, width);
+    this.canvas.height = Math.max(1, height);
     this.#draw();
   }
 
   #draw() {
+    if (this.painter) {
+      if (!this.#atlas) return;
+      this.painter.draw(this.#atlas);
+      this.onDrawn(this.#atlas);
+      return;
+    }
     const {canvas, context} = this;
     context.fillStyle = '#0a0c10';
     context.fillRect(0, 0, canvas.width, canvas.height);
@@ -88,9 +97,10 @@ export class Stage {
   #drawView() {
     const {layout} = this;
     const exact = this.position * (layout.view_count - 1);
-    const nearest = Math.round(exact);
-    const lower = this.blend ? Math.floor(exact) : nearest;
-    const share = this.blend ? exact - lower : 0;
+    const nearest = this.single ?? Math.round(exact);
+    const isMixed = this.blend && this.single === null;
+    const lower = isMixed ? Math.floor(exact) : nearest;
+    const share = isMixed ? exact - lower : 0;
     this.#drawTile(lower, 1);
     if (share > 0) this.#drawTile(Math.min(lower + 1, layout.view_count - 1), share);
     this.canvas.dataset.view = nearest;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The live figures: rate, latency by stage, drops, how rays ended.
+import {Chart, spanText} from './chart.js';
 
 const kRateWindow_ms = 3000;
 const kSmoothing = 0.25;  // weight of the newest atlas in a running mean
-const kHistoryCount = 120;
+const kHistoryCount = 120;     // atlases in a chart
+const kSecondsCount = 60;      // of rate and drops
+const kTick_ms = 1000;
 const kRefresh_ms = 250;
 const kLongLatency_ms = 10_000;  // from here on in seconds
 const kMsPerNs = 1e-6;
@@ -21,6 +24,9 @@ const kStages = [
   ['delivery', 'network, browser and the way back, of the last acknowledged atlas'],
   ['browser', 'JPEG decoded; a part of delivery'],
 ];
+// Stages that follow each other from the frame's first byte to the picture: what is stacked.
+const kStacked = kStages.slice(0, -1).map(([stage]) => stage);
+const stageColor = (index) => `hsl(${165 + 24 * index} 55% 58%)`;
 const kAnswers = [
   ['hit', 'hit'], ['hit_assumed', 'assumed'], ['hidden', 'hidden, filled'],
   ['outside', 'outside'], ['empty', 'empty'],
@@ -46,10 +52,11 @@ function milliseconds(value) {
   return value >= 100 ? value.toFixed(0) : value.toFixed(1);
 }
 
-export class Panel {
+export class Figures {
   #arrivals = [];  // {time_ms}, oldest first
   #means = {};     // ms
-  #history = [];   // end to end, ms
+  #charts = {};
+  #dropsBefore = 0;  // at the last tick
   #newest = null;
   #bars = {};
   #shares = {};
@@ -57,8 +64,9 @@ export class Panel {
   #drops = 0;
 
   constructor() {
-    for (const [stage, title] of kStages) {
-      element('dt', {textContent: stage, title}, byId('stages'));
+    for (const [index, [stage, title]] of kStages.entries()) {
+      const name = element('dt', {textContent: stage, title}, byId('stages'));
+      if (kStacked[index]) name.style.setProperty('--own', stageColor(index));
       const meter = element('meter', {min: 0, max: 1, value: 0}, element('dd', {}, byId('stages')));
       meter.setAttribute('aria-label', stage);
       const value = element('dd', {className: 'value', textContent: '–'}, byId('stages'));
@@ -74,14 +82,39 @@ export class Panel {
       element('dt', {textContent: fact}, byId('facts'));
       this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
     }
+    this.#makeCharts();
     setInterval(() => this.#refresh(), kRefresh_ms);
+    setInterval(() => this.#tick(), kTick_ms);
+  }
+
+  #makeCharts() {
+    const firsts = (samples) => samples.map(([value]) => value);
+    const sums = (samples) =>
+        samples.map((values) => values.reduce((sum, value) => sum + value, 0));
+    this.#charts = {
+      rate: {colors: ['--accent'], count: kSecondsCount, describe: (samples) =>
+        `Atlases a second, over ${samples.length} s: ${spanText(firsts(samples), 1)}`},
+      latency: {colors: kStacked.map((_, index) => stageColor(index)), count: kHistoryCount,
+                describe: (samples) => `Latency of the last ${samples.length} atlases, ms: ` +
+                    spanText(sums(samples), 0)},
+      drops: {colors: ['--bad'], count: kSecondsCount, describe: (samples) =>
+        `Atlases dropped each second, over ${samples.length} s: ${spanText(firsts(samples), 0)}`},
+      coverage: {colors: ['--accent', '--second', '--warm', '--bad', '--empty'],
+                 count: kHistoryCount, highest: 1, describe: (samples) => 'How rays ended, now: ' +
+                     kAnswers.map(([, label], index) =>
+                         `${label} ${(100 * samples.at(-1)[index]).toFixed(1)} %`).join('; ')},
+    };
+    for (const [name, options] of Object.entries(this.#charts)) {
+      this.#charts[name] = new Chart(byId(`chart-${name}`), options);
+    }
   }
 
   clear() {
     this.#arrivals = [];
     this.#means = {};
-    this.#history = [];
-    this.#drops = 0;
+    this.#drops = this.#dropsBefore = 0;
+    this.#newest = null;
+    for (const chart of Object.values(this.#charts)) chart.clear();
   }
 
   // The browser was too slow for an atlas it had received.
@@ -107,25 +140,43 @@ export class Panel {
       const before = this.#means[name] ?? value;
       this.#means[name] = before + (value - before) * kSmoothing;
     }
-    this.#history.push(figures.latency);
-    if (this.#history.length > kHistoryCount) this.#history.shift();
+    this.#charts.latency.push(kStacked.map((stage) => figures[stage] ?? 0));
+    this.#charts.coverage.push(kAnswers.map(([answer]) => atlas.header.coverage[answer]));
     this.#newest = atlas;
   }
 
   #refresh() {
     if (!this.#newest) return;
+    const rate_hz = this.#rate_hz();
+    byId('rate').textContent = rate_hz.toFixed(rate_hz < 1 ? 2 : 1);
+    this.#refreshLatency();
+    byId('drops').textContent = this.#dropCount();
+    this.#refreshStages();
+    this.#refreshCoverage();
+    this.#refreshFacts(rate_hz);
+    for (const chart of Object.values(this.#charts)) chart.draw();
+  }
+
+  #rate_hz() {
     const now_ms = performance.now();
     // A slow server's newest two count however old they are.
     this.#arrivals = this.#arrivals.filter(({time_ms}, index, all) =>
         now_ms - time_ms < kRateWindow_ms || index >= all.length - 2);
-    const rate_hz = rateOf(this.#arrivals, now_ms);
-    byId('rate').textContent = rate_hz.toFixed(rate_hz < 1 ? 2 : 1);
-    this.#refreshLatency();
-    byId('drops').textContent = this.#newest.header.dropped_count + this.#drops;
-    this.#refreshStages();
-    this.#refreshCoverage();
-    this.#refreshFacts(rate_hz);
-    this.#drawHistory();
+    return rateOf(this.#arrivals, now_ms);
+  }
+
+  // By the server for this viewer, and by the browser.
+  #dropCount() {
+    return this.#newest.header.dropped_count + this.#drops;
+  }
+
+  #tick() {
+    if (!this.#newest) return;
+    const drops = this.#dropCount();
+    this.#charts.rate.push([this.#rate_hz()]);
+    // Another connection counts from 0 again.
+    this.#charts.drops.push([Math.max(0, drops - this.#dropsBefore)]);
+    this.#dropsBefore = drops;
   }
 
   #refreshLatency() {
@@ -167,28 +218,5 @@ export class Panel {
       'Rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
     };
     for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;
-  }
-
-  // Newest at the right, 0 ms at the bottom.
-  #drawHistory() {
-    const canvas = byId('history');
-    const scale = window.devicePixelRatio || 1;
-    const width = canvas.width = Math.round(canvas.clientWidth * scale);
-    const height = canvas.height = Math.round(canvas.clientHeight * scale);
-    const context = canvas.getContext('2d');
-    const highest = 1.15 * Math.max(...this.#history);
-    const line = new Path2D();
-    const xOf = (index) => width * (1 - (this.#history.length - 1 - index) / (kHistoryCount - 1));
-    this.#history.forEach((latency_ms, index) => {
-      line.lineTo(xOf(index), height * (1 - latency_ms / highest));
-    });
-    const area = new Path2D(line);
-    area.lineTo(width, height);
-    area.lineTo(xOf(0), height);
-    context.fillStyle = '#6ee7d21f';
-    context.fill(area);
-    context.lineWidth = 1.5 * scale;
-    context.strokeStyle = '#6ee7d2';
-    context.stroke(line);
   }
 }

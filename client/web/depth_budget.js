@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the scene's depth suits the display: shown where the server says it with its atlases.
+
+const kDegPerRad = 180 / Math.PI;
+
+const byId = (id) => document.getElementById(id);
+const percent = (share) => `${(100 * share).toFixed(1)} %`;
+
+export class DepthBudget {
+  #suggested = {};
+
+  // onTake({focus_m, cone_deg}): the suggestion shall be followed
+  constructor(onTake) {
+    byId('budget-take').addEventListener('click', () => onTake(this.#suggested));
+  }
+
+  // budget: depth_budget of an atlas's header, or undefined
+  show(budget) {
+    byId('budget').hidden = !budget;
+    if (!budget) return;
+    const focus_m = budget.suggested_focal_distance_m;
+    const cone_deg = budget.suggested_view_cone_rad * kDegPerRad;
+    const ghosting = budget.beyond_ghosting_share;
+    const unfused = Math.max(0, budget.beyond_fusing_share - ghosting);
+    const shares = {fuses: 1 - unfused - ghosting, unfused, ghosts: ghosting};
+    for (const [part, share] of Object.entries(shares)) {
+      byId(`budget-${part}`).style.width = `${100 * share}%`;
+    }
+    byId('budget-disparity').textContent = `${budget.disparity_max_px.toFixed(1)} px`;
+    byId('budget-fusing').textContent = percent(budget.beyond_fusing_share);
+    byId('budget-ghosting').textContent = percent(ghosting);
+    byId('budget-take').textContent =
+        `Take focus ${focus_m.toFixed(2)} m, cone ${cone_deg.toFixed(0)}°`;
+    this.#suggested = {focus_m: focus_m.toPrecision(4), cone_deg: cone_deg.toPrecision(4)};
+  }
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which display is watched: a preset, or a quilt of one's own, and in how much detail.
+import {keepInAddress, pageParameters, watchedParameters} from './address.js';
+
+const kDefaultPreset = 'portrait';
+const kQuiltFields = ['columns', 'rows', 'width', 'height', 'aspect'];
+const kNone = Object.fromEntries(
+    [...kQuiltFields, 'preset', 'cone_deg', 'focus_m'].map((name) => [name, null]));
+
+const byId = (id) => document.getElementById(id);
+
+export class DisplayChoice {
+  #presets = [];
+
+  // autoDetail: says how much when that is automatic; onChange(): another display
+  constructor(autoDetail, onChange) {
+    this.autoDetail = autoDetail;
+    this.onChange = onChange;
+    byId('preset').addEventListener('change', ({target}) => this.#choose(target.value));
+    byId('detail').addEventListener('change', ({target}) => {
+      this.#keep({detail: target.value});
+    });
+    byId('custom').addEventListener('submit', (event) => {
+      event.preventDefault();
+      const fields = kQuiltFields.map((name) => [name, byId(`custom-${name}`).value || null]);
+      byId('detail').value = '1';
+      this.#keep({...kNone, ...Object.fromEntries(fields), detail: '1'});
+    });
+  }
+
+  // presets: as /api/presets lists them
+  show(presets) {
+    this.#presets = presets;
+    const parameters = pageParameters();
+    const options = presets.map(({name, device}) => new Option(device, name));
+    options.push(new Option('custom quilt', ''));
+    byId('preset').replaceChildren(...options);
+    const standard = parameters.has('columns') ? '' : kDefaultPreset;
+    byId('preset').value = parameters.get('preset') ?? standard;
+    byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
+    if (byId('detail').selectedIndex < 0) byId('detail').value = 'auto';  // none of the choices
+    this.#showFields();
+  }
+
+  get isAutomatic() { return byId('detail').value === 'auto'; }
+
+  // Width and height of the quilt: the address's or the preset's, times the detail.
+  size() {
+    const parameters = pageParameters();
+    const chosen = byId('detail').value;
+    const detail = chosen === 'auto' ? this.autoDetail.detail : Number(chosen);
+    const size = {};
+    for (const side of ['width', 'height']) {
+      const full_px = Number(parameters.get(side) ?? this.#preset()?.size[side]);
+      if (full_px) size[side] = Math.round(full_px * detail);
+    }
+    return size;
+  }
+
+  // As /ws takes them.
+  parameters(stream) {
+    const parameters = watchedParameters();
+    parameters.set('stream', stream);
+    if (this.#preset()) parameters.set('preset', this.#preset().name);
+    for (const [side, length_px] of Object.entries(this.size())) parameters.set(side, length_px);
+    return parameters;
+  }
+
+  #preset() {
+    return this.#presets.find(({name}) => name === byId('preset').value);
+  }
+
+  // A quilt of one's own begins as the preset that was chosen before it.
+  #choose(name) {
+    if (name) {
+      this.#keep({...kNone, preset: name});
+      return;
+    }
+    const before = this.#presets.find((one) => one.name === (pageParameters().get('preset') ??
+                                                             kDefaultPreset));
+    const {columns, rows, size, aspect} = before;
+    this.#keep({...kNone, columns, rows, ...size, aspect});
+    byId('custom-columns').focus();
+  }
+
+  #keep(changes) {
+    keepInAddress(changes);
+    this.#showFields();
+    this.onChange();
+  }
+
+  #showFields() {
+    byId('custom').hidden = byId('preset').value !== '';
+    for (const name of kQuiltFields) {
+      byId(`custom-${name}`).value = pageParameters().get(name) ?? '';
+    }
+  }
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single views: one at a time, by number, standing still.
+
+const byId = (id) => document.getElementById(id);
+
+export class SingleMode {
+  #view = null;  // from 0; null = the middle one
+  #count = 0;
+
+  constructor(stage) {
+    this.stage = stage;
+    byId('single-view').addEventListener('input', ({target}) => {
+      if (target.value !== '') this.#show(target.valueAsNumber - 1);
+    });
+    byId('single-back').addEventListener('click', () => this.#show(this.#view - 1));
+    byId('single-on').addEventListener('click', () => this.#show(this.#view + 1));
+    stage.canvas.addEventListener('keydown', (event) => this.#key(event));
+  }
+
+  enter() {
+    this.stage.single = this.#view ?? 0;
+    this.layoutChanged(this.#count);
+    this.stage.invalidate();
+  }
+
+  leave() {
+    this.stage.single = null;
+    this.stage.invalidate();
+  }
+
+  // How many views there are now.
+  layoutChanged(count) {
+    this.#count = count;
+    byId('single-count').textContent = `of ${count || '–'}`;
+    byId('single-view').max = Math.max(1, count);
+    if (count) this.#show(this.#view ?? Math.floor(count / 2));
+  }
+
+  #key(event) {
+    if (this.stage.single === null) return;
+    const views = {
+      ArrowLeft: this.#view - 1, ArrowRight: this.#view + 1, PageDown: this.#view - 8,
+      PageUp: this.#view + 8, Home: 0, End: this.#count - 1,
+    };
+    if (!(event.key in views)) return;
+    event.preventDefault();
+    this.#show(views[event.key]);
+  }
+
+  #show(view) {
+    this.#view = Math.min(Math.max(0, this.#count - 1), Math.max(0, Math.round(view)));
+    byId('single-back').disabled = this.#view === 0;
+    byId('single-on').disabled = this.#view >= this.#count - 1;
+    if (document.activeElement !== byId('single-view')) {
+      byId('single-view').value = this.#view + 1;
+    }
+    if (this.stage.single === null) return;
+    this.stage.single = this.#view;
+    this.stage.invalidate();
+  }
+}
