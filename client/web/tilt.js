@@ -13,7 +13,8 @@ export class Tilt {
     button.addEventListener('click', () => this.#toggle());
     const event = window.DeviceOrientationEvent;
     if (!event || !window.isSecureContext) return;
-    if (event.requestPermission) {  // asked for by a touch alone, and no event comes before
+    // Where it is asked for by a touch alone, no event comes before.
+    if (event.requestPermission && matchMedia('(any-pointer: coarse)').matches) {
       button.hidden = false;
       return;
     }
@@ -31,8 +32,9 @@ export class Tilt {
       this.button.setAttribute('aria-pressed', 'false');
       return;
     }
-    const ask = window.DeviceOrientationEvent.requestPermission;
-    if (ask && await ask().catch(() => 'denied') !== 'granted') {
+    const event = window.DeviceOrientationEvent;
+    const permission = await event.requestPermission?.().catch(() => 'denied');
+    if (permission && permission !== 'granted') {
       this.button.disabled = true;
       this.button.title = 'The browser was told not to say how the device is held.';
       return;

@@ -25,10 +25,12 @@ void main() {
   color = vec4(0, 0, 0, 1);
   if (any(greaterThanEqual(px, panel_px))) return;
   vec2 at = (vec2(px) + 0.5) / vec2(panel_px);
+  vec3 levels;
   for (uint channel = 0u; channel < kCellChannels; ++channel) {
     uint view = nearestView(viewCoordinate(lens, px.x, px.y, channel), view_count);
-    color[channel] = viewLevel(view, at, channel);
+    levels[channel] = viewLevel(view, at, channel);
   }
+  color.rgb = levels;
 }`;
 
 // What an eye sees of a woven panel: within a lens's width, the subpixels that are sent its way.
@@ -48,7 +50,7 @@ vec3 seen(vec2 at_px) {
   int reach_px = min(int(ceil(0.5 * lens_width_px)), kReachMax_px);
   float wanted = eye.x + eye.y * (at_px.x - 0.5 * float(panel_px.x));
   vec3 sum = vec3(0), weights = vec3(0);
-  for (int y = -1; y <= 1; ++y) {
+  for (int y = -2; y <= 2; ++y) {
     for (int x = -reach_px; x <= reach_px; ++x) {
       ivec2 px = ivec2(floor(at_px)) + ivec2(x, y);
       if (any(lessThan(px, ivec2(0))) || any(greaterThanEqual(px, ivec2(panel_px)))) continue;

@@ -30,18 +30,20 @@ export class Weaver {
       throw new Error('This browser has no WebGL2: switch hardware acceleration on in its ' +
                       'settings, or take another browser.');
     }
-    this.#shaders ??= await fetchShaders();
-    this.#start();
+    const shaders = this.#shaders ?? await fetchShaders();
+    this.#start(shaders);
+    this.#shaders = shaders;
   }
 
   get side_max_px() { return this.#gl.getParameter(this.#gl.MAX_TEXTURE_SIZE); }
 
-  #start() {
+  // Once, and again when the device was lost.
+  #start(shaders) {
     const gl = this.#gl;
     if (this.#programs || gl.isContextLost()) return;
     this.#programs = {
-      weave: new GlProgram(gl, this.#shaders.weave),
-      eye: new GlProgram(gl, this.#shaders.eye),
+      weave: new GlProgram(gl, shaders.weave),
+      eye: new GlProgram(gl, shaders.eye),
     };
     this.#quilt = this.#makeTexture(gl.LINEAR);
     this.#panel = {texture: this.#makeTexture(gl.NEAREST), framebuffer: gl.createFramebuffer()};
@@ -66,7 +68,7 @@ export class Weaver {
   #load(atlas) {
     const gl = this.#gl;
     if (!gl || gl.isContextLost() || !this.#shaders || !this.calibration) return false;
-    this.#start();
+    this.#start(this.#shaders);
     if (this.#uploaded === atlas) return true;
     gl.bindTexture(gl.TEXTURE_2D, this.#quilt);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, atlas.bitmap);

@@ -19,9 +19,9 @@ FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-
 
 
 class Browser:
-    """One page."""
+    """One page. native_scale: of the screen, where it is another than resize() pretends."""
 
-    def __init__(self, width=1280, height=800):
+    def __init__(self, width=1280, height=800, native_scale=1):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.commands = os.pipe()
         self.events, from_browser = os.pipe()
@@ -29,7 +29,8 @@ class Browser:
         script = f'exec "$@" 3<&{to_browser} 4>&{from_browser}'
         self.process = subprocess.Popen(
             ["bash", "-c", script, "bash", CHROMIUM, *FLAGS, f"--user-data-dir={self.profile.name}",
-             f"--window-size={width},{height}"],
+             f"--window-size={width},{height}",
+             f"--force-device-scale-factor={native_scale}"],
             pass_fds=(to_browser, from_browser), stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
@@ -90,6 +91,7 @@ class Browser:
                 self.messages.append([arg.get("value") for arg in message["params"]["args"]])
 
     def resize(self, width, height, scale=1, mobile=False):
+        """scale: device px per CSS px; 0 = the screen's own."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=scale, mobile=mobile)
 

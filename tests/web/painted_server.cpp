@@ -15,14 +15,16 @@
 
 namespace {
 
-// Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2.
+// Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
+// --flat 0 (1: a view is one grey, black the first and white the last).
 std::map<std::string, int> readOptions(int argc, char** argv) {
   std::map<std::string, int> options = {{"--port", 0},
                                         {"--rate-hz", 0},
                                         {"--connections", 1024},
                                         {"--timeout-ms", 10'000},
                                         {"--thread-count", 2},
-                                        {"--ms-per-megapixel", 0}};
+                                        {"--ms-per-megapixel", 0},
+                                        {"--flat", 0}};
   for (int i = 1; i + 1 < argc; i += 2) options.at(argv[i]) = std::atoi(argv[i + 1]);
   return options;
 }
@@ -56,7 +58,8 @@ int main(int argc, char** argv) {
     if (stream == "painted") painted->noteDemand();
   });
   painted.emplace("painted", streams, broadcaster,
-                  std::chrono::milliseconds(options.at("--ms-per-megapixel")));
+                  std::chrono::milliseconds(options.at("--ms-per-megapixel")),
+                  options.at("--flat") != 0);
   const auto silent = streams.claim("silent", "", [] {});
   viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock);
   std::cout << server.url() << std::endl;

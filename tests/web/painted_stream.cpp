@@ -46,7 +46,12 @@ Rgb tilePixel(SizePx tile, uint32_t x_px, uint32_t y_px, uint32_t view, uint32_t
   return background(x, y, double(view) / view_count);
 }
 
-std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame) {
+Rgb flatPixel(uint32_t view, uint32_t view_count) {
+  const auto level = static_cast<uint8_t>(std::lround(255.0 * view / (view_count - 1)));
+  return {level, level, level};
+}
+
+std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame, bool is_flat) {
   std::vector<uint8_t> pixels(layout.size_px.area() * 3, 0);
   const auto view_count = static_cast<uint32_t>(layout.views.size());
   const SizePx tile = layout.tile_size_px;
@@ -55,9 +60,9 @@ std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame) {
     for (uint32_t y = 0; y < tile.height; ++y) {
       size_t at = (size_t{origin.y_px + y} * layout.size_px.width + origin.x_px) * 3;
       for (uint32_t x = 0; x < tile.width; ++x) {
-        for (const uint8_t channel : tilePixel(tile, x, y, view, view_count, frame)) {
-          pixels[at++] = channel;
-        }
+        const Rgb pixel =
+            is_flat ? flatPixel(view, view_count) : tilePixel(tile, x, y, view, view_count, frame);
+        for (const uint8_t channel : pixel) pixels[at++] = channel;
       }
     }
   }
@@ -96,11 +101,12 @@ std::vector<EncodedBand> cutIntoBands(const std::vector<uint8_t>& jpeg, uint32_t
 }  // namespace
 
 PaintedStream::PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster,
-                             std::chrono::milliseconds per_megapixel)
+                             std::chrono::milliseconds per_megapixel, bool is_flat)
     : name_(std::move(name)),
       streams_(streams),
       broadcaster_(broadcaster),
       per_megapixel_(per_megapixel),
+      is_flat_(is_flat),
       claim_(*streams.claim(name_, "painter", [] {})),
       painter_([this](const std::stop_token& stop) { run(stop); }) {
   streams_.noteResident(name_, 1, kSourceSize, 2, SourceStats{});
@@ -169,9 +175,9 @@ void PaintedStream::paint(const ActiveDisplay& display) {
   atlas.coverage = {.hit = 900, .hit_assumed = 40, .hidden = 30, .outside = 20, .empty = 10};
   const SizePx size_px = atlas.layout->size_px;
   std::this_thread::sleep_for(per_megapixel_ * (static_cast<double>(size_px.area()) / 1e6));
-  atlas.bands =
-      cutIntoBands(encodeJpeg(paintAtlas(*atlas.layout, painted_frame_), size_px, display.encoding),
-                   size_px.height);
+  atlas.bands = cutIntoBands(
+      encodeJpeg(paintAtlas(*atlas.layout, painted_frame_, is_flat_), size_px, display.encoding),
+      size_px.height);
   broadcaster_.publish(std::make_shared<const EncodedAtlas>(std::move(atlas)));
 }
 

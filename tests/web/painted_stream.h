@@ -22,9 +22,10 @@ namespace viewloom {
 // with the frame number. Thread-safety: all methods may be called from any thread.
 class PaintedStream {
  public:
-  // per_megapixel: what an atlas takes at least
+  // per_megapixel: what an atlas takes at least; is_flat: view i of n is the grey 255 i / (n - 1)
+  // and nothing else
   PaintedStream(std::string name, StreamDirectory& streams, Broadcaster& broadcaster,
-                std::chrono::milliseconds per_megapixel);
+                std::chrono::milliseconds per_megapixel, bool is_flat);
   ~PaintedStream();
 
   void publishFrame();
@@ -39,6 +40,7 @@ class PaintedStream {
   StreamDirectory& streams_;
   Broadcaster& broadcaster_;
   const std::chrono::milliseconds per_megapixel_;
+  const bool is_flat_;
   std::unique_ptr<StreamDirectory::Claim> claim_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
