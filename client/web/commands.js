@@ -4,10 +4,12 @@
 const kGrpcPort = 50051;  // viewloomd's own; the page cannot know another
 const kLoopback = ['localhost', '127.0.0.1', '[::1]'];
 // Parameters of /ws, and the options of `viewloom watch` that mean the same.
+const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
-  preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
-  focus_m: '--focal-distance', fov_deg: '--fov', quality: '--quality',
+  ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
+  focus_m: '--focal-distance', fov_deg: '--fov',
 };
+const kRadPerDeg = Math.PI / 180;
 
 const byId = (id) => document.getElementById(id);
 
@@ -16,21 +18,37 @@ function quoted(text) {
   return /^[\w.:/=+,-]+$/.test(text) ? text : `'${text.replaceAll('\'', '\'\\\'\'')}'`;
 }
 
-// parameters: URLSearchParams of /ws. Views have the aspect of their tiles there.
+// The quilt as a Display message in JSON: for what no option says.
+function displayFile(parameters) {
+  const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
+  const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
+  return JSON.stringify({quilt: {
+    columns: number('columns'), rows: number('rows'),
+    size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
+    viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),
+  }});
+}
+
+// parameters: URLSearchParams of /ws
 function watchCommand(parameters) {
   const words = ['viewloom'];
   if (!kLoopback.includes(location.hostname)) {
     words.push('--server', `${location.hostname}:${kGrpcPort}`);
   }
-  words.push('watch', '--stream', parameters.get('stream'));
-  for (const [name, option] of Object.entries(kOptions)) {
+  words.push('watch', parameters.get('stream'));
+  // An aspect beside that of a tile is told by a file alone.
+  const isFile = parameters.has('aspect') && !parameters.has('preset');
+  if (isFile) words.push('--display', 'display.json');
+  for (const [name, option] of Object.entries(isFile ? kEncodingOptions : kOptions)) {
     if (parameters.has(name)) words.push(option, parameters.get(name));
   }
-  if (parameters.has('width') && parameters.has('height')) {
+  if (!isFile && parameters.has('width') && parameters.has('height')) {
     words.push('--size', `${parameters.get('width')}x${parameters.get('height')}`);
   }
   if (parameters.get('chroma') === '444') words.push('--444');
-  return [...words, '--out', 'atlases'].map(quoted).join(' ');
+  const watch = [...words, '--out', 'atlases'].map(quoted).join(' ');
+  if (!isFile) return watch;
+  return `echo ${quoted(displayFile(parameters))} > display.json && ${watch}`;
 }
 
 function stillCommand(parameters, suffix) {

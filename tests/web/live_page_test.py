@@ -2,17 +2,19 @@
 """The whole path: viewloom publishes its moving scene, viewloomd serves it, a browser shows it.
 Arguments: viewloomd, viewloom. Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS."""
 import io
+import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
 from PIL import Image, ImageChops, ImageStat
 
 from page_test import LIVE, PageTest, keep
-from web_client import TIMEOUT_S, fetch
+from web_client import TIMEOUT_S, WebSocket, fetch
 
 SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
 DISPLAY = "columns=6&rows=2&width=722&height=323&aspect=0.75"
@@ -123,6 +125,48 @@ class LivePage(PageTest):
         self.browser.wait_for("document.documentElement.dataset.state === 'reconnecting'")
         self.server = LiveServer(self.server.port, self.server.grpc_port)
         self.browser.wait_for(LIVE)
+
+    def test_the_command_for_elsewhere_receives_what_the_page_shows(self):
+        for query, suffix, size in ((DISPLAY, "_qs6x2a0.75", (722, 323)),
+                                    ("preset=portrait&detail=0.125", "_qs8x6a0.75", (420, 420))):
+            with self.subTest(query), tempfile.TemporaryDirectory() as folder:
+                self.open(f"?stream=scene&{query}")
+                command = self.browser.wait_for("document.getElementById('command-watch').value")
+                program = f"{os.path.abspath(CLIENT)} --server 127.0.0.1:{self.server.grpc_port}"
+                self.assertEqual(command.count("viewloom watch "), 1)
+                command = command.replace("viewloom watch ", program + " watch --count 1 ")
+                ran = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True,
+                                     text=True, timeout=TIMEOUT_S, check=False)
+                self.assertEqual(ran.returncode, 0, ran.stderr)
+                (name,) = [name for name in os.listdir(os.path.join(folder, "atlases"))
+                           if name.endswith(suffix + ".jpg")]
+                with Image.open(os.path.join(folder, "atlases", name)) as atlas:
+                    self.assertEqual(atlas.size, size)
+
+    def test_a_hundred_viewers_of_one_display_cost_one_encode(self):
+        viewers = [WebSocket(self.server.port, f"/ws?stream=scene&{DISPLAY}") for _ in range(100)]
+        for viewer in viewers:
+            self.addCleanup(viewer.close)
+            viewer.shown(viewer.receive_atlas())
+        for viewer in viewers:
+            viewer.shown(viewer.receive_atlas())
+        (display,) = fetch(self.server.port, "/api/displays").json()["displays"]
+        self.assertEqual(display["subscriber_count"], 100)
+        self.publisher.stop()
+        deadline = time.monotonic() + TIMEOUT_S
+        encoded, newest = 0, -1
+        while encoded != newest and time.monotonic() < deadline:  # the last one is on its way
+            still = fetch(self.server.port, f"/still/scene_qs6x2a0.75.jpg?{DISPLAY}")
+            newest = int(still.headers["viewloom-sequence"])
+            encoded = self.metric("viewloom_atlases_encoded_total")
+        self.assertEqual(encoded, newest)
+        self.assertGreater(newest, 1)
+        self.assertGreaterEqual(self.metric('viewloom_atlases_sent_total{transport="web"}'), 200)
+
+    def metric(self, name):
+        text = fetch(self.server.port, "/metrics").body.decode()
+        return float(next(line.split()[-1] for line in text.splitlines()
+                          if line.startswith(name + " ")))
 
 
 if __name__ == "__main__":

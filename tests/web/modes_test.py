@@ -142,9 +142,7 @@ class Modes(PageTest):
         self.open(SMALL)
         command = {name: self.browser.wait_for(f"document.getElementById('command-{name}').value")
                    for name in ("watch", "still", "socket")}
-        self.assertEqual(shlex.split(command["watch"])[:4],
-                         ["viewloom", "watch", "--stream", "painted"])
-        self.assertIn("--columns 8 --rows 6 --size 1680x1680", command["watch"])
+        self.assertIn("viewloom watch painted --display display.json", command["watch"])
         curl, _, name, url = shlex.split(command["still"])
         self.assertEqual((curl, name), ("curl", "painted_qs8x6a0.75.jpg"))
         still = fetch(self.server.port, url.removeprefix(self.server.url.rstrip("/")))
