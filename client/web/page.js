@@ -197,6 +197,7 @@ modes.radios.forEach((radio, index) => {
 });
 toggle('blend', 'b', (on) => { stage.blend = on; stage.invalidate(); });
 toggle('details', 'i', (on) => { byId('panel').hidden = !on; });
+byId('fullscreen').hidden = !document.fullscreenEnabled;  // phones that fill theirs anyway
 byId('fullscreen').addEventListener('click', () => {
   if (document.fullscreenElement) document.exitFullscreen();
   else document.querySelector('main').requestFullscreen();
