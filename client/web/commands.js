@@ -54,6 +54,7 @@ function watchCommand(parameters) {
 function stillCommand(parameters, suffix) {
   const query = new URLSearchParams(parameters);
   query.delete('stream');
+  query.delete('depth');  // stills have none
   const file = `${encodeURIComponent(parameters.get('stream'))}${suffix}.jpg`;
   const url = new URL(`/still/${file}`, location.href);
   url.search = query;

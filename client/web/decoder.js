@@ -3,14 +3,18 @@
 
 const kHeaderLengthBytes = 4;
 
-// message: ArrayBuffer, the length of a JSON header (4 bytes, little-endian), the header, a JPEG.
+// message: ArrayBuffer, the length of a JSON header (4 bytes, little-endian), the header, a JPEG,
+// and 1/Z of its px where that was asked for, float32 in 1/m.
 export function parseAtlasMessage(message) {
   const headerLength = new DataView(message).getUint32(0, true);
   const headerBytes = new Uint8Array(message, kHeaderLengthBytes, headerLength);
-  const jpeg = new Uint8Array(message, kHeaderLengthBytes + headerLength);
+  const header = JSON.parse(new TextDecoder().decode(headerBytes));
+  const begin = kHeaderLengthBytes + headerLength;
+  const end = begin + header.jpeg_bytes;
   return {
-    header: JSON.parse(new TextDecoder().decode(headerBytes)),
-    blob: new Blob([jpeg], {type: 'image/jpeg'}),
+    header,
+    blob: new Blob([new Uint8Array(message, begin, header.jpeg_bytes)], {type: 'image/jpeg'}),
+    depth: new Float32Array(message.slice(end, end + header.depth_bytes)),
     bytes: message.byteLength,
   };
 }

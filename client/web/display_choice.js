@@ -4,6 +4,7 @@ import {keepInAddress, pageParameters, watchedParameters} from './address.js';
 
 const kDefaultPreset = 'portrait';
 const kQuiltFields = ['columns', 'rows', 'width', 'height', 'aspect'];
+const kMiddle = {columns: 1, rows: 1, depth: 1};
 const kNone = Object.fromEntries(
     [...kQuiltFields, 'preset', 'cone_deg', 'focus_m'].map((name) => [name, null]));
 
@@ -11,6 +12,7 @@ const byId = (id) => document.getElementById(id);
 
 export class DisplayChoice {
   #presets = [];
+  #isMiddle = false;
 
   // autoDetail: says how much when that is automatic; onChange(): another display
   constructor(autoDetail, onChange) {
@@ -44,15 +46,23 @@ export class DisplayChoice {
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
-  // Width and height of the quilt: the address's or the preset's, times the detail.
+  // The middle view alone, as large as in the quilt, with its depth.
+  set isMiddle(isMiddle) {
+    if (this.#isMiddle === isMiddle) return;
+    this.#isMiddle = isMiddle;
+    this.onChange();
+  }
+
+  // Width and height of the picture: the address's or the preset's, times the detail.
   size() {
     const parameters = pageParameters();
     const chosen = byId('detail').value;
     const detail = chosen === 'auto' ? this.autoDetail.detail : Number(chosen);
     const size = {};
-    for (const side of ['width', 'height']) {
+    for (const [side, count] of [['width', 'columns'], ['height', 'rows']]) {
       const full_px = Number(parameters.get(side) ?? this.#preset()?.size[side]);
-      if (full_px) size[side] = Math.round(full_px * detail);
+      const tiles = this.#isMiddle ? this.#value(count) : 1;
+      if (full_px) size[side] = Math.max(1, Math.round(full_px * detail / tiles));
     }
     return size;
   }
@@ -61,9 +71,21 @@ export class DisplayChoice {
   parameters(stream) {
     const parameters = watchedParameters();
     parameters.set('stream', stream);
-    if (this.#preset()) parameters.set('preset', this.#preset().name);
+    if (this.#isMiddle) {
+      const aspect = this.#value('aspect');
+      if (aspect) parameters.set('aspect', aspect);
+      parameters.delete('preset');
+      for (const [name, value] of Object.entries(kMiddle)) parameters.set(name, value);
+    } else if (this.#preset()) {
+      parameters.set('preset', this.#preset().name);
+    }
     for (const [side, length_px] of Object.entries(this.size())) parameters.set(side, length_px);
     return parameters;
+  }
+
+  // Of the quilt, by the address or the preset; 0 where neither says it.
+  #value(name) {
+    return Number(pageParameters().get(name) ?? this.#preset()?.[name] ?? 0);
   }
 
   #preset() {

@@ -15,6 +15,7 @@ import {Look} from './look.js';
 import {Modes} from './modes.js';
 import {notice, say} from './notice.js';
 import {PanelMode} from './panel_mode.js';
+import {RgbdMode} from './rgbd_mode.js';
 import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
 import {StreamList} from './stream_list.js';
@@ -23,6 +24,7 @@ import {Weaver} from './weaver.js';
 
 const kRetry_ms = 2000;
 const kHiddenGrace_ms = 5000;
+const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
@@ -116,8 +118,9 @@ const modes = new Modes({
   quilt: {enter: () => setWhole(true), leave: () => setWhole(false)},
   panel: {enter: () => paint(panelMode), leave: () => panelMode.leave()},
   eye: {enter: () => paint(eyeMode)},
+  rgbd: new RgbdMode(stage, (isMiddle) => { display.isMiddle = isMiddle; }),
 }, (mode) => {
-  if (mode !== 'panel' && mode !== 'eye') stage.painter = null;
+  if (!kPainted.includes(mode)) stage.painter = null;
   stage.invalidate();
   keepInAddress({mode: mode === 'look' ? null : mode});
 });
@@ -133,7 +136,7 @@ function setState(state) {
   root.dataset.state = state;
   byId('welcome').hidden = state !== 'no-stream';
   say({
-    'live': `Live: ${watching}, ${stage.layout?.view_count ?? ''} views.`,
+    'live': `Live: ${watching}, views: ${stage.layout?.view_count ?? 'none yet'}.`,
     'connecting': `Connecting to ${watching}.`,
     'no-stream': 'No stream is live.',
   }[state] ?? '');
@@ -194,6 +197,7 @@ modes.radios.forEach((radio, index) => {
 });
 toggle('blend', 'b', (on) => { stage.blend = on; stage.invalidate(); });
 toggle('details', 'i', (on) => { byId('panel').hidden = !on; });
+byId('fullscreen').hidden = !document.fullscreenEnabled;  // phones that fill theirs anyway
 byId('fullscreen').addEventListener('click', () => {
   if (document.fullscreenElement) document.exitFullscreen();
   else document.querySelector('main').requestFullscreen();

@@ -8,13 +8,14 @@ const kStored = 'viewloom.calibration';  // of the browser's storage: the file's
 const byId = (id) => document.getElementById(id);
 
 export class PanelMode {
-  #refusal = '';
+  #refusal = '';  // of a file
+  #lack = '';     // of the browser
   #canvas_px = {width: 0, height: 0};
   #layout = null;
   #isOn = false;
   #isPrepared = false;
 
-  // onCalibration(): another one, or none; onChange(): another picture
+  // onChange(): another picture
   constructor(weaver, onChange) {
     this.weaver = weaver;
     this.onChange = onChange;
@@ -52,7 +53,7 @@ export class PanelMode {
     const isNew = this.#layout?.suffix !== atlas.header.layout.suffix;
     this.#layout = atlas.header.layout;
     if (isNew) this.#check();
-    if (this.#refusal === '' || this.calibration) this.weaver.drawPanel(atlas);
+    this.weaver.drawPanel(atlas);
   }
 
   async #prepare() {
@@ -60,7 +61,7 @@ export class PanelMode {
       await this.weaver.prepare();
       this.#isPrepared = true;
     } catch (error) {
-      this.#refusal = error.message;
+      this.#lack = error.message;
     }
   }
 
@@ -92,7 +93,8 @@ export class PanelMode {
   }
 
   #check() {
-    const found = this.#refusal ? {ok: false, text: this.#refusal} : checkPanel({
+    const problem = this.#lack || this.#refusal;
+    const found = problem ? {ok: false, text: problem} : checkPanel({
       calibration: this.calibration,
       layout: this.#layout,
       canvas_px: this.#canvas_px,

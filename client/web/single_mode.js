@@ -4,21 +4,22 @@
 const byId = (id) => document.getElementById(id);
 
 export class SingleMode {
-  #view = null;  // from 0; null = the middle one
+  #wanted = null;  // by hand, from 0; null = the middle one
+  #view = 0;       // what is shown of it while there are #count views
   #count = 0;
 
   constructor(stage) {
     this.stage = stage;
     byId('single-view').addEventListener('input', ({target}) => {
-      if (target.value !== '') this.#show(target.valueAsNumber - 1);
+      if (target.value !== '') this.#take(target.valueAsNumber - 1);
     });
-    byId('single-back').addEventListener('click', () => this.#show(this.#view - 1));
-    byId('single-on').addEventListener('click', () => this.#show(this.#view + 1));
+    byId('single-back').addEventListener('click', () => this.#take(this.#view - 1));
+    byId('single-on').addEventListener('click', () => this.#take(this.#view + 1));
     stage.canvas.addEventListener('keydown', (event) => this.#key(event));
   }
 
   enter() {
-    this.stage.single = this.#view ?? 0;
+    this.stage.single = this.#view;
     this.layoutChanged(this.#count);
     this.stage.invalidate();
   }
@@ -33,7 +34,7 @@ export class SingleMode {
     this.#count = count;
     byId('single-count').textContent = `of ${count || '–'}`;
     byId('single-view').max = Math.max(1, count);
-    if (count) this.#show(this.#view ?? Math.floor(count / 2));
+    if (count && this.stage.single !== null) this.#show(this.#wanted ?? Math.floor(count / 2));
   }
 
   #key(event) {
@@ -44,7 +45,12 @@ export class SingleMode {
     };
     if (!(event.key in views)) return;
     event.preventDefault();
-    this.#show(views[event.key]);
+    this.#take(views[event.key]);
+  }
+
+  #take(view) {
+    this.#show(view);
+    this.#wanted = this.#view;
   }
 
   #show(view) {

@@ -29,7 +29,7 @@ export class Stage {
     this.whole = false;
     this.single = null;    // the number of the one view shown, from 0, whatever the position
     this.blend = false;
-    this.painter = null;   // {draw(atlas)}: draws elsewhere
+    this.painter = null;   // {draw(atlas)}: draws instead
     watchDeviceSize(canvas, (size_px) => this.#resize(size_px));
   }
 
@@ -79,7 +79,7 @@ export class Stage {
   }
 
   // The largest rectangle of an aspect that fits the canvas with a margin, in the middle.
-  #frame(aspect) {
+  frame(aspect) {
     const margin = Math.round(Math.min(this.canvas.width, this.canvas.height) * 0.025);
     const width = this.canvas.width - 2 * margin;
     const height = this.canvas.height - 2 * margin;
@@ -90,7 +90,7 @@ export class Stage {
 
   #drawWhole() {
     const {bitmap} = this.#atlas;
-    this.context.drawImage(bitmap, ...this.#frame(bitmap.width / bitmap.height));
+    this.context.drawImage(bitmap, ...this.frame(bitmap.width / bitmap.height));
     delete this.canvas.dataset.view;
   }
 
@@ -113,7 +113,7 @@ export class Stage {
     context.globalAlpha = opacity;
     context.drawImage(
         this.#atlas.bitmap, x + kTileEdge_px, y + kTileEdge_px, width - 2 * kTileEdge_px,
-        height - 2 * kTileEdge_px, ...this.#frame(layout.aspect));
+        height - 2 * kTileEdge_px, ...this.frame(layout.aspect));
     context.globalAlpha = 1;
   }
 }

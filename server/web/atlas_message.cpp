@@ -30,6 +30,20 @@ json coverageJson(const Coverage& coverage) {
           {"empty", share(coverage.empty)}};
 }
 
+std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
+  std::vector<SharedBytes> bands;
+  for (const EncodedBand& band : atlas.bands) {
+    if (band.plane == plane && band.image_index == 0) bands.push_back(band.bytes);
+  }
+  return bands;
+}
+
+uint64_t sizeOf(const std::vector<SharedBytes>& bands) {
+  uint64_t size_bytes = 0;
+  for (const SharedBytes& band : bands) size_bytes += band->size();
+  return size_bytes;
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   return {{"sequence", atlas.sequence},
           {"frame_number", std::to_string(atlas.frame_number)},
@@ -40,6 +54,8 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
           {"times", timesJson(atlas.times)},
           {"coverage", coverageJson(atlas.coverage)},
           {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
+          {"jpeg_bytes", sizeOf(jpegBands(atlas))},
+          {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
           {"delivery", delivery.delivery},
           {"dropped_count", delivery.dropped_count},
           {"mailbox_ns", delivery.mailbox_ns},
@@ -57,6 +73,7 @@ AtlasMessage::AtlasMessage(AtlasPtr atlas, const Delivery& delivery)
   parts_.emplace_back(header_length_);
   parts_.emplace_back(reinterpret_cast<const uint8_t*>(header_.data()), length);
   for (const SharedBytes& band : jpegBands(*atlas_)) parts_.emplace_back(*band);
+  for (const SharedBytes& band : bandsOf(*atlas_, AtlasPlane::kDepth)) parts_.emplace_back(*band);
 }
 
 uint64_t AtlasMessage::sizeBytes() const {
@@ -66,11 +83,7 @@ uint64_t AtlasMessage::sizeBytes() const {
 }
 
 std::vector<SharedBytes> jpegBands(const EncodedAtlas& atlas) {
-  std::vector<SharedBytes> bands;
-  for (const EncodedBand& band : atlas.bands) {
-    if (band.plane == AtlasPlane::kColor && band.image_index == 0) bands.push_back(band.bytes);
-  }
-  return bands;
+  return bandsOf(atlas, AtlasPlane::kColor);
 }
 
 }  // namespace viewloom

@@ -34,6 +34,7 @@ constexpr std::array kParameters = {
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
+    ParameterField{"depth", "with_depth"},
 };
 
 // The same refusal, told to somebody who wrote a parameter and not a field. Angles came in degrees:
@@ -113,6 +114,14 @@ absl::StatusOr<EncodingSpec> readEncoding(const QueryParameters& parameters) {
                           absl::StrCat("got \"", chroma->second, "\", accepted are 420 and 444"));
     }
     encoding.chroma = chroma->second == "444" ? Chroma::k444 : Chroma::k420;
+  }
+  if (const auto depth = parameters.find("depth"); depth != parameters.end()) {
+    if (depth->second != "0" && depth->second != "1") {
+      return invalidField("depth",
+                          absl::StrCat("got \"", depth->second, "\", accepted are 0 and 1"));
+    }
+    encoding.with_depth = depth->second == "1";
+    encoding.planes = BandEncoding::kRaw;  // browsers have no zstd
   }
   VIEWLOOM_RETURN_IF_ERROR(validateEncodingSpec(encoding));
   return encoding;

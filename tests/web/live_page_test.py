@@ -5,6 +5,7 @@ import io
 import os
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -142,6 +143,19 @@ class LivePage(PageTest):
                            if name.endswith(suffix + ".jpg")]
                 with Image.open(os.path.join(folder, "atlases", name)) as atlas:
                     self.assertEqual(atlas.size, size)
+
+    def test_depth_is_that_of_the_scene(self):
+        viewer = WebSocket(self.server.port,
+                           "/ws?stream=scene&columns=1&rows=1&width=160&height=120&depth=1")
+        self.addCleanup(viewer.close)
+        atlas = viewer.receive_atlas()
+        inv_z = struct.unpack(f"<{160 * 120}f", atlas.depth)
+        self.assertGreaterEqual(min(inv_z), 0)
+        # The scene stands around the focal plane, which is its mean in 1/Z.
+        focal = 1 / atlas.header["layout"]["focal_distance_m"]
+        self.assertLess(min(inv_z), focal)
+        self.assertGreater(max(inv_z), focal)
+        self.assertLess(max(inv_z), 100)
 
     def test_a_hundred_viewers_of_one_display_cost_one_encode(self):
         viewers = [WebSocket(self.server.port, f"/ws?stream=scene&{DISPLAY}") for _ in range(100)]

@@ -42,11 +42,11 @@ class Modes(PageTest):
         tree = self.browser.call("Accessibility.getFullAXTree")["nodes"]
         named = [(node["role"]["value"], node["name"]["value"]) for node in tree
                  if "name" in node and not node["ignored"]]
-        for name in ("Look around", "Single views", "Quilt", "Panel", "Lens simulator"):
+        for name in ("Look around", "Single views", "Quilt", "Panel", "Lens simulator", "Depth"):
             self.assertIn(("radio", name), named)
         self.assertIn(("group", "Mode"), named)
         self.browser.evaluate("document.querySelector('#modes input').focus()")
-        for expected in ("single", "quilt", "panel", "eye", "look"):
+        for expected in ("single", "quilt", "panel", "eye", "rgbd", "look"):
             self.browser.call("Input.dispatchKeyEvent", type="rawKeyDown", key="ArrowRight",
                               code="ArrowRight", windowsVirtualKeyCode=39)
             self.assertEqual(self.mode(), expected)
@@ -63,7 +63,7 @@ class Modes(PageTest):
                                   "?.startsWith('Atlases a second')")
             self.assertEqual(self.browser.evaluate(NAMELESS), [], mode)
             self.browser.wait_for("document.getElementById('said').textContent"
-                                  " === 'Live: painted, 48 views.'")
+                                  " === 'Live: painted, views: 48.'")
 
     def test_all_controls_are_reached_by_the_tab_key_and_show_it(self):
         self.browser.call("Emulation.setFocusEmulationEnabled", enabled=True)
@@ -100,6 +100,27 @@ class Modes(PageTest):
         self.assertTrue(self.browser.evaluate("document.getElementById('single-on').disabled"))
         self.assertEqual(decode_code(self.shown_picture()), 47)
 
+    def test_depth_stands_beside_the_colour_of_the_middle_view(self):
+        self.open(SMALL + "&mode=single")
+        self.browser.click("#modes label:last-child")
+        self.browser.wait_for("document.getElementById('rgbd-range').textContent"
+                              " === 'white: 1.00 m, black: 3.97 m'")
+        self.browser.wait_for("document.getElementById('facts').innerText.includes('210 × 280')")
+        left, top, width, height = self.canvas()
+        shot = self.browser.screenshot().crop((left, top, left + width, top + height))
+        # Both halves are views of aspect 0.75 and fill the height, less a margin of 2.5 %.
+        half = 0.75 * 0.95 * height
+        self.assertEqual(decode_code(shot.crop((int(width / 2 - half), int(0.025 * height),
+                                                int(width / 2), int(0.975 * height)))), 0)
+        for share in (0.1, 0.5, 0.9):  # 1/Z rises evenly to the right
+            red, green, blue = shot.getpixel((int(width / 2 + share * half), int(height / 3)))
+            self.assertTrue(red == green == blue)
+            self.assertAlmostEqual(red / 255, share, delta=0.02)
+        keep(self.browser.screenshot(), "rgbd")
+        self.browser.click("#modes label:nth-of-type(2)")
+        self.view(24)
+        self.browser.wait_for("document.getElementById('facts').innerText.includes('1680 × 1680')")
+
     def test_tilting_the_device_looks_around(self):
         self.phone()
         self.browser.call("DeviceOrientation.setDeviceOrientationOverride",
@@ -118,7 +139,7 @@ class Modes(PageTest):
 
     def test_a_phone_has_room_for_everything_and_fingers_hit_it(self):
         self.phone()
-        for mode in ("look", "single", "panel", "eye"):
+        for mode in ("look", "single", "panel", "eye", "rgbd"):
             self.open(f"{SMALL}&mode={mode}")
             self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 360)
             self.assertEqual(self.browser.evaluate(SMALL_TARGETS), [], mode)

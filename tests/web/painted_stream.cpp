@@ -84,6 +84,26 @@ std::vector<uint8_t> encodeJpeg(const std::vector<uint8_t>& pixels, SizePx size_
   return jpeg;
 }
 
+// 1/Z from 0.25 / m at a tile's left to 1 / m at its right; nothing in padding.
+EncodedBand paintDepth(const AtlasLayout& layout) {
+  std::vector<float> inv_z(layout.size_px.area(), 0);
+  const SizePx tile = layout.tile_size_px;
+  for (uint32_t view = 0; view < layout.views.size(); ++view) {
+    const TileOrigin origin = layout.tileOrigin(view);
+    for (uint32_t y = 0; y < tile.height; ++y) {
+      float* row = &inv_z[size_t{origin.y_px + y} * layout.size_px.width + origin.x_px];
+      for (uint32_t x = 0; x < tile.width; ++x) {
+        row[x] = static_cast<float>(0.25 + 0.75 * (x + 0.5) / tile.width);
+      }
+    }
+  }
+  const auto* bytes = reinterpret_cast<const uint8_t*>(inv_z.data());
+  EncodedBand band{.plane = AtlasPlane::kDepth, .encoding = BandEncoding::kRaw};
+  band.row_count = layout.size_px.height;
+  band.bytes = std::make_shared<std::vector<uint8_t>>(bytes, bytes + inv_z.size() * sizeof(float));
+  return band;
+}
+
 std::vector<EncodedBand> cutIntoBands(const std::vector<uint8_t>& jpeg, uint32_t height_px) {
   std::vector<EncodedBand> bands;
   for (size_t i = 0; i < kBandCount; ++i) {
@@ -178,6 +198,7 @@ void PaintedStream::paint(const ActiveDisplay& display) {
   atlas.bands = cutIntoBands(
       encodeJpeg(paintAtlas(*atlas.layout, painted_frame_, is_flat_), size_px, display.encoding),
       size_px.height);
+  if (display.encoding.with_depth) atlas.bands.push_back(paintDepth(*atlas.layout));
   broadcaster_.publish(std::make_shared<const EncodedAtlas>(std::move(atlas)));
 }
 

@@ -2,6 +2,7 @@
 """Atlases over WebSocket, taken by a client that shares no code with the server."""
 import io
 import os
+import struct
 import sys
 import unittest
 
@@ -41,6 +42,18 @@ class Viewers(unittest.TestCase):
         self.assertAlmostEqual(sum(header["coverage"].values()), 1)
         image = Image.open(io.BytesIO(atlas.jpeg))
         self.assertEqual([decode_view(image, layout, view) for view in range(8)], list(range(8)))
+
+    def test_depth_comes_behind_the_picture_when_asked(self):
+        self.assertEqual(self.watch().receive_atlas().depth, b"")
+        atlas = self.watch(SMALL + "&depth=1").receive_atlas()
+        values = struct.unpack(f"<{320 * 160}f", atlas.depth)
+        for x, expected in ((0, 0.25), (40, 0.625), (79, 1), (80, 0.25)):  # tiles are 80 px wide
+            self.assertAlmostEqual(values[100 * 320 + x], expected, delta=0.01)
+        with Image.open(io.BytesIO(atlas.jpeg)) as image:
+            self.assertEqual(image.size, (320, 160))
+        refused = WebSocket(self.server.port, SMALL + "&depth=2").reply.json()["error"]
+        self.assertEqual((refused["field"], refused["message"]),
+                         ("depth", 'depth: got "2", accepted are 0 and 1'))
 
     def test_a_joiner_on_a_still_stream_gets_the_newest_atlas(self):
         first = self.watch().receive_atlas()

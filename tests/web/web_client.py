@@ -115,7 +115,14 @@ class Atlas:
     def __init__(self, message):
         (length,) = struct.unpack_from("<I", message)
         self.header = json.loads(message[4:4 + length])
-        self.jpeg = message[4 + length:]
+        self.jpeg, rest = self._split(message[4 + length:], self.header["jpeg_bytes"])
+        self.depth, rest = self._split(rest, self.header["depth_bytes"])
+        assert not rest, f"{len(rest)} bytes too many"
+
+    @staticmethod
+    def _split(data, size):
+        assert len(data) >= size, f"{size} bytes are said, {len(data)} are there"
+        return data[:size], data[size:]
 
 
 class WebSocket:
