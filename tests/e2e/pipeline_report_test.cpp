@@ -26,7 +26,8 @@ TEST_F(PipelineReportTest, reportsEveryFrameExactlyOnceHoweverFastTheyCome) {
   for (uint64_t number = 1; number <= kFrameCount; ++number) {
     auto frame = std::make_shared<Frame>(*first);
     frame->format.number = number;
-    frame->format.exposure_ev = 0.01 * static_cast<double>(number);  // none is like another
+    // None is like another.
+    frame->format.sources[0].camera.pose.position_m.x = 0.001 * static_cast<double>(number);
     server.offer(frame);
   }
   const auto reports = server.reports.waitForReports(kFrameCount);
