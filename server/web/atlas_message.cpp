@@ -30,6 +30,16 @@ json coverageJson(const Coverage& coverage) {
           {"empty", share(coverage.empty)}};
 }
 
+// null where views have no neighbours on one focal plane.
+json budgetJson(const std::optional<DepthBudget>& budget) {
+  if (!budget) return nullptr;
+  return {{"disparity_max_px", budget->disparity_max_px},
+          {"beyond_fusing_share", budget->beyond_fusing_share},
+          {"beyond_ghosting_share", budget->beyond_ghosting_share},
+          {"suggested_focal_distance_m", budget->suggested_focal_distance_m},
+          {"suggested_view_cone_rad", budget->suggested_view_cone_rad}};
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   return {{"sequence", atlas.sequence},
           {"frame_number", std::to_string(atlas.frame_number)},
@@ -40,6 +50,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
           {"times", timesJson(atlas.times)},
           {"coverage", coverageJson(atlas.coverage)},
           {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
+          {"depth_budget", budgetJson(atlas.depth_budget)},
           {"delivery", delivery.delivery},
           {"dropped_count", delivery.dropped_count},
           {"mailbox_ns", delivery.mailbox_ns},

@@ -34,6 +34,19 @@ TEST(CoverageToProto, isShares) {
   EXPECT_EQ(coverageToProto({}).hit(), 0) << "no rays, no shares, no NaN";
 }
 
+TEST(BudgetToProto, namesEverything) {
+  const v1::DepthBudget proto = budgetToProto({.disparity_max_px = 9,
+                                               .beyond_fusing_share = 0.5,
+                                               .beyond_ghosting_share = 0.25,
+                                               .suggested_focal_distance_m = 2,
+                                               .suggested_view_cone_rad = 0.375});
+  EXPECT_EQ(proto.disparity_max_px(), 9);
+  EXPECT_EQ(proto.beyond_fusing_share(), 0.5);
+  EXPECT_EQ(proto.beyond_ghosting_share(), 0.25);
+  EXPECT_EQ(proto.suggested_focal_distance_m(), 2);
+  EXPECT_EQ(proto.suggested_view_cone_rad(), 0.375);
+}
+
 TEST(ReportToProto, carriesStatsOnlyOfWhatWasBuilt) {
   const FrameReport refused{.number = 1, .outcome = FrameOutcome::kRefused, .reason = "why"};
   EXPECT_EQ(reportToProto(refused).outcome(), v1::FRAME_OUTCOME_REFUSED);
