@@ -98,6 +98,11 @@ absl::StatusOr<SourceAdvice> adviseSource(const DisplaySpec& spec, double near_m
       views.cameras.begin(), views.cameras.end(),
       [&](const Camera& a, const Camera& b) { return besideMiddle(a) < besideMiddle(b); });
   const SourceDemand demand = demandAt(views, middle, range);
+  if (!demand.isServable()) {
+    return fieldError(absl::StatusCode::kFailedPrecondition, "display",
+                      "its views look more than 1.3 rad past the middle one's axis, accepted are "
+                      "some that look less");
+  }
   const double gap = besideMiddle(outermost) * (range.near - range.far);
   const bool is_wide = gap > kWideGapShare * demand.tangentWidth();
   const Pose world = spec.world_pose.value_or(Pose{});
@@ -106,9 +111,10 @@ absl::StatusOr<SourceAdvice> adviseSource(const DisplaySpec& spec, double near_m
                       .second_source = std::nullopt};
   if (is_wide) {
     const Pose end{.position_m = outermost.pose.position_m, .orientation = middle.orientation};
+    const SourceDemand end_demand = demandAt(views, end, range);
     advice.layer_count = kLayersForWideGaps;
-    advice.second_source = sourceFor(demandAt(views, end, range), end);
-    advice.second_source->camera.pose = compose(world, end);
+    if (end_demand.isServable()) advice.second_source = sourceFor(end_demand, end);
+    if (advice.second_source) advice.second_source->camera.pose = compose(world, end);
   }
   advice.source.camera.pose = compose(world, middle);
   return advice;

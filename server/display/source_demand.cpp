@@ -22,7 +22,7 @@ constexpr double kRounding_px = 1e-6;
 uint32_t sidePx(double focal_px, double tangent_extent) {
   const double most_px = FrameLimits{}.plane_side_px_max;
   const double side_px = std::ceil(focal_px * tangent_extent - kRounding_px);
-  return static_cast<uint32_t>(std::clamp(side_px, 1.0, most_px));
+  return side_px > 1 ? static_cast<uint32_t>(std::min(side_px, most_px)) : 1;
 }
 
 }  // namespace

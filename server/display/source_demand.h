@@ -35,7 +35,8 @@ class SourceDemand {
   void include(const Camera& view, SizePx size_px);
   void include(const OutermostViews& views, const Pose& source_from_display);
 
-  // Expect a view.
+  // Something that a view sees can be served; the others expect it, but for hasParallax().
+  bool isServable() const { return left_ < right_ && down_ < up_; }
   Fov fov() const;
   // Up to the largest plane that is accepted.
   SizePx sizePx() const;

@@ -237,5 +237,16 @@ TEST(SourceAdvice, refusesDepthsAndDisplaysWithoutAFieldOfView) {
             "display.stereo.fov_y_rad");
 }
 
+TEST(SourceAdvice, refusesViewsThatNoPinholeSees) {
+  const DisplaySpec sideways{.kind = CamerasSpec{.cameras = {{.projection = Fov{.left_rad = 1.4,
+                                                                                .right_rad = 1.5,
+                                                                                .up_rad = 0.1,
+                                                                                .down_rad = -0.1}}},
+                                                 .tile_size_px = {10, 10}}};
+  const auto advice = adviseSource(completed(sideways), kNear_m, kFar_m);
+  EXPECT_EQ(advice.status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(fieldOf(advice.status()), "display");
+}
+
 }  // namespace
 }  // namespace viewloom
