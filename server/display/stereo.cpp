@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/stereo.h"
 
+#include <glm/common.hpp>
+
 #include "absl/strings/str_cat.h"
 #include "display/camera_list.h"
 #include "display/field_checks.h"
@@ -44,6 +46,8 @@ void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLay
   layout.view_pitch_m.x = stereo.eye_distance_m;
   if (!stereo.eyes.empty()) {
     layout.views = cameraViews(stereo.eyes, stereo.eye_size_px);
+    const glm::dvec3 beside_m = stereo.eyes[1].pose.position_m - stereo.eyes[0].pose.position_m;
+    layout.view_pitch_m = glm::abs(glm::dvec2(beside_m));
     return;
   }
   const double aspect = double{1} * stereo.eye_size_px.width / stereo.eye_size_px.height;

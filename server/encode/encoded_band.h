@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/byte_pool.h"
 #include "base/trace_method.h"
 #include "display/atlas_layout.h"
+#include "display/depth_budget.h"
 #include "frame/stage_times.h"
 
 namespace viewloom {
@@ -64,6 +66,7 @@ struct EncodedAtlas {
   Coverage coverage;
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
+  std::optional<DepthBudget> depth_budget;  // where views are neighbours
   std::vector<EncodedBand> bands;
 };
 

@@ -71,6 +71,8 @@ void AtlasPublisher::publish(AtlasRun& run) {
   const StageTimes times = stageTimes(run, links_.clock.nowNs());
   const Coverage coverage = run.coverage();
   count(links_.metrics, run.method, times, coverage);
+  const std::optional<DepthBudget> budget =
+      depthBudget(*run.picture->layout, run.job.structure->stats, run.job.structure->depths);
   for (AtlasOutput& output : run.outputs) {
     const uint64_t display_id = output.display->id;
     auto atlas = std::make_shared<EncodedAtlas>();
@@ -86,6 +88,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->coverage = coverage;
     atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
+    atlas->depth_budget = budget;
     atlas->bands = std::move(output.bands);
     links_.broadcaster.publish(std::move(atlas));
     links_.metrics.atlases_encoded.add();

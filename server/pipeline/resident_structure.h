@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "display/atlas_layout.h"
+#include "frame/depth_spread.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 #include "pipeline/structure_build.h"
@@ -26,7 +27,8 @@ struct ResidentStructure {
   int64_t capture_time_ns = 0;      // the publisher's clock
   std::vector<SeenSource> sources;  // a display without a place in the world stands in the first
   StreamDefaults defaults;
-  SourceStats stats;  // of the first source
+  SourceStats stats;   // of the first source
+  DepthSpread depths;  // likewise
   FrameTimes times;
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration

@@ -134,6 +134,8 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
 
   structure->stats =
       slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.stats().front();
+  structure->depths =
+      slot->is_swept ? slot->swept.measured().depths : slot->walked->structure.depthSpread();
   structure->stream_is_walked = stream.is_walked;
   if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
   structure->defaults.focal_distance_m = *stream.focal_distance_m;

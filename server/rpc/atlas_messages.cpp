@@ -106,6 +106,7 @@ grpc::ByteBuffer AtlasMessages::header() const {
   header.set_band_count(static_cast<uint32_t>(atlas_->bands.size()));
   *header.mutable_stats() = statsToProto(atlas_->stats);
   header.set_method(methodToProto(atlas_->method));
+  if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
   return bytesFromMessage(response);
 }
 

@@ -8,10 +8,13 @@
 #include "display/integral.h"
 #include "display/panels.h"
 #include "display/presets.h"
+#include "display/source_advice.h"
+#include "rpc/display_from_proto.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/limits_to_proto.h"
 #include "rpc/report_to_proto.h"
+#include "rpc/status_to_grpc.h"
 
 namespace viewloom {
 namespace {
@@ -104,6 +107,25 @@ v1::StreamEntry entryToProto(const StreamEntry& entry, uint32_t subscriber_count
   return proto;
 }
 
+absl::StatusOr<SourceAdvice> adviceOf(const v1::AdviseSourceRequest& request,
+                                      const AtlasLimits& limits) {
+  const absl::StatusOr<DisplaySpec> spec = displayFromProto(request.display());
+  const absl::Status status = spec.ok() ? validateAtlasLimits(*spec, limits) : spec.status();
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(status, "display"));
+  return adviseSource(*spec, request.near_m(), request.far_m());
+}
+
+v1::AdviseSourceResponse adviceToProto(const SourceAdvice& advice) {
+  v1::AdviseSourceResponse proto;
+  *proto.mutable_camera() = cameraToProto(advice.source.camera);
+  *proto.mutable_size() = sizeToProto(advice.source.size_px);
+  proto.set_layer_count(advice.layer_count);
+  if (!advice.second_source) return proto;
+  *proto.mutable_second_source() = cameraToProto(advice.second_source->camera);
+  *proto.mutable_second_size() = sizeToProto(advice.second_source->size_px);
+  return proto;
+}
+
 grpc::ServerUnaryReactor* finish(grpc::CallbackServerContext* context, const grpc::Status& status) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   reactor->Finish(status);
@@ -116,6 +138,7 @@ CatalogService::CatalogService(const StreamDirectory& directory, const Broadcast
                                const ServerDescription& description)
     : directory_(directory),
       broadcaster_(broadcaster),
+      atlas_limits_(description.atlas_limits),
       info_(infoToProto(description)),
       presets_(presetsToProto()) {}
 
@@ -159,9 +182,11 @@ grpc::ServerUnaryReactor* CatalogService::GetServerInfo(grpc::CallbackServerCont
 }
 
 grpc::ServerUnaryReactor* CatalogService::AdviseSource(grpc::CallbackServerContext* context,
-                                                       const v1::AdviseSourceRequest*,
-                                                       v1::AdviseSourceResponse*) {
-  return finish(context, {grpc::StatusCode::UNIMPLEMENTED, "AdviseSource: is not served yet"});
+                                                       const v1::AdviseSourceRequest* request,
+                                                       v1::AdviseSourceResponse* response) {
+  const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
+  if (advice.ok()) *response = adviceToProto(*advice);
+  return finish(context, statusToGrpc(advice.status()));
 }
 
 }  // namespace viewloom

@@ -49,6 +49,7 @@ class CatalogService final : public v1::CatalogService::CallbackService {
 
   const StreamDirectory& directory_;
   const Broadcaster& broadcaster_;
+  const AtlasLimits atlas_limits_;
   const v1::GetServerInfoResponse info_;
   const v1::ListPresetsResponse presets_;
 };

@@ -50,6 +50,16 @@ v1::StageTimes timesToProto(const StageTimes& times) {
   return proto;
 }
 
+v1::DepthBudget budgetToProto(const DepthBudget& budget) {
+  v1::DepthBudget proto;
+  proto.set_disparity_max_px(budget.disparity_max_px);
+  proto.set_beyond_fusing_share(budget.beyond_fusing_share);
+  proto.set_beyond_ghosting_share(budget.beyond_ghosting_share);
+  proto.set_suggested_focal_distance_m(budget.suggested_focal_distance_m);
+  proto.set_suggested_view_cone_rad(budget.suggested_view_cone_rad);
+  return proto;
+}
+
 v1::SourceStats statsToProto(const SourceStats& stats) {
   v1::SourceStats proto;
   proto.set_depth_step(stats.depth_step);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was measured → proto: coverage, stage times, depth statistics, the report of a frame.
+// What was measured → proto: coverage, stage times, depth statistics and budget, the report of a
+// frame.
 #pragma once
 
+#include "display/depth_budget.h"
 #include "frame/frame_sink.h"
 #include "frame/stage_times.h"
 #include "viewloom/v1/atlas.pb.h"
@@ -12,6 +14,7 @@ namespace viewloom {
 // Shares of all rays; all zero when there were none.
 v1::Coverage coverageToProto(const Coverage& coverage);
 v1::StageTimes timesToProto(const StageTimes& times);
+v1::DepthBudget budgetToProto(const DepthBudget& budget);
 v1::SourceStats statsToProto(const SourceStats& stats);
 v1::FrameReport reportToProto(const FrameReport& report);
 

@@ -123,4 +123,9 @@ std::vector<SourceStats> FrameStructure::stats() const {
   return stats;
 }
 
+DepthSpread FrameStructure::depthSpread() const {
+  const std::span<const StructureSlot* const> parts = sources_.front().parts;
+  return parts[parts.size() == 1 ? 0 : kCubeFrontFace]->depthSpread();
+}
+
 }  // namespace viewloom

@@ -34,6 +34,8 @@ class FrameStructure {
   // Of each source, once the build's submission is done. Of a cube map: what is counted, of all
   // faces; the range of all; the rest of the front one.
   std::vector<SourceStats> stats() const;
+  // Of the first source, then; of a cube map, of its front face.
+  DepthSpread depthSpread() const;
 
  private:
   // What a source is built of.

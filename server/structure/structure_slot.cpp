@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "base/check.h"
 #include "frame/cube_map.h"
 #include "frame/depth.h"
+#include "shared/histogram.h"
 #include "structure/array_options.h"
 #include "structure/describe_planes.h"
 
@@ -40,7 +42,7 @@ StructureSlot::StructureSlot(const Device& device, BuildMemoryPtr build_memory)
                                     .intent = MemoryIntent::kUpload,
                                     .debug_name = "depth planes"}),
       measured_(device, {.size_bytes = sizeof(abi::Measured), .debug_name = "measured"}),
-      measured_readback_(device, {.size_bytes = sizeof(abi::MeasuredHead),
+      measured_readback_(device, {.size_bytes = offsetof(abi::Measured, noise_histogram),
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "measured readback"}),
       color_(device, colorOptions(device, shape_)),
@@ -143,7 +145,7 @@ void StructureSlot::describe(const Frame& frame, const SourcePart& part) {
 
 SourceStats StructureSlot::stats() const {
   abi::MeasuredHead measured;
-  std::memcpy(&measured, measured_readback_.mapped().data(), measured_readback_.sizeBytes());
+  std::memcpy(&measured, measured_readback_.mapped().data(), sizeof measured);
   const bool has_surface = measured.inv_z_min_bits <= measured.inv_z_max_bits;
   return {.depth_step = measured.depth_step,
           .noise_sigma = measured.noise_sigma,
@@ -155,6 +157,15 @@ SourceStats StructureSlot::stats() const {
           .inv_z_near = measured.inv_z_near,
           .inv_z_far = measured.inv_z_far,
           .smoothing_reach = measured.smoothing_reach};
+}
+
+DepthSpread StructureSlot::depthSpread() const {
+  std::array<uint32_t, abi::kDepthHistogramBinCount> counts;
+  std::memcpy(counts.data(),
+              measured_readback_.mapped().data() + offsetof(abi::Measured, depth_histogram),
+              sizeof counts);
+  return viewloom::depthSpread(
+      counts, [](uint32_t bin) { return abi::binStart(bin, abi::kDepthMantissaBits); });
 }
 
 }  // namespace viewloom

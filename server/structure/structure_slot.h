@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "frame/depth_spread.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 #include "shared/structure_abi.h"
@@ -37,6 +38,8 @@ class StructureSlot {
   const Camera& sourceCamera() const { return source_camera_; }
   // Once the build's submission is done.
   SourceStats stats() const;
+  // Of its first layer, as percentiles in stats are.
+  DepthSpread depthSpread() const;
 
   // Kernels reach what is read as texels, or what is written, by address: it is larger than
   // bindings.

@@ -111,6 +111,9 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCo
                     .inv_z_near = inv_z_near,
                     .inv_z_far = quantile(abi::kFarQuantile),
                     .smoothing_reach = smoothing.reach},
+          .depths =
+              depthSpread(histograms.depth,
+                          [](uint32_t bin) { return abi::binStart(bin, abi::kDepthMantissaBits); }),
           .kappa = kappa,
           .smoothing = smoothing};
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "frame/depth_spread.h"
 #include "frame/stage_times.h"
 #include "sweep/depth_columns.h"
 
@@ -28,6 +29,7 @@ struct ColumnHistograms {
 
 struct MeasuredColumns {
   SourceStats stats;
+  DepthSpread depths;  // of layer 0
   Kappa kappa;
   Smoothing smoothing;
 };

@@ -44,6 +44,16 @@ uint64_t sizeOf(const std::vector<SharedBytes>& bands) {
   return size_bytes;
 }
 
+// null where views have no neighbours on one focal plane.
+json budgetJson(const std::optional<DepthBudget>& budget) {
+  if (!budget) return nullptr;
+  return {{"disparity_max_px", budget->disparity_max_px},
+          {"beyond_fusing_share", budget->beyond_fusing_share},
+          {"beyond_ghosting_share", budget->beyond_ghosting_share},
+          {"suggested_focal_distance_m", budget->suggested_focal_distance_m},
+          {"suggested_view_cone_rad", budget->suggested_view_cone_rad}};
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   return {{"sequence", atlas.sequence},
           {"frame_number", std::to_string(atlas.frame_number)},
@@ -54,6 +64,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
           {"times", timesJson(atlas.times)},
           {"coverage", coverageJson(atlas.coverage)},
           {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
+          {"depth_budget", budgetJson(atlas.depth_budget)},
           {"jpeg_bytes", sizeOf(jpegBands(atlas))},
           {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
           {"delivery", delivery.delivery},

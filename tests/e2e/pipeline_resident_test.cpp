@@ -56,6 +56,8 @@ TEST_F(PipelineResidentTest, servesAJoinerAStillAndAChangedFocusFromOneUploadAnd
     EXPECT_EQ(atlas->sequence, 1u);
     EXPECT_TRUE(isWhole(*atlas));
     EXPECT_EQ(atlas->coverage.rayCount(), atlas->layout->size_px.area());
+    ASSERT_TRUE(atlas->depth_budget);
+    EXPECT_GT(atlas->depth_budget->disparity_max_px, 0);
     EXPECT_EQ(server.broadcaster.layout(atlas->display_id), atlas->layout);
   }
   EXPECT_EQ(refocused.subscriber->waitForAtlases(1).front()->layout->focal_distance_m, 3);

@@ -123,14 +123,44 @@ TEST(CatalogService, saysWhatTheServerIsAndAccepts) {
   EXPECT_EQ(info.subscriber_count_max(), 6u);
 }
 
-TEST(CatalogService, doesNotAdviseYet) {
+v1::AdviseSourceRequest quiltBetween(double near_m, double far_m) {
+  v1::AdviseSourceRequest request;
+  v1::QuiltDisplay& quilt = *request.mutable_display()->mutable_quilt();
+  quilt.set_preset("portrait");
+  quilt.set_fov_y_rad(0.5);
+  request.set_near_m(near_m);
+  request.set_far_m(far_m);
+  return request;
+}
+
+TEST(CatalogService, advisesASource) {
   TestServer server;
   const auto stub = v1::CatalogService::NewStub(server.connect());
   grpc::ClientContext context;
   v1::AdviseSourceResponse response;
-  const grpc::Status status = stub->AdviseSource(&context, {}, &response);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(status.error_message(), ::testing::HasSubstr("AdviseSource"));
+  ASSERT_TRUE(stub->AdviseSource(&context, quiltBetween(1, 5), &response).ok());
+  EXPECT_GT(response.size().width(), 0u);
+  EXPECT_GT(response.camera().intrinsics().focal_x_px(), 0);
+  EXPECT_EQ(response.layer_count(), 3u);
+  EXPECT_GT(response.second_size().width(), 0u);
+  EXPECT_NE(response.second_source().pose().position().x(), 0);
+}
+
+TEST(CatalogService, namesWhatItCannotAdviseFor) {
+  TestServer server;
+  const auto stub = v1::CatalogService::NewStub(server.connect());
+  const auto refusal = [&stub](const v1::AdviseSourceRequest& request) {
+    grpc::ClientContext context;
+    v1::AdviseSourceResponse response;
+    const grpc::Status status = stub->AdviseSource(&context, request, &response);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    return status.error_message();
+  };
+  EXPECT_THAT(refusal(quiltBetween(5, 1)), ::testing::StartsWith("far_m: "));
+  v1::AdviseSourceRequest open_fov = quiltBetween(1, 5);
+  open_fov.mutable_display()->mutable_quilt()->set_fov_y_rad(0);
+  EXPECT_THAT(refusal(open_fov), ::testing::StartsWith("display.quilt.fov_y_rad: missing"));
+  EXPECT_THAT(refusal({}), ::testing::StartsWith("display"));
 }
 
 TEST(Health, knowsTheServerAndItsServices) {

@@ -167,6 +167,7 @@ TEST(StereoViews, areTheGivenCameras) {
   const AtlasLayout layout = layoutOf({.kind = stereo}, offAxisStream());
   EXPECT_EQ(layout.views[0].camera.intrinsics, (Intrinsics{{80, 80}, {50, 50}}));
   EXPECT_EQ(layout.views[1].camera.pose.position_m.x, 0.2);
+  EXPECT_EQ(layout.view_pitch_m, glm::dvec2(0.2, 0));
 }
 
 TEST(CameraViews, turnAnglesIntoTilePixels) {

@@ -48,6 +48,7 @@ TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
   EXPECT_EQ(header.header().sequence(), 300u);
   EXPECT_EQ(header.header().frame_number(), 12u);
   EXPECT_EQ(header.header().band_count(), 2u);
+  EXPECT_FALSE(header.header().has_depth_budget());
   const auto first = parsed(messages.next());
   EXPECT_EQ(first.band().data().size(), 3u);
   EXPECT_TRUE(first.band().last_piece());

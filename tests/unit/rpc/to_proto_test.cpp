@@ -34,6 +34,19 @@ TEST(CoverageToProto, isShares) {
   EXPECT_EQ(coverageToProto({}).hit(), 0) << "no rays, no shares, no NaN";
 }
 
+TEST(BudgetToProto, namesEverything) {
+  const v1::DepthBudget proto = budgetToProto({.disparity_max_px = 9,
+                                               .beyond_fusing_share = 0.5,
+                                               .beyond_ghosting_share = 0.25,
+                                               .suggested_focal_distance_m = 2,
+                                               .suggested_view_cone_rad = 0.375});
+  EXPECT_EQ(proto.disparity_max_px(), 9);
+  EXPECT_EQ(proto.beyond_fusing_share(), 0.5);
+  EXPECT_EQ(proto.beyond_ghosting_share(), 0.25);
+  EXPECT_EQ(proto.suggested_focal_distance_m(), 2);
+  EXPECT_EQ(proto.suggested_view_cone_rad(), 0.375);
+}
+
 TEST(ReportToProto, carriesStatsOnlyOfWhatWasBuilt) {
   const FrameReport refused{.number = 1, .outcome = FrameOutcome::kRefused, .reason = "why"};
   EXPECT_EQ(reportToProto(refused).outcome(), v1::FRAME_OUTCOME_REFUSED);
@@ -100,7 +113,31 @@ TEST(WantedToProto, isTheUnionOfWhatViewsSee) {
   EXPECT_NEAR(wanted.fov().angle_left_rad(), -(M_PI / 4 + turn_rad), 1e-12);
   EXPECT_NEAR(wanted.fov().angle_right_rad(), M_PI / 4 + turn_rad, 1e-12);
   EXPECT_EQ(wanted.layer_count(), 1u) << "no view leaves the source's place";
-  EXPECT_EQ(wanted.size().width(), std::ceil(5 * 2 * std::tan(M_PI / 4 + turn_rad)));
+  // A view is densest in the corners of its inner edge, 25 degrees from the source's axis and 45
+  // from its own: there a px of the source to the right is cos^2(25) / cos^2(45) px of the view to
+  // the right, and by the turn some up or down.
+  const double inner = std::cos(M_PI / 4 - turn_rad);
+  const double focal_px =
+      5 * std::hypot(2 * inner * inner, std::sqrt(2) * inner * std::sin(turn_rad));
+  EXPECT_EQ(wanted.size().width(), std::ceil(focal_px * 2 * std::tan(M_PI / 4 + turn_rad)));
+}
+
+TEST(WantedToProto, takesTheEyesOfAPanelForThoseOfItsView) {
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->tile_size_px = layout->size_px = {10, 10};
+  layout->views.resize(1);
+  layout->views[0].camera.intrinsics = {.focal_px = {5, 5}, .principal_px = {5, 5}};
+  layout->eye_focus_m = 2;
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->layout = layout;
+  const std::vector<AtlasPtr> atlases{atlas};
+  EXPECT_EQ(wantedToProto(atlases, 1).layer_count(), 1u);
+  layout->rays = LenticularRays{.view_cone_rad = 0.6, .distance_m = 2};
+  EXPECT_EQ(wantedToProto(atlases, 1).layer_count(), 2u);
+  // From half the cone to the left, the panel's right edge lies that much further to the right;
+  // samples may lie half a px beyond it.
+  EXPECT_NEAR(std::tan(wantedToProto(atlases, 1).fov().angle_right_rad()), 5.5 / 5 + std::tan(0.3),
+              1e-9);
 }
 
 TEST(StreamName, isOfLettersDigitsAndThreeSigns) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a source has to show so that the rays of displays find something: the union of what their
+// views see between two depths, as dense as the densest of them.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "display/atlas_layout.h"
+
+namespace viewloom {
+
+// Depths in front of a source: 1/Z, 1/m; 0 is infinity. far <= near.
+struct InvZRange {
+  double far = 0;
+  double near = 0;
+};
+
+// Pinholes of `size_px` that see whatever any ray of the display does, and nothing else where all
+// rays of its views come from their eyes.
+struct OutermostViews {
+  std::vector<Camera> cameras;  // relative to the display
+  SizePx size_px;
+};
+
+OutermostViews outermostViews(const AtlasLayout& layout);
+
+// Of a pinhole that looks along -z from where poses are relative to. It serves what lies up to
+// 1.3 rad to its sides: a view of more asks for that much.
+class SourceDemand {
+ public:
+  explicit SourceDemand(const InvZRange& range) : range_(range) {}
+
+  // `view` is relative to the source.
+  void include(const Camera& view, SizePx size_px);
+  void include(const OutermostViews& views, const Pose& source_from_display);
+
+  // Something that a view sees can be served; the others expect it, but for hasParallax().
+  bool isServable() const { return left_ < right_ && down_ < up_; }
+  Fov fov() const;
+  // Up to the largest plane that is accepted.
+  SizePx sizePx() const;
+  double tangentWidth() const { return right_ - left_; }
+  // Some view stands elsewhere than the source.
+  bool hasParallax() const { return has_parallax_; }
+
+ private:
+  void includeCorner(const Camera& view, glm::dvec2 tangents, double inv_z);
+  void includeTangents(glm::dvec2 tangents);
+
+  InvZRange range_;
+  // Tangents; the union is empty while nothing is included.
+  double left_ = std::numeric_limits<double>::infinity();
+  double right_ = -std::numeric_limits<double>::infinity();
+  double up_ = -std::numeric_limits<double>::infinity();
+  double down_ = std::numeric_limits<double>::infinity();
+  glm::dvec2 focal_px_{0.0};  // of the densest view, as a px of the source moves in it
+  bool has_parallax_ = false;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the px of a source are spread over depth.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace viewloom {
+
+// So many px with 1/Z in [inv_z_low, inv_z_high), 1/m. Infinity is in the one that begins at 0.
+struct DepthBin {
+  double inv_z_low = 0;
+  double inv_z_high = 0;
+  uint32_t count = 0;
+};
+
+// From far to near, next to each other or apart; none is empty.
+using DepthSpread = std::vector<DepthBin>;
+
+// `counts` of bins, of which `start_of(bin)` is the least 1/Z, 1/m.
+template <typename StartOf>
+DepthSpread depthSpread(std::span<const uint32_t> counts, const StartOf& start_of) {
+  DepthSpread spread;
+  for (uint32_t bin = 0; bin < counts.size(); ++bin) {
+    if (counts[bin] == 0) continue;
+    spread.push_back(
+        {.inv_z_low = start_of(bin), .inv_z_high = start_of(bin + 1), .count = counts[bin]});
+  }
+  return spread;
+}
+
+}  // namespace viewloom
