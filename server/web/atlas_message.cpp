@@ -44,33 +44,32 @@ uint64_t sizeOf(const std::vector<SharedBytes>& bands) {
   return size_bytes;
 }
 
-// null where views have no neighbours on one focal plane.
-json budgetJson(const std::optional<DepthBudget>& budget) {
-  if (!budget) return nullptr;
-  return {{"disparity_max_px", budget->disparity_max_px},
-          {"beyond_fusing_share", budget->beyond_fusing_share},
-          {"beyond_ghosting_share", budget->beyond_ghosting_share},
-          {"suggested_focal_distance_m", budget->suggested_focal_distance_m},
-          {"suggested_view_cone_rad", budget->suggested_view_cone_rad}};
+json budgetJson(const DepthBudget& budget) {
+  return {{"disparity_max_px", budget.disparity_max_px},
+          {"beyond_fusing_share", budget.beyond_fusing_share},
+          {"beyond_ghosting_share", budget.beyond_ghosting_share},
+          {"suggested_focal_distance_m", budget.suggested_focal_distance_m},
+          {"suggested_view_cone_rad", budget.suggested_view_cone_rad}};
 }
 
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
-  return {{"sequence", atlas.sequence},
-          {"frame_number", std::to_string(atlas.frame_number)},
-          {"capture_time_ns", std::to_string(atlas.capture_time_ns)},
-          {"present_at_ns", std::to_string(atlas.present_at_ns)},
-          {"layout", layoutJson(*atlas.layout)},
-          {"encoding", encodingJson(atlas.encoding)},
-          {"times", timesJson(atlas.times)},
-          {"coverage", coverageJson(atlas.coverage)},
-          {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
-          {"depth_budget", budgetJson(atlas.depth_budget)},
-          {"jpeg_bytes", sizeOf(jpegBands(atlas))},
-          {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
-          {"delivery", delivery.delivery},
-          {"dropped_count", delivery.dropped_count},
-          {"mailbox_ns", delivery.mailbox_ns},
-          {"shown_ns", delivery.shown_ns}};
+  json header = {{"sequence", atlas.sequence},
+                 {"frame_number", std::to_string(atlas.frame_number)},
+                 {"capture_time_ns", std::to_string(atlas.capture_time_ns)},
+                 {"present_at_ns", std::to_string(atlas.present_at_ns)},
+                 {"layout", layoutJson(*atlas.layout)},
+                 {"encoding", encodingJson(atlas.encoding)},
+                 {"times", timesJson(atlas.times)},
+                 {"coverage", coverageJson(atlas.coverage)},
+                 {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
+                 {"jpeg_bytes", sizeOf(jpegBands(atlas))},
+                 {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
+                 {"delivery", delivery.delivery},
+                 {"dropped_count", delivery.dropped_count},
+                 {"mailbox_ns", delivery.mailbox_ns},
+                 {"shown_ns", delivery.shown_ns}};
+  if (atlas.depth_budget) header["depth_budget"] = budgetJson(*atlas.depth_budget);
+  return header;
 }
 
 }  // namespace
