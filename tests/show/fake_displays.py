@@ -8,6 +8,7 @@ from concurrent import futures
 
 import grpc
 
+from viewloom.v1 import atlas_pb2
 from viewloom.v1 import display_pb2 as display
 from viewloom.v1 import display_service_pb2 as watching
 from viewloom.v1 import display_service_pb2_grpc as watching_grpc
@@ -25,11 +26,11 @@ class Atlas:
         height, width = picture.shape[:2]
         tile = {"width": (width - padding_right_px) // columns,
                 "height": (height - padding_top_px) // rows}
-        self.layout = display.AtlasLayout(
+        self.layout = atlas_pb2.AtlasLayout(
             size={"width": width, "height": height}, columns=columns, rows=rows, tile_size=tile,
             order=order, aspect=tile["width"] / tile["height"], view_count=columns * rows,
             padding_right_px=padding_right_px, padding_top_px=padding_top_px, view_cone_rad=0.7,
-            focal_distance_m=2.0, encoding={"color": display.BAND_ENCODING_RAW})
+            focal_distance_m=2.0, encoding={"color": atlas_pb2.BAND_ENCODING_RAW})
 
     def messages(self, sequence):
         """Header, pieces of one band, end."""
@@ -41,8 +42,8 @@ class Atlas:
         for offset in range(0, len(data), PIECE_BYTES_MAX):
             piece = data[offset:offset + PIECE_BYTES_MAX]
             yield response(band=watching.Band(
-                sequence=sequence, plane=display.ATLAS_PLANE_COLOR, first_row=0,
-                row_count=self.picture.shape[0], encoding=display.BAND_ENCODING_RAW,
+                sequence=sequence, plane=atlas_pb2.ATLAS_PLANE_COLOR, first_row=0,
+                row_count=self.picture.shape[0], encoding=atlas_pb2.BAND_ENCODING_RAW,
                 offset_bytes=offset, last_piece=offset + len(piece) == len(data), data=piece))
         yield response(end=watching.AtlasEnd(sequence=sequence))
 
