@@ -2,6 +2,8 @@
 // How viewloomd starts and ends as a process.
 #include <gmock/gmock.h>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <future>
@@ -41,9 +43,12 @@ class EndlessPublisher {
   }
 
  private:
-  void offer() { publisher_.offer(frame_); }
+  void offer() { publisher_.offer(frames_[offered_count_++ % frames_.size()]); }
 
-  const WireFrame frame_ = syntheticWireFrame(kFramePx, 2, 0);
+  // Two by turns: of one alone that is offered again nothing would be made.
+  const std::array<WireFrame, 2> frames_ = {syntheticWireFrame(kFramePx, 2, 0),
+                                            syntheticWireFrame(kFramePx, 2, 1)};
+  std::atomic<size_t> offered_count_ = 0;
   Publisher publisher_;
 };
 
