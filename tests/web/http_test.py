@@ -23,7 +23,8 @@ class Answers(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         with cls.server:
-            assert cls.server.stop() == 0
+            code = cls.server.stop()
+            assert code == 0, f"the server ended with {code}"
 
     def by_name(self, what):
         return {entry["name"]: entry for entry in fetch(self.port, f"/api/{what}").json()[what]}
@@ -135,7 +136,8 @@ class Refusals(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         with cls.server:
-            assert cls.server.stop() == 0
+            code = cls.server.stop()
+            assert code == 0, f"the server ended with {code}"
 
     TARGETS = (
         ("/nowhere", 404, "url"),
