@@ -29,7 +29,7 @@ DisplaySpec outermostViews(double cone_deg) {
                         .aspect = double(kView_px.width) / kView_px.height,
                         .view_cone_rad = cone_deg * std::numbers::pi / 180,
                         .view_count = kViewCount};
-  return spec;
+  return completeDisplaySpec(spec).value();
 }
 
 // Opaque R, G, B, 255 in memory order.

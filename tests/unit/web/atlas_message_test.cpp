@@ -35,7 +35,7 @@ std::shared_ptr<EncodedAtlas> someAtlas() {
   return atlas;
 }
 
-TEST(AtlasMessage, isALengthAHeaderAndTheColourBandsJoined) {
+TEST(AtlasMessage, isALengthAHeaderAndTheBandsOfColourAndDepthJoined) {
   const AtlasMessage message(someAtlas(), {.delivery = 5, .dropped_count = 2});
   const std::vector<uint8_t> bytes = joined(message);
   ASSERT_EQ(bytes.size(), message.sizeBytes());
@@ -50,7 +50,9 @@ TEST(AtlasMessage, isALengthAHeaderAndTheColourBandsJoined) {
   EXPECT_EQ(header.at("frame_number"), "18446744073709551615");
   EXPECT_EQ(header.at("layout").at("view_count"), 48);
   EXPECT_EQ(header.at("coverage").at("hit"), 0.75);
-  EXPECT_EQ(std::vector<uint8_t>(end, bytes.end()), (std::vector<uint8_t>{1, 2, 3}));
+  EXPECT_EQ(header.at("jpeg_bytes"), 3);
+  EXPECT_EQ(header.at("depth_bytes"), 2);
+  EXPECT_EQ(std::vector<uint8_t>(end, bytes.end()), (std::vector<uint8_t>{1, 2, 3, 9, 9}));
 }
 
 TEST(AtlasMessage, holdsTheDepthBudgetWhereThereIsOne) {
