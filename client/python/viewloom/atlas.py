@@ -140,7 +140,8 @@ class Atlas:
     def color(self) -> NDArray[np.uint8]:
         """uint8[height_px][width_px][3], sRGB, top row first. Read-only, as all pictures are."""
         if any(band.plane in _CHANNELS for band in self.bands):
-            channels = np.stack([self._whole(plane) for plane in _CHANNELS], axis=-1)
+            channels: NDArray[np.uint8] = np.stack([self._whole(plane) for plane in _CHANNELS],
+                                                   axis=-1)
             channels.flags.writeable = False
             return channels
         return self._whole(atlas_pb2.ATLAS_PLANE_COLOR)
