@@ -53,8 +53,9 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options,
   }
   const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
   if (!picture.ok()) return picture.status();
-  // What neighbouring subpixels show to different eyes no JPEG keeps apart.
-  const bool is_panel = atlas.layout->encoding().color() == v1::BAND_ENCODING_JPEG_PLANES;
+  // What neighbouring subpixels of a panel show to different eyes no usual JPEG keeps apart.
+  // Panels are the displays with a cone whose picture is one view, not a quilt.
+  const bool is_panel = atlas.layout->view_cone_rad() > 0 && atlas.layout->suffix().empty();
   if (!options.writes_views) return writePicture(*picture, options.writes_png || is_panel, whole);
   for (uint32_t view = 0; view < atlas.layout->view_count(); ++view) {
     VIEWLOOM_RETURN_IF_ERROR(writePicture(cutView(*picture, *atlas.layout, view),

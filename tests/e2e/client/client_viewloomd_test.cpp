@@ -127,6 +127,23 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
             0);
 }
 
+TEST_F(ClientWithViewloomd, theCommandWritesThePxOfAPanelWithoutMixingThem) {
+  const auto publisher = publish();
+  publisher->offer(smallFrame(0));
+  const fs::path calibration = folder_ / "visual.json";
+  std::ofstream(calibration) << R"({"pitch": 40, "slope": -6.5, "center": 0.3, "DPI": 320,)"
+                             << R"( "screenW": 70, "screenH": 50})";
+  const std::string watch = std::string(VIEWLOOM) + " --server " + address_ +
+                            " watch s --count 1 -q --calibration " + calibration.string();
+  for (const std::string encoding : {"", "--lossless"}) {
+    const fs::path out = folder_ / ("panel" + encoding);
+    EXPECT_EQ(runCommand(watch + " " + encoding + " --out " + out.string()), 0) << encoding;
+    EXPECT_TRUE(fs::exists(out / "s_000001_000001.png")) << encoding;
+  }
+  std::ofstream(calibration) << R"({"pitch": 0})";
+  EXPECT_EQ(runCommand(watch + " 2>/dev/null"), 1) << "the server refuses a panel without lenses";
+}
+
 TEST_F(ClientWithViewloomd, theCommandPublishesRealFiles) {
   const fs::path data = VIEWLOOM_SHARED_DATA;
   if (!fs::exists(data)) GTEST_SKIP() << data << " is not there";
