@@ -46,6 +46,11 @@ constexpr EnumRow<v1::AlphaMode, AlphaMode> kAlphas[] = {
     {v1::ALPHA_MODE_PREMULTIPLIED, AlphaMode::kPremultiplied},
     {v1::ALPHA_MODE_STRAIGHT, AlphaMode::kStraight}};
 
+// The only one that is served, and nothing has to be done for it.
+enum class ToneMap : uint8_t { kClip };
+constexpr EnumRow<v1::ToneMap, ToneMap> kToneMaps[] = {{v1::TONE_MAP_UNSPECIFIED, ToneMap::kClip},
+                                                       {v1::TONE_MAP_CLIP, ToneMap::kClip}};
+
 constexpr EnumRow<v1::DepthMeaning, DepthMeaning> kMeanings[] = {
     {v1::DEPTH_MEANING_PLANAR, DepthMeaning::kPlanar},
     {v1::DEPTH_MEANING_RAY_DISTANCE, DepthMeaning::kRayDistance},
@@ -174,6 +179,7 @@ absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
                                             const FrameLimits& limits) {
   VIEWLOOM_RETURN_IF_ERROR(
       validateSourceCount(static_cast<uint32_t>(proto.sources_size()), limits));
+  VIEWLOOM_RETURN_IF_ERROR(enumFromProto(proto.tone_map(), "tone_map", kToneMaps).status());
   FrameFormat format;
   for (int i = 0; i < proto.sources_size(); ++i) {
     auto source = sourceFromProto(proto.sources(i), limits);
