@@ -44,7 +44,7 @@ abi::RayRecord recordOf(const RowToDescribe& described, uint32_t p, uint8_t ray_
   const int32_t place = std::max(swept.texel[p], 0);
   // A texel reaches half a px to both sides of its sample.
   const uint32_t texel = uint32_t(place + kSubtexelSteps / 2) / kSubtexelSteps;
-  return {.x_px = view.start_px + view.step_px * float(p) + view.eye_px_m * inv_z,
+  return {.x_px = view.placeAt(float(p), inv_z),
           .y_px = float(described.y_px),
           .inv_z = inv_z,
           .ray_class = ray_class,
@@ -71,7 +71,7 @@ void describeSwept(const RowToDescribe& described, size_t at_px, const TraceOutp
                    SweptAtlas& atlas) {
   for (uint32_t p = 0; p < described.width_px; ++p) {
     const uint8_t ray_class = classOf(described.swept, p);
-    const size_t at = at_px + p;
+    const size_t at = at_px + size_t{p} * described.stride_px;
     if (outputs.depth) {
       atlas.depth[at] = std::max(described.swept.inv_z[p], 0.0F) * described.view_z;
     }
@@ -79,7 +79,8 @@ void describeSwept(const RowToDescribe& described, size_t at_px, const TraceOutp
     if (outputs.linear) writeLinear(described, p, atlas.linear.data() + 4 * at);
     if (outputs.records) atlas.records[at] = recordOf(described, p, ray_class);
   }
-  if (outputs.linear) blendLinear(described.swept.blends, atlas.linear.data() + 4 * at_px);
+  if (outputs.linear && described.stride_px == 1)
+    blendLinear(described.swept.blends, atlas.linear.data() + 4 * at_px);
 }
 
 }  // namespace viewloom

@@ -14,6 +14,7 @@ struct RowToDescribe {
   double y_px = 0;   // in the source
   float view_z = 0;  // Z in the source for a metre along the view's axis
   uint32_t width_px = 0;
+  uint32_t stride_px = 1;  // from px to px in the atlas; edges are blended where it is 1
 };
 
 // Writes the planes of `outputs` from px `at_px` of the atlas on.

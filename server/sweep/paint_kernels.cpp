@@ -29,6 +29,29 @@ HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const 
   }
 }
 
+// Runs as moving eyes see them: where each ray crosses one.
+HWY_INLINE void paintRunsByRay(const Runs& runs, const SweepView& view, const SweptRow& swept,
+                               const HitPainter& painter) {
+  for (uint32_t i = 0; i < swept.covering_count; ++i) {
+    const size_t k = size_t(swept.covering[i]);
+    const Vec begin = set(runs.begin_px[k]);
+    const Vec begin_w = set(runs.begin_inv_z[k]);
+    const Vec across = hn::Sub(set(runs.end_px[k]), begin);
+    const Vec up = hn::Sub(set(runs.end_inv_z[k]), begin_w);
+    const IntVec offset = hn::Set(kInts, runs.texel_offset[k]);
+    painter.paint(swept.from[k], swept.to[k], [&](Vec p) {
+      const Vec eye = eyesAt(view, p);
+      const Vec direction = hn::MulAdd(set(view.step_px), p, set(view.start_px));
+      const Vec beside = hn::Sub(hn::MulAdd(eye, begin_w, direction), begin);
+      const Vec share = hn::Div(beside, hn::NegMulAdd(eye, up, across));
+      // Of runs that rays graze, little is left of a difference: no place is beside the run.
+      const Vec along = hn::Min(hn::Max(share, set(0)), set(1));
+      const Vec place = hn::Mul(hn::MulAdd(across, along, begin), set(kSubtexelSteps));
+      return Place{hn::MulAdd(up, along, begin_w), hn::Add(hn::NearestInt(place), offset)};
+    });
+  }
+}
+
 // What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
 // the ray passed last.
 void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
@@ -82,7 +105,10 @@ bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& 
     const LayerSurfaces& layer = row.layers[i];
     const HitPainter painter(swept, i, fill.planted_fault);
     projectRuns(layer.runs, view, width, swept);
-    paintRuns(layer.runs, swept, painter);
+    if (view.hasMovingEye())
+      paintRunsByRay(layer.runs, view, swept, painter);
+    else
+      paintRuns(layer.runs, swept, painter);
     if (!crosses_edges) break;
     projectSteps(layer.bridges[travel], view, width, swept);
     paintBridges(layer.bridges[travel], view, swept, painter);
@@ -108,8 +134,9 @@ HWY_INLINE RayEnd endOf(const SurfaceRow& row, const SweepView& view, float p) {
     return {exists ? abi::kClassHidden : abi::kClassEmpty, column};
   }
   // It leaves through a border if it travels towards it.
-  const bool leaves = u < 0 ? view.eye_px_m > 0 : view.eye_px_m < 0;
-  const float inv_z = leaves ? ((u < 0 ? 0 : width) - u) / view.eye_px_m : 3.4e38F;
+  const float eye_px_m = view.eyeAt(p);
+  const bool leaves = u < 0 ? eye_px_m > 0 : eye_px_m < 0;
+  const float inv_z = leaves ? ((u < 0 ? 0 : width) - u) / eye_px_m : 3.4e38F;
   const float border_inv_z = u < 0 ? row.left_inv_z : row.right_inv_z;
   return {inv_z <= border_inv_z ? abi::kClassHidden : abi::kClassOutside, column};
 }

@@ -20,14 +20,23 @@ namespace viewloom::HWY_NAMESPACE {
 
 // inv_z of rays where they cross an edge, along p.
 struct EdgeLine {
-  EdgeLine(const Steps& steps, size_t k, const SweepView& view)
-      : at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
+  EdgeLine(const Steps& steps, size_t k, const SweepView& swept_view)
+      : view(swept_view),
+        at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
         step(set(-view.step_px / view.eye_px_m)),
         low(set(steps.low_inv_z[k])),
         high(set(steps.high_inv_z[k])) {}
 
-  Vec invZ(Vec p) const { return hn::Min(hn::Max(hn::MulAdd(step, p, at), low), high); }
+  Vec invZ(Vec p) const {
+    Vec inv_z = hn::MulAdd(step, p, at);
+    // As many times nearer as the eye of px 0 is further out.
+    if (view.hasMovingEye()) {
+      inv_z = hn::Mul(inv_z, hn::Div(set(view.eye_px_m), eyesAt(view, p)));
+    }
+    return hn::Min(hn::Max(inv_z, low), high);
+  }
 
+  const SweepView& view;
   Vec at, step, low, high;
 };
 
@@ -75,15 +84,15 @@ HWY_INLINE bool paintPassed(const SurfaceRow& row, const SweepView& view, const 
   }
   std::fill_n(marks, width_px / (64 * lanes) + 1, uint64_t{0});
   const uint32_t count = swept.covering_count;
-  const float px_per_inv_z = std::abs(view.eye_px_m);
   const bool is_endless = fill.planted_fault == SweepFault::kFarSideEndless;
   for (uint32_t i = 0; i < count; ++i) {
     const size_t k = size_t(swept.covering[view.eye_px_m > 0 ? count - 1 - i : i]);
     const EdgeLine line(steps, k, view);
-    // Who passes it further up comes out before.
-    const Vec meets_up_to = set(steps.low_inv_z[k] + steps.behind_px[k] / px_per_inv_z);
     forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
       const Vec inv_z = line.invZ(p);
+      const Vec eye = eyesAt(view, p);
+      // Who passes it further up comes out before.
+      const Vec meets_up_to = hn::Add(line.low, hn::Div(set(steps.behind_px[k]), hn::Abs(eye)));
       const Mask passes = reaches(passed_before, first, inv_z, inside);
       const Vec before = hn::Load(kFloats, passed + first);
       hn::Store(hn::Max(before, hn::IfThenElse(passes, inv_z, before)), kFloats, passed + first);
@@ -91,7 +100,7 @@ HWY_INLINE bool paintPassed(const SurfaceRow& row, const SweepView& view, const 
       const Mask is_new = hn::And(passes, hn::Le(met_before, inv_z));
       Mask meets = hn::And(is_new, hn::Le(inv_z, meets_up_to));
       if (!hn::AllFalse(kFloats, meets) && !is_endless) {
-        const Vec moved_px = hn::Mul(set(view.eye_px_m), hn::Sub(inv_z, line.low));
+        const Vec moved_px = hn::Mul(eye, hn::Sub(inv_z, line.low));
         meets = hn::And(meets, reachesAsFar(row, steps.edge_px[k], moved_px, line.low));
       }
       const Vec far = hn::IfThenElse(meets, line.low, set(-1));

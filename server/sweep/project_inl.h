@@ -13,9 +13,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// The first px whose place is not below one of u = start + step p, within the row.
-HWY_INLINE IntVec columnOf(Vec u, const SweepView& view, float width) {
-  const Vec p = hn::Mul(hn::Sub(u, set(view.start_px)), set(1 / view.step_px));
+// Of each px p.
+HWY_INLINE Vec eyesAt(const SweepView& view, Vec p) {
+  return hn::MulAdd(set(view.eye_step_px_m), p, set(view.eye_px_m));
+}
+
+// Where the ray of a px is at inv_z 0 if that of px 0 is at x at inv_z w.
+HWY_INLINE Vec startOf(const SweepView& view, Vec x, Vec inv_z) {
+  return hn::NegMulAdd(set(view.eye_px_m), inv_z, x);
+}
+
+// The first px whose place at inv_z is not below one, within the row: given startOf() it.
+HWY_INLINE IntVec columnOf(Vec u, Vec inv_z, const SweepView& view, float width) {
+  const Vec beside = hn::Sub(u, set(view.start_px));
+  Vec p = hn::Mul(beside, set(1 / view.step_px));
+  if (view.hasMovingEye()) {
+    p = hn::Div(beside, hn::MulAdd(set(view.eye_step_px_m), inv_z, set(view.step_px)));
+  }
   const Vec inside = hn::Min(hn::Max(hn::Ceil(p), set(0)), set(width));
   return hn::ConvertTo(kInts, inside);
 }
@@ -29,18 +43,19 @@ HWY_INLINE void noteCovering(size_t k, size_t count, IntVec from, IntVec to, Swe
   swept.covering_count += storeThose(kInts, hn::Iota(kInts, int32_t(k)), covers, end);
 }
 
-// The px that each run covers, and its line and texels over them: at + step p.
+// The px that each run covers, and its line and texels over them: at + step p; not for moving eyes.
 HWY_INLINE void projectRuns(const Runs& runs, const SweepView& view, float width, SweptRow& swept) {
-  const Vec eye = set(view.eye_px_m);
   swept.covering_count = 0;
   for (size_t k = 0; k < runs.count; k += hn::Lanes(kFloats)) {
     const Vec begin = hn::LoadU(kFloats, runs.begin_px.data() + k);
     const Vec end = hn::LoadU(kFloats, runs.end_px.data() + k);
     const Vec begin_w = hn::LoadU(kFloats, runs.begin_inv_z.data() + k);
     const Vec end_w = hn::LoadU(kFloats, runs.end_inv_z.data() + k);
-    const Vec u = hn::NegMulAdd(eye, begin_w, begin);
-    const Vec u_end = hn::NegMulAdd(eye, end_w, end);
-    noteCovering(k, runs.count, columnOf(u, view, width), columnOf(u_end, view, width), swept);
+    const Vec u = startOf(view, begin, begin_w);
+    const Vec u_end = startOf(view, end, end_w);
+    noteCovering(k, runs.count, columnOf(u, begin_w, view, width),
+                 columnOf(u_end, end_w, view, width), swept);
+    if (view.hasMovingEye()) continue;
     // Along u, of what faces the rays.
     const Vec per_u = hn::Div(set(1), hn::Sub(u_end, u));
     const Vec x_per_u = hn::Mul(hn::Sub(end, begin), per_u);
@@ -58,14 +73,13 @@ HWY_INLINE void projectRuns(const Runs& runs, const SweepView& view, float width
 // The px whose rays meet each step.
 HWY_INLINE void projectSteps(const Steps& steps, const SweepView& view, float width,
                              SweptRow& swept) {
-  const Vec eye = set(view.eye_px_m);
   swept.covering_count = 0;
   for (size_t k = 0; k < steps.count; k += hn::Lanes(kFloats)) {
     const Vec edge = hn::LoadU(kFloats, steps.edge_px.data() + k);
     const Vec low = hn::LoadU(kFloats, steps.low_inv_z.data() + k);
     const Vec high = hn::LoadU(kFloats, steps.high_inv_z.data() + k);
-    const IntVec at_low = columnOf(hn::NegMulAdd(eye, low, edge), view, width);
-    const IntVec at_high = columnOf(hn::NegMulAdd(eye, high, edge), view, width);
+    const IntVec at_low = columnOf(startOf(view, edge, low), low, view, width);
+    const IntVec at_high = columnOf(startOf(view, edge, high), high, view, width);
     noteCovering(k, steps.count, hn::Min(at_low, at_high), hn::Max(at_low, at_high), swept);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viewloom {
 namespace {
@@ -27,6 +28,15 @@ bool canSweep(const abi::ViewParams& tile, SizePx tile_px, double inv_z_max) {
          isSmallShare(tile.direction_dy.z * down / z);
 }
 
+// The line of a panel's eyes runs along the rows of the source.
+bool staysInRows(const TraceJob& job, const LensPieces& pieces, double inv_z_max) {
+  const abi::EyeAxes& axes = job.bounds.front().eye_axes;
+  const double reach_inv_z =
+      double{pieces.pxPerInvZ()} / std::abs(double{axes.right.x}) * inv_z_max;
+  return std::abs(axes.right.y * reach_inv_z) <= kMoved_px &&
+         std::abs(axes.right.z * reach_inv_z) * abi::kPlainExtentMax_px <= kMoved_px;
+}
+
 SweepView sweepView(const abi::ViewParams& tile) {
   const double z = double{tile.direction.z};
   const double step_px = double{tile.direction_dx.x} / z;
@@ -38,7 +48,11 @@ SweepView sweepView(const abi::ViewParams& tile) {
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
-  if (job.walk_count != 1 || job.hasEyesBeside()) return std::nullopt;
+  if (job.walk_count != 1) return std::nullopt;
+  std::optional<LensPieces> lens_pieces = LensPieces::make(job, inv_z_max);
+  if (job.hasEyesBeside() && !(lens_pieces && staysInRows(job, *lens_pieces, inv_z_max))) {
+    return std::nullopt;
+  }
   const SizePx tile_px = job.layout->tile_size_px;
   const bool is_swept = std::all_of(job.tiles.begin(), job.tiles.end(), [&](const auto& tile) {
     return tile.is_used == 0 || canSweep(tile, tile_px, inv_z_max);
@@ -46,7 +60,9 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
   if (!is_swept) return std::nullopt;
   SweepPlan plan;
   plan.tile_height_ = tile_px.height;
-  plan.color_reach_ = viewloom::colorReach(job.tiles, tile_px);
+  plan.lens_pieces_ = std::move(lens_pieces);
+  const TileRays rays = raysOf(job, 0, 0);
+  plan.color_reach_ = viewloom::colorReach(rays.tiles, rays.tile_px);
   for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
     plan.groups_.emplace_back();
     plan.views_.emplace_back();
@@ -82,7 +98,8 @@ void SweepPlan::addTile(uint32_t index, const abi::ViewParams& tile) {
         group, {.first_px = first_px, .step_px = step_px, .tolerance = tile.inv_z_tolerance});
   }
   group->tolerance = std::min(group->tolerance, tile.inv_z_tolerance);
-  group->px_per_inv_z = std::max(group->px_per_inv_z, std::abs(tile.eye.x));
+  const float px_per_inv_z = lens_pieces_ ? lens_pieces_->pxPerInvZ() : std::abs(tile.eye.x);
+  group->px_per_inv_z = std::max(group->px_per_inv_z, px_per_inv_z);
   group->tiles.push_back(index);
 }
 

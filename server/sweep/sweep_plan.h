@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sweep/lens_pieces.h"
 #include "sweep/paint_kernels.h"
 #include "trace/trace_job.h"
 
@@ -24,14 +25,15 @@ struct SweptTiles {
 class SweepPlan {
  public:
   // Rays of a row of a view stay in a row of the source, and are parallel in (x, inv_z): the eyes
-  // lie beside the source along its rows, and look along its axes. nullopt for any other display.
+  // lie beside the source along its rows, and look along its axes. So do those of a lenticular
+  // panel's subpixels, piece by piece. nullopt for any other display.
   // `inv_z_max`: of the source, 1/m.
   static std::optional<SweepPlan> make(const TraceJob& job, double inv_z_max);
 
   // The form in which whole rows can be coloured: that one, if all views look along the same rows,
   // else kRgba.
   ColorForm colorForm(ColorForm wanted) const {
-    return group_count_ == 1 ? wanted : ColorForm::kRgba;
+    return group_count_ == 1 && !lens_pieces_ ? wanted : ColorForm::kRgba;
   }
 
   // How far colour is averaged.
@@ -46,6 +48,8 @@ class SweepPlan {
     return groups_[sample][row / tile_height_];
   }
   const SweepView& viewOf(uint32_t tile, uint32_t sample = 0) const { return views_[sample][tile]; }
+  // Of a lenticular panel, instead of viewOf(); else null.
+  const LensPieces* lensPieces() const { return lens_pieces_ ? &*lens_pieces_ : nullptr; }
 
  private:
   void addTile(uint32_t index, const abi::ViewParams& tile);
@@ -53,6 +57,7 @@ class SweepPlan {
   uint32_t tile_height_ = 1;
   uint32_t group_count_ = 0;
   ColorReach color_reach_;
+  std::optional<LensPieces> lens_pieces_;
   std::vector<std::vector<SweptTiles>> groups_;  // [sample][group]
   std::vector<std::vector<SweepView>> views_;    // [sample][tile]
 };

@@ -8,11 +8,19 @@
 
 namespace viewloom {
 
-// Px p of a row of a view sees, at inv_z w, the source at x = start_px + step_px p + eye_px_m w.
+// Px p of a row of a view sees, at inv_z w, the source at
+//   x = start_px + step_px p + (eye_px_m + eye_step_px_m p) w,
+// which grows with p at every w of the source.
 struct SweepView {
   float start_px = 0;
   float step_px = 1;  // > 0
   float eye_px_m = 0;
+  // Of px that are seen from places beside each other, all of them on one side of the source.
+  float eye_step_px_m = 0;
+
+  bool hasMovingEye() const { return eye_step_px_m != 0; }
+  float eyeAt(float p) const { return eye_px_m + eye_step_px_m * p; }
+  float placeAt(float p, float inv_z) const { return start_px + step_px * p + eyeAt(p) * inv_z; }
 };
 
 // A px that the surface of the px beside it covers in part, or the other way round.

@@ -66,10 +66,69 @@ struct ViewSweeper::Piece {
   Coverage coverage;
 };
 
+// What a row of a view shows of a row of surfaces; its edges are not blended.
+void ViewSweeper::paintView(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px,
+                            uint32_t* rgba) {
+  // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
+  const float inv_z_near =
+      std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
+  const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
+  row.cleanMixedTexels(std::min(std::abs(eye_px_m) * inv_z_near, 1.0F));
+  paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
+  colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
+           rgba);
+}
+
+// A row of a lenticular panel. What else than colour is wanted is that of the first sample.
+void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
+  const SweepPlan& plan = *piece.picture.plan;
+  const TraceJob& job = *piece.picture.job;
+  const size_t first_px = size_t{index} * job.layout->size_px.width;
+  const SweptTiles& group = plan.groupOf(index);
+  const double y_px = group.first_px + group.step_px * index;
+  SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance, group.px_per_inv_z);
+  row_.reserve(job.layout->size_px.width, row.pieceCountMax());
+  sampled_.resize(job.layout->size_px.width);
+  uint32_t* const panel_row = piece.atlas.color.data() + first_px;
+  std::fill_n(panel_row, job.layout->size_px.width, kOpaqueBlack);
+  for (uint32_t sample = 0; sample < plan.sampleCount(); ++sample) {
+    const uint32_t channel_mask = 0xffU << (8 * plan.lensPieces()->channelOf(sample));
+    lens_pieces_.clear();
+    plan.lensPieces()->appendRow(index, sample, lens_pieces_);
+    for (const LensPiece& lens : lens_pieces_) {
+      paintView(piece, row, lens.view, lens.count, sampled_.data());
+      for (uint32_t p = 0; p < lens.count; ++p) {
+        panel_row[lens.first_px + p * lens.stride_px] |= sampled_[p] & channel_mask;
+      }
+      if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;
+      describeSwept({.row = row,
+                     .view = lens.view,
+                     .fill = piece.fill,
+                     .swept = row_,
+                     .y_px = y_px,
+                     .view_z = job.tiles.front().direction.z,
+                     .width_px = lens.count,
+                     .stride_px = lens.stride_px},
+                    first_px + lens.first_px, piece.outputs, piece.atlas);
+    }
+  }
+  if (piece.outputs.linear) writeLinear(panel_row, first_px, piece);
+}
+
+// Of a row of px that several rays make.
+void ViewSweeper::writeLinear(const uint32_t* rgba, size_t first_px, Piece& piece) {
+  const size_t channel_count = size_t{piece.picture.job->layout->tile_size_px.width} * 4;
+  float* const linear = piece.atlas.linear.data() + 4 * first_px;
+  for (size_t i = 0; i < channel_count; ++i) {
+    linear[i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
+  }
+}
+
 // Of a row of the plan the tiles that takes(tile), each coloured at rowOf(tile).
 template <typename Takes, typename RowOf>
 void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf) {
   const SweepPlan& plan = *piece.picture.plan;
+  if (plan.lensPieces() != nullptr) return sweepLenses(piece, index);
   if (plan.sampleCount() == 1) return sweepSample(piece, index, 0, takes, rowOf);
   const std::vector<uint32_t>& tiles = plan.groupOf(index).tiles;
   const uint32_t width_px = piece.picture.job->layout->tile_size_px.width;
@@ -90,10 +149,8 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
     uint32_t* const rgba = rowOf(tiles[rank], plan.tileRow(index));
     sums_.mean(rank, plan.sampleCount(), rgba);
     if (!piece.outputs.linear) continue;
-    const size_t first = firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index));
-    for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
-      piece.atlas.linear[4 * first + i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
-    }
+    writeLinear(rgba, firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index)),
+                piece);
   }
 }
 
@@ -109,17 +166,11 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
   const double y_px = group.first_px + group.step_px * tile_row;
   SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance, group.px_per_inv_z);
   row_.reserve(width_px, row.pieceCountMax());
-  // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
-  const float inv_z_near =
-      std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   for (const uint32_t tile : group.tiles) {
     if (!takes(tile)) continue;
     const SweepView& view = plan.viewOf(tile, sample);
-    row.cleanMixedTexels(std::min(std::abs(view.eye_px_m) * inv_z_near, 1.0F));
-    paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
     uint32_t* const rgba = rowOf(tile, tile_row);
-    colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
-             rgba);
+    paintView(piece, row, view, width_px, rgba);
     findEdgeBlends(row, view, width_px, row_);
     applyEdgeBlends(row_.blends, rgba);
     if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;

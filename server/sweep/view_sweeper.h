@@ -47,6 +47,10 @@ class ViewSweeper {
  private:
   struct Piece;
 
+  void paintView(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px,
+                 uint32_t* rgba);
+  void sweepLenses(Piece& piece, uint32_t index);
+  static void writeLinear(const uint32_t* rgba, size_t first_px, Piece& piece);
   template <typename Takes, typename RowOf>
   void sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf);
   template <typename Takes, typename RowOf>
@@ -58,6 +62,7 @@ class ViewSweeper {
   YcbcrRows ycbcr_rows_;
   LightSums sums_;  // of px with several samples
   std::vector<uint32_t> sampled_;
+  std::vector<LensPiece> lens_pieces_;
 };
 
 // The whole atlas by all workers; `sweepers`: one each, kept from atlas to atlas.

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 
+#include "calibration/calibration.h"
 #include "commands/offline_renderer.h"
 #include "e2e/test_frames.h"
 #include "gpu/test_device.h"
@@ -180,6 +181,41 @@ TEST_F(SweepWalkTest, showsNearlyWhatTheWalkShowsWithinTheUsualTolerance) {
       EXPECT_GE(difference.psnr_db, 34);
       EXPECT_LE(difference.class_share, 0.0016);
       EXPECT_LE(difference.coverage_share, 0.0006);
+    }
+  }
+}
+
+// Lenses in the px of a small panel: the cone of a Portrait, seven px a lens.
+DisplaySpec smallPanel(uint32_t view_count) {
+  LenticularSpec lenticular;
+  lenticular.calibration_json = writeCalibration({.pitch = 43.7,
+                                                  .slope = -6.5,
+                                                  .center = 0.3,
+                                                  .view_cone_deg = 40,
+                                                  .dpi = 320,
+                                                  .screen_px = {331, 205},
+                                                  .serial = "test"});
+  lenticular.view_count = view_count;
+  return completeDisplaySpec({.kind = lenticular}).value();
+}
+
+// Each channel of each px is a ray of its own, and none is blended with the one beside it: a
+// silhouette that one method takes for a thousandth of a px further on is a px. Measured: 45.2 and
+// 49.0 dB of hits at the least, 0.056% and 0.034% of px.
+TEST_F(SweepWalkTest, showsOnAPanelWhatTheWalkShows) {
+  for (const uint32_t view_count : {0U, 12U}) {
+    for (const uint32_t layer_count : {1U, 2U, 4U}) {
+      DisplaySpec spec = smallPanel(view_count);
+      const Difference usual = compare(layer_count, spec);
+      EXPECT_GE(usual.hit_psnr_db, 44);
+      EXPECT_LE(usual.class_share, 0.0016);
+      EXPECT_LE(usual.coverage_share, 0.0006);
+      spec.tolerance_px = 0.001;
+      const Difference facets = compare(layer_count, spec);
+      EXPECT_GE(facets.hit_psnr_db, 47);
+      EXPECT_GE(facets.hidden_psnr_db, 36);
+      EXPECT_GE(facets.outside_psnr_db, 42);
+      EXPECT_LE(facets.class_share, 0.0006);
     }
   }
 }
