@@ -17,7 +17,8 @@ std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
     CLI::App* command = app.add_subcommand(name, description);
     commands.emplace_back(command, add_command(*command));
   };
-  add("publish", "Send the synthetic scene, image files, manifests or a recording as a stream",
+  add("publish",
+      "Send the synthetic scene, a test pattern, image files, manifests or a recording as a stream",
       addPublishCommand);
   add("inspect", "Say what files hold, how they are read, what is wrong", addInspectCommand);
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);

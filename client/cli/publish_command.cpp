@@ -10,6 +10,8 @@
 #include "base/str_cat.h"
 #include "cli/file_options.h"
 #include "cli/folder_frames.h"
+#include "cli/pattern_frames.h"
+#include "cli/pattern_options.h"
 #include "cli/plane_options.h"
 #include "cli/publish_run.h"
 #include "cli/replayed_frames.h"
@@ -23,7 +25,9 @@ namespace {
 struct PublishOptions {
   bool is_synthetic = false;
   std::optional<uint32_t> layer_count;
+  SizePx size_px;  // 0 x 0 = what the built-in scene or pattern has by default
   SyntheticFeedOptions synthetic;
+  PatternFeedOptions pattern;
   FileFeedOptions files;
   std::string watched_folder;
   ReplayOptions replay;
@@ -34,7 +38,8 @@ struct PublishOptions {
 void addSourceOptions(CLI::App& app, PublishOptions& options) {
   app.add_flag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
       ->group("What");
-  addSizeOption(app, "--size", options.synthetic.size_px, 8192, "Of the synthetic frames [960x540]")
+  addSizeOption(app, "--size", options.size_px, 8192,
+                "Of the synthetic frames [960x540], of the pattern [1920x1080]")
       ->group("What");
   app.add_option("--layers", options.layer_count,
                  "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
@@ -49,7 +54,7 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
       ->excludes("--sources")
       ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
-                 "Length of the synthetic scene; 0 = without end")
+                 "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
       ->check(CLI::NonNegativeNumber)
       ->group("What");
   app.add_option("--replay", options.replay.file,
@@ -98,18 +103,33 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
   return ReplayedFrames::open(std::move(replay));
 }
 
+absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions& options) {
+  if (options.layer_count || options.synthetic.source_count != 1 || options.synthetic.is_cube_map) {
+    return absl::InvalidArgumentError(
+        "--pattern has layers and a source of its own; leave out --layers, --sources and --cube");
+  }
+  patterns::PatternOptions pattern = patternOptions(options.pattern);
+  if (options.size_px.width > 0) pattern.size_px = options.size_px;
+  auto feed = PatternFrames::make(options.pattern.name, pattern, options.synthetic.duration_s);
+  if (!feed.ok()) return feed.status();
+  return *std::move(feed);
+}
+
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& options) {
-  const int kinds = int{options.is_synthetic} + int{!options.files.colors.empty()} +
-                    int{!options.files.deeps.empty()} + int{!options.files.manifests.empty()} +
-                    int{!options.watched_folder.empty()} + int{!options.replay.file.empty()};
+  const int kinds = int{options.is_synthetic} + int{!options.pattern.name.empty()} +
+                    int{!options.files.colors.empty()} + int{!options.files.deeps.empty()} +
+                    int{!options.files.manifests.empty()} + int{!options.watched_folder.empty()} +
+                    int{!options.replay.file.empty()};
   if (kinds != 1) {
     return absl::InvalidArgumentError(
-        "what to publish? Accepted is one of --synthetic, colour files, --deep, --manifest, "
-        "--watch-folder, --replay");
+        "what to publish? Accepted is one of --synthetic, --pattern, colour files, --deep, "
+        "--manifest, --watch-folder, --replay");
   }
   if (!options.replay.file.empty()) return makeReplay(options);
+  if (!options.pattern.name.empty()) return makePatternFeed(options);
   if (options.is_synthetic) {
     SyntheticFeedOptions synthetic = options.synthetic;
+    if (options.size_px.width > 0) synthetic.size_px = options.size_px;
     synthetic.layer_count = options.layer_count.value_or(synthetic.layer_count);
     return std::make_unique<SyntheticFrames>(synthetic);
   }
@@ -133,6 +153,7 @@ RunCommand addPublishCommand(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  viewloom publish --synthetic --size 1280x720 --layers 3\n"
+      "  viewloom publish --pattern view-numbers --views 45 --cone 40\n"
       "  viewloom publish frame.exr --focal-px 1200 --hold\n"
       "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
       "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
@@ -141,6 +162,7 @@ RunCommand addPublishCommand(CLI::App& app) {
       "  viewloom publish --synthetic --seconds 10 --zstd 1 --record scene.vlr\n"
       "  viewloom publish --replay scene.vlr --speed 0.5 --loop");
   addSourceOptions(app, *options);
+  addPatternOptions(app, options->pattern);
   addFileOptions(app, options->files);
   app.add_option("--watch-folder", options->watched_folder,
                  "Publish every complete file that is in this folder or comes into it; colour and "

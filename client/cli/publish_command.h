@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `viewloom publish`: sends the synthetic scene, files or manifests as a stream.
+// `viewloom publish`: sends the synthetic scene, test patterns, files or manifests as a stream.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -4,31 +4,28 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "base/status.h"
 #include "show/gl_texture.h"
 #include "show/painter.h"
-
-struct _TTF_Font;  // NOLINT(bugprone-reserved-identifier): SDL_ttf's name
+#include "text/font.h"
 
 namespace viewloom::show {
 
 // Thread-safety: main thread.
 class TextOverlay {
  public:
-  // FAILED_PRECONDITION when the font is not installed.
+  // The errors of Font::open.
   static absl::StatusOr<std::unique_ptr<TextOverlay>> make();
-  ~TextOverlay();
-  TextOverlay(const TextOverlay&) = delete;
-  TextOverlay& operator=(const TextOverlay&) = delete;
 
   // White on black, top left; lines end in a line feed. Not empty.
   absl::Status draw(const std::string& text, Painter& painter);
 
  private:
-  explicit TextOverlay(_TTF_Font* font) : font_(font) {}
+  explicit TextOverlay(std::unique_ptr<Font> font) : font_(std::move(font)) {}
 
-  _TTF_Font* font_;
+  const std::unique_ptr<Font> font_;
   GlTexture texture_;
 };
 

@@ -43,6 +43,11 @@ void setIntrinsics(const Intrinsics& from, v1::Intrinsics& to) {
   to.set_principal_y_px(from.principal_px.y);
 }
 
+void setCamera(const Camera& from, v1::Camera& to) {
+  setPose(from.pose, *to.mutable_pose());
+  setIntrinsics(from.intrinsics, *to.mutable_intrinsics());
+}
+
 void addLayers(SizePx size_px, std::vector<SyntheticLayer> layers, v1::Source& source,
                WireFrame& frame) {
   for (SyntheticLayer& from : layers) {
@@ -71,11 +76,16 @@ WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_ti
 }
 
 void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame) {
+  addLayeredSource(options.camera.value_or(syntheticCamera(options.size_px)), options.size_px,
+                   renderSyntheticFrame(options), frame);
+}
+
+v1::Source& addLayeredSource(const Camera& camera, SizePx size_px,
+                             std::vector<SyntheticLayer> layers, WireFrame& frame) {
   v1::Source& source = *frame.header.add_sources();
-  const Camera camera = options.camera.value_or(syntheticCamera(options.size_px));
-  setPose(camera.pose, *source.mutable_camera()->mutable_pose());
-  setIntrinsics(camera.intrinsics, *source.mutable_camera()->mutable_intrinsics());
-  addLayers(options.size_px, renderSyntheticFrame(options), source, frame);
+  setCamera(camera, *source.mutable_camera());
+  addLayers(size_px, std::move(layers), source, frame);
+  return source;
 }
 
 void addSyntheticCubeMap(const SyntheticOptions& options, WireFrame& frame) {

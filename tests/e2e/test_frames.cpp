@@ -6,7 +6,6 @@
 
 #include "base/check.h"
 #include "frame/cube_map.h"
-#include "synthetic/synthetic_frame.h"
 
 namespace viewloom::test {
 namespace {
@@ -51,6 +50,16 @@ void addSource(const SyntheticOptions& options, Frame& frame) {
 }
 
 }  // namespace
+
+FramePtr layeredFrame(uint64_t number, const Camera& camera, SizePx size_px,
+                      std::vector<SyntheticLayer> layers, double connection_tolerance) {
+  const std::shared_ptr<Frame> frame = emptyFrame(number);
+  SourceFormat& source = frame->format.sources.emplace_back();
+  source.camera = camera;
+  source.connection_tolerance = connection_tolerance;
+  addLayers(size_px, std::move(layers), source, *frame);
+  return frame;
+}
 
 FramePtr syntheticFrame(uint64_t number, SizePx size_px, uint32_t layer_count, double time_s) {
   const std::shared_ptr<Frame> frame = emptyFrame(number);

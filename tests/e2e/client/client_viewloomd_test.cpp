@@ -127,6 +127,21 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
             0);
 }
 
+TEST_F(ClientWithViewloomd, theCommandPublishesTestPatterns) {
+  const std::string command = std::string(VIEWLOOM) + " --server " + address_ + " publish -q ";
+  for (const std::string name : {"view-numbers", "parallax-ruler", "focal-grid", "card"}) {
+    EXPECT_EQ(runCommand(command + "--pattern " + name + " --size 640x360 --views 12 --cone 30" +
+                         " --seconds 0.1 --stream " + name),
+              0)
+        << name;
+  }
+  for (const std::string refused :
+       {"--pattern rainbow", "--pattern view-numbers --views 500", "--pattern card --layers 2",
+        "--pattern card --synthetic", "--pattern card --size 64x64", "--views 12 --synthetic"}) {
+    EXPECT_NE(runCommand(command + refused + " --seconds 0.1 2>/dev/null"), 0) << refused;
+  }
+}
+
 TEST_F(ClientWithViewloomd, theCommandWritesThePxOfAPanelWithoutMixingThem) {
   const auto publisher = publish();
   publisher->offer(smallFrame(0));

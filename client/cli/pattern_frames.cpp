@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/pattern_frames.h"
+
+#include <utility>
+
+#include "base/clock.h"
+#include "base/str_cat.h"
+#include "synthetic/synthetic_wire_frame.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr double kNsPerS = 1e9;
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<PatternFrames>> PatternFrames::make(
+    const std::string& name, const patterns::PatternOptions& options, double duration_s) {
+  absl::StatusOr<patterns::Pattern> pattern = patterns::makePattern(options);
+  if (!pattern.ok()) return pattern.status();
+  WireFrame frame;
+  addLayeredSource(pattern->camera, pattern->size_px, std::move(pattern->layers), frame)
+      .set_connection_tolerance(pattern->connection_tolerance);
+  return std::unique_ptr<PatternFrames>(new PatternFrames(
+      std::move(frame),
+      strCat("pattern ", name, ", ", options.size_px.width, "x", options.size_px.height),
+      duration_s));
+}
+
+PatternFrames::PatternFrames(WireFrame frame, std::string description, double duration_s)
+    : frame_(std::move(frame)),
+      description_(std::move(description)),
+      duration_s_(duration_s),
+      notes_{strCat("focal plane ", 1 / patterns::kFocalPlane_inv_m,
+                    " m away: where displays have it by default")} {}
+
+absl::StatusOr<std::optional<WireFrame>> PatternFrames::next(double /*elapsed_s*/) {
+  if (!frame_) return std::optional<WireFrame>();
+  taken_ns_ = SteadyClock().nowNs();
+  frame_->header.set_capture_time_ns(captureTimeNs());
+  return std::exchange(frame_, std::nullopt);
+}
+
+bool PatternFrames::hasEnded() const {
+  const double stood_s = static_cast<double>(SteadyClock().nowNs() - taken_ns_) / kNsPerS;
+  return duration_s_ > 0 && stood_s >= duration_s_;
+}
+
+std::vector<std::string> PatternFrames::takeNotes() {
+  return std::exchange(notes_, {});
+}
+
+}  // namespace viewloom::cli

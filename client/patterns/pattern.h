@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Test patterns as sources of colour and depth, drawn exactly.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/status.h"
+#include "frame/camera.h"
+#include "patterns/display_views.h"
+#include "synthetic/synthetic_frame.h"
+
+namespace viewloom::patterns {
+
+enum class PatternKind : uint8_t { kViewNumbers, kParallaxRuler, kFocalGrid, kCard };
+
+// "view-numbers", ...; nothing for a name that is none.
+std::optional<PatternKind> patternFromName(std::string_view name);
+
+struct PatternOptions {
+  PatternKind kind = PatternKind::kCard;
+  SizePx size_px{1920, 1080};  // of the source
+  DisplayViews views;          // what it is drawn for
+};
+
+// Where displays that leave their focal plane to the stream put it: percentiles of depth come from
+// bins of 1/Z, 32 an octave. This is the middle of one in the middle of the octave 1..2 1/m, so
+// that what lies evenly around it within the octave has it for its mean, exactly.
+inline constexpr double kFocalPlane_inv_m = 1.5 + 1.0 / 64;
+// So much of it surfaces may lie before and behind the plane, to stay in the octave.
+inline constexpr double kDepthShareMax = 0.31;
+
+inline constexpr SizePx kPatternMin_px{640, 360};
+inline constexpr uint32_t kPatternViewsMax = 512;
+
+// A source at the origin that looks along -z.
+struct Pattern {
+  Camera camera;
+  SizePx size_px;
+  std::vector<SyntheticLayer> layers;  // 1 or 2, nearest first
+  double connection_tolerance = 0;     // of 1/Z, 1/m: nothing of a pattern is nearly connected
+};
+
+// The errors name the options of `viewloom publish`.
+absl::StatusOr<Pattern> makePattern(const PatternOptions& options);
+
+}  // namespace viewloom::patterns

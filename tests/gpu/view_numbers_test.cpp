@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each view sees its own number through the window, and no other.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gpu/pattern_views.h"
+#include "patterns/view_numbers.h"
+
+namespace viewloom {
+namespace {
+
+using patterns::PatternKind;
+using patterns::PatternOptions;
+using patterns::PxBox;
+
+constexpr SizePx kSource_px{1280, 720};
+
+// Read as the header of the pattern says, apart from what draws it; nothing where the blocks make
+// no number. Tiles show the source at `scale` around its middle.
+std::optional<uint32_t> numberIn(const ViewPicture& view, const PxBox& window, double scale) {
+  const double side = 0.4 * window.width();
+  const auto isWhite = [&](uint32_t row, uint32_t column) {
+    const double x = window.middleX() + (column == 0 ? -0.5 : 0.5) * side;
+    const double y = window.top + 3.3 * window.width() + (row + 0.5) * side;
+    const auto tile = [&](double px, uint32_t source_side, uint32_t tile_side) {
+      return static_cast<uint32_t>((px - source_side / 2.0) * scale + tile_side / 2.0);
+    };
+    return view.codeAt(tile(x, kSource_px.width, view.sizePx().width),
+                       tile(y, kSource_px.height, view.sizePx().height), 1) > 127;
+  };
+  uint32_t number = 0, white = 0;
+  for (uint32_t row = 1; row <= 5; ++row) {
+    for (uint32_t column = 0; column < 2; ++column) {
+      number = 2 * number + (isWhite(row, column) ? 1 : 0);
+      white += isWhite(row, column) ? 1 : 0;
+    }
+  }
+  const bool begins = isWhite(0, 0) && !isWhite(0, 1);
+  const bool is_odd = white % 2 == 1;
+  const bool ends = isWhite(6, 0) == is_odd && isWhite(6, 1) != is_odd;
+  if (!begins || !ends) return std::nullopt;
+  return number;
+}
+
+constexpr uint32_t kColumns = 8, kRows = 3, kViews = kColumns * kRows;
+constexpr SizePx kTile_px{216, 288};
+
+class ViewNumbers : public PatternViews {
+ protected:
+  // Of each view of a quilt of kViews.
+  std::vector<std::optional<uint32_t>> readQuilt(const PxBox& window) {
+    const RenderedAtlas atlas = renderQuilt(kColumns, kRows, kTile_px, 0.75);
+    std::vector<std::optional<uint32_t>> numbers;
+    for (uint32_t view = 0; view < kViews; ++view) {
+      const double scale = double{1} * kTile_px.height / kSource_px.height;
+      numbers.push_back(numberIn(ViewPicture(atlas, view), window, scale));
+    }
+    return numbers;
+  }
+
+  static PatternOptions numbersOf(uint32_t view_count) {
+    PatternOptions options{.kind = PatternKind::kViewNumbers, .size_px = kSource_px};
+    options.views.count = view_count;
+    return options;
+  }
+
+  static std::vector<std::optional<uint32_t>> inOrder() {
+    std::vector<std::optional<uint32_t>> numbers(kViews);
+    for (uint32_t view = 0; view < kViews; ++view) numbers[view] = view;
+    return numbers;
+  }
+};
+
+TEST_F(ViewNumbers, eachViewOfAQuiltShowsItsOwn) {
+  const PatternOptions options = numbersOf(kViews);
+  build(patternOf(options));
+  EXPECT_EQ(readQuilt(patterns::numberPlaces(options)->window), inOrder());
+}
+
+TEST_F(ViewNumbers, fitInAWideFrameUpTo100) {
+  const PatternOptions options{
+      .kind = PatternKind::kViewNumbers, .size_px = {2400, 1350}, .views = {.count = 100}};
+  const patterns::Pattern pattern = patternOf(options);
+  const PxBox window = patterns::numberPlaces(options)->window;
+  build(pattern);
+  for (const uint32_t view : {0U, 31U, 50U, 99U}) {
+    const RenderedAtlas atlas = renderEyes(pattern, {options.views.eyeTangent(view)});
+    // Around the middle of its own frame, as if it were that of the others.
+    PxBox moved = window;
+    moved.left += (kSource_px.width - 2400.0) / 2;
+    moved.right += (kSource_px.width - 2400.0) / 2;
+    moved.top += (kSource_px.height - 1350.0) / 2;
+    EXPECT_EQ(numberIn(ViewPicture(atlas, 0), moved, 1), view);
+  }
+}
+
+// What the test is for: eyes that are not where the display says.
+TEST_F(ViewNumbers, areOthersForEyesOneViewToTheSide) {
+  const PatternOptions options = numbersOf(kViews);
+  const patterns::Pattern pattern = patternOf(options);
+  build(pattern);
+  const RenderedAtlas atlas =
+      renderEyes(pattern, {options.views.eyeTangent(11), options.views.eyeTangent(12)});
+  const PxBox window = patterns::numberPlaces(options)->window;
+  EXPECT_EQ(numberIn(ViewPicture(atlas, 0), window, 1), 11U);
+  EXPECT_EQ(numberIn(ViewPicture(atlas, 1), window, 1), 12U);
+  build(patternOf(numbersOf(kViews - 1)));
+  EXPECT_NE(readQuilt(patterns::numberPlaces(numbersOf(kViews - 1))->window), inOrder());
+}
+
+TEST_F(ViewNumbers, cannotBeReadMirrored) {
+  const PatternOptions options = numbersOf(kViews);
+  patterns::Pattern pattern = patternOf(options);
+  for (SyntheticLayer& layer : pattern.layers) {
+    SyntheticLayer mirrored = layer;
+    for (size_t px = 0; px < layer.depth_m.size(); ++px) {
+      const size_t x = px % kSource_px.width;
+      const size_t from = px - x + kSource_px.width - 1 - x;
+      layer.depth_m[px] = mirrored.depth_m[from];
+      for (size_t i = 0; i < 4; ++i) layer.color[4 * px + i] = mirrored.color[4 * from + i];
+    }
+  }
+  build(std::move(pattern));
+  for (const auto& number : readQuilt(patterns::numberPlaces(options)->window)) {
+    EXPECT_FALSE(number.has_value());
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
