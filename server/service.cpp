@@ -122,6 +122,7 @@ void Service::Parts::connect() {
     pipeline.serveDisplays(stream);
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
+  broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
   directory.onRoomNeeded([this](const std::string& stream) {
     if (broadcaster.subscriberCount(stream) > 0) return false;
     pipeline.forgetStream(stream);

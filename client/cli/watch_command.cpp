@@ -11,6 +11,7 @@
 #include "base/str_cat.h"
 #include "cli/atlas_files.h"
 #include "cli/display_options.h"
+#include "cli/eye_feed.h"
 #include "cli/frame_feed.h"
 #include "cli/interrupt.h"
 #include "cli/recorded_atlases.h"
@@ -30,6 +31,7 @@ struct WatchOptions {
   std::string stream = "demo";
   std::string recording;  // "" = watch the stream
   DisplayOptions display;
+  std::string eye_file;  // "" = the eyes are the display's own
   std::string folder;
   bool writes_views = false;
   std::string format = "jpg";
@@ -55,7 +57,9 @@ class WatchRun {
     *open.mutable_encoding() = makeEncoding(options_.display);
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
+    if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    if (eyes_) eyes_->start(eyeCallbacks());
     while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok()) {
       if (line_.isDue()) line_.show(status());
     }
@@ -92,6 +96,23 @@ class WatchRun {
         strCat("--out ", options_.folder, ": cannot be made: ", error.message()));
   }
 
+  absl::Status openEyes(const v1::Display& display) {
+    if (options_.eye_file.empty()) return absl::OkStatus();
+    if (!display.stereo().tracked()) {
+      return absl::InvalidArgumentError(
+          "--eyes is for a display that is tracked; accepted is a --display whose stereo says "
+          "\"tracked\": true");
+    }
+    auto eyes = EyeFeed::open(options_.eye_file);
+    if (eyes.ok()) eyes_ = *std::move(eyes);
+    return eyes.status();
+  }
+
+  EyeFeedCallbacks eyeCallbacks() {
+    return {.send = [this](const v1::EyePoses& poses) { watcher_->sendEyePoses(poses); },
+            .on_failure = [this](const absl::Status& problem) { setFailure(problem); }};
+  }
+
   WatcherCallbacks callbacks() {
     const OnConnection say = sayConnections(line_, common_);
     return {.on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
@@ -107,11 +128,15 @@ class WatchRun {
                 }};
   }
 
+  // Once: eyes that move change the layout alone.
   void sayLayout(const v1::AtlasLayout& layout) {
-    line_.say(strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
-                     layout.view_count(), " views of ", layout.tile_size().width(), "x",
-                     layout.tile_size().height(), ", focal plane at ",
-                     formatNumber(layout.focal_distance_m(), 2), " m"));
+    std::string text = strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
+                              layout.view_count(), " views of ", layout.tile_size().width(), "x",
+                              layout.tile_size().height(), ", focal plane at ",
+                              formatNumber(layout.focal_distance_m(), 2), " m");
+    if (text == said_layout_) return;
+    line_.say(text);
+    said_layout_ = std::move(text);
   }
 
   void take(const Atlas& atlas) {
@@ -150,6 +175,7 @@ class WatchRun {
   }
 
   int end() {
+    eyes_.reset();
     watcher_->stop();
     while (!watcher_->waitEnded(kTick_ns)) {
     }
@@ -173,7 +199,9 @@ class WatchRun {
   v1::AtlasHeader newest_;
   double latency_s_ = 0;
   absl::Status failure_;
-  std::unique_ptr<Watcher> watcher_;  // last: its callbacks use the rest
+  std::string said_layout_;           // the watcher's thread's own
+  std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
+  std::unique_ptr<EyeFeed> eyes_;     // last: it gives to the watcher
 };
 
 }  // namespace
@@ -186,10 +214,15 @@ RunCommand addWatchCommand(CLI::App& app) {
       "  viewloom watch --count 1 --out .                 one quilt, as a file for the device\n"
       "  viewloom watch --preset portrait --views --out v --count 1\n"
       "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts\n"
-      "  viewloom watch --from portrait.vlr --out quilts  from a recording");
+      "  viewloom watch --from portrait.vlr --out quilts  from a recording\n"
+      "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
-  app.add_option("--from", options->recording,
-                 "Watch a recording (`viewloom record`) instead of a stream");
+  auto* from = app.add_option("--from", options->recording,
+                              "Watch a recording (`viewloom record`) instead of a stream");
+  app.add_option("--eyes", options->eye_file,
+                 "Where the eyes before a tracked --display are: lines {\"time_ns\": 8, \"left\": "
+                 "[x, y, z], \"right\": [x, y, z]}, metres; - reads them from a pipe")
+      ->excludes(from);
   app.add_option("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
   auto* out = app.add_option("--out", options->folder, "Write every atlas into this folder");
   app.add_flag("--views", options->writes_views, "Write single views instead of atlases")

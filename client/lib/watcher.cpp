@@ -28,10 +28,21 @@ void Watcher::change(const v1::ChangeDisplay& change) {
   {
     std::lock_guard lock(mutex_);
     if (change.has_display()) *open_.mutable_display() = change.display();
+    if (!open_.display().stereo().tracked()) eyes_.reset();
     if (change.has_encoding()) *open_.mutable_encoding() = change.encoding();
   }
   v1::StreamAtlasesRequest request;
   *request.mutable_change() = change;
+  write(request);
+}
+
+void Watcher::sendEyePoses(const v1::EyePoses& poses) {
+  {
+    std::lock_guard lock(mutex_);
+    eyes_ = poses;
+  }
+  v1::StreamAtlasesRequest request;
+  *request.mutable_eye_poses() = poses;
   write(request);
 }
 
@@ -73,15 +84,21 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
   const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
   const std::unique_ptr<Call> call = stub_->StreamAtlases(&context);
   v1::StreamAtlasesRequest request;
+  std::optional<v1::EyePoses> eyes;
   {
     std::lock_guard writing(write_mutex_);  // until the call is open, nothing else is written
     {
       std::lock_guard lock(mutex_);
       was_connected_ = false;
       *request.mutable_open() = open_;
+      eyes = eyes_;
     }
     call_ = call.get();
     call_->Write(request);
+    if (eyes) {
+      *request.mutable_eye_poses() = *std::move(eyes);
+      call_->Write(request);
+    }
   }
   const absl::Status broken = readAtlases(*call);
   if (!broken.ok()) context.TryCancel();

@@ -48,6 +48,10 @@ class Watcher {
 
   // Another display, another encoding, or both; also for calls after a broken connection.
   void change(const v1::ChangeDisplay& change);
+  // Where the eyes before a tracked stereo display are now; also for calls after a broken
+  // connection, while the display stays tracked. The newest count: of poses that come faster than
+  // atlases, the server drops those overtaken. One that the server refuses ends the call.
+  void sendEyePoses(const v1::EyePoses& poses);
   // Tells what was shown when, by this process's clock. Lost when there is no connection.
   void reportPresented(uint64_t sequence, int64_t presented_time_ns);
   // Breaks off. Does not wait.
@@ -72,7 +76,8 @@ class Watcher {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  v1::OpenDisplay open_;        // with the count that is left
+  v1::OpenDisplay open_;  // with the count that is left
+  std::optional<v1::EyePoses> eyes_;
   bool is_complete_ = false;    // the last atlas asked for has come
   bool was_connected_ = false;  // in this call
   WatcherCounts counts_;

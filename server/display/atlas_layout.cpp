@@ -11,6 +11,7 @@
 #include "display/lenticular.h"
 #include "display/quilt.h"
 #include "display/stereo.h"
+#include "display/tracked_eyes.h"
 
 namespace viewloom {
 namespace {
@@ -38,6 +39,11 @@ TileOrigin AtlasLayout::tileOrigin(uint32_t view) const {
           .y_px = padding_top_px + row_from_top * tile_size_px.height};
 }
 
+double AtlasLayout::focusOf(const View& view) const {
+  const double focus_m = eye_focus_m + view.camera.pose.position_m.z;
+  return focus_m > 0 ? focus_m : kNoFocus_m;
+}
+
 uint32_t AtlasLayout::viewAt(uint32_t column, uint32_t row_from_top) const {
   const auto none = static_cast<uint32_t>(views.size());
   if (column >= columns || row_from_top >= rows) return none;
@@ -50,8 +56,8 @@ double contentFocalDistance(const SourceStats& stats) {
   return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults{}.focal_distance_m;
 }
 
-absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
-                                            const StreamDefaults& defaults) {
+absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults,
+                                            const EyePoses* eyes) {
   const TileGrid grid = tileGridOf(spec);
   AtlasLayout layout;
   layout.size_px = {static_cast<uint32_t>(grid.width_px), static_cast<uint32_t>(grid.height_px)};
@@ -64,6 +70,10 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
   layout.padding_right_px = layout.size_px.width - grid.columns * grid.tile_size_px.width;
   layout.padding_top_px = layout.size_px.height - grid.rows * grid.tile_size_px.height;
   std::visit([&](const auto& kind) { describe(kind, defaults, layout); }, spec.kind);
+  if (eyes != nullptr) {
+    VIEWLOOM_CHECK(isTracked(spec));
+    VIEWLOOM_RETURN_IF_ERROR(placeEyes(*eyes, std::get<StereoSpec>(spec.kind), defaults, layout));
+  }
   const bool has_channels = std::holds_alternative<LenticularRays>(layout.rays);
   layout.samples = has_channels ? channelSamples(spec.filter, layout.view_pitch_m)
                                 : filterSamples(spec.filter, layout.view_pitch_m);

@@ -68,7 +68,8 @@ struct AtlasLayout {
   std::vector<View> views;      // [view]
   DisplayRays rays;
   std::vector<RaySample> samples = {RaySample{}};  // of each px
-  // Seen from beside, px stay on what is so far in front of their view; kNoFocus_m: no such plane.
+  // Seen from beside, px stay on what is so far in front of the display's eyes; kNoFocus_m: no such
+  // plane.
   double eye_focus_m = kNoFocus_m;
   glm::dvec2 view_pitch_m{0.0};  // between the eyes of neighbouring views, to the right and up
   // So many images of equal height, one below the other, each encoded by itself.
@@ -77,9 +78,14 @@ struct AtlasLayout {
   SizePx imageSize() const { return {size_px.width, size_px.height / image_count}; }
 
   TileOrigin tileOrigin(uint32_t view) const;
+  // Of the plane at eye_focus_m from a view that stands in front of the display's eyes, or behind
+  // them; kNoFocus_m where it is not in front of the view.
+  double focusOf(const View& view) const;
   // The view whose tile stands in this column and this row from the top; views.size() = none.
   uint32_t viewAt(uint32_t column, uint32_t row_from_top) const;
 };
+
+struct EyePoses;
 
 // What a stream gives a display that leaves it open.
 struct StreamDefaults {
@@ -102,8 +108,9 @@ struct AtlasLimits {
 };
 
 // Expects a completed spec. Errors name the field as in proto Display.
-absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
-                                            const StreamDefaults& defaults);
+// `eyes`: of a tracked display; nullptr = none came yet.
+absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults,
+                                            const EyePoses* eyes = nullptr);
 // Without a stream: checks sizes and counts before anything is allocated.
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
 

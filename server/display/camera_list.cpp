@@ -135,7 +135,7 @@ void describe(const CamerasSpec& cameras, const StreamDefaults& defaults, AtlasL
     const glm::dvec2 place(view % grid.columns - (grid.columns - 1) / 2.0,
                            upwards * (view / grid.columns - (grid.rows - 1) / 2.0));
     layout.views.push_back(
-        {cameraThroughWindow(window, place * grid.spacing_m, cameras.tile_size_px)});
+        {cameraThroughWindow(window, {place * grid.spacing_m, 0.0}, cameras.tile_size_px)});
   }
 }
 

@@ -53,6 +53,7 @@ class KeyText {
     add(stereo.focal_distance_m);
     add(stereo.fov_y_rad);
     add(stereo.eyes);
+    add(static_cast<uint32_t>(stereo.is_tracked));
   }
   void add(const CamerasSpec& cameras) {
     text_ += "cameras ";

@@ -51,6 +51,7 @@ struct StereoSpec {
   double focal_distance_m = 0;   // 0 = from the stream
   double fov_y_rad = 0;          // 0 = what the source sees
   std::vector<ViewCamera> eyes;  // none or two
+  bool is_tracked = false;       // the eyes are those of EyePoses, once they come
 };
 
 // Off-axis eyes on a grid in one plane, all framing one rectangle on the focal plane.

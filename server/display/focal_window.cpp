@@ -32,15 +32,17 @@ FocalWindow focalWindow(double distance_m, double fov_y_rad, double aspect,
       .distance_m = distance_m};
 }
 
-Camera cameraThroughWindow(const FocalWindow& window, glm::dvec2 eye_m, SizePx tile_size_px) {
-  // A point at x on the plane falls on u = focal * (x - eye) / distance + principal; the window's
-  // left edge shall be u = 0, its right edge u = width. The same in y, where rows run downwards.
+Camera cameraThroughWindow(const FocalWindow& window, const glm::dvec3& eye_m,
+                           SizePx tile_size_px) {
+  // A point at x on the plane falls on u = focal * (x - eye) / distance + principal, by the eye's
+  // own distance; the window's left edge shall be u = 0, its right edge u = width. The same in y,
+  // where rows run downwards.
   const glm::dvec2 tile_px(tile_size_px.width, tile_size_px.height);
   const glm::dvec2 px_per_m = tile_px / (2.0 * window.half_size_m);
-  const glm::dvec2 beside_px = px_per_m * (eye_m - window.center_m);
+  const glm::dvec2 beside_px = px_per_m * (glm::dvec2(eye_m) - window.center_m);
   Camera camera;
-  camera.pose.position_m = {eye_m, 0.0};
-  camera.intrinsics.focal_px = px_per_m * window.distance_m;
+  camera.pose.position_m = eye_m;
+  camera.intrinsics.focal_px = px_per_m * (window.distance_m + eye_m.z);
   camera.intrinsics.principal_px = {tile_px.x / 2 + beside_px.x, tile_px.y / 2 - beside_px.y};
   return camera;
 }

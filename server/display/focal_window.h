@@ -23,9 +23,10 @@ double focalDistance(double wanted_m, const StreamDefaults& defaults);
 FocalWindow focalWindow(double distance_m, double fov_y_rad, double aspect,
                         const StreamDefaults& defaults);
 
-// The off-axis pinhole at (eye_m, 0), looking along -z, whose tile shows exactly the window.
+// The off-axis pinhole at eye_m, looking along -z, whose tile shows exactly the window. Expects an
+// eye in front of it: z > -distance_m.
 // Tile pixels need not be square: a tile of another shape than the window is stretched
 // (anamorphic).
-Camera cameraThroughWindow(const FocalWindow& window, glm::dvec2 eye_m, SizePx tile_size_px);
+Camera cameraThroughWindow(const FocalWindow& window, const glm::dvec3& eye_m, SizePx tile_size_px);
 
 }  // namespace viewloom

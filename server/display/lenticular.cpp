@@ -82,7 +82,7 @@ void describe(const LenticularSpec& lenticular, const StreamDefaults& defaults,
                                .distance_m = distance_m,
                                .view_count = lenticular.view_count};
   const FocalWindow window = focalWindow(distance_m, lenticular.fov_y_rad, layout.aspect, defaults);
-  layout.views = {{cameraThroughWindow(window, glm::dvec2(0.0), layout.tile_size_px)}};
+  layout.views = {{cameraThroughWindow(window, glm::dvec3(0.0), layout.tile_size_px)}};
   // As far apart as nearest views are; where there are none, as what neighbouring subpixels show.
   const double width_m = 2 * distance_m * std::tan(lenticular.view_cone_rad / 2);
   const double lens_share =

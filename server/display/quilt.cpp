@@ -114,7 +114,7 @@ void describe(const QuiltSpec& quilt, const StreamDefaults& defaults, AtlasLayou
       focalWindow(layout.focal_distance_m, quilt.fov_y_rad, layout.aspect, defaults);
   const auto eye = [&](uint32_t view) { return quiltEye(quilt, view, layout.focal_distance_m); };
   for (uint32_t view = 0; view < quilt.view_count; ++view) {
-    layout.views.push_back({cameraThroughWindow(window, {eye(view), 0}, layout.tile_size_px)});
+    layout.views.push_back({cameraThroughWindow(window, {eye(view), 0, 0}, layout.tile_size_px)});
   }
   layout.eye_focus_m = layout.focal_distance_m;
   const uint32_t last = quilt.view_count - 1;

@@ -44,7 +44,7 @@ OutermostViews outermostViews(const AtlasLayout& layout) {
     }
     for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
       views.cameras.push_back(
-          sampledCamera(view.camera, {.eye_m = corner * beside_m}, layout.eye_focus_m));
+          sampledCamera(view.camera, {.eye_m = corner * beside_m}, layout.focusOf(view)));
     }
   }
   return views;

@@ -22,6 +22,9 @@ absl::Status complete(StereoSpec& stereo) {
     return invalidField("stereo.eyes",
                         absl::StrCat("got ", stereo.eyes.size(), ", accepted is none or two"));
   }
+  if (stereo.is_tracked && !stereo.eyes.empty()) {
+    return invalidField("stereo.eyes", "got two beside tracked, accepted is one of the two");
+  }
   return validateCameras(stereo.eyes, "stereo.eyes");
 }
 
@@ -55,7 +58,7 @@ void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLay
       focalWindow(layout.focal_distance_m, stereo.fov_y_rad, aspect, defaults);
   for (const double side : {-0.5, 0.5}) {
     layout.views.push_back(
-        {cameraThroughWindow(window, {side * stereo.eye_distance_m, 0}, stereo.eye_size_px)});
+        {cameraThroughWindow(window, {side * stereo.eye_distance_m, 0, 0}, stereo.eye_size_px)});
   }
 }
 

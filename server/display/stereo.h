@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stereo pairs: two off-axis eyes on a line, or two given cameras.
+// Stereo pairs: two off-axis eyes on a line, or two given cameras. Of a tracked display, the eyes
+// until others come (tracked_eyes.h).
 #pragma once
 
 #include "display/atlas_layout.h"

@@ -58,6 +58,8 @@ struct EncodedAtlas {
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;
   int64_t present_at_ns = 0;
+  int64_t eye_poses_time_ns = 0;  // of a tracked display, the client's clock; 0 = none came yet
+  int64_t predicted_display_time_ns = 0;
   Camera source_camera;
   Pose display_pose;
   std::shared_ptr<const AtlasLayout> layout;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "pipeline/atlas_run.h"
 #include "pipeline/pipeline_links.h"
@@ -17,7 +19,9 @@ namespace viewloom {
 // Thread-safety: all methods may be called from any thread.
 class AtlasPublisher {
  public:
-  explicit AtlasPublisher(const PipelineLinks& links) : links_(links) {}
+  // `on_complete` is called after complete(), on its thread.
+  AtlasPublisher(const PipelineLinks& links, std::function<void(const AtlasRun& run)> on_complete)
+      : links_(links), on_complete_(std::move(on_complete)) {}
 
   void begin(AtlasRunPtr run);
   // Every strip of the run is packed.
@@ -31,9 +35,11 @@ class AtlasPublisher {
     bool is_complete = false;
   };
 
+  void publishInOrder(const AtlasRun& run);
   void publish(AtlasRun& run);
 
   const PipelineLinks& links_;
+  const std::function<void(const AtlasRun& run)> on_complete_;
   std::mutex mutex_;
   std::map<std::string, std::deque<Pending>> pending_;  // by picture, oldest first
 };

@@ -35,6 +35,10 @@ class AtlasRun {
   // `displays` share the job's picture and want its atlas.
   AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays);
 
+  // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
+  // are then, and no other display waits for more than one of them.
+  bool isTracked() const { return outputs.front().display->eyes != nullptr; }
+
   uint32_t stripCount() const;
   uint32_t imageOf(uint32_t strip) const { return strip / stripsPerImage(); }
   // In its image, and in the atlas.
@@ -49,6 +53,7 @@ class AtlasRun {
 
   AtlasJob job;
   const PicturePtr picture;
+  EyePosesPtr eyes;  // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
   // That some output wants; colour as all of them take it most directly, or kRgba. Settled once it
   // is known how it is traced.

@@ -19,6 +19,7 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   }
   if (older->structure == job.structure) {
     if (!older->ticket) older->ticket = std::move(job.ticket);
+    older->is_for_eyes &= job.is_for_eyes;
     return std::nullopt;
   }
   if (job.structure->serial < older->structure->serial) return job;

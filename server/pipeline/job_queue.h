@@ -18,8 +18,9 @@ namespace viewloom {
 struct AtlasJob {
   std::string picture_key;
   ResidentPtr structure;
-  int64_t deadline_ns = 0;  // server's monotonic clock
-  FrameTicketPtr ticket;    // of the structure's frame; nullptr when the frame is reported already
+  int64_t deadline_ns = 0;   // server's monotonic clock
+  FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
+  bool is_for_eyes = false;  // that have moved since the display was given this structure
 };
 
 // Jobs that have not begun, at most one per picture. Thread-safety: none; the trace loop's.

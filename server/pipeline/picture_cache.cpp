@@ -21,42 +21,42 @@ std::shared_ptr<TraceJob>* findFree(std::vector<std::shared_ptr<TraceJob>>& jobs
 }  // namespace
 
 absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
-                                             const ResidentStructure& source) {
+                                             const ResidentStructure& source,
+                                             const EyePosesPtr& eyes) {
   Entry& entry = entries_[display.picture_key];
-  if (entry.defaults != source.defaults) entry.jobs.clear();
   // Who stands in the place of the only source sees the same wherever that is.
   const bool stands_in_only =
       !display.spec.world_pose && source.sources.size() == 1 && entry.sources.size() == 1;
   const bool is_aimed = stands_in_only || entry.sources == source.sources;
-  if (!entry.jobs.empty() && is_aimed) return entry.jobs.front();
+  if (entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes) {
+    auto layout = makeLayout(display.spec, source.defaults, eyes.get());
+    if (!layout.ok()) return layout.status();
+    entry.layout = *std::move(layout);
+  } else if (is_aimed) {
+    return entry.jobs.front();
+  }
+  const Pose display_pose = displayPose(display.spec, source.sources.front().camera);
   if (std::shared_ptr<TraceJob>* free = findFree(entry.jobs)) {
-    aimTraceJob(**free, displayPose(display.spec, source.sources.front().camera), source.sources);
+    (*free)->layout = entry.layout;
+    aimTraceJob(**free, display_pose, source.sources);
     std::swap(entry.jobs.front(), *free);
   } else {
-    auto job = makeJob(display, source, entry);
-    if (!job.ok()) return job.status();
-    entry.jobs.insert(entry.jobs.begin(), *std::move(job));
+    entry.jobs.insert(entry.jobs.begin(),
+                      std::make_shared<TraceJob>(
+                          makeTraceJob(entry.layout, display.spec, display_pose, source.sources)));
   }
   entry.defaults = source.defaults;
+  entry.eyes = eyes;
   entry.sources = source.sources;
   return entry.jobs.front();
 }
 
-absl::StatusOr<std::shared_ptr<TraceJob>> PictureCache::makeJob(const ActiveDisplay& display,
-                                                                const ResidentStructure& source,
-                                                                const Entry& entry) const {
-  std::shared_ptr<const AtlasLayout> layout;
-  if (!entry.jobs.empty()) {
-    layout = entry.jobs.front()->layout;
-  } else {
-    VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(display.spec, limits_));
-    absl::StatusOr<AtlasLayout> made = makeAtlasLayout(display.spec, source.defaults);
-    if (!made.ok()) return made.status();
-    layout = std::make_shared<AtlasLayout>(*std::move(made));
-  }
-  return std::make_shared<TraceJob>(
-      makeTraceJob(std::move(layout), display.spec,
-                   displayPose(display.spec, source.sources.front().camera), source.sources));
+absl::StatusOr<std::shared_ptr<const AtlasLayout>> PictureCache::makeLayout(
+    const DisplaySpec& spec, const StreamDefaults& defaults, const EyePoses* eyes) const {
+  VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, limits_));
+  absl::StatusOr<AtlasLayout> made = makeAtlasLayout(spec, defaults, eyes);
+  if (!made.ok()) return made.status();
+  return std::make_shared<const AtlasLayout>(*std::move(made));
 }
 
 void PictureCache::keepOnly(const std::vector<ActiveDisplayPtr>& displays) {

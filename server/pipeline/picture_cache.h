@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views of each picture as the tracer takes them. Layouts stay as long as a display and its
-// stream ask for nothing else; views are aimed anew when a camera moves, in memory that is there.
+// The views of each picture as the tracer takes them. Layouts stay as long as a display, its eyes
+// and its stream ask for nothing else; views are aimed anew when a camera moves, in memory that is
+// there.
 #pragma once
 
 #include <map>
@@ -22,21 +23,25 @@ class PictureCache {
  public:
   explicit PictureCache(AtlasLimits limits) : limits_(limits) {}
 
-  // Fails when the display does not fit the stream or the limits; errors name the field.
-  absl::StatusOr<PicturePtr> get(const ActiveDisplay& display, const ResidentStructure& source);
+  // `eyes`: of a tracked display, as they come; nullptr = none came yet. Fails when the display
+  // does not fit the stream, the eyes or the limits; errors name the field.
+  absl::StatusOr<PicturePtr> get(const ActiveDisplay& display, const ResidentStructure& source,
+                                 const EyePosesPtr& eyes = nullptr);
   // Forgets the pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);
 
  private:
   struct Entry {
     StreamDefaults defaults;
-    std::vector<std::shared_ptr<TraceJob>> jobs;  // of these defaults; the last aimed is in front
+    EyePosesPtr eyes;
+    std::shared_ptr<const AtlasLayout> layout;    // of these defaults and eyes
+    std::vector<std::shared_ptr<TraceJob>> jobs;  // the last aimed is in front
     std::vector<SeenSource> sources;              // that it is aimed at
   };
 
-  absl::StatusOr<std::shared_ptr<TraceJob>> makeJob(const ActiveDisplay& display,
-                                                    const ResidentStructure& source,
-                                                    const Entry& entry) const;
+  absl::StatusOr<std::shared_ptr<const AtlasLayout>> makeLayout(const DisplaySpec& spec,
+                                                                const StreamDefaults& defaults,
+                                                                const EyePoses* eyes) const;
 
   const AtlasLimits limits_;
   std::map<std::string, Entry> entries_;  // by picture_key

@@ -57,7 +57,11 @@ struct Pipeline::Loops {
                           [this](const std::exception& error) { fail(error); })),
         timeline(links.device),
         builder(links.device),
-        publisher(links),
+        publisher(links,
+                  [this](const AtlasRun& run) {
+                    traces.noteComplete(run);
+                    gpu_wake_up.ring();
+                  }),
         encoders(links, timeline, publisher, options.encode_thread_count,
                  kSlotRingCount * options.trace_slot_count),
         pictures(options.atlas_limits),
@@ -73,6 +77,8 @@ struct Pipeline::Loops {
   // A job for each picture of the stream. The ticket is of the resident structure's frame, if that
   // has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
+  // Of an atlas that is wanted from now on.
+  int64_t deadlineNs(const DisplaySpec& spec) const;
   void fail(const std::exception& error);
 
   const OnFailure on_failure;
@@ -103,16 +109,19 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   if (!resident) return;
   const std::vector<ActiveDisplayPtr> displays = links.broadcaster.displays(stream.name);
   if (ticket) ticket->noteBuilt(resident->stats, !displays.empty());
-  const int64_t now_ns = links.clock.nowNs();
   std::set<std::string_view> offered;
   for (const ActiveDisplayPtr& display : displays) {
     if (!offered.insert(display->picture_key).second) continue;
     traces.offer({.picture_key = display->picture_key,
                   .structure = resident,
-                  .deadline_ns = now_ns + kDueNsPerRay * rayCount(display->spec),
+                  .deadline_ns = deadlineNs(display->spec),
                   .ticket = ticket});
   }
   gpu_wake_up.ring();
+}
+
+int64_t Pipeline::Loops::deadlineNs(const DisplaySpec& spec) const {
+  return links.clock.nowNs() + kDueNsPerRay * rayCount(spec);
 }
 
 Pipeline::Pipeline(PipelineLinks links, const PipelineOptions& options)
@@ -146,6 +155,18 @@ void Pipeline::serveDisplays(const std::string& stream_name) {
   if (const PipelineStreamPtr stream = loops_->streams.find(stream_name)) {
     loops_->serve(*stream, nullptr);
   }
+}
+
+void Pipeline::serveEyes(const ActiveDisplay& display) {
+  const PipelineStreamPtr stream = loops_->streams.find(display.stream);
+  if (!stream) return;
+  const ResidentPtr resident = stream->resident();
+  if (!resident) return;
+  loops_->traces.offer({.picture_key = display.picture_key,
+                        .structure = resident,
+                        .deadline_ns = loops_->deadlineNs(display.spec),
+                        .is_for_eyes = true});
+  loops_->gpu_wake_up.ring();
 }
 
 void Pipeline::drain() {

@@ -35,6 +35,10 @@ class Pipeline final : public FrameSink {
   // The displays of a stream changed: those without an atlas of its newest structure get one.
   void serveDisplays(const std::string& stream);
 
+  // The eyes before a tracked display have moved: it is served from what is resident, once its last
+  // atlas is done. However often, no more than one job waits.
+  void serveEyes(const ActiveDisplay& display);
+
   // Takes no more frames, finishes and publishes the atlases that have begun, reports every frame.
   void drain();
 

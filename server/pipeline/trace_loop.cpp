@@ -88,8 +88,9 @@ void TraceLoop::beginDueJobs() {
   }
 }
 
-// The displays of the picture that have not got this structure, or a newer one.
-std::vector<ActiveDisplayPtr> TraceLoop::takeUnserved(const AtlasJob& job) {
+// The displays of the picture that have not got this structure, or a newer one; or have got it, but
+// not as the newest eyes see it. A structure that they have not got comes with a job of its own.
+TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
   const uint64_t serial = job.structure->serial;
   const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
   std::erase_if(served_, [&](const auto& entry) {
@@ -97,19 +98,25 @@ std::vector<ActiveDisplayPtr> TraceLoop::takeUnserved(const AtlasJob& job) {
                         [&](const auto& display) { return display->id == entry.first; });
   });
   pictures_.keepOnly(all);
-  std::vector<ActiveDisplayPtr> unserved;
+  Unserved unserved;
   for (const ActiveDisplayPtr& display : all) {
-    if (display->picture_key != job.picture_key || served_[display->id] >= serial) continue;
-    served_[display->id] = serial;
-    unserved.push_back(display);
+    if (display->picture_key != job.picture_key) continue;
+    // A tracked display is the only one of its picture.
+    if (display->eyes) unserved.eyes = display->eyes->newest();
+    Served& served = served_[display->id];
+    const bool is_newer = serial > served.serial && !job.is_for_eyes;
+    const bool has_moved = serial == served.serial && unserved.eyes != served.eyes;
+    if (!is_newer && !has_moved) continue;
+    served = {serial, unserved.eyes};
+    unserved.displays.push_back(display);
   }
   return unserved;
 }
 
 bool TraceLoop::begin(AtlasJob& job) {
-  std::vector<ActiveDisplayPtr> displays = takeUnserved(job);
+  auto [displays, eyes] = takeUnserved(job);
   if (displays.empty()) return false;
-  const auto picture = pictures_.get(*displays.front(), *job.structure);
+  const auto picture = pictures_.get(*displays.front(), *job.structure, eyes);
   if (!picture.ok()) {
     refuse(displays, picture.status());
     return false;
@@ -123,6 +130,7 @@ bool TraceLoop::begin(AtlasJob& job) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
+  run->eyes = std::move(eyes);
   run->method = *method;
   if (*method == TraceMethod::kWalk) {
     run->planes.color = tracer_.colorForm(run->planes.color);
@@ -198,11 +206,17 @@ void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace
 
 // Everything of it has been handed on.
 void TraceLoop::finish(const AtlasRunPtr& run) {
-  {
+  if (!run->isTracked()) {
     std::lock_guard lock(mutex_);
     jobs_.finish(run->job.picture_key);
   }
   std::erase(begun_, run);
+}
+
+void TraceLoop::noteComplete(const AtlasRun& run) {
+  if (!run.isTracked()) return;
+  std::lock_guard lock(mutex_);
+  jobs_.finish(run.job.picture_key);
 }
 
 }  // namespace viewloom

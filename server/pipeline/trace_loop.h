@@ -23,7 +23,8 @@ namespace viewloom {
 // by the form of their colour.
 inline constexpr uint32_t kSlotRingCount = 12;
 
-// Thread-safety: offer() from any thread; the rest is the GPU loop's, and after its end anyone's.
+// Thread-safety: offer() and noteComplete() from any thread; the rest is the GPU loop's, and after
+// its end anyone's.
 class TraceLoop {
  public:
   TraceLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
@@ -32,6 +33,8 @@ class TraceLoop {
 
   // Replaces a job of the same picture and an older structure that has not begun.
   void offer(AtlasJob job);
+  // The run's atlas is published: the next of its picture may begin. From any thread.
+  void noteComplete(const AtlasRun& run);
   // Forgets the jobs that have not begun and, after a failure, those that will not be finished.
   void dropAll();
 
@@ -41,6 +44,17 @@ class TraceLoop {
   bool hasBegun() const { return !begun_.empty(); }
 
  private:
+  // What the last atlas of a display showed.
+  struct Served {
+    uint64_t serial = 0;  // of its structure
+    EyePosesPtr eyes;
+  };
+  // The displays that a job is for, and by which eyes they are seen.
+  struct Unserved {
+    std::vector<ActiveDisplayPtr> displays;
+    EyePosesPtr eyes;
+  };
+
   // The slots that trace the same planes. They grow to the largest strip that was asked for.
   struct SlotRing {
     TraceSlotShape largest;
@@ -50,7 +64,7 @@ class TraceLoop {
   std::shared_ptr<StripTrace> takeSlot(const AtlasRun& run);
   void beginDueJobs();
   bool begin(AtlasJob& job);
-  std::vector<ActiveDisplayPtr> takeUnserved(const AtlasJob& job);
+  Unserved takeUnserved(const AtlasJob& job);
   AtlasRunPtr soonestRun() const;
   bool submitSweep(const AtlasRunPtr& run);
   void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
@@ -70,7 +84,7 @@ class TraceLoop {
   std::vector<SlotRing> rings_;  // one for each set of planes, see ringOf
   SlotPool<SweptAtlas> swept_atlases_;
   std::vector<AtlasRunPtr> begun_;
-  std::map<uint64_t, uint64_t> served_;  // display id -> serial of the last structure begun for it
+  std::map<uint64_t, Served> served_;  // by display, as last begun
 
   std::mutex mutex_;
   JobQueue jobs_;  // guarded by mutex_

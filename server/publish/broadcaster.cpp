@@ -1,52 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/broadcaster.h"
 
-#include <atomic>
 #include <map>
 #include <mutex>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "publish/member.h"
 
 namespace viewloom {
 namespace {
-
-// One subscriber and what it was told. Thread-safety: all methods may be called from any thread;
-// the subscriber is called once at a time, in order of sequence, never after end() or leave().
-class Member {
- public:
-  Member(uint64_t id, std::shared_ptr<Subscriber> subscriber)
-      : id_(id), subscriber_(std::move(subscriber)) {}
-
-  uint64_t id() const { return id_; }
-
-  // A joiner's first atlas and a newly published one may race: the older is then left out.
-  void offer(const AtlasPtr& atlas) {
-    std::lock_guard lock(call_mutex_);
-    if (gone_ || atlas->sequence <= offered_sequence_) return;
-    offered_sequence_ = atlas->sequence;
-    subscriber_->offer(atlas);
-  }
-
-  void end(const absl::Status& status) {
-    std::lock_guard lock(call_mutex_);
-    if (gone_.exchange(true)) return;
-    subscriber_->end(status);
-  }
-
-  // Takes no lock, so that a subscriber may leave from within offer().
-  void leave() { gone_ = true; }
-
- private:
-  const uint64_t id_;
-  const std::shared_ptr<Subscriber> subscriber_;
-  std::mutex call_mutex_;
-  std::atomic<bool> gone_ = false;
-  uint64_t offered_sequence_ = 0;  // under call_mutex_
-};
-
-using MemberPtr = std::shared_ptr<Member>;
 
 struct WatchedDisplay {
   ActiveDisplayPtr active;
@@ -64,6 +28,7 @@ struct Broadcaster::State {
 
   const BroadcasterLimits limits;
   std::function<void(const std::string&)> on_demand_change;
+  std::function<void(const ActiveDisplay&)> on_eyes_move;
 
   mutable std::mutex mutex;  // guards what follows; never held while a subscriber is called
   bool is_draining = false;
@@ -73,9 +38,7 @@ struct Broadcaster::State {
   std::map<std::string, uint64_t> id_of_key;
 
   absl::Status checkRoom(bool is_new_display) const;
-  WatchedDisplay& openDisplay(const std::string& stream, const DisplaySpec& spec,
-                              const EncodingSpec& encoding, const std::string& picture_key,
-                              const std::string& key);
+  WatchedDisplay& openDisplay(ActiveDisplay display, const std::string& key);
   std::vector<MemberPtr> closeDisplay(uint64_t id);
   bool removeMember(uint64_t display_id, uint64_t subscriber_id, std::string& stream);
   void noteSubscriberCount(WatchedDisplay& display);
@@ -97,16 +60,12 @@ absl::Status Broadcaster::State::checkRoom(bool is_new_display) const {
   return absl::OkStatus();
 }
 
-WatchedDisplay& Broadcaster::State::openDisplay(const std::string& stream, const DisplaySpec& spec,
-                                                const EncodingSpec& encoding,
-                                                const std::string& picture_key,
-                                                const std::string& key) {
-  const uint64_t id = next_id++;
-  id_of_key[key] = id;
-  WatchedDisplay& display = displays[id];
+WatchedDisplay& Broadcaster::State::openDisplay(ActiveDisplay active, const std::string& key) {
+  active.id = next_id++;
+  id_of_key[key] = active.id;
+  WatchedDisplay& display = displays[active.id];
   display.key = key;
-  display.active = std::make_shared<ActiveDisplay>(ActiveDisplay{
-      .id = id, .stream = stream, .spec = spec, .encoding = encoding, .picture_key = picture_key});
+  display.active = std::make_shared<ActiveDisplay>(std::move(active));
   return display;
 }
 
@@ -155,19 +114,26 @@ Broadcaster::~Broadcaster() = default;
 
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscribe(
     const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
-    std::shared_ptr<Subscriber> subscriber) {
+    std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes) {
+  VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   // A stream's name holds no blank, so that the parts cannot run into each other.
-  const std::string picture_key = absl::StrCat(stream, " ", displayKey(spec));
-  const std::string key = absl::StrCat(picture_key, encodingKey(encoding));
+  std::string picture_key = absl::StrCat(stream, " ", displayKey(spec));
   MemberPtr member;
   AtlasPtr newest;
   uint64_t display_id = 0;
   {
     std::lock_guard lock(state_->mutex);
+    if (eyes != nullptr) absl::StrAppend(&picture_key, "of ", state_->next_id, " ");
+    const std::string key = absl::StrCat(picture_key, encodingKey(encoding));
     const auto known = state_->id_of_key.find(key);
     const bool is_new = known == state_->id_of_key.end();
     VIEWLOOM_RETURN_IF_ERROR(state_->checkRoom(is_new));
-    WatchedDisplay& display = is_new ? state_->openDisplay(stream, spec, encoding, picture_key, key)
+    WatchedDisplay& display = is_new ? state_->openDisplay({.stream = stream,
+                                                            .spec = spec,
+                                                            .encoding = encoding,
+                                                            .picture_key = std::move(picture_key),
+                                                            .eyes = std::move(eyes)},
+                                                           key)
                                      : state_->displays.at(known->second);
     member = std::make_shared<Member>(state_->next_id++, std::move(subscriber));
     display.members.push_back(member);
@@ -187,6 +153,21 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
 
 void Broadcaster::onDemandChange(std::function<void(const std::string& stream)> callback) {
   state_->on_demand_change = std::move(callback);
+}
+
+void Broadcaster::onEyesMove(std::function<void(const ActiveDisplay& display)> callback) {
+  state_->on_eyes_move = std::move(callback);
+}
+
+void Broadcaster::announceEyes(uint64_t display_id) const {
+  ActiveDisplayPtr display;
+  {
+    std::lock_guard lock(state_->mutex);
+    const auto found = state_->displays.find(display_id);
+    if (found == state_->displays.end()) return;
+    display = found->second.active;
+  }
+  if (state_->on_eyes_move) state_->on_eyes_move(*display);
 }
 
 std::vector<ActiveDisplayPtr> Broadcaster::displays(const std::string& stream) const {

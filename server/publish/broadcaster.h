@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 #include "display/display_spec.h"
+#include "publish/eye_track.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -21,7 +22,9 @@ struct ActiveDisplay {
   std::string stream;
   DisplaySpec spec;  // completed
   EncodingSpec encoding;
-  std::string picture_key;  // stream + displayKey: displays that share one trace
+  // stream + displayKey: displays that share one trace. That of a tracked display is its own.
+  std::string picture_key;
+  EyeTrackPtr eyes;  // of a tracked display; else nullptr
   uint32_t subscriber_count = 0;
 };
 
@@ -43,15 +46,22 @@ class Broadcaster {
   class Subscription;
 
   // Joins or opens the display. A late joiner is offered the newest complete atlas at once.
+  // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
   // RESOURCE_EXHAUSTED over a limit, UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
                                                           const DisplaySpec& spec,
                                                           const EncodingSpec& encoding,
-                                                          std::shared_ptr<Subscriber> subscriber);
+                                                          std::shared_ptr<Subscriber> subscriber,
+                                                          EyeTrackPtr eyes = nullptr);
 
   // Called, on the subscriber's thread, whenever the set of displays of a stream changed: a joiner
   // without a finished atlas wants one. Set once, before anybody subscribes.
   void onDemandChange(std::function<void(const std::string& stream)> callback);
+
+  // Called by announceEyes(), on its thread. Set once, before anybody subscribes.
+  void onEyesMove(std::function<void(const ActiveDisplay& display)> callback);
+  // There are newer poses in the display's track.
+  void announceEyes(uint64_t display_id) const;
 
   // One snapshot of the displays of a stream; all of them with an empty name. Sorted by id.
   std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;

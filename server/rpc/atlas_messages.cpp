@@ -107,6 +107,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   *header.mutable_stats() = statsToProto(atlas_->stats);
   header.set_method(methodToProto(atlas_->method));
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
+  header.set_eye_poses_time_ns(atlas_->eye_poses_time_ns);
+  header.set_predicted_display_time_ns(atlas_->predicted_display_time_ns);
   return bytesFromMessage(response);
 }
 

@@ -83,7 +83,6 @@ absl::StatusOr<QuiltSpec> quiltFromProto(const v1::QuiltDisplay& proto) {
 }
 
 absl::StatusOr<StereoSpec> stereoFromProto(const v1::StereoDisplay& proto) {
-  if (proto.tracked()) return notServedYet("tracked");
   const auto layout = enumFromProto(proto.layout(), "layout", kStereoLayouts);
   VIEWLOOM_RETURN_IF_ERROR(layout.status());
   auto eyes = camerasFromProto(proto.eyes(), "eyes");
@@ -92,7 +91,8 @@ absl::StatusOr<StereoSpec> stereoFromProto(const v1::StereoDisplay& proto) {
                     .eye_size_px = sizeFromProto(proto.eye_size()),
                     .focal_distance_m = proto.focal_distance_m(),
                     .fov_y_rad = proto.fov_y_rad(),
-                    .eyes = *std::move(eyes)};
+                    .eyes = *std::move(eyes),
+                    .is_tracked = proto.tracked()};
   if (proto.eye_distance_m() != 0) stereo.eye_distance_m = proto.eye_distance_m();
   return stereo;
 }

@@ -8,6 +8,7 @@
 #include "publish/subscriber.h"
 #include "rpc/display_from_proto.h"
 #include "rpc/encoding_from_proto.h"
+#include "rpc/eye_poses_from_proto.h"
 #include "rpc/stream_name.h"
 #include "rpc/wire_message.h"
 
@@ -36,9 +37,10 @@ class WatchCall::Seat final : public Subscriber {
   }
 
   void end(const absl::Status& status) override {
-    const bool named = !fieldOf(status).empty();
+    const std::string problem = fieldOf(status);
+    const bool is_of_display = !problem.empty() && !problem.starts_with("eye_poses");
     if (const auto call = call_.lock()) {
-      call->endSeat(number_, named ? withFieldPrefix(status, field_) : status);
+      call->endSeat(number_, is_of_display ? withFieldPrefix(status, field_) : status);
     }
   }
 
@@ -61,14 +63,14 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
     case v1::StreamAtlasesRequest::kChange:
       return handleChange(request.change());
     case v1::StreamAtlasesRequest::kEyePoses:
-      return fieldError(absl::StatusCode::kUnimplemented, "eye_poses", "is not served yet");
+      return handleEyePoses(request.eye_poses());
     case v1::StreamAtlasesRequest::kPresented:
       parts_.metrics.atlases_presented.add();
       return absl::OkStatus();
     case v1::StreamAtlasesRequest::MESSAGE_NOT_SET:
       break;
   }
-  return invalidField("message", "got none; accepted: change or presented");
+  return invalidField("message", "got none; accepted: change, eye_poses or presented");
 }
 
 absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
@@ -97,6 +99,38 @@ absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
   return takeSeat("change.display");
 }
 
+// Poses that are overtaken by newer ones are dropped: one slot holds what is served next.
+absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request) {
+  if (eyes_ == nullptr) {
+    return fieldError(absl::StatusCode::kFailedPrecondition, "eye_poses",
+                      "came for a display that is not tracked; accepted for a StereoDisplay that "
+                      "is");
+  }
+  absl::StatusOr<EyePoses> poses = eyePosesFromProto(request);
+  VIEWLOOM_RETURN_IF_ERROR(poses.status());
+  uint64_t display_id = 0;
+  {
+    std::lock_guard lock(mutex_);
+    if (subscription_ == nullptr) return absl::OkStatus();  // the call has begun to end
+    display_id = subscription_->displayId();
+  }
+  if (const std::optional<double> focal_distance_m = focalDistance(display_id)) {
+    VIEWLOOM_RETURN_IF_ERROR(validateInFront(*poses, *focal_distance_m));
+  }
+  eyes_->put(*std::move(poses));
+  parts_.broadcaster.announceEyes(display_id);
+  return absl::OkStatus();
+}
+
+// Where the stream has to give it, it is not known before the first frame: the trace checks again.
+std::optional<double> WatchCall::focalDistance(uint64_t display_id) const {
+  const double wanted_m = std::get<StereoSpec>(spec_.kind).focal_distance_m;
+  if (wanted_m > 0) return wanted_m;
+  const std::shared_ptr<const AtlasLayout> layout = parts_.broadcaster.layout(display_id);
+  if (layout == nullptr) return std::nullopt;
+  return layout->focal_distance_m;
+}
+
 absl::Status WatchCall::setDisplay(const v1::Display& proto) {
   absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
   absl::Status status = spec.status();
@@ -123,9 +157,13 @@ absl::Status WatchCall::takeSeat(const std::string& field) {
     layout_message_.clear();
   }
   leave(std::move(left));  // before the new one, so that a change never needs a second place
+  if (!isTracked(spec_))
+    eyes_ = nullptr;
+  else if (eyes_ == nullptr)
+    eyes_ = std::make_shared<EyeTrack>();
   const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
   auto subscription = parts_.broadcaster.subscribe(
-      stream_, spec_, encoding_, std::make_shared<Seat>(self, seat_number, field));
+      stream_, spec_, encoding_, std::make_shared<Seat>(self, seat_number, field), eyes_);
   if (!subscription.ok()) return subscription.status();
   std::lock_guard lock(mutex_);
   if (ending()) return absl::OkStatus();  // the subscription goes with this scope

@@ -36,6 +36,8 @@ class WatchCall final : public BidiCall {
 
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);
+  absl::Status handleEyePoses(const v1::EyePoses& request);
+  std::optional<double> focalDistance(uint64_t display_id) const;
   absl::Status setDisplay(const v1::Display& proto);
   absl::Status settleEncoding();
   absl::Status takeSeat(const std::string& field);
@@ -53,6 +55,7 @@ class WatchCall final : public BidiCall {
   DisplaySpec spec_;
   v1::AtlasEncoding encoding_proto_;  // as it was asked for
   EncodingSpec encoding_;
+  EyeTrackPtr eyes_;  // while the display is tracked: a changed one is seen by the same eyes
 
   // Under mutex_.
   std::unique_ptr<Broadcaster::Subscription> subscription_;

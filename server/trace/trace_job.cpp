@@ -66,12 +66,13 @@ void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
   const AtlasLayout& layout = *job.layout;
   for (uint32_t row = 0; row < layout.rows; ++row) {
     for (uint32_t column = 0; column < layout.columns; ++column) {
-      const uint32_t view = layout.viewAt(column, row);
-      if (view >= layout.views.size()) {
+      const uint32_t index = layout.viewAt(column, row);
+      if (index >= layout.views.size()) {
         job.tiles.push_back(abi::ViewParams{});
         continue;
       }
-      const View sampled{sampledCamera(layout.views[view].camera, sample, layout.eye_focus_m)};
+      const View& view = layout.views[index];
+      const View sampled{sampledCamera(view.camera, sample, layout.focusOf(view))};
       job.tiles.push_back(
           makeViewParams(sampled, display_pose, seen.camera, seen.size_px, job.tolerance_px));
     }

@@ -31,7 +31,7 @@ View viewThroughWindow(const SourceView& source, const glm::dvec2& eye_m, SizePx
   const StreamDefaults defaults = defaultsOf(source);
   const FocalWindow window =
       focalWindow(defaults.focal_distance_m, 0, double(tile_px.width) / tile_px.height, defaults);
-  return {cameraThroughWindow(window, eye_m, tile_px)};
+  return {cameraThroughWindow(window, {eye_m, 0.0}, tile_px)};
 }
 
 AtlasLayout emptyGrid(const SourceView& source, uint32_t columns, uint32_t rows, SizePx tile_px) {

@@ -54,6 +54,7 @@ class PipelineFixture : public GpuTest {
               options) {
       broadcaster.onDemandChange(
           [this](const std::string& stream) { pipeline.serveDisplays(stream); });
+      broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
     }
 
     ManualClock clock;

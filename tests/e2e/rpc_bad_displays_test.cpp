@@ -120,6 +120,16 @@ const std::vector<BadDisplay> kOtherKinds = {
     {"an eye without projection",
      [](auto& o) { stereo(o).add_eyes(); },
      {kInvalid, kStereo + "eyes[0].projection"}},
+    {"given and tracked eyes",
+     [](auto& o) {
+       for (int eye = 0; eye < 2; ++eye) {
+         v1::Intrinsics& intrinsics = *stereo(o).add_eyes()->mutable_intrinsics();
+         intrinsics.set_focal_x_px(8);
+         intrinsics.set_focal_y_px(8);
+       }
+       stereo(o).set_tracked(true);
+     },
+     {kInvalid, kStereo + "eyes"}},
     {"stereo layout 99",
      [](auto& o) { stereo(o).set_layout(static_cast<v1::StereoLayout>(99)); },
      {kInvalid, kStereo + "layout"}},
@@ -206,7 +216,6 @@ const std::vector<BadDisplay> kCommon = {
 
 const std::vector<BadDisplay> kServedLater = {
     {"rgbd", [](auto& o) { o.mutable_display()->mutable_rgbd(); }, {kLater, "open.display.rgbd"}},
-    {"tracked eyes", [](auto& o) { stereo(o).set_tracked(true); }, {kLater, kStereo + "tracked"}},
     {"lens",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
      {kLater, "open.display.effects.lens"}},

@@ -12,7 +12,6 @@ namespace viewloom {
 namespace {
 
 constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-constexpr auto kLater = grpc::StatusCode::UNIMPLEMENTED;
 constexpr auto kTooMany = grpc::StatusCode::RESOURCE_EXHAUSTED;
 
 struct BadConversation {
@@ -44,14 +43,6 @@ TEST(StreamAtlases, refusesMessagesThatDoNotFollowOn) {
          w.send(opening());
        },
        {kInvalid, "open"}},
-      {"eye poses",
-       [](auto& w) {
-         w.send(opening());
-         v1::StreamAtlasesRequest request;
-         request.mutable_eye_poses();
-         w.send(request);
-       },
-       {kLater, "eye_poses"}},
       {"a bad change",
        [](auto& w) {
          w.send(opening());

@@ -69,6 +69,17 @@ class Asyncio(unittest.IsolatedAsyncioTestCase):
                 if atlas.layout.view_count == 2:
                     break
 
+    async def test_eyes_that_move_are_followed(self):
+        tracked = {"stereo": {"eye_size": {"width": 64, "height": 48}, "tracked": True}}
+        async with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", tracked) as watcher:
+            await publisher.send(flat_source(9))
+            await watcher.send_eye_poses((-0.1, 0, 0), (0.2, 0, 0), time_ns=4)
+            async for atlas in watcher:
+                if atlas.header.eye_poses_time_ns == 4:
+                    break
+            self.assertEqual(atlas.layout.views[1].pose.position.x, 0.2)
+
     async def test_two_streams_at_once_on_one_connection(self):
         async def still_of(name, seed):
             color = scene.noise_color(seed)

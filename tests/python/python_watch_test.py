@@ -11,7 +11,7 @@ import numpy as np
 
 import scene
 import viewloom
-from viewloom.v1 import atlas_pb2, display_pb2
+from viewloom.v1 import atlas_pb2, display_pb2, geometry_pb2
 
 LOSSLESS = viewloom.encoding(lossless=True)
 FRAMES = 8
@@ -125,6 +125,35 @@ class Watching(unittest.TestCase):
         self.assertEqual(views.image_count, 3)
         np.testing.assert_array_equal(views.view(1), views.plane(atlas_pb2.ATLAS_PLANE_COLOR, 1))
         np.testing.assert_array_equal(views.view(1), scene.noise_color())
+
+    def test_eyes_that_move_see_what_fixed_ones_in_their_place_do(self):
+        size = {"width": scene.WIDTH_PX, "height": scene.HEIGHT_PX}
+        tracked = {"stereo": {"eye_size": size, "tracked": True, "focal_distance_m": scene.FAR_M}}
+        with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", tracked, encoding=LOSSLESS,
+                                  wait_for_stream=True) as watcher:
+            publisher.send(scene.source(scene.noise_color(), scene.step_depth()))
+            self.assertEqual(next(watcher).header.eye_poses_time_ns, 0)
+            pairs = [((-0.2, 0, 0), (0.1, 0, 0)), (np.array([0.5, 0.1, 0.2]), [0.6, 0.1, 0])]
+            for time_ns, (left, right) in enumerate(pairs, 1):
+                watcher.send_eye_poses(left, right, time_ns=time_ns, predicted_display_time_ns=9)
+                atlas = watcher.receive(viewloomd.PATIENCE_S)
+                self.assertEqual(atlas.header.eye_poses_time_ns, time_ns)
+                self.assertEqual(atlas.header.predicted_display_time_ns, 9)
+                self.assertEqual(atlas.layout.views[0].pose.position.x, left[0])
+                fixed = display_pb2.Display(stereo=display_pb2.StereoDisplay(
+                    eye_size=size, eyes=atlas.layout.views))
+                still = self.server.still("scene", fixed, encoding=LOSSLESS)
+                np.testing.assert_array_equal(atlas.color, still.color)
+            own = geometry_pb2.Camera(fov=scene.fov_mapping())
+            watcher.send_eye_poses(own, own)
+            np.testing.assert_array_equal(watcher.receive(viewloomd.PATIENCE_S).view(1),
+                                          scene.noise_color())
+            with self.assertRaisesRegex(viewloom.BadInput, "right: is .*, must be x, y, z"):
+                watcher.send_eye_poses((0, 0, 0), (0, 0))
+            watcher.send_eye_poses((0, 0, 0), (0, 0, -scene.FAR_M))
+            self.refused(lambda: watcher.receive(viewloomd.PATIENCE_S), "INVALID_ARGUMENT",
+                         "eye_poses.eyes[1].pose.position.z", "focal plane")
 
     def test_refusals_name_the_field(self):
         with self.server.publish("scene") as publisher:

@@ -14,6 +14,7 @@ def wrong(server: viewloom.Server, publisher: viewloom.Publisher, atlas: viewloo
     server.still("demo", 8)  # type: ignore[arg-type]
     server.still("demo", "portrait", count=2)  # type: ignore[call-arg]
     server.watch("demo", "portrait").recieve()  # type: ignore[attr-defined]
+    server.watch("demo", "portrait").send_eye_poses(1, 2)  # type: ignore[arg-type]
     atlas.view("middle")  # type: ignore[arg-type]
     viewloom.encoding(True)  # type: ignore[misc]
     viewloom.conect()  # type: ignore[attr-defined]

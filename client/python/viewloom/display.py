@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Mapping, Optional, Sequence, Union
+
+import numpy as np
 
 from viewloom.errors import BadInput
 from viewloom.messages import message_from
-from viewloom.v1 import atlas_pb2, display_pb2
-from viewloom.v1.display_service_pb2 import ChangeDisplay, OpenDisplay, StreamAtlasesRequest
+from viewloom.v1 import atlas_pb2, display_pb2, geometry_pb2
+from viewloom.v1.display_service_pb2 import (ChangeDisplay, EyePoses, OpenDisplay,
+                                             StreamAtlasesRequest)
 
 DisplayLike = Union[display_pb2.Display, Mapping[str, Any], str]
+EyeLike = Union[geometry_pb2.Camera, Sequence[float]]
 EncodingLike = Union[atlas_pb2.AtlasEncoding, Mapping[str, Any], None]
 
 _CHROMAS = {420: atlas_pb2.CHROMA_SUBSAMPLING_420, 444: atlas_pb2.CHROMA_SUBSAMPLING_444}
@@ -61,3 +65,21 @@ def change_request(display: Optional[DisplayLike], given: EncodingLike) -> Strea
     return StreamAtlasesRequest(change=ChangeDisplay(
         display=None if display is None else display_from(display),
         encoding=_encoding_from(given)))
+
+
+def _eye_from(eye: EyeLike, field: str) -> geometry_pb2.Camera:
+    if isinstance(eye, geometry_pb2.Camera):
+        return eye
+    place = np.asarray(eye)
+    if place.shape != (3,) or place.dtype.kind not in "iuf":
+        raise BadInput(field, f"is {eye!r}, must be x, y, z in metres or a Camera")
+    x, y, z = (float(axis_m) for axis_m in place)
+    return geometry_pb2.Camera(pose={"position": {"x": x, "y": y, "z": z}})
+
+
+def eyes_request(left: EyeLike, right: EyeLike, time_ns: int,
+                 predicted_display_time_ns: int) -> StreamAtlasesRequest:
+    """Where the eyes before a tracked display are."""
+    return StreamAtlasesRequest(eye_poses=EyePoses(
+        time_ns=time_ns, predicted_display_time_ns=predicted_display_time_ns,
+        eyes=[_eye_from(left, "left"), _eye_from(right, "right")]))

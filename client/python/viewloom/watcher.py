@@ -12,7 +12,8 @@ import grpc
 
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.display import DisplayLike, EncodingLike, change_request
+from viewloom.display import (DisplayLike, EncodingLike, EyeLike, change_request,
+                              eyes_request)
 from viewloom.errors import ViewloomError, error_from_rpc
 from viewloom.v1.display_service_pb2 import StreamAtlasesRequest
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -77,6 +78,17 @@ class Watcher(Iterator[Atlas]):
         An atlas of the display before may still come.
         """
         self._requests.put(change_request(display, encoding))
+
+    def send_eye_poses(self, left: EyeLike, right: EyeLike, *, time_ns: int = 0,
+                       predicted_display_time_ns: int = 0) -> None:
+        """Where the eyes before a tracked stereo display are now.
+
+        left, right: x, y, z relative to the display: metres to the right, up and backwards; or a
+                     Camera, with what the eye sees.
+        time_ns, predicted_display_time_ns: of any clock; in the header of atlases seen by them.
+        Poses overtaken by newer ones are dropped; one that the server refuses ends the call.
+        """
+        self._requests.put(eyes_request(left, right, time_ns, predicted_display_time_ns))
 
     def close(self) -> None:
         """Breaks off; who waits in receive() gets None."""

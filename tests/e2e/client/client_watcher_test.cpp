@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <future>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "e2e/client/scripted_server.h"
@@ -169,6 +171,43 @@ TEST_F(ClientWatcher, changesItsDisplayNowAndAfterABrokenCall) {
   watcher->change(change);
   ASSERT_TRUE(watcher->waitEnded(kLong_ns));
   EXPECT_THAT(presets, ElementsAre("first", "second", "second"));
+}
+
+TEST_F(ClientWatcher, tellsWhereTheEyesAreNowAndAfterABrokenCall) {
+  std::array<std::promise<void>, 3> are_open;  // [call]
+  std::vector<v1::StreamAtlasesRequest> requests;
+  ScriptedServer server(noPublishing, [&](WatchStream& stream, int call) {
+    readOpen(stream);
+    writeLayout(stream);
+    are_open.at(size_t(call - 1)).set_value();
+    v1::StreamAtlasesRequest request;
+    EXPECT_TRUE(stream.Read(&request));
+    requests.push_back(request);
+    if (call == 1) return grpc::Status(grpc::StatusCode::UNAVAILABLE, "drains");
+    // A display that is not tracked has no eyes, also after the next call has broken.
+    if (call == 2) {
+      writeAtlas(stream, 1);
+      EXPECT_TRUE(stream.Read(&request) && request.has_change());
+      return grpc::Status(grpc::StatusCode::UNAVAILABLE, "drains");
+    }
+    writeAtlas(stream, 1);
+    return grpc::Status::OK;
+  });
+  const auto watcher = watch(server, 2);
+  are_open[0].get_future().wait();
+  v1::EyePoses poses;
+  poses.set_time_ns(5);
+  watcher->sendEyePoses(poses);
+  while (watcher->counts().atlases.whole < 1) std::this_thread::yield();
+  watcher->change({});
+  are_open[2].get_future().wait();
+  watcher->reportPresented(9, 0);
+  ASSERT_TRUE(watcher->waitEnded(kLong_ns));
+  EXPECT_EQ(*watcher->ended(), absl::OkStatus());
+  ASSERT_EQ(requests.size(), 3U);
+  EXPECT_EQ(requests[0].eye_poses().time_ns(), 5);
+  EXPECT_EQ(requests[1].eye_poses().time_ns(), 5);
+  EXPECT_EQ(requests[2].presented().sequence(), 9U) << "no eyes before it";
 }
 
 TEST_F(ClientWatcher, endsWhenTheServerHasNoSuchStream) {

@@ -70,6 +70,22 @@ TEST(JobQueue, mergesJobsForTheSameStructureAndKeepsItsTicket) {
   EXPECT_EQ(queue.begin().ticket, ticket);
 }
 
+TEST(JobQueue, keepsAJobThatIsNotForEyesAloneAsThat) {
+  for (const bool eyes_come_first : {false, true}) {
+    JobQueue queue;
+    const ResidentPtr structure = someStructure();
+    queue.push({"tracked", structure, 10, nullptr, eyes_come_first});
+    queue.push({"tracked", structure, 20, nullptr, !eyes_come_first});
+    EXPECT_FALSE(queue.begin().is_for_eyes);
+    EXPECT_FALSE(queue.soonestDeadlineNs().has_value());
+    queue.push({"tracked", structure, 10, nullptr, true});
+    queue.push({"tracked", structure, 20, nullptr, true});
+    EXPECT_EQ(queue.soonestDeadlineNs(), std::nullopt) << "the picture is being traced";
+    queue.finish("tracked");
+    EXPECT_TRUE(queue.begin().is_for_eyes);
+  }
+}
+
 TEST(JobQueue, finishesABegunPictureBeforeANewerOneOfItBegins) {
   JobQueue queue;
   queue.push({"quilt", someStructure(), 10, nullptr});

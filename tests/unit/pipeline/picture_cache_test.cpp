@@ -92,6 +92,29 @@ TEST_F(PictureCacheTest, aimsAtEverySource) {
   EXPECT_LT(moved->tilesOf(1)[0].eye.x, both->tilesOf(1)[0].eye.x);
 }
 
+TEST_F(PictureCacheTest, seesByTheEyesThatItIsGiven) {
+  ActiveDisplay tracked;
+  tracked.spec =
+      *completeDisplaySpec({.kind = StereoSpec{.eye_size_px = {64, 64}, .is_tracked = true}});
+  tracked.picture_key = "stereo";
+  const auto eyesAt = [](double x_m) {
+    auto poses = std::make_shared<EyePoses>();
+    poses->eyes[0].pose.position_m = {x_m, 0, 0};
+    poses->eyes[1].pose.position_m = {x_m + 0.06, 0, 0};
+    return poses;
+  };
+  const PicturePtr without = *cache_.get(tracked, seenFrom(0));
+  const EyePosesPtr right = eyesAt(0.5);
+  const PicturePtr moved = *cache_.get(tracked, seenFrom(0), right);
+  EXPECT_FLOAT_EQ(without->tiles[0].eye.x, float(50 * -0.0315));
+  EXPECT_FLOAT_EQ(moved->tiles[0].eye.x, float(50 * 0.5));
+  EXPECT_EQ(moved->layout->views[1].camera.pose.position_m.x, 0.56);
+  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), right), moved);
+  EXPECT_EQ(fieldOf(cache_.get(tracked, seenFrom(0), eyesAt(-1e200)).status()),
+            "eye_poses.eyes[0].pose.position");
+  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), right), moved) << "after eyes that were refused";
+}
+
 TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {
   const PicturePtr before = get(seenFrom(0));
   cache_.keepOnly({});

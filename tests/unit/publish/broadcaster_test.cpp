@@ -50,6 +50,30 @@ TEST(Broadcaster, handsEachAtlasToAllWatchersOfItsDisplayAlone) {
   EXPECT_EQ(broadcaster.newest(c->displayId()), nullptr);
 }
 
+TEST(Broadcaster, givesEveryWatcherOfATrackedDisplayOneOfHisOwn) {
+  Broadcaster broadcaster({});
+  std::vector<uint64_t> moved;
+  broadcaster.onEyesMove([&](const ActiveDisplay& display) { moved.push_back(display.id); });
+  const DisplaySpec tracked =
+      *completeDisplaySpec({.kind = StereoSpec{.eye_size_px = {100, 100}, .is_tracked = true}});
+  const auto eyes = std::make_shared<EyeTrack>();
+  const auto watcher = std::make_shared<Watcher>();
+  auto first = *broadcaster.subscribe("s", tracked, {}, watcher, eyes);
+  const auto second =
+      *broadcaster.subscribe("s", tracked, {}, watcher, std::make_shared<EyeTrack>());
+  const auto displays = broadcaster.displays("s");
+  ASSERT_EQ(displays.size(), 2u);
+  EXPECT_NE(displays[0]->picture_key, displays[1]->picture_key);
+  EXPECT_EQ(displays[0]->eyes, eyes);
+  const uint64_t first_id = first->displayId();
+  broadcaster.announceEyes(second->displayId());
+  broadcaster.announceEyes(first_id);
+  EXPECT_THAT(moved, ElementsAre(second->displayId(), first_id));
+  first.reset();
+  broadcaster.announceEyes(first_id);
+  EXPECT_EQ(moved.size(), 2u) << "nobody watches it any more";
+}
+
 TEST(Broadcaster, tellsALayoutBeforeAnAtlasIsTraced) {
   Broadcaster broadcaster({});
   auto a = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());

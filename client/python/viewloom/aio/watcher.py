@@ -12,7 +12,8 @@ import grpc
 from viewloom.aio.call import read_until_cancelled, until
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.display import DisplayLike, EncodingLike, change_request
+from viewloom.display import (DisplayLike, EncodingLike, EyeLike, change_request,
+                              eyes_request)
 from viewloom.errors import ViewloomError
 from viewloom.v1.display_service_pb2 import StreamAtlasesRequest
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -66,6 +67,11 @@ class Watcher(AsyncIterator[Atlas]):
                      encoding: EncodingLike = None) -> None:
         """As the blocking Watcher.change."""
         await self._write(change_request(display, encoding))
+
+    async def send_eye_poses(self, left: EyeLike, right: EyeLike, *, time_ns: int = 0,
+                             predicted_display_time_ns: int = 0) -> None:
+        """As the blocking Watcher.send_eye_poses."""
+        await self._write(eyes_request(left, right, time_ns, predicted_display_time_ns))
 
     async def close(self) -> None:
         """Breaks off."""

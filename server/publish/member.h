@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// One subscriber of a display, and what it was told.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "publish/subscriber.h"
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread;
+// the subscriber is called once at a time, in order of sequence, never after end() or leave().
+class Member {
+ public:
+  Member(uint64_t id, std::shared_ptr<Subscriber> subscriber)
+      : id_(id), subscriber_(std::move(subscriber)) {}
+
+  uint64_t id() const { return id_; }
+
+  // A joiner's first atlas and a newly published one may race: the older is then left out.
+  void offer(const AtlasPtr& atlas) {
+    std::lock_guard lock(call_mutex_);
+    if (gone_ || atlas->sequence <= offered_sequence_) return;
+    offered_sequence_ = atlas->sequence;
+    subscriber_->offer(atlas);
+  }
+
+  void end(const absl::Status& status) {
+    std::lock_guard lock(call_mutex_);
+    if (gone_.exchange(true)) return;
+    subscriber_->end(status);
+  }
+
+  // Takes no lock, so that a subscriber may leave from within offer().
+  void leave() { gone_ = true; }
+
+ private:
+  const uint64_t id_;
+  const std::shared_ptr<Subscriber> subscriber_;
+  std::mutex call_mutex_;
+  std::atomic<bool> gone_ = false;
+  uint64_t offered_sequence_ = 0;  // under call_mutex_
+};
+
+using MemberPtr = std::shared_ptr<Member>;
+
+}  // namespace viewloom

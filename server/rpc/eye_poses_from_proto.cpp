@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/eye_poses_from_proto.h"
+
+#include "absl/strings/str_cat.h"
+#include "rpc/geometry_from_proto.h"
+
+namespace viewloom {
+namespace {
+
+absl::StatusOr<TrackedEye> eyeFromProto(const v1::Camera& proto) {
+  TrackedEye eye;
+  const auto pose = poseFromProto(proto.pose(), "pose");
+  VIEWLOOM_RETURN_IF_ERROR(pose.status());
+  eye.pose = *pose;
+  if (proto.projection_case() == v1::Camera::PROJECTION_NOT_SET) return eye;
+  const auto projection = projectionFromProto(proto);
+  VIEWLOOM_RETURN_IF_ERROR(projection.status());
+  eye.projection = *projection;
+  return eye;
+}
+
+}  // namespace
+
+absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto) {
+  EyePoses poses{.time_ns = proto.time_ns(),
+                 .predicted_display_time_ns = proto.predicted_display_time_ns(),
+                 .eyes = {}};
+  if (proto.eyes_size() != int(poses.eyes.size())) {
+    return invalidField("eye_poses.eyes",
+                        absl::StrCat("got ", proto.eyes_size(), ", accepted is two: left, right"));
+  }
+  for (int i = 0; i < proto.eyes_size(); ++i) {
+    const auto eye = eyeFromProto(proto.eyes(i));
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(eye.status(), absl::StrCat("eye_poses.eyes[", i, "]")));
+    poses.eyes[size_t(i)] = *eye;
+  }
+  return poses;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tracked stereo displays of a whole server, beside fixed ones, as clients decode them.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "base/clock.h"
+#include "e2e/atlas_viewer.h"
+#include "e2e/wire_frames.h"
+#include "gpu/test_device.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "service.h"
+
+namespace viewloom::test {
+namespace {
+
+constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
+
+// The rectangle that a display of these frames: 1.5 m x 1 m, 4 m in front of it.
+constexpr double kHalfWidth_m = 0.75;
+constexpr double kHalfHeight_m = 0.5;
+constexpr double kDistance_m = 4;
+constexpr uint32_t kEyeWidth_px = 96;
+constexpr uint32_t kEyeHeight_px = 64;
+
+Config anyPorts() {
+  Config config;
+  config.validation = true;
+  config.grpc.address = "127.0.0.1:0";
+  config.http.enabled = false;
+  return config;
+}
+
+v1::OpenDisplay openEyes() {
+  v1::OpenDisplay open;
+  open.set_stream("scene");
+  open.mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
+  v1::StereoDisplay& stereo = *open.mutable_display()->mutable_stereo();
+  stereo.mutable_eye_size()->set_width(kEyeWidth_px);
+  stereo.mutable_eye_size()->set_height(kEyeHeight_px);
+  stereo.set_focal_distance_m(kDistance_m);
+  stereo.set_fov_y_rad(2 * std::atan(kHalfHeight_m / kDistance_m));
+  return open;
+}
+
+v1::OpenDisplay openTracked() {
+  v1::OpenDisplay open = openEyes();
+  open.mutable_display()->mutable_stereo()->set_tracked(true);
+  return open;
+}
+
+struct Place {
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+};
+
+void place(v1::Camera& camera, const Place& at) {
+  v1::Vector3& position = *camera.mutable_pose()->mutable_position();
+  position.set_x(at.x_m);
+  position.set_y(at.y_m);
+  position.set_z(at.z_m);
+}
+
+// Measured at time_ns, to be seen 11 ms later.
+v1::EyePoses posesAt(int64_t time_ns, const Place& left, const Place& right) {
+  v1::EyePoses poses;
+  poses.set_time_ns(time_ns);
+  poses.set_predicted_display_time_ns(time_ns + 11'000'000);
+  place(*poses.add_eyes(), left);
+  place(*poses.add_eyes(), right);
+  return poses;
+}
+
+// What stands at `at` sees through the rectangle, by Kooima's formula: a frustum of the eye's own
+// distance from the screen, as angles.
+void addWindowCamera(v1::StereoDisplay& stereo, const Place& at) {
+  v1::Camera& eye = *stereo.add_eyes();
+  place(eye, at);
+  const double distance_m = kDistance_m + at.z_m;
+  v1::Fov& fov = *eye.mutable_fov();
+  fov.set_angle_left_rad(std::atan((-kHalfWidth_m - at.x_m) / distance_m));
+  fov.set_angle_right_rad(std::atan((kHalfWidth_m - at.x_m) / distance_m));
+  fov.set_angle_down_rad(std::atan((-kHalfHeight_m - at.y_m) / distance_m));
+  fov.set_angle_up_rad(std::atan((kHalfHeight_m - at.y_m) / distance_m));
+}
+
+std::vector<uint8_t> colorOf(const Atlas& atlas) {
+  auto picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  EXPECT_TRUE(picture.ok()) << picture.status();
+  return std::move(picture->samples);
+}
+
+class ServiceEyesTest : public DeviceNeededTest {
+ protected:
+  void SetUp() override {
+    DeviceNeededTest::SetUp();
+    if (IsSkipped()) return;
+    service_.emplace(anyPorts(), clock_,
+                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
+    publisher_.emplace(makeChannel(service_->grpcAddress()),
+                       PublisherOptions{.stream = "scene", .session_id = "", .backoff = {}},
+                       PublisherCallbacks{});
+  }
+
+  void TearDown() override {
+    publisher_.reset();
+    if (IsSkipped()) return;
+    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+  }
+
+  void publish() { publisher_->offer(syntheticWireFrame({160, 90}, 2, 0.1 * ++frame_count_)); }
+
+  std::unique_ptr<AtlasViewer> view(const v1::OpenDisplay& open) {
+    v1::OpenDisplay waiting = open;
+    waiting.set_wait_for_stream(true);
+    return std::make_unique<AtlasViewer>(service_->grpcAddress(), waiting);
+  }
+
+  // What a fixed display with such eyes shows of the resident frame.
+  Atlas fixedAt(const Place& left, const Place& right) {
+    v1::OpenDisplay open = openEyes();
+    addWindowCamera(*open.mutable_display()->mutable_stereo(), left);
+    addWindowCamera(*open.mutable_display()->mutable_stereo(), right);
+    return view(open)->waitFor([](const Atlas&) { return true; });
+  }
+
+  double tracedCount() const {
+    return service_->metrics().atlases_traced[TraceMethod::kWalk].value() +
+           service_->metrics().atlases_traced[TraceMethod::kSweep].value();
+  }
+
+  SteadyClock clock_;
+  std::optional<Service> service_;
+  std::optional<Publisher> publisher_;
+  int frame_count_ = 0;
+};
+
+// The eye stands in the source's row plane, in front of it, aside of the display, and above.
+TEST_F(ServiceEyesTest, showsWhatFixedEyesInTheirPlaceWouldSee) {
+  struct Case {
+    Place left;
+    Place right;
+    v1::TraceMethod method;
+  };
+  const Case cases[] = {
+      {{-0.125, 0, 0}, {0.0625, 0, 0}, v1::TRACE_METHOD_SWEEP},
+      {{-0.1, 0.05, 0.25}, {-0.04, 0.0625, 0.3}, v1::TRACE_METHOD_WALK},
+      {{0.5, -0.25, -0.5}, {0.5625, -0.25, -0.5}, v1::TRACE_METHOD_WALK},
+      {{0.25, 0, 0}, {0.3125, 0, 0}, v1::TRACE_METHOD_SWEEP},
+  };
+  publish();
+  const auto tracked = view(openTracked());
+  int64_t time_ns = 1'000;
+  for (const Case& eyes : cases) {
+    SCOPED_TRACE(time_ns);
+    const Atlas atlas = tracked->seenBy(posesAt(++time_ns, eyes.left, eyes.right));
+    EXPECT_EQ(atlas.header.predicted_display_time_ns(), time_ns + 11'000'000);
+    const Atlas fixed = fixedAt(eyes.left, eyes.right);
+    EXPECT_EQ(colorOf(atlas), colorOf(fixed));
+    EXPECT_EQ(atlas.header.method(), fixed.header.method());
+    if (service_->device().info().is_software) {
+      EXPECT_EQ(atlas.header.method(), eyes.method);
+    }
+    ASSERT_EQ(atlas.layout->views_size(), 2);
+    EXPECT_EQ(atlas.layout->views(0).pose().position().x(), eyes.left.x_m);
+    EXPECT_EQ(atlas.layout->views(1).pose().position().z(), eyes.right.z_m);
+    EXPECT_NEAR(atlas.layout->views(1).intrinsics().principal_x_px(),
+                fixed.layout->views(1).intrinsics().principal_x_px(), 1e-9);
+  }
+}
+
+TEST_F(ServiceEyesTest, standsInForEyesUntilTheyCome) {
+  publish();
+  const auto tracked = view(openTracked());
+  const Atlas atlas = tracked->waitForFrame(1);
+  EXPECT_EQ(atlas.header.eye_poses_time_ns(), 0);
+  EXPECT_EQ(atlas.header.predicted_display_time_ns(), 0);
+  EXPECT_EQ(colorOf(atlas), colorOf(fixedAt({-0.0315, 0, 0}, {0.0315, 0, 0})));
+}
+
+TEST_F(ServiceEyesTest, tracesAFrameThatStandsOncePerPoseAndNoMore) {
+  publish();
+  const auto tracked = view(openTracked());
+  tracked->waitForFrame(1);
+  for (int64_t time_ns = 1; time_ns <= 5; ++time_ns) {
+    const double x_m = 0.01 * double(time_ns);
+    const Atlas atlas = tracked->seenBy(posesAt(time_ns, {-x_m, 0, 0}, {x_m, 0, 0}));
+    EXPECT_EQ(atlas.header.frame_number(), 1u);
+    EXPECT_EQ(atlas.header.sequence(), uint64_t(time_ns) + 1);
+  }
+  // Whatever else there was to trace has begun before this display's.
+  fixedAt({-0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  EXPECT_EQ(tracedCount(), 1 + 5 + 1);
+  // The eyes stay where they are for frames to come.
+  publish();
+  EXPECT_EQ(tracked->waitForFrame(2).header.eye_poses_time_ns(), 5);
+}
+
+TEST_F(ServiceEyesTest, showsEachClientItsOwnEyes) {
+  publish();
+  const auto one = view(openTracked());
+  const auto other = view(openTracked());
+  const auto fixed = view(openEyes());
+  const std::vector<uint8_t> before = colorOf(fixed->waitForFrame(1));
+  one->watcher().sendEyePoses(posesAt(7, {-0.25, 0, 0}, {-0.1875, 0, 0}));
+  other->watcher().sendEyePoses(posesAt(8, {0.1875, 0.125, 0}, {0.25, 0.125, 0}));
+  EXPECT_EQ(colorOf(one->waitForEyes(7)), colorOf(fixedAt({-0.25, 0, 0}, {-0.1875, 0, 0})));
+  EXPECT_EQ(colorOf(other->waitForEyes(8)), colorOf(fixedAt({0.1875, 0.125, 0}, {0.25, 0.125, 0})));
+  EXPECT_EQ(fixed->watcher().counts().atlases.whole, 1u) << "nothing has changed for it";
+  EXPECT_EQ(colorOf(fixedAt({-0.0315, 0, 0}, {0.0315, 0, 0})), before);
+}
+
+TEST_F(ServiceEyesTest, keepsTheEyesOfAChangedDisplay) {
+  publish();
+  const auto tracked = view(openTracked());
+  const Atlas small = tracked->seenBy(posesAt(3, {-0.25, 0, 0}, {-0.1875, 0, 0}));
+  v1::ChangeDisplay change;
+  *change.mutable_display() = openTracked().display();
+  change.mutable_display()->mutable_stereo()->set_layout(v1::STEREO_LAYOUT_TOP_BOTTOM);
+  tracked->watcher().change(change);
+  const Atlas other =
+      tracked->waitFor([](const Atlas& atlas) { return atlas.layout->rows() == 2; });
+  EXPECT_EQ(other.header.eye_poses_time_ns(), 3);
+  EXPECT_EQ(other.layout->views(0).pose().position().x(), -0.25);
+}
+
+TEST_F(ServiceEyesTest, leavesOthersTheirFramesHoweverFastPosesCome) {
+  constexpr uint64_t kFrameCount = 10;
+  const auto tracked = view(openTracked());
+  const auto fixed = view(openEyes());
+  publish();
+  fixed->waitForFrame(1);
+  std::jthread flood([&](const std::stop_token& stop) {
+    for (int64_t time_ns = 1; !stop.stop_requested(); ++time_ns) {
+      const double x_m = 0.2 * std::sin(0.01 * double(time_ns));
+      tracked->watcher().sendEyePoses(posesAt(time_ns, {x_m, 0, 0}, {x_m + 0.0625, 0, 0}));
+    }
+  });
+  for (uint64_t number = 2; number <= kFrameCount; ++number) {
+    publish();
+    EXPECT_EQ(fixed->waitForFrame(number).header.sequence(), number);
+    tracked->waitForFrame(number);
+  }
+  flood.request_stop();
+  flood.join();
+  const Atlas last = tracked->seenBy(posesAt(-5, {0.25, 0, 0}, {0.3125, 0, 0}));
+  EXPECT_EQ(last.header.frame_number(), kFrameCount);
+  EXPECT_EQ(colorOf(last), colorOf(fixedAt({0.25, 0, 0}, {0.3125, 0, 0})));
+}
+
+TEST_F(ServiceEyesTest, endsWithEyesThatTheStreamPutsBehindItsFocalPlane) {
+  v1::OpenDisplay open = openTracked();
+  open.mutable_display()->mutable_stereo()->set_focal_distance_m(0);
+  const auto tracked = view(open);
+  tracked->watcher().sendEyePoses(posesAt(1, {0, 0, 0}, {0, 0, -1e6}));
+  // Its end may come before the frame does, never without it.
+  const std::jthread frames([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) publish();
+  });
+  ASSERT_TRUE(tracked->watcher().waitEnded(std::chrono::nanoseconds(kGiveUpAfter).count()));
+  const absl::Status ended = *tracked->watcher().ended();
+  EXPECT_EQ(ended.code(), absl::StatusCode::kInvalidArgument) << ended;
+  EXPECT_TRUE(std::string(ended.message()).starts_with("eye_poses.eyes[1].pose.position.z: "))
+      << ended;
+}
+
+}  // namespace
+}  // namespace viewloom::test
