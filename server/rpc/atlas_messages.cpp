@@ -107,6 +107,9 @@ grpc::ByteBuffer AtlasMessages::header() const {
   *header.mutable_stats() = statsToProto(atlas_->stats);
   header.set_method(methodToProto(atlas_->method));
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
+  for (const ViewsOutside& views : viewsOutside(atlas_->outside_shares)) {
+    *header.add_views_outside() = outsideToProto(views);
+  }
   return bytesFromMessage(response);
 }
 
