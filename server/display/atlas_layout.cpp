@@ -10,6 +10,7 @@
 #include "display/integral.h"
 #include "display/lenticular.h"
 #include "display/quilt.h"
+#include "display/rgbd.h"
 #include "display/stereo.h"
 
 namespace viewloom {
@@ -50,6 +51,15 @@ double contentFocalDistance(const SourceStats& stats) {
   return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults{}.focal_distance_m;
 }
 
+StreamDefaults streamDefaults(const Intrinsics& intrinsics, SizePx size_px,
+                              const SourceStats& stats) {
+  return {.source_intrinsics = intrinsics,
+          .source_size_px = size_px,
+          .focal_distance_m = contentFocalDistance(stats),
+          .inv_z_near = stats.inv_z_near,
+          .inv_z_far = stats.inv_z_far};
+}
+
 absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
                                             const StreamDefaults& defaults) {
   const TileGrid grid = tileGridOf(spec);
@@ -64,6 +74,7 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec,
   layout.padding_right_px = layout.size_px.width - grid.columns * grid.tile_size_px.width;
   layout.padding_top_px = layout.size_px.height - grid.rows * grid.tile_size_px.height;
   std::visit([&](const auto& kind) { describe(kind, defaults, layout); }, spec.kind);
+  if (layout.depth_codes) VIEWLOOM_RETURN_IF_ERROR(validateDepthCodes(*layout.depth_codes));
   const bool has_channels = std::holds_alternative<LenticularRays>(layout.rays);
   layout.samples = has_channels ? channelSamples(spec.filter, layout.view_pitch_m)
                                 : filterSamples(spec.filter, layout.view_pitch_m);

@@ -57,11 +57,28 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
 }
 
+// As codes that are rounded already.
+void writeLinear(const uint32_t* rgba, uint32_t width_px, float* linear) {
+  for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
+    linear[i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
+  }
+}
+
+// Depth as grey. `view_z`: Z in the source for a metre along the view's axis.
+void writeGreys(const AlignedArray<float>& inv_z, float view_z, const abi::DepthScale& scale,
+                uint32_t width_px, uint32_t* rgba) {
+  for (uint32_t p = 0; p < width_px; ++p) {
+    const uint32_t code = abi::depthCode(std::max(inv_z[p], 0.0F) * view_z, scale);
+    rgba[p] = code * 0x010101 | kOpaqueBlack;
+  }
+}
+
 // Rows of an atlas on their way.
 struct ViewSweeper::Piece {
   const SweepPicture& picture;
   const TraceOutputs& outputs;
   const SweepFill fill;
+  const abi::DepthScale depth_scale;
   SweptAtlas& atlas;
   Coverage coverage;
 };
@@ -91,9 +108,7 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
     sums_.mean(rank, plan.sampleCount(), rgba);
     if (!piece.outputs.linear) continue;
     const size_t first = firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index));
-    for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
-      piece.atlas.linear[4 * first + i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
-    }
+    writeLinear(rgba, width_px, piece.atlas.linear.data() + 4 * first);
   }
 }
 
@@ -118,19 +133,29 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
     row.cleanMixedTexels(std::min(std::abs(view.eye_px_m) * inv_z_near, 1.0F));
     paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
     uint32_t* const rgba = rowOf(tile, tile_row);
-    colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
-             rgba);
-    findEdgeBlends(row, view, width_px, row_);
-    applyEdgeBlends(row_.blends, rgba);
+    const float view_z = job.tiles[tile].direction.z;
+    const bool shows_depth = (job.tiles[tile].shows & abi::kShowsDepth) != 0;
+    if (shows_depth) {
+      writeGreys(row_.inv_z, view_z, piece.depth_scale, width_px, rgba);
+    } else {
+      colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px,
+               piece.fill.background, rgba);
+      findEdgeBlends(row, view, width_px, row_);
+      applyEdgeBlends(row_.blends, rgba);
+    }
     if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;
+    const size_t first = firstPixel(*job.layout, tile, tile_row);
     describeSwept({.row = row,
                    .view = view,
                    .fill = piece.fill,
                    .swept = row_,
                    .y_px = y_px,
-                   .view_z = job.tiles[tile].direction.z,
+                   .view_z = view_z,
                    .width_px = width_px},
-                  firstPixel(*job.layout, tile, tile_row), piece.outputs, piece.atlas);
+                  first, piece.outputs, piece.atlas);
+    if (shows_depth && piece.outputs.linear) {
+      writeLinear(rgba, width_px, piece.atlas.linear.data() + 4 * first);
+    }
   }
 }
 
@@ -143,6 +168,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                           .background = redFirst(job.background_rgb),
                           .inv_z_max = picture.inv_z_max,
                           .planted_fault = picture.source.planted_fault},
+                 .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{})),
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);

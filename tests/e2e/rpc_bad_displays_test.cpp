@@ -205,7 +205,6 @@ const std::vector<BadDisplay> kCommon = {
 };
 
 const std::vector<BadDisplay> kServedLater = {
-    {"rgbd", [](auto& o) { o.mutable_display()->mutable_rgbd(); }, {kLater, "open.display.rgbd"}},
     {"tracked eyes", [](auto& o) { stereo(o).set_tracked(true); }, {kLater, kStereo + "tracked"}},
     {"lens",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
