@@ -42,9 +42,53 @@ absl::Status writePicture(const AtlasPicture& picture, bool as_png,
   return files::writeFileWhole(stem.string() + (as_png ? ".png" : ".jpg"), *bytes);
 }
 
+// Samples of 16 bits, RGB: colour, and to the right of it the codes as grey.
+std::vector<uint16_t> besideEachOther(const AtlasPicture& color, const AtlasPicture& codes) {
+  constexpr uint16_t kFrom8Bits = 257;  // 255 becomes 65535
+  std::vector<uint16_t> samples;
+  samples.reserve(size_t{6} * color.width_px * color.height_px);
+  for (size_t y = 0; y < color.height_px; ++y) {
+    const uint8_t* const rgb = &color.samples[y * color.width_px * 3];
+    for (size_t i = 0; i < size_t{3} * color.width_px; ++i) {
+      samples.push_back(uint16_t(rgb[i] * kFrom8Bits));
+    }
+    const uint8_t* const bytes = &codes.samples[y * codes.width_px * 2];
+    for (size_t x = 0; x < codes.width_px; ++x) {
+      samples.insert(samples.end(), 3, uint16_t(bytes[2 * x] | bytes[2 * x + 1] << 8));
+    }
+  }
+  return samples;
+}
+
+absl::Status writeWithDepth(const AtlasPicture& color, const AtlasPicture& codes,
+                            const std::filesystem::path& stem) {
+  const absl::StatusOr<std::string> png =
+      files::encodePng16(besideEachOther(color, codes), 2 * color.width_px, color.height_px);
+  if (!png.ok()) return png.status();
+  return files::writeFileWhole(stem.string() + ".png", *png);
+}
+
+// Colour whose depth comes as a plane of its own.
+absl::Status writeDepthCodes(const Atlas& atlas, const AtlasFileOptions& options,
+                             const std::filesystem::path& stem) {
+  const absl::StatusOr<AtlasPicture> color = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  if (!color.ok()) return color.status();
+  const absl::StatusOr<AtlasPicture> codes = decodePlane(atlas, v1::ATLAS_PLANE_DEPTH_CODES);
+  if (!codes.ok()) return codes.status();
+  if (!options.writes_views) return writeWithDepth(*color, *codes, stem.string() + "_rgbd");
+  for (uint32_t view = 0; view < atlas.layout->view_count(); ++view) {
+    VIEWLOOM_RETURN_IF_ERROR(writeWithDepth(cutView(*color, *atlas.layout, view),
+                                            cutView(*codes, *atlas.layout, view),
+                                            stem.string() + "_view" + padded(view, 3) + "_rgbd"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options,
                         const std::filesystem::path& stem) {
-  const std::string whole = stem.string() + atlas.layout->suffix();
+  if (atlas.layout->depth_codes().bits() == 16) return writeDepthCodes(atlas, options, stem);
+  const char* const kind = atlas.layout->has_depth_codes() ? "_rgbd" : "";
+  const std::string whole = stem.string() + atlas.layout->suffix() + kind;
   const bool is_jpeg = atlas.layout->encoding().color() == v1::BAND_ENCODING_JPEG;
   if (is_jpeg && !options.writes_views && !options.writes_png) {
     const absl::StatusOr<std::string> jpeg = joinJpegBands(atlas);

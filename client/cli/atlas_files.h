@@ -18,7 +18,9 @@ struct AtlasFileOptions {
 };
 
 // <stream>_<frame>_<sequence><suffix>.jpg, or <stream>_<frame>_<sequence>_view<index>.jpg; masks
-// end in _mask.png. JPEG atlases are the server's bytes, untouched; views are encoded anew.
+// end in _mask.png. JPEG atlases are the server's bytes, untouched; views are encoded anew. Those
+// of colour with depth end in _rgbd; of 16 bits they are one PNG of 16 bits, depth to the right of
+// colour.
 absl::Status writeAtlas(const Atlas& atlas, const AtlasFileOptions& options);
 
 }  // namespace viewloom::cli

@@ -77,6 +77,15 @@ void addPanelOptions(CLI::App& app, DisplayOptions& options) {
                  "The device's own visual.json: the px of that panel");
 }
 
+void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options) {
+  std::vector<CLI::Option*> others;
+  for (const char* name : {"--display", "--preset", "--columns", "--rows", "--size", "--cone",
+                           "--focal-distance", "--native", "--calibration"}) {
+    if (CLI::Option* const other = app.get_option_no_throw(name)) others.push_back(other);
+  }
+  addRgbdOptions(app, options.rgbd, others);
+}
+
 namespace {
 
 absl::StatusOr<v1::LenticularDisplay> makeLenticular(const DisplayOptions& options) {
@@ -127,6 +136,10 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!options.file.empty()) return readDisplay(options.file);
   v1::Display display;
   display.mutable_filter()->set_sample_count(options.sample_count);
+  if (options.rgbd.view_size_px.width > 0) {
+    *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
+    return display;
+  }
   if (!isNative(options)) {
     *display.mutable_quilt() = makeQuilt(options);
     return display;

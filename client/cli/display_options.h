@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/status.h"
+#include "cli/rgbd_options.h"
 #include "frame/size.h"
 #include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
@@ -24,6 +25,7 @@ struct DisplayOptions {
   double fov_y_deg = 0;
   bool is_native = false;        // the panel's own px
   std::string calibration_file;  // of the panel
+  RgbdOptions rgbd;              // instead of all that
   uint32_t sample_count = 1;
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
@@ -42,6 +44,8 @@ void addPanelOptions(CLI::App& app, DisplayOptions& options);
 
 // Whether a display was named at all.
 bool isGiven(const DisplayOptions& options);
+// Colour with depth instead of them; after the options that it excludes.
+void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
 v1::AtlasEncoding makeEncoding(const DisplayOptions& options);

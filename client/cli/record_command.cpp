@@ -174,6 +174,7 @@ RunCommand addRecordCommand(CLI::App& app) {
   app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
   app.add_flag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
+  addDepthDisplayOptions(app, options->display);
   return
       [options](const CommonOptions& common) -> int { return RecordRun(*options, common).run(); };
 }

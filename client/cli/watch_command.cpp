@@ -42,6 +42,16 @@ struct WatchOptions {
   bool is_quiet = false;
 };
 
+std::string planeOf(const v1::AtlasLayout& layout) {
+  if (!layout.has_depth_codes()) {
+    return strCat("focal plane at ", formatNumber(layout.focal_distance_m(), 2), " m");
+  }
+  const v1::DepthCodes& codes = layout.depth_codes();
+  const std::string far =
+      codes.inv_z_far() < 0 ? "beyond infinity" : strCat(1 / codes.inv_z_far(), " m");
+  return strCat(codes.bits(), " bits of depth from ", 1 / codes.inv_z_near(), " m to ", far);
+}
+
 class WatchRun {
  public:
   WatchRun(const WatchOptions& options, const CommonOptions& common)
@@ -133,8 +143,7 @@ class WatchRun {
   void sayLayout(const v1::AtlasLayout& layout) {
     std::string text = strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
                               layout.view_count(), " views of ", layout.tile_size().width(), "x",
-                              layout.tile_size().height(), ", focal plane at ",
-                              formatNumber(layout.focal_distance_m(), 2), " m");
+                              layout.tile_size().height(), ", ", planeOf(layout));
     if (text == said_layout_) return;
     line_.say(text);
     said_layout_ = std::move(text);
@@ -218,6 +227,7 @@ RunCommand addWatchCommand(CLI::App& app) {
       "  viewloom watch --count 1 --out .                 one quilt, as a file for the device\n"
       "  viewloom watch --preset portrait --views --out v --count 1\n"
       "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts\n"
+      "  viewloom watch --rgbd 960x540 --screen 2 --count 1 --out .   2D+Z, one picture\n"
       "  viewloom watch --from portrait.vlr --out quilts  from a recording\n"
       "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
@@ -239,6 +249,7 @@ RunCommand addWatchCommand(CLI::App& app) {
   app.add_flag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
   addPanelOptions(app, options->display);
+  addDepthDisplayOptions(app, options->display);
   addMaskOption(app, options->display);
   return [options](const CommonOptions& common) -> int { return WatchRun(*options, common).run(); };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes 8-bit PNG files.
+// Writes PNG files.
 #pragma once
 
 #include <cstdint>
@@ -14,5 +14,9 @@ namespace viewloom::files {
 // (RGB) or 4 (RGBA). Returns the bytes of the file.
 absl::StatusOr<std::string> encodePng(std::span<const uint8_t> samples, uint32_t width_px,
                                       uint32_t height_px, uint32_t channels);
+
+// samples: uint16_t[height_px][width_px][3], RGB of 16 bits. Returns the bytes of the file.
+absl::StatusOr<std::string> encodePng16(std::span<const uint16_t> samples, uint32_t width_px,
+                                        uint32_t height_px);
 
 }  // namespace viewloom::files

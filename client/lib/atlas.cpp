@@ -48,6 +48,7 @@ bool isJpeg(v1::BandEncoding encoding) {
 
 uint32_t channelsOf(v1::AtlasPlane plane) {
   if (plane == v1::ATLAS_PLANE_COLOR) return 3;
+  if (plane == v1::ATLAS_PLANE_DEPTH_CODES) return 2;
   return plane == v1::ATLAS_PLANE_DEPTH ? 4 : 1;
 }
 

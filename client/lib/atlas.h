@@ -31,7 +31,7 @@ struct Atlas {
 };
 
 // Samples of one plane: uint8_t[height_px][width_px][channels], packed, top row first. For depth
-// the channels are the four bytes of a binary32, little endian.
+// the channels are the four bytes of a binary32, for depth codes the two of a u16, little endian.
 struct AtlasPicture {
   uint32_t width_px = 0;
   uint32_t height_px = 0;
@@ -49,8 +49,9 @@ absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas,
                                           uint32_t image = 0);
 
 // Decodes one plane of the whole atlas, its images one below the other: COLOR to RGB, also from its
-// channels; RED, GREEN, BLUE and MASK to one byte, DEPTH to four. FAILED_PRECONDITION when the
-// atlas does not have it, DATA_LOSS when its bytes do not decode to the size of the layout.
+// channels; RED, GREEN, BLUE and MASK to one byte, DEPTH_CODES to two, DEPTH to four.
+// FAILED_PRECONDITION when the atlas does not have it, DATA_LOSS when its bytes do not decode to
+// the size of the layout.
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
 // Where the tile of a view begins in the atlas.

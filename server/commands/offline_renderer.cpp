@@ -63,10 +63,10 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   VIEWLOOM_CHECK(structure_.has_value());
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, AtlasLimits{}));
   const Camera& source_camera = sources_.front().camera;
-  absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
-      spec, {.source_intrinsics = source_camera.intrinsics,
-             .source_size_px = sources_.front().size_px,
-             .focal_distance_m = contentFocalDistance(structure_->stats().front())});
+  VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(spec, sources_));
+  absl::StatusOr<AtlasLayout> layout =
+      makeAtlasLayout(spec, streamDefaults(source_camera.intrinsics, sources_.front().size_px,
+                                           structure_->stats().front()));
   if (!layout.ok()) return layout.status();
 
   RenderedAtlas atlas;

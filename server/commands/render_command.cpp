@@ -14,6 +14,7 @@
 #include "commands/compare_views.h"
 #include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
+#include "display/rgbd.h"
 #include "files/file_bytes.h"
 
 namespace viewloom {
@@ -88,6 +89,10 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   if (!frame.ok()) return inFile(frame.status(), arguments.frame);
   const auto display = readDisplayFile(arguments.display);
   if (!display.ok()) return inFile(display.status(), arguments.display);
+  if (hasDepthPlane(*display)) {
+    return inFile(invalidField("rgbd.depth_bits", "got 16, pictures of render have 8"),
+                  arguments.display);
+  }
   std::error_code failed;
   std::filesystem::create_directories(arguments.out, failed);
   if (failed) return files::refuseFile(arguments.out.string(), failed.message());

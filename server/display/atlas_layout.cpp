@@ -10,6 +10,7 @@
 #include "display/integral.h"
 #include "display/lenticular.h"
 #include "display/quilt.h"
+#include "display/rgbd.h"
 #include "display/stereo.h"
 #include "display/tracked_eyes.h"
 
@@ -56,6 +57,15 @@ double contentFocalDistance(const SourceStats& stats) {
   return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults{}.focal_distance_m;
 }
 
+StreamDefaults streamDefaults(const Intrinsics& intrinsics, SizePx size_px,
+                              const SourceStats& stats) {
+  return {.source_intrinsics = intrinsics,
+          .source_size_px = size_px,
+          .focal_distance_m = contentFocalDistance(stats),
+          .inv_z_near = stats.inv_z_near,
+          .inv_z_far = stats.inv_z_far};
+}
+
 absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults,
                                             const EyePoses* eyes) {
   const TileGrid grid = tileGridOf(spec);
@@ -74,6 +84,7 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
     VIEWLOOM_CHECK(isTracked(spec));
     VIEWLOOM_RETURN_IF_ERROR(placeEyes(*eyes, std::get<StereoSpec>(spec.kind), defaults, layout));
   }
+  if (layout.depth_codes) VIEWLOOM_RETURN_IF_ERROR(validateDepthCodes(*layout.depth_codes));
   const bool has_channels = std::holds_alternative<LenticularRays>(layout.rays);
   layout.samples = has_channels ? channelSamples(spec.filter, layout.view_pitch_m)
                                 : filterSamples(spec.filter, layout.view_pitch_m);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "base/status.h"
+#include "display/depth_codes.h"
 #include "display/display_spec.h"
 #include "frame/stage_times.h"
 
@@ -15,7 +17,9 @@ namespace viewloom {
 
 // One output camera. Pixels are those of its tile, rows from the top, centres at +0.5.
 struct View {
-  Camera camera;  // pose relative to the display (see AtlasLayout)
+  Camera camera;             // pose relative to the display (see AtlasLayout)
+  bool shows_depth = false;  // as grey, instead of colour
+  bool is_behind = false;    // shows what lies behind the first surface; that, where nothing does
 };
 
 // Top-left corner of a tile in the atlas, px from the top left.
@@ -74,6 +78,7 @@ struct AtlasLayout {
   glm::dvec2 view_pitch_m{0.0};  // between the eyes of neighbouring views, to the right and up
   // So many images of equal height, one below the other, each encoded by itself.
   uint32_t image_count = 1;
+  std::optional<DepthCodes> depth_codes;  // RGBD displays
 
   SizePx imageSize() const { return {size_px.width, size_px.height / image_count}; }
 
@@ -92,6 +97,8 @@ struct StreamDefaults {
   Intrinsics source_intrinsics;
   SizePx source_size_px;
   double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, first frame
+  double inv_z_near = 1;        // 1/m, 2nd depth percentile of that frame
+  double inv_z_far = 0;         // the 98th
 
   bool operator==(const StreamDefaults&) const = default;
 };
@@ -99,6 +106,9 @@ struct StreamDefaults {
 // A focal distance from content: the harmonic mean of the 2nd and 98th depth percentile. A stream
 // of sky alone has none; then the default of StreamDefaults.
 double contentFocalDistance(const SourceStats& stats);
+// What such a source gives, `stats` being those of the stream's first frame.
+StreamDefaults streamDefaults(const Intrinsics& intrinsics, SizePx size_px,
+                              const SourceStats& stats);
 
 // Largest atlas of this device and this server.
 struct AtlasLimits {

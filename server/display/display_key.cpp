@@ -89,6 +89,16 @@ class KeyText {
     add(integral.scale);
     add(integral.distance_m);
   }
+  void add(const RgbdSpec& rgbd) {
+    text_ += "rgbd ";
+    add(rgbd.view_size_px);
+    add(static_cast<uint32_t>(rgbd.form));
+    if (rgbd.depth_placement) add(static_cast<uint32_t>(*rgbd.depth_placement));
+    add(static_cast<uint32_t>(rgbd.is_black_near));
+    for (const double depth_m : {rgbd.near_m, rgbd.far_m, rgbd.screen_m}) add(depth_m);
+    add(rgbd.fov_y_rad);
+    add(rgbd.depth_bits);
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -140,7 +150,10 @@ std::string encodingKey(const EncodingSpec& encoding) {
   if (is_jpeg) key.add(static_cast<uint32_t>(encoding.chroma));
   key.add(static_cast<uint32_t>(encoding.with_depth));
   key.add(static_cast<uint32_t>(encoding.with_mask));
-  if (encoding.with_depth || encoding.with_mask) key.add(static_cast<uint32_t>(encoding.planes));
+  key.add(static_cast<uint32_t>(encoding.with_depth_codes));
+  if (encoding.with_depth || encoding.with_mask || encoding.with_depth_codes) {
+    key.add(static_cast<uint32_t>(encoding.planes));
+  }
   return key.take();
 }
 

@@ -102,6 +102,23 @@ struct IntegralSpec {
   double distance_m = 0;      // of the lenses from the display's eye, metres of the scene
 };
 
+enum class RgbdForm : uint8_t { kColorDepth, kTwoLayers };
+// Where depth lies, seen from colour.
+enum class DepthPlacement : uint8_t { kRight, kLeft, kTop, kBottom };
+
+// One view with its depth as grey (proto RgbdDisplay).
+struct RgbdSpec {
+  SizePx view_size_px;
+  RgbdForm form = RgbdForm::kColorDepth;
+  std::optional<DepthPlacement> depth_placement;  // completed: where depth lies in the colour
+  bool is_black_near = false;
+  double near_m = 0;        // 0 = from the stream
+  double far_m = 0;         // may be infinite; 0 = from the stream
+  double screen_m = 0;      // has the middle code; 0 = the range stays as it is
+  double fov_y_rad = 0;     // 0 = what the source sees
+  uint32_t depth_bits = 0;  // 8 or 16; 0 = 8
+};
+
 // Focal distances are held far inside what binary64 squares without loss.
 inline constexpr uint32_t kQuiltGridMax = 50;
 inline constexpr uint32_t kQuiltSidePxMax = 16384;

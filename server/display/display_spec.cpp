@@ -8,6 +8,7 @@
 #include "display/integral.h"
 #include "display/lenticular.h"
 #include "display/quilt.h"
+#include "display/rgbd.h"
 #include "display/stereo.h"
 
 namespace viewloom {

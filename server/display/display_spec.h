@@ -16,7 +16,7 @@ namespace viewloom {
 enum class OutsideFill : uint8_t { kBorder, kBackground };
 
 struct DisplaySpec {
-  std::variant<QuiltSpec, StereoSpec, CamerasSpec, LenticularSpec, IntegralSpec> kind;
+  std::variant<QuiltSpec, StereoSpec, CamerasSpec, LenticularSpec, IntegralSpec, RgbdSpec> kind;
   RayFilter filter;
   std::optional<Pose> world_pose;  // none = stands in the source's camera
   double tolerance_px = 0;         // output px; 0 = 0.25
@@ -44,6 +44,7 @@ struct EncodingSpec {
   Chroma chroma = Chroma::k420;
   bool with_depth = false;
   bool with_mask = false;
+  bool with_depth_codes = false;              // of displays that are complete only with them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw
 
   bool operator==(const EncodingSpec&) const = default;

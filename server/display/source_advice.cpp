@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "display/field_checks.h"
+#include "display/rgbd.h"
 #include "display/source_demand.h"
 
 namespace viewloom {
@@ -41,6 +42,10 @@ absl::Status requireOwnFov(const IntegralSpec&) {
   return absl::OkStatus();
 }
 
+absl::Status requireOwnFov(const RgbdSpec& rgbd) {
+  return requireFov(rgbd.fov_y_rad, "rgbd.fov_y_rad");
+}
+
 absl::Status checkRequest(const DisplaySpec& spec, double near_m, double far_m) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(near_m, kFocalDistanceMin_m, kFocalDistanceMax_m, "near_m"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(far_m, near_m, kFocalDistanceMax_m, "far_m"));
@@ -54,6 +59,8 @@ absl::StatusOr<AtlasLayout> layoutOf(const DisplaySpec& spec, const InvZRange& r
   defaults.source_intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};
   defaults.source_size_px = {.width = 1, .height = 1};
   defaults.focal_distance_m = 2 / (range.near + range.far);
+  defaults.inv_z_near = range.near;
+  defaults.inv_z_far = range.far;
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(spec, defaults);
   if (!layout.ok()) return withFieldPrefix(layout.status(), "display");
   return layout;
@@ -105,9 +112,10 @@ absl::StatusOr<SourceAdvice> adviseSource(const DisplaySpec& spec, double near_m
   }
   const double gap = besideMiddle(outermost) * (range.near - range.far);
   const bool is_wide = gap > kWideGapShare * demand.tangentWidth();
+  const bool needs_parallax = besideMiddle(outermost) > 0 || hasLayerBehind(spec);
   const Pose world = spec.world_pose.value_or(Pose{});
   SourceAdvice advice{.source = sourceFor(demand, middle),
-                      .layer_count = besideMiddle(outermost) > 0 ? kLayersForParallax : 1,
+                      .layer_count = needs_parallax ? kLayersForParallax : 1,
                       .second_source = std::nullopt};
   if (is_wide) {
     const Pose end{.position_m = outermost.pose.position_m, .orientation = middle.orientation};

@@ -14,10 +14,6 @@ void checkPlane(std::span<const uint8_t> bytes, size_t row_count, size_t stride_
   VIEWLOOM_CHECK(bytes.size() >= (row_count - 1) * stride_bytes + row_bytes);
 }
 
-bool isColor(AtlasPlane plane) {
-  return plane != AtlasPlane::kDepth && plane != AtlasPlane::kMask;
-}
-
 void checkPlanes(const BandPixels& pixels, const EncodingSpec& encoding) {
   if (!isColor(pixels.plane) || pixels.form == ColorForm::kRgba) {
     const size_t sample_bytes = pixels.plane == AtlasPlane::kMask ? 1 : 4;

@@ -8,6 +8,7 @@
 
 #include "display/color_form.h"
 #include "encode/encoded_band.h"
+#include "shared/depth_scale.h"
 
 namespace viewloom {
 
@@ -21,12 +22,13 @@ struct BandPixels {
   ColorForm form = ColorForm::kRgba;
   // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored, or uint8_t[row][x] Y; kRed, kGreen
   // and kBlue: as kColor, of which they are one channel, never in another form than kRgba; kDepth:
-  // float[row][x] in 1/m; kMask: uint8_t[row][x], a RayClass.
+  // float[row][x] in 1/m; kMask: uint8_t[row][x], a RayClass; kDepthCodes: as kDepth.
   std::span<const uint8_t> bytes;
   size_t stride_bytes = 0;  // from row to row
   // Of colour that is not kRgba, rows padded as in YcbcrLayout: uint8_t[row][x].
   std::span<const uint8_t> cb, cr;
   size_t chroma_stride_bytes = 0;
+  abi::DepthScale depth_scale = {};  // of kDepthCodes: what is made of depth
 };
 
 // The colour of `size_px`, from row 0, in planes that lie as YcbcrLayout says. `form`: not kRgba.

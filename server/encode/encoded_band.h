@@ -18,8 +18,13 @@
 
 namespace viewloom {
 
-// kRed, kGreen and kBlue: channels of colour that are images of their own.
-enum class AtlasPlane : uint8_t { kColor, kRed, kGreen, kBlue, kDepth, kMask };
+// kRed, kGreen and kBlue: channels of colour that are images of their own. kDepthCodes: depth in 16
+// bits, as AtlasLayout::depth_codes says.
+enum class AtlasPlane : uint8_t { kColor, kRed, kGreen, kBlue, kDepth, kMask, kDepthCodes };
+
+inline bool isColor(AtlasPlane plane) {
+  return plane < AtlasPlane::kDepth;
+}
 
 inline constexpr std::array kColorPlane = {AtlasPlane::kColor};
 inline constexpr std::array kChannelPlanes = {AtlasPlane::kRed, AtlasPlane::kGreen,
@@ -37,6 +42,7 @@ inline std::vector<AtlasPlane> planesOf(const EncodingSpec& encoding) {
   std::vector<AtlasPlane> planes(color.begin(), color.end());
   if (encoding.with_depth) planes.push_back(AtlasPlane::kDepth);
   if (encoding.with_mask) planes.push_back(AtlasPlane::kMask);
+  if (encoding.with_depth_codes) planes.push_back(AtlasPlane::kDepthCodes);
   return planes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "base/check.h"
 
@@ -20,6 +21,8 @@ size_t packedSampleBytes(AtlasPlane plane) {
       return sizeof(float);
     case AtlasPlane::kMask:
       return 1;
+    case AtlasPlane::kDepthCodes:
+      return sizeof(uint16_t);
     case AtlasPlane::kRed:
     case AtlasPlane::kGreen:
     case AtlasPlane::kBlue:
@@ -42,12 +45,22 @@ LosslessEncoder::LosslessEncoder(BytePool& pool) : pool_(pool), context_(ZSTD_cr
 
 std::span<const uint8_t> LosslessEncoder::packedRow(const BandPixels& pixels, uint32_t row) {
   const uint8_t* samples = pixels.bytes.data() + row * pixels.stride_bytes;
-  if (pixels.plane != AtlasPlane::kColor) return {samples, packedRowBytes(pixels)};
-  rgb_row_.resize(packedRowBytes(pixels));
-  for (size_t x = 0; x < pixels.width_px; ++x) {
-    std::copy_n(samples + 4 * x, 3, rgb_row_.data() + 3 * x);
+  if (pixels.plane != AtlasPlane::kColor && pixels.plane != AtlasPlane::kDepthCodes) {
+    return {samples, packedRowBytes(pixels)};
   }
-  return rgb_row_;
+  row_.resize(packedRowBytes(pixels));
+  for (size_t x = 0; x < pixels.width_px; ++x) {
+    if (pixels.plane == AtlasPlane::kColor) {
+      std::copy_n(samples + 4 * x, 3, row_.data() + 3 * x);
+      continue;
+    }
+    float inv_z = 0;
+    std::memcpy(&inv_z, samples + sizeof(float) * x, sizeof(float));
+    const uint32_t code = abi::depthCode(inv_z, pixels.depth_scale);
+    row_[2 * x] = uint8_t(code);
+    row_[2 * x + 1] = uint8_t(code >> 8);
+  }
+  return row_;
 }
 
 SharedBytes LosslessEncoder::encodeRaw(const BandPixels& pixels) {

@@ -12,8 +12,8 @@
 
 namespace viewloom {
 
-// Colour becomes RGB8; depth stays binary32, the mask one byte. Rows without gaps.
-// Thread-safety: none; one thread at a time.
+// Colour becomes RGB8, depth codes u16, little endian; depth stays binary32, the mask one byte.
+// Rows without gaps. Thread-safety: none; one thread at a time.
 class LosslessEncoder {
  public:
   explicit LosslessEncoder(BytePool& pool);
@@ -32,7 +32,7 @@ class LosslessEncoder {
 
   BytePool& pool_;
   std::unique_ptr<ZSTD_CCtx, FreeContext> context_;
-  std::vector<uint8_t> rgb_row_;
+  std::vector<uint8_t> row_;     // converted
   std::vector<uint8_t> packed_;  // ZSTD_compressBound of the largest band so far
 };
 

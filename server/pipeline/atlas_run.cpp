@@ -30,7 +30,7 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDi
   planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
   for (ActiveDisplayPtr& display : displays) {
     if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;
-    planes.depth |= display->encoding.with_depth;
+    planes.depth |= display->encoding.with_depth || display->encoding.with_depth_codes;
     planes.mask |= display->encoding.with_mask;
     outputs.push_back(makeOutput(std::move(display), *picture->layout));
     // 8 MCU rows are 64 or 128 px, so every output's bands tile a strip of the highest.

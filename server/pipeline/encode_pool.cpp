@@ -22,14 +22,16 @@ struct EncodePool::StripPlanes {
   BandPixels color;  // rows counted in its image
   std::span<const float> depth;
   std::span<const uint8_t> mask;
+  const AtlasLayout& layout;
 
   // A plane of the whole strip.
   BandPixels pixels(AtlasPlane plane) const {
     BandPixels pixels = color;
     pixels.plane = plane;
-    if (plane != AtlasPlane::kDepth && plane != AtlasPlane::kMask) return pixels;
+    if (isColor(plane)) return pixels;
     pixels.form = ColorForm::kRgba;
-    pixels.bytes = plane == AtlasPlane::kDepth ? bytesOf(depth) : mask;
+    pixels.bytes = plane == AtlasPlane::kMask ? mask : bytesOf(depth);
+    if (plane == AtlasPlane::kDepthCodes) pixels.depth_scale = scaleOf(*layout.depth_codes);
     pixels.stride_bytes = pixels.bytes.size() / pixels.row_count;
     return pixels;
   }
@@ -82,7 +84,8 @@ void EncodePool::serve(TracedStrip strip, Worker& worker) {
   const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};
   BandPixels color = colorPixels(slot.color(), slot.ycbcr(), size_px, run.planes.color);
   color.first_row = run.rowInImage(strip.strip);
-  encode(run, {run.imageOf(strip.strip), color, slot.depth(), slot.mask()}, worker.encoder);
+  encode(run, {run.imageOf(strip.strip), color, slot.depth(), slot.mask(), *run.picture->layout},
+         worker.encoder);
   strip.trace.reset();  // room for the next strip before the atlas goes out
   if (run.noteEncoded()) publisher_.complete(run);
 }
@@ -105,7 +108,9 @@ void EncodePool::serve(SweepPart part, Worker& worker) {
   BandPixels color = rowsOf(colorPixels(atlas.color, atlas.ycbcr, size_px, run->planes.color),
                             run->firstRow(part.index), run->rowCount(part.index));
   color.first_row = run->rowInImage(part.index);
-  encode(*run, {run->imageOf(part.index), color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask)},
+  encode(*run,
+         {run->imageOf(part.index), color, rowsOfStrip(atlas.depth), rowsOfStrip(atlas.mask),
+          *run->picture->layout},
          worker.encoder);
   part.sweep.reset();  // room for the next sweep before the atlas goes out
   if (run->noteEncoded()) publisher_.complete(*run);

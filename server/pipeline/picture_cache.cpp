@@ -23,6 +23,7 @@ std::shared_ptr<TraceJob>* findFree(std::vector<std::shared_ptr<TraceJob>>& jobs
 absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                                              const ResidentStructure& source,
                                              const EyePosesPtr& eyes) {
+  VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(display.spec, source.sources));
   Entry& entry = entries_[display.picture_key];
   // Who stands in the place of the only source sees the same wherever that is.
   const bool stands_in_only =

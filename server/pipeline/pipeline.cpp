@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "display/rgbd.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/gpu_loop.h"
 #include "pipeline/stream_table.h"
@@ -34,6 +35,10 @@ int64_t rayCount(const LenticularSpec& lenticular) {
 }
 int64_t rayCount(const IntegralSpec& integral) {
   return int64_t(integral.panel_px.area());
+}
+int64_t rayCount(const RgbdSpec& rgbd) {
+  const TileGrid grid = tileGrid(rgbd);
+  return int64_t(grid.width_px * grid.height_px);
 }
 int64_t rayCount(const DisplaySpec& spec) {
   const int64_t px_count = std::visit([](const auto& kind) { return rayCount(kind); }, spec.kind);

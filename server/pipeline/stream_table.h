@@ -38,7 +38,7 @@ class PipelineStream {
   SlotPool<StructureBuild> slots;
   FramePtr resident_frame;                 // of which the resident structure was made
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
-  std::optional<double> focal_distance_m;  // from the first frame, then held
+  std::optional<SourceStats> first_stats;  // of the first frame, then held
   FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other
   // A display of the stream needed the walk since the last frame came: the next is built for it.
   std::shared_ptr<std::atomic<bool>> is_walked = std::make_shared<std::atomic<bool>>(false);

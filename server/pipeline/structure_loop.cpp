@@ -18,8 +18,6 @@ ResidentStructure describe(const Frame& frame) {
   for (const SourceFormat& source : frame.format.sources) {
     structure.sources.push_back(seenSource(source));
   }
-  structure.defaults.source_intrinsics = structure.sources.front().camera.intrinsics;
-  structure.defaults.source_size_px = structure.sources.front().size_px;
   return structure;
 }
 
@@ -137,8 +135,9 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->depths =
       slot->is_swept ? slot->swept.measured().depths : slot->walked->structure.depthSpread();
   structure->stream_is_walked = stream.is_walked;
-  if (!stream.focal_distance_m) stream.focal_distance_m = contentFocalDistance(structure->stats);
-  structure->defaults.focal_distance_m = *stream.focal_distance_m;
+  if (!stream.first_stats) stream.first_stats = structure->stats;
+  structure->defaults = streamDefaults(structure->sources.front().camera.intrinsics,
+                                       structure->sources.front().size_px, *stream.first_stats);
   structure->build = std::move(slot);
 
   count(*structure);

@@ -35,6 +35,8 @@ v1::AtlasPlane planeToProto(AtlasPlane plane) {
       return v1::ATLAS_PLANE_DEPTH;
     case AtlasPlane::kMask:
       return v1::ATLAS_PLANE_MASK;
+    case AtlasPlane::kDepthCodes:
+      return v1::ATLAS_PLANE_DEPTH_CODES;
   }
   VIEWLOOM_CHECK(false && "unknown AtlasPlane");
   return v1::ATLAS_PLANE_UNSPECIFIED;

@@ -40,6 +40,18 @@ constexpr EnumRow<v1::TileArrangement, TileArrangement> kArrangements[] = {
     {v1::TILE_ARRANGEMENT_QUAD_2X2, TileArrangement::kQuad},
     {v1::TILE_ARRANGEMENT_SEPARATE_VIEWS, TileArrangement::kSeparate}};
 
+constexpr EnumRow<v1::RgbdForm, RgbdForm> kRgbdForms[] = {
+    {v1::RGBD_FORM_UNSPECIFIED, RgbdForm::kColorDepth},
+    {v1::RGBD_FORM_COLOR_DEPTH, RgbdForm::kColorDepth},
+    {v1::RGBD_FORM_TWO_LAYERS, RgbdForm::kTwoLayers}};
+
+constexpr EnumRow<v1::DepthPlacement, std::optional<DepthPlacement>> kDepthPlacements[] = {
+    {v1::DEPTH_PLACEMENT_UNSPECIFIED, std::nullopt},
+    {v1::DEPTH_PLACEMENT_RIGHT, DepthPlacement::kRight},
+    {v1::DEPTH_PLACEMENT_LEFT, DepthPlacement::kLeft},
+    {v1::DEPTH_PLACEMENT_TOP, DepthPlacement::kTop},
+    {v1::DEPTH_PLACEMENT_BOTTOM, DepthPlacement::kBottom}};
+
 constexpr EnumRow<v1::OutsideFill, OutsideFill> kOutsideFills[] = {
     {v1::OUTSIDE_FILL_UNSPECIFIED, OutsideFill::kBorder},
     {v1::OUTSIDE_FILL_BORDER, OutsideFill::kBorder},
@@ -142,6 +154,23 @@ absl::StatusOr<IntegralSpec> integralFromProto(const v1::IntegralDisplay& proto)
                       .distance_m = proto.distance_m()};
 }
 
+absl::StatusOr<RgbdSpec> rgbdFromProto(const v1::RgbdDisplay& proto) {
+  const auto form = enumFromProto(proto.form(), "form", kRgbdForms);
+  VIEWLOOM_RETURN_IF_ERROR(form.status());
+  const auto placement =
+      enumFromProto(proto.depth_placement(), "depth_placement", kDepthPlacements);
+  VIEWLOOM_RETURN_IF_ERROR(placement.status());
+  return RgbdSpec{.view_size_px = sizeFromProto(proto.view_size()),
+                  .form = *form,
+                  .depth_placement = *placement,
+                  .is_black_near = proto.black_near(),
+                  .near_m = proto.near_m(),
+                  .far_m = proto.far_m(),
+                  .screen_m = proto.screen_m(),
+                  .fov_y_rad = proto.fov_y_rad(),
+                  .depth_bits = proto.depth_bits()};
+}
+
 // One of the converters above, its errors seen from the display.
 template <typename Spec>
 absl::Status assignKind(absl::StatusOr<Spec> kind, std::string_view field, DisplaySpec& spec) {
@@ -163,11 +192,12 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
     case v1::Display::kIntegral:
       return assignKind(integralFromProto(proto.integral()), "integral", spec);
     case v1::Display::kRgbd:
-      return notServedYet("rgbd");
+      return assignKind(rgbdFromProto(proto.rgbd()), "rgbd", spec);
     case v1::Display::KIND_NOT_SET:
       break;
   }
-  return invalidField("kind", "got none; accepted: quilt, stereo, cameras, lenticular or integral");
+  return invalidField("kind",
+                      "got none; accepted: quilt, stereo, cameras, lenticular, integral or rgbd");
 }
 
 absl::Status refuseEffects(const v1::Effects& effects) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/encoding_from_proto.h"
 
+#include "display/rgbd.h"
 #include "rpc/enum_from_proto.h"
 
 namespace viewloom {
@@ -42,6 +43,11 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
     if (proto.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.color = BandEncoding::kJpegPlanes;
     if (proto.chroma() == v1::CHROMA_SUBSAMPLING_UNSPECIFIED) encoding.chroma = Chroma::k444;
   }
+  // Colour that greys share chroma with shows at their edge.
+  if (showsDepth(display) && proto.chroma() == v1::CHROMA_SUBSAMPLING_UNSPECIFIED) {
+    encoding.chroma = Chroma::k444;
+  }
+  encoding.with_depth_codes = hasDepthPlane(display);
   encoding.planes = *planes;
   if (proto.jpeg_quality() != 0) encoding.jpeg_quality = proto.jpeg_quality();
   encoding.with_depth = proto.with_depth();

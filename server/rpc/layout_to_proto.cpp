@@ -52,9 +52,27 @@ v1::AtlasLayout gridToProto(const AtlasLayout& layout) {
   return proto;
 }
 
+namespace {
+
+v1::DepthCodes depthCodesToProto(const AtlasLayout& layout) {
+  const DepthCodes& codes = *layout.depth_codes;
+  v1::DepthCodes proto;
+  proto.set_bits(codes.bits);
+  proto.set_inv_z_near(codes.inv_z_near);
+  proto.set_inv_z_far(codes.inv_z_far);
+  proto.set_black_near(codes.is_black_near);
+  for (uint32_t view = 0; view < layout.views.size(); ++view) {
+    if (layout.views[view].shows_depth) proto.add_depth_views(view);
+  }
+  return proto;
+}
+
+}  // namespace
+
 v1::AtlasLayout layoutToProto(const AtlasLayout& layout, const EncodingSpec& encoding) {
   v1::AtlasLayout proto = gridToProto(layout);
   *proto.mutable_encoding() = encodingToProto(encoding);
+  if (layout.depth_codes) *proto.mutable_depth_codes() = depthCodesToProto(layout);
   for (const View& view : layout.views) *proto.add_views() = cameraToProto(view.camera);
   return proto;
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr double kMoved_px = 1.0 / (4 * kSubtexelSteps);
 
 bool canSweep(const abi::ViewParams& tile, SizePx tile_px, double inv_z_max) {
+  if ((tile.shows & abi::kShowsBehind) != 0) return false;
   if (!(tile.direction.z > 0) || !(tile.direction_dx.x > 0)) return false;
   const double z = double{tile.direction.z};
   const double across = tile_px.width;

@@ -57,24 +57,46 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
 }
 
+// As codes that are rounded already.
+void writeLinear(const uint32_t* rgba, uint32_t width_px, float* linear) {
+  for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
+    linear[i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
+  }
+}
+
+// Depth as grey. `view_z`: Z in the source for a metre along the view's axis.
+void writeGreys(const AlignedArray<float>& inv_z, float view_z, const abi::DepthScale& scale,
+                uint32_t width_px, uint32_t* rgba) {
+  for (uint32_t p = 0; p < width_px; ++p) {
+    const uint32_t code = abi::depthCode(std::max(inv_z[p], 0.0F) * view_z, scale);
+    rgba[p] = code * 0x010101 | kOpaqueBlack;
+  }
+}
+
 // Rows of an atlas on their way.
 struct ViewSweeper::Piece {
   const SweepPicture& picture;
   const TraceOutputs& outputs;
   const SweepFill fill;
+  const abi::DepthScale depth_scale;
   SweptAtlas& atlas;
   Coverage coverage;
 };
 
-// What a row of a view shows of a row of surfaces; its edges are not blended.
-void ViewSweeper::paintView(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px,
-                            uint32_t* rgba) {
+// What the rays of a row of a view meet of a row of surfaces.
+void ViewSweeper::paintRays(Piece& piece, SurfaceRow& row, const SweepView& view,
+                            uint32_t width_px) {
   // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
   const float inv_z_near =
       std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
   row.cleanMixedTexels(std::min(std::abs(eye_px_m) * inv_z_near, 1.0F));
   paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
+}
+
+// Its colours, edges not blended.
+void ViewSweeper::colorPixels(const Piece& piece, const SurfaceRow& row, uint32_t width_px,
+                              uint32_t* rgba) {
   colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
            rgba);
 }
@@ -96,7 +118,8 @@ void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
     lens_pieces_.clear();
     plan.lensPieces()->appendRow(index, sample, lens_pieces_);
     for (const LensPiece& lens : lens_pieces_) {
-      paintView(piece, row, lens.view, lens.count, sampled_.data());
+      paintRays(piece, row, lens.view, lens.count);
+      colorPixels(piece, row, lens.count, sampled_.data());
       for (uint32_t p = 0; p < lens.count; ++p) {
         panel_row[lens.first_px + p * lens.stride_px] |= sampled_[p] & channel_mask;
       }
@@ -112,15 +135,8 @@ void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
                     first_px + lens.first_px, piece.outputs, piece.atlas);
     }
   }
-  if (piece.outputs.linear) writeLinear(panel_row, first_px, piece);
-}
-
-// Of a row of px that several rays make.
-void ViewSweeper::writeLinear(const uint32_t* rgba, size_t first_px, Piece& piece) {
-  const size_t channel_count = size_t{piece.picture.job->layout->tile_size_px.width} * 4;
-  float* const linear = piece.atlas.linear.data() + 4 * first_px;
-  for (size_t i = 0; i < channel_count; ++i) {
-    linear[i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
+  if (piece.outputs.linear) {
+    writeLinear(panel_row, job.layout->size_px.width, piece.atlas.linear.data() + 4 * first_px);
   }
 }
 
@@ -149,8 +165,8 @@ void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, con
     uint32_t* const rgba = rowOf(tiles[rank], plan.tileRow(index));
     sums_.mean(rank, plan.sampleCount(), rgba);
     if (!piece.outputs.linear) continue;
-    writeLinear(rgba, firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index)),
-                piece);
+    const size_t first = firstPixel(*piece.picture.job->layout, tiles[rank], plan.tileRow(index));
+    writeLinear(rgba, width_px, piece.atlas.linear.data() + 4 * first);
   }
 }
 
@@ -170,18 +186,29 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
     if (!takes(tile)) continue;
     const SweepView& view = plan.viewOf(tile, sample);
     uint32_t* const rgba = rowOf(tile, tile_row);
-    paintView(piece, row, view, width_px, rgba);
-    findEdgeBlends(row, view, width_px, row_);
-    applyEdgeBlends(row_.blends, rgba);
+    paintRays(piece, row, view, width_px);
+    const float view_z = job.tiles[tile].direction.z;
+    const bool shows_depth = (job.tiles[tile].shows & abi::kShowsDepth) != 0;
+    if (shows_depth) {
+      writeGreys(row_.inv_z, view_z, piece.depth_scale, width_px, rgba);
+    } else {
+      colorPixels(piece, row, width_px, rgba);
+      findEdgeBlends(row, view, width_px, row_);
+      applyEdgeBlends(row_.blends, rgba);
+    }
     if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;
+    const size_t first = firstPixel(*job.layout, tile, tile_row);
     describeSwept({.row = row,
                    .view = view,
                    .fill = piece.fill,
                    .swept = row_,
                    .y_px = y_px,
-                   .view_z = job.tiles[tile].direction.z,
+                   .view_z = view_z,
                    .width_px = width_px},
-                  firstPixel(*job.layout, tile, tile_row), piece.outputs, piece.atlas);
+                  first, piece.outputs, piece.atlas);
+    if (shows_depth && piece.outputs.linear) {
+      writeLinear(rgba, width_px, piece.atlas.linear.data() + 4 * first);
+    }
   }
 }
 
@@ -194,6 +221,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                           .background = redFirst(job.background_rgb),
                           .inv_z_max = picture.inv_z_max,
                           .planted_fault = picture.source.planted_fault},
+                 .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{})),
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);

@@ -47,10 +47,9 @@ class ViewSweeper {
  private:
   struct Piece;
 
-  void paintView(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px,
-                 uint32_t* rgba);
+  void paintRays(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px);
+  void colorPixels(const Piece& piece, const SurfaceRow& row, uint32_t width_px, uint32_t* rgba);
   void sweepLenses(Piece& piece, uint32_t index);
-  static void writeLinear(const uint32_t* rgba, size_t first_px, Piece& piece);
   template <typename Takes, typename RowOf>
   void sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf);
   template <typename Takes, typename RowOf>

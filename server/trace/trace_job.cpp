@@ -7,7 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/str_cat.h"
 #include "display/ray_extent.h"
+#include "display/rgbd.h"
 #include "frame/cube_map.h"
 
 namespace viewloom {
@@ -71,10 +73,15 @@ void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
         job.tiles.push_back(abi::ViewParams{});
         continue;
       }
-      const View& view = layout.views[index];
-      const View sampled{sampledCamera(view.camera, sample, layout.focusOf(view))};
+      // Depth has no mean: all samples of it are that without a filter.
+      View sampled = layout.views[index];
+      if (!sampled.shows_depth) {
+        sampled.camera = sampledCamera(sampled.camera, sample, layout.focusOf(sampled));
+      }
       job.tiles.push_back(
           makeViewParams(sampled, display_pose, seen.camera, seen.size_px, job.tolerance_px));
+      // An error that moves nothing would still be seen in the codes.
+      if (layout.depth_codes) job.tiles.back().inv_z_tolerance = 0;
     }
   }
 }
@@ -136,6 +143,16 @@ SeenSource seenSource(const SourceFormat& source) {
           .is_cube_map = source.is_cube_map};
 }
 
+absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources) {
+  if (!hasLayerBehind(spec)) return absl::OkStatus();
+  if (sources.size() == 1 && !sources.front().is_cube_map) return absl::OkStatus();
+  const std::string stream =
+      sources.size() == 1 ? "a cube map" : strCat(sources.size(), " sources");
+  return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
+                    strCat("got TWO_LAYERS for a stream of ", stream,
+                           ", accepted is one source that is no cube map"));
+}
+
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
   if (!job.hasEyesBeside()) return {job.tilesOf(walk, sample), job.layout->tile_size_px};
   return {job.bounds[walk].extent, job.bounds[walk].extent_px, true};
@@ -180,7 +197,9 @@ abi::ViewParams makeViewParams(const View& view, const Pose& display_pose,
           .direction_dy = direction(0.0, -1.0 / out.focal_px.y, 0.0),
           .inv_z_tolerance =
               float(std::min(tolerance_px / std::max(moved_px, 1e-300), kInvZToleranceMax)),
-          .is_used = 1};
+          .is_used = 1,
+          .shows =
+              (view.shows_depth ? abi::kShowsDepth : 0) | (view.is_behind ? abi::kShowsBehind : 0)};
 }
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,

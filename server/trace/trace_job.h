@@ -90,6 +90,10 @@ struct TileRays {
 };
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample);
 
+// What lies behind the first surface of a ray is known of one structure alone: FAILED_PRECONDITION
+// where a display asks for it of more.
+absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources);
+
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, std::span<const SeenSource> sources);
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,

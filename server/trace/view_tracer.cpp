@@ -53,6 +53,12 @@ uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
   return kPixelsOnHardware;
 }
 
+uint32_t shownBeside(const TraceJob& job) {
+  uint32_t flags = 0;
+  for (const abi::ViewParams& tile : job.tilesOf(0)) flags |= tile.shows;
+  return flags;
+}
+
 bool hasUnusedPixels(const TraceJob& job) {
   const AtlasLayout& layout = *job.layout;
   return job.hasEyesBeside() || layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
@@ -95,7 +101,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.eyes_in_plane,
                                   variant.is_one_of_several,
                                   variant.is_cube_face,
-                                  variant.rays};
+                                  variant.rays,
+                                  variant.shown_beside};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -121,7 +128,8 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .principal_px = abi::vec2(structure.sourceCamera().intrinsics.principal_px),
       .eye_axes = job.hasEyesBeside() ? job.bounds[walk].eye_axes : abi::EyeAxes{},
       .microlenses = microlensesOf(*job.layout),
-      .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count)};
+      .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count),
+      .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{}))};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
   }
@@ -207,7 +215,8 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
        .eyes_in_plane = eyes_in_plane,
        .is_one_of_several = is_one_of_several,
        .is_cube_face = structure.shape().is_cube_face,
-       .rays = raySourceOf(layout)});
+       .rays = raySourceOf(layout),
+       .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job)});
   std::vector<Descriptor> descriptors =
       describeParams(walk.job, walk.index, walk.sample, walk.slot);
   for (const Descriptor& descriptor :

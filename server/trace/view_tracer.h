@@ -54,7 +54,8 @@ class ViewTracer {
     uint32_t eyes_in_plane;
     uint32_t is_one_of_several;
     uint32_t is_cube_face;
-    uint32_t rays;  // abi::kRaysOf...
+    uint32_t rays;          // abi::kRaysOf...
+    uint32_t shown_beside;  // abi::kShows... flags that some tile has
 
     auto operator<=>(const Variant&) const = default;
   };

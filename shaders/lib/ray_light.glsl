@@ -59,6 +59,24 @@ vec2 farPoint(Ray ray, Walk walk) {
                                    : middle;
 }
 
+// The next surface behind the one that a ray hit. Where that is rough its own facets may be met
+// again, so what lies behind is further from it than what would be connected. Where there is none,
+// or nothing was hit, the first answer.
+Walk walkBehind(Scene scene, ViewParams view, Ray ray, Walk first) {
+  const float hit_inv_z = ray.start.z + first.t * ray.extent.z;
+  const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, hit_inv_z);
+  Walk walk = first;
+  for (;;) {
+    if (isNever(scene, 9u) || !first.is_hit) break;
+    const WalkStart behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
+    walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
+    const float inv_z = ray.start.z + walk.t * ray.extent.z;
+    if (!walk.is_hit || abs(hit_inv_z - inv_z) > apart) break;
+  }
+  if (walk.is_hit) return walk;
+  return first;
+}
+
 // Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
 // passed behind, or the image's border, goes on; else there is nothing.
 Light opaqueLight(Scene scene, Ray ray, Walk walk) {

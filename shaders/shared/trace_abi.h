@@ -3,6 +3,7 @@
 #ifndef VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 
+#include "shared/depth_scale.h"
 #include "shared/gpu_types.h"
 #include "shared/lenticular.h"
 #include "shared/structure_abi.h"
@@ -22,7 +23,11 @@ struct ViewParams {
   // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/trace/trace_job.h.
   float inv_z_tolerance;
   uint is_used;  // 0: no view stands here
+  uint shows;    // kShows... flags: else the colour of the first surface
 };
+
+VIEWLOOM_ABI_CONST uint kShowsDepth = 1u;   // its depth, as grey of TraceExtras.depth_scale
+VIEWLOOM_ABI_CONST uint kShowsBehind = 2u;  // what lies behind that; where nothing does, that
 
 // Rays start a little in front of the largest inv_z of the source (of layer 0); never at 0, it is a
 // divisor.
@@ -125,6 +130,7 @@ struct TraceExtras {
   EyeAxes eye_axes;
   Microlenses microlenses;
   LenticularEyes lenticular;
+  DepthScale depth_scale;  // of tiles that show depth
 };
 
 // What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
@@ -231,11 +237,12 @@ VIEWLOOM_ABI_CONST uint kWantLinear = 4u;
 VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 
 #ifdef __cplusplus
-static_assert(sizeof(ViewParams) == 56);
+static_assert(sizeof(ViewParams) == 60);
 static_assert(sizeof(EyeAxes) == 28);
 static_assert(sizeof(Microlenses) == 40);
 static_assert(sizeof(Lenticular) == 72);
-static_assert(sizeof(TraceExtras) == 232);
+static_assert(sizeof(DepthScale) == 12);
+static_assert(sizeof(TraceExtras) == 244);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 96);

@@ -49,9 +49,11 @@ uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
 
-void store(uint index, Merged merged) {
-  const bool is_known = merged.light.a > 0.5;
-  const vec3 codes = merged.light.rgb;
+void store(uint index, Merged merged, uint shows) {
+  const bool shows_depth = (shows & kShowsDepth) != 0u;
+  const bool is_known = shows_depth || merged.light.a > 0.5;
+  const vec3 grey = vec3(float(depthCode(merged.view_inv_z, extras.depth_scale)));
+  const vec3 codes = shows_depth ? grey : merged.light.rgb;
   band[index] = is_known ? packCodes(codes) : push.fill | kOpaqueCode;
   if ((kWanted & kWantDepth) != 0u) FloatRef(extras.depth).at[index] = merged.view_inv_z;
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(merged.ray_class);
@@ -83,7 +85,8 @@ void main() {
   if (exists && aim.is_used && views[tile].is_used != 0u) {
     answer_index = gl_WorkGroupID.y * push.atlas_width_px + x_px;
     const Merged merged = mergeAnswers(push.source_count);
-    store((push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x_px, merged);
+    const uint band_row = push.band_row + gl_WorkGroupID.y;
+    store(band_row * push.atlas_width_px + x_px, merged, views[tile].shows);
     count(counts, merged.ray_class);
   }
   addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);

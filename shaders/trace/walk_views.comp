@@ -27,7 +27,10 @@ layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
 // A face of a cube map: join_faces.comp makes one answer of those of all six.
 layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
 layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
-const bool kSeesThrough = kColorFormat == kColorRgba16f;
+layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kShows... of some tile
+const bool kIsLayered = kColorFormat == kColorRgba16f;
+const bool kLooksBehind = (kShownBeside & kShowsBehind) != 0u;
+const bool kSeesThrough = kIsLayered || kLooksBehind;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -59,44 +62,17 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/ray_light.glsl"
 #include "lib/ray_source.glsl"
 #include "lib/ray_start.glsl"
+#include "lib/store_px.glsl"
 #include "lib/walk.glsl"
 
 uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
 
-uint classOf(Walk walk) {
-  const uint hit = walk.is_assumed ? kClassHitAssumed : kClassHit;
-  const uint no_hit = walk.ends_behind ? kClassHidden : walk.leaves ? kClassOutside : kClassEmpty;
-  return walk.is_hit ? hit : no_hit;
-}
-
 // A ray that never sees the image continues the border next to where it goes.
 Walk walkBeside(WalkStart start) {
   return Walk(false, false, false, true, 1.0, start.cell, 0u, 2.0, false, start.cell, 0u, 0.0,
               kAxisNone, 0.0, 0u);
-}
-
-void storeColor(uint index, Seen seen) {
-  const vec3 codes = codesOfBlend(seen.color);
-  band[index] = packCodes(codes);
-  if ((kWanted & kWantLinear) != 0u) {
-    Vec4Ref(extras.linear).at[index] = vec4(clamp(codes / 255.0, 0.0, 1.0), 1.0);
-  }
-}
-
-void storeOthers(uint index, Walk walk, Ray ray, vec3 eye, vec3 direction) {
-  if (kWanted == 0u) return;
-  const vec3 point = ray.start + walk.t * ray.extent;
-  const uint ray_class = classOf(walk);
-  if ((kWanted & kWantDepth) != 0u) {
-    FloatRef(extras.depth).at[index] = walk.is_hit ? viewInvZ(eye, direction, point) : 0.0;
-  }
-  if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
-  if ((kWanted & kWantRecords) != 0u) {
-    RecordsRef(extras.records).at[index] =
-        RayRecord(point.x, point.y, point.z, ray_class, walk.layer, walk.visits);
-  }
 }
 
 Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
@@ -180,8 +156,9 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   const WalkStart start = startOf(scene, ray, bound);
   Walk walk = walkBeside(start);
   if (ray.t_begin < ray.t_end) walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
+  if (kLooksBehind && (view.shows & kShowsBehind) != 0u) walk = walkBehind(scene, view, ray, walk);
   const Light light =
-      kSeesThrough ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
+      kIsLayered ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
   traced.ray = ray;
   traced.walk = walk;
   traced.seen = seenOf(ray, walk, light, background);
@@ -214,11 +191,14 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
       }
       answers[run.first_index + i] = answer;
     } else if (px.is_used && isOwn(run, i)) {
-      storeColor(run.first_index + i, px.seen);
+      const float inv_z =
+          kShownBeside == 0u ? 0.0 : depthOf(px.walk, px.ray, px.view.eye, px.direction);
+      storeShown(run.first_index + i, px.view, px.seen, inv_z);
       storeOthers(run.first_index + i, px.walk, px.ray, px.view.eye, px.direction);
       count(counts, classOf(px.walk));
     }
     const bool may_be_edge = !kIsOneOfSeveral && kRays == kRaysOfPinholes && i > 0u &&
+                             (kShownBeside & view.shows) == 0u &&
                              mayBeEdge(scene, inv_z_before, px.seen.inv_z);
     const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
     edges |= i > 32u ? uvec2(0u, bit) : uvec2(bit, 0u);

@@ -215,7 +215,6 @@ const std::vector<BadDisplay> kCommon = {
 };
 
 const std::vector<BadDisplay> kServedLater = {
-    {"rgbd", [](auto& o) { o.mutable_display()->mutable_rgbd(); }, {kLater, "open.display.rgbd"}},
     {"lens",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
      {kLater, "open.display.effects.lens"}},

@@ -235,7 +235,10 @@ std::vector<abi::uvec2> WalkUnderTest::cells(const StructureSlot& slot, uint32_t
 std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot,
                                              const std::vector<oracle::OutputView>& views,
                                              double tolerance_px) {
-  const TraceJob job = jobOf(views, tolerance_px, slot.sourceCamera(), slot.shape().depth_px);
+  return trace(slot, jobOf(views, tolerance_px, slot.sourceCamera(), slot.shape().depth_px));
+}
+
+std::vector<TracedView> WalkUnderTest::trace(const StructureSlot& slot, const TraceJob& job) {
   const AtlasLayout& layout = *job.layout;
   TraceSlot traced(device_, {.width_px = layout.size_px.width,
                              .row_count_max = layout.size_px.height,

@@ -70,6 +70,7 @@ class WalkUnderTest {
   // Views of one size.
   std::vector<TracedView> trace(const StructureSlot& slot,
                                 const std::vector<oracle::OutputView>& views, double tolerance_px);
+  std::vector<TracedView> trace(const StructureSlot& slot, const TraceJob& job);
 
  private:
   template <typename Element>

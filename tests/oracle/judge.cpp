@@ -11,6 +11,7 @@
 
 #include "oracle/answer_text.h"
 #include "oracle/nearby.h"
+#include "oracle/surface_behind.h"
 
 namespace viewloom::oracle {
 namespace {
@@ -78,9 +79,15 @@ std::string Verdict::summary() const {
   return text.str();
 }
 
+template <typename AnyRay>
+OracleAnswer Judge::answerOf(const AnyRay& ray) const {
+  if (asked_ == AskedSurface::kFirst) return traceOracle(source_, ray);
+  return behindFirst(source_, traceOracle(source_, ray, kThroughMax));
+}
+
 void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where) {
   ++verdict_.rays;
-  const OracleAnswer own = traceOracle(source_, ray.ray);
+  const OracleAnswer own = answerOf(ray.ray);
   if (matches(own, tested)) {
     ++verdict_.exact;
     return;
@@ -120,15 +127,15 @@ bool Judge::matches(const OracleAnswer& oracle, const TestedAnswer& tested) cons
 // position. A surface off by dw in 1/Z moves the picture along the epipolar line, so moved pictures
 // also stand for surfaces that are off by as much as the tolerance allows.
 std::vector<OracleAnswer> Judge::answersOfMovedRays(const ViewRay& ray) const {
-  std::vector<OracleAnswer> answers = {traceOracle(source_, ray.ray)};
+  std::vector<OracleAnswer> answers = {answerOf(ray.ray)};
   for (const glm::dvec2& move_px : movesWithin(tolerance_.output_px)) {
-    answers.push_back(traceOracle(source_, ray.movedBy(move_px.x, move_px.y)));
+    answers.push_back(answerOf(ray.movedBy(move_px.x, move_px.y)));
   }
   const ProjectedRay own = projectRay(source_.pinhole(), ray.ray);
   for (const double sign : {-1.0, 1.0}) {
-    answers.push_back(traceOracle(source_, movedBy(own, sign * tolerance_.source_px, 0, 0)));
-    answers.push_back(traceOracle(source_, movedBy(own, 0, sign * tolerance_.source_px, 0)));
-    answers.push_back(traceOracle(source_, movedBy(own, 0, 0, sign * tolerance_.inv_z)));
+    answers.push_back(answerOf(movedBy(own, sign * tolerance_.source_px, 0, 0)));
+    answers.push_back(answerOf(movedBy(own, 0, sign * tolerance_.source_px, 0)));
+    answers.push_back(answerOf(movedBy(own, 0, 0, sign * tolerance_.inv_z)));
   }
   return answers;
 }

@@ -45,17 +45,23 @@ struct Verdict {
   std::string summary() const;
 };
 
+// Which surface a ray is asked for: the first, or what stands behind it (surface_behind.h).
+enum class AskedSurface { kFirst, kBehind };
+
 // Thread-safety: none.
 class Judge {
  public:
-  Judge(const OracleSource& source, const JudgeTolerance& tolerance)
-      : source_(source), tolerance_(tolerance) {}
+  Judge(const OracleSource& source, const JudgeTolerance& tolerance,
+        AskedSurface asked = AskedSurface::kFirst)
+      : source_(source), tolerance_(tolerance), asked_(asked) {}
 
   // `where` names the ray in messages.
   void consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where);
   const Verdict& verdict() const { return verdict_; }
 
  private:
+  template <typename AnyRay>
+  OracleAnswer answerOf(const AnyRay& ray) const;
   bool matches(const OracleAnswer& oracle, const TestedAnswer& tested) const;
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
@@ -69,6 +75,7 @@ class Judge {
 
   const OracleSource& source_;
   const JudgeTolerance tolerance_;
+  const AskedSurface asked_;
   Verdict verdict_;
 };
 

@@ -76,6 +76,7 @@ class OracleSource {
   int height() const { return planes_.height; }
   int layerCount() const { return planes_.layer_count; }
   const Pinhole& pinhole() const { return pinhole_; }
+  const ConnectionTolerance& kappa() const { return kappa_; }
   const InvZPlanes& planes() const { return planes_; }
 
   bool exists(const FacetAt& at) const { return facet(at).inv_z >= 0; }

@@ -6,7 +6,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import io
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 import zstandard
@@ -20,7 +20,7 @@ from viewloom.v1.display_service_pb2 import AtlasHeader
 
 # Of a plane that is not a JPEG: sample type and samples a pixel.
 _SAMPLES = {atlas_pb2.ATLAS_PLANE_COLOR: ("u1", 3), atlas_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
-            atlas_pb2.ATLAS_PLANE_MASK: ("u1", 1)}
+            atlas_pb2.ATLAS_PLANE_MASK: ("u1", 1), atlas_pb2.ATLAS_PLANE_DEPTH_CODES: ("<u2", 1)}
 _CHANNELS = (atlas_pb2.ATLAS_PLANE_RED, atlas_pb2.ATLAS_PLANE_GREEN, atlas_pb2.ATLAS_PLANE_BLUE)
 _JPEGS = (atlas_pb2.BAND_ENCODING_JPEG, atlas_pb2.BAND_ENCODING_JPEG_PLANES)
 
@@ -155,6 +155,34 @@ class Atlas:
     def mask(self) -> NDArray[np.uint8]:
         """uint8[height_px][width_px]: how each ray ended, of atlas_pb2.RayClass."""
         return self._whole(atlas_pb2.ATLAS_PLANE_MASK)
+
+    @functools.cached_property
+    def depth_codes(self) -> NDArray[Union[np.uint8, np.uint16]]:
+        """Of RGBD displays, [rows * height_px][width_px] of views: how near each pixel is.
+
+        uint8, or uint16 where the display has 16 bits; of two layers the one behind stands below.
+        code_inv_z() says what they mean. Raises BadInput for other displays.
+        """
+        codes = self._codes()
+        if codes.bits == 16:
+            return self._whole(atlas_pb2.ATLAS_PLANE_DEPTH_CODES)
+        views = [self.view(view)[..., 0] for view in codes.depth_views]
+        return views[0] if len(views) == 1 else np.concatenate(views)
+
+    def code_inv_z(self) -> NDArray[np.float64]:
+        """float64, shaped as depth_codes: the 1/Z that the codes say, 1/m."""
+        codes = self._codes()
+        share = self.depth_codes / (2.0 ** codes.bits - 1)
+        if codes.black_near:
+            share = 1 - share
+        inv_z: NDArray[np.float64] = codes.inv_z_far + (codes.inv_z_near - codes.inv_z_far) * share
+        return inv_z
+
+    def _codes(self) -> atlas_pb2.DepthCodes:
+        if not self.layout.HasField("depth_codes"):
+            raise BadInput("depth_codes", "are those of RGBD displays alone; elsewhere depth comes "
+                           "with encoding=viewloom.encoding(depth=True), as inv_z")
+        return self.layout.depth_codes
 
     @functools.cached_property
     def jpeg(self) -> bytes:

@@ -69,5 +69,27 @@ TEST(BandEncoder, packsDepthAndMaskWithoutLossAndWithoutGaps) {
   }
 }
 
+TEST(BandEncoder, packsDepthCodesAsWholeNumbersOf16Bits) {
+  BytePool pool(4);
+  BandEncoder encoder(pool);
+  // Codes from 1/8 to 1/1 1/m, and what lies beyond.
+  const std::vector<float> inv_z = {0.125F, 1, 0.5625F, 0, 3, 0.125F + 0.875F * 300.6F / 65535};
+  const Bytes expected = {0, 0, 255, 255, 0, 128, 0, 0, 255, 255, 301 % 256, 301 / 256};
+  AtlasLayout layout = layoutOf({6, 1});
+  layout.depth_codes = DepthCodes{.bits = 16, .inv_z_near = 1, .inv_z_far = 0.125};
+  for (const BandEncoding planes : {BandEncoding::kZstd, BandEncoding::kRaw}) {
+    const EncodedBand band = encoder.encode(
+        {.plane = AtlasPlane::kDepthCodes,
+         .row_count = 1,
+         .width_px = 6,
+         .bytes = {reinterpret_cast<const uint8_t*>(inv_z.data()), inv_z.size() * sizeof(float)},
+         .stride_bytes = inv_z.size() * sizeof(float),
+         .depth_scale = scaleOf(*layout.depth_codes)},
+        {.planes = planes}, layout);
+    EXPECT_EQ(band.encoding, planes);
+    EXPECT_EQ(unpacked(band), expected);
+  }
+}
+
 }  // namespace
 }  // namespace viewloom::test

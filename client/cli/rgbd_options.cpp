@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/rgbd_options.h"
+
+#include <map>
+#include <string>
+
+#include "cli/size_option.h"
+
+namespace viewloom::cli {
+namespace {
+
+constexpr uint32_t kViewSidePxMax = 8192;
+
+const std::map<std::string, v1::RgbdForm> kForms{{"color-depth", v1::RGBD_FORM_COLOR_DEPTH},
+                                                 {"two-layers", v1::RGBD_FORM_TWO_LAYERS}};
+const std::map<std::string, v1::DepthPlacement> kPlacements{{"right", v1::DEPTH_PLACEMENT_RIGHT},
+                                                            {"left", v1::DEPTH_PLACEMENT_LEFT},
+                                                            {"top", v1::DEPTH_PLACEMENT_TOP},
+                                                            {"bottom", v1::DEPTH_PLACEMENT_BOTTOM}};
+
+// An option that takes one of the words.
+template <typename Value>
+CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
+                     const std::map<std::string, Value>& words, const std::string& description) {
+  const auto take = [&value, words](const std::string& word) { value = words.at(word); };
+  return app.add_option_function<std::string>(name, take, description)->check(CLI::IsMember(words));
+}
+
+}  // namespace
+
+void addRgbdOptions(CLI::App& app, RgbdOptions& options, const std::vector<CLI::Option*>& others) {
+  const char* const group = "Colour and depth";
+  CLI::Option* const size =
+      addSizeOption(app, "--rgbd", options.view_size_px, kViewSidePxMax,
+                    "One view of this size, and its depth as grey, for displays that make their "
+                    "own views")
+          ->group(group);
+  for (CLI::Option* other : others) size->excludes(other);
+  addWord(app, "--rgbd-form", options.form, kForms,
+          "color-depth, or two-layers: below both what lies behind [color-depth]")
+      ->group(group)
+      ->needs(size);
+  addWord(app, "--depth-side", options.placement, kPlacements,
+          "Where depth lies, seen from colour: right, left, top, bottom [right]")
+      ->group(group)
+      ->needs(size);
+  app.add_option("--depth-bits", options.depth_bits, "Of depth: 8, or 16 in PNG files of 16 bits")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str()
+      ->group(group)
+      ->needs(size);
+  app.add_flag("--black-near", options.is_black_near, "Black is near, not white")
+      ->group(group)
+      ->needs(size);
+  const auto addDistance = [&](const char* name, double& value_m, const char* text) {
+    app.add_option(name, value_m, text)->group(group)->needs(size);
+  };
+  addDistance("--depth-near", options.near_m, "Metres to the nearest code [by the content]");
+  addDistance("--depth-far", options.far_m,
+              "The same of the farthest; may be inf [by the content]");
+  addDistance("--screen", options.screen_m,
+              "Metres to the screen: it gets the middle code, as 2D+Z displays expect");
+}
+
+v1::RgbdDisplay makeRgbd(const RgbdOptions& options, double fov_y_rad) {
+  v1::RgbdDisplay rgbd;
+  rgbd.mutable_view_size()->set_width(options.view_size_px.width);
+  rgbd.mutable_view_size()->set_height(options.view_size_px.height);
+  rgbd.set_form(options.form);
+  rgbd.set_depth_placement(options.placement);
+  rgbd.set_black_near(options.is_black_near);
+  rgbd.set_near_m(options.near_m);
+  rgbd.set_far_m(options.far_m);
+  rgbd.set_screen_m(options.screen_m);
+  rgbd.set_fov_y_rad(fov_y_rad);
+  rgbd.set_depth_bits(options.depth_bits);
+  return rgbd;
+}
+
+}  // namespace viewloom::cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "display/rgbd.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "display/field_checks.h"
+#include "display/focal_window.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kDefaultDepthBits = 8;
+// Of the nearest 1/Z, the least range of a stream that is all at one depth.
+constexpr double kRangeShareMin = 0.01;
+
+bool isBeside(const RgbdSpec& rgbd) {
+  return rgbd.depth_bits == 8 &&
+         (rgbd.form == RgbdForm::kTwoLayers || rgbd.depth_placement == DepthPlacement::kRight ||
+          rgbd.depth_placement == DepthPlacement::kLeft);
+}
+
+bool isBelow(const RgbdSpec& rgbd) {
+  return rgbd.form == RgbdForm::kTwoLayers || (rgbd.depth_bits == 8 && !isBeside(rgbd));
+}
+
+absl::Status completePlacement(RgbdSpec& rgbd) {
+  const bool has_place = rgbd.form == RgbdForm::kColorDepth && rgbd.depth_bits == 8;
+  if (!has_place && rgbd.depth_placement) {
+    return invalidField("rgbd.depth_placement",
+                        rgbd.form == RgbdForm::kTwoLayers
+                            ? "got one for TWO_LAYERS, whose quadrants have their places"
+                            : "got one for depth_bits 16, which come beside the atlas's color");
+  }
+  if (has_place && !rgbd.depth_placement) rgbd.depth_placement = DepthPlacement::kRight;
+  return absl::OkStatus();
+}
+
+absl::Status checkDepths(const RgbdSpec& rgbd) {
+  VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(rgbd.near_m, "rgbd.near_m"));
+  if (!std::isinf(rgbd.far_m) || rgbd.far_m < 0) {
+    VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(rgbd.far_m, "rgbd.far_m"));
+  }
+  if (rgbd.near_m > 0 && rgbd.far_m > 0 && rgbd.far_m <= rgbd.near_m) {
+    return invalidField("rgbd.far_m", absl::StrCat("got ", rgbd.far_m, ", accepted is more than ",
+                                                   "near_m, which is ", rgbd.near_m));
+  }
+  return checkOptionalDistance(rgbd.screen_m, "rgbd.screen_m");
+}
+
+// So that the middle code, half of all counted from black, is that of the screen.
+void widenAround(double screen_inv_z, DepthCodes& codes) {
+  const double middle = double{1} * (codes.codeMax() / 2 + 1);
+  const double beyond = codes.is_black_near ? codes.codeMax() - middle : middle;  // in codes
+  const double before = codes.codeMax() - beyond;
+  const double inv_z_per_code = std::max((codes.inv_z_near - screen_inv_z) / before,
+                                         (screen_inv_z - codes.inv_z_far) / beyond);
+  codes.inv_z_near = screen_inv_z + before * inv_z_per_code;
+  codes.inv_z_far = screen_inv_z - beyond * inv_z_per_code;
+}
+
+DepthCodes codesOf(const RgbdSpec& rgbd, const StreamDefaults& defaults) {
+  DepthCodes codes{.bits = rgbd.depth_bits,
+                   .inv_z_near = rgbd.near_m > 0 ? 1 / rgbd.near_m : defaults.inv_z_near,
+                   .inv_z_far = rgbd.far_m > 0 ? 1 / rgbd.far_m : defaults.inv_z_far,
+                   .is_black_near = rgbd.is_black_near};
+  if (rgbd.near_m == 0 && rgbd.far_m == 0) {
+    // A stream of sky alone has no depth at all.
+    if (!(codes.inv_z_near > 0)) codes.inv_z_near = StreamDefaults{}.inv_z_near;
+    codes.inv_z_far = std::min(codes.inv_z_far, (1 - kRangeShareMin) * codes.inv_z_near);
+  }
+  if (rgbd.screen_m > 0 && codes.inv_z_near > codes.inv_z_far)
+    widenAround(1 / rgbd.screen_m, codes);
+  return codes;
+}
+
+}  // namespace
+
+absl::Status complete(RgbdSpec& rgbd) {
+  VIEWLOOM_RETURN_IF_ERROR(checkSize(rgbd.view_size_px, kEyeSidePxMax, "rgbd.view_size"));
+  if (rgbd.depth_bits == 0) rgbd.depth_bits = kDefaultDepthBits;
+  if (rgbd.depth_bits != 8 && rgbd.depth_bits != 16) {
+    return invalidField("rgbd.depth_bits",
+                        absl::StrCat("got ", rgbd.depth_bits, ", accepted are 8 and 16"));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(completePlacement(rgbd));
+  VIEWLOOM_RETURN_IF_ERROR(checkDepths(rgbd));
+  return checkOptionalAngle(rgbd.fov_y_rad, "rgbd.fov_y_rad");
+}
+
+TileGrid tileGrid(const RgbdSpec& rgbd) {
+  const uint32_t columns = isBeside(rgbd) ? 2 : 1;
+  const uint32_t rows = isBelow(rgbd) ? 2 : 1;
+  return {.size_field = "rgbd.view_size",
+          .columns = columns,
+          .rows = rows,
+          .tile_size_px = rgbd.view_size_px,
+          .order = TileOrder::kTopLeft,
+          .view_count = columns * rows,
+          .width_px = uint64_t{columns} * rgbd.view_size_px.width,
+          .height_px = uint64_t{rows} * rgbd.view_size_px.height};
+}
+
+void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout& layout) {
+  layout.depth_codes = codesOf(rgbd, defaults);
+  layout.focal_distance_m = rgbd.screen_m;
+  // A view from the middle sees the same through a window at any distance.
+  const FocalWindow window =
+      focalWindow(focalDistance(rgbd.screen_m, defaults), rgbd.fov_y_rad, layout.aspect, defaults);
+  const Camera camera = cameraThroughWindow(window, {0, 0}, rgbd.view_size_px);
+  const bool depth_is_first =
+      rgbd.depth_placement == DepthPlacement::kLeft || rgbd.depth_placement == DepthPlacement::kTop;
+  const uint32_t count = layout.columns * layout.rows;
+  for (uint32_t view = 0; view < count; ++view) {
+    const bool is_two_layers = rgbd.form == RgbdForm::kTwoLayers;
+    const bool is_second = is_two_layers ? view % layout.columns == 1 : view == 1;
+    layout.views.push_back({.camera = camera,
+                            .shows_depth = rgbd.depth_bits == 8 && is_second != depth_is_first,
+                            .is_behind = is_two_layers && view / layout.columns == 1});
+  }
+}
+
+absl::Status validateDepthCodes(const DepthCodes& codes) {
+  if (codes.inv_z_near > codes.inv_z_far) return absl::OkStatus();
+  return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.near_m",
+                    absl::StrCat("the nearest code is ", 1 / codes.inv_z_near,
+                                 " m away and the farthest ", 1 / codes.inv_z_far,
+                                 " m: one of them is the stream's; accepted is a nearest one that "
+                                 "is nearer, say both near_m and far_m"));
+}
+
+bool showsDepth(const DisplaySpec& spec) {
+  const auto* rgbd = std::get_if<RgbdSpec>(&spec.kind);
+  return rgbd != nullptr && rgbd->depth_bits == 8;
+}
+
+bool hasDepthPlane(const DisplaySpec& spec) {
+  const auto* rgbd = std::get_if<RgbdSpec>(&spec.kind);
+  return rgbd != nullptr && rgbd->depth_bits == 16;
+}
+
+bool hasLayerBehind(const DisplaySpec& spec) {
+  const auto* rgbd = std::get_if<RgbdSpec>(&spec.kind);
+  return rgbd != nullptr && rgbd->form == RgbdForm::kTwoLayers;
+}
+
+}  // namespace viewloom
