@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a running viewloomd takes for many clients of one display, and for different displays of one
-stream: the CPU time of its process for each atlas and client, beside what it takes to write the same
-bytes to as many sockets, and how often frames are uploaded, built, traced and encoded."""
+"""What a running viewloomd takes for many clients of one display, and for different displays of
+one stream: the CPU time of its process for each atlas and client, beside what it takes to write the
+same bytes to as many sockets, and how often frames are uploaded, built, traced and encoded."""
 
 import argparse
 import contextlib
@@ -35,9 +35,9 @@ COUNTED = {
 DISPLAYS = {
     "quilt": ["--preset", "portrait"],
     "stereo": ["--display", json.dumps({"stereo": {"eye_size": {"width": 1280, "height": 720}}})],
-    "grid of cameras": ["--display", json.dumps(
-        {"cameras": {"tile_size": {"width": 480, "height": 270},
-                     "grid": {"columns": 4, "rows": 2, "spacing_x_m": 0.02, "spacing_y_m": 0.02}}})],
+    "grid of cameras": ["--display", json.dumps({"cameras": {
+        "tile_size": {"width": 480, "height": 270},
+        "grid": {"columns": 4, "rows": 2, "spacing_x_m": 0.02, "spacing_y_m": 0.02}}})],
     "panel": ["--preset", "portrait", "--native"],
 }
 
@@ -116,7 +116,7 @@ def read_all(listener, size_bytes):
 
 
 def socket_copy_s_per_byte(size_bytes):
-    """CPU time of a process that writes an atlas into a TCP connection, of this machine to itself."""
+    """CPU time of a process that writes an atlas into a TCP connection to its own machine."""
     atlas, repeats = bytes(size_bytes), 50
     listener = socket.create_server(("127.0.0.1", 0))
     reader = os.fork()
@@ -176,8 +176,9 @@ def display_rows(arguments):
 
 
 def print_table(report):
-    print("| clients | traced per frame | encoded | sent per atlas | server's CPU ms per atlas | added per client | of "
-          "writing to a socket | of a copy in memory |\n|---|---|---|---|---|---|---|---|")
+    print("| clients | traced per frame | encoded | sent per atlas | server's CPU ms per atlas | "
+          "added per client | of writing to a socket | of a copy in memory |\n"
+          "|---|---|---|---|---|---|---|---|")
     for row in report["clients"]:
         added = (f"{row['added_ms_per_client']:.2f} ms | {row['of_socket_copy']:.1f}x | "
                  f"{row['of_memory_copy']:.1f}x" if "of_socket_copy" in row else "- | - | -")
