@@ -108,7 +108,7 @@ void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout&
   // A view from the middle sees the same through a window at any distance.
   const FocalWindow window =
       focalWindow(focalDistance(rgbd.screen_m, defaults), rgbd.fov_y_rad, layout.aspect, defaults);
-  const Camera camera = cameraThroughWindow(window, {0, 0}, rgbd.view_size_px);
+  const Camera camera = cameraThroughWindow(window, glm::dvec3(0.0), rgbd.view_size_px);
   const bool depth_is_first =
       rgbd.depth_placement == DepthPlacement::kLeft || rgbd.depth_placement == DepthPlacement::kTop;
   const uint32_t count = layout.columns * layout.rows;

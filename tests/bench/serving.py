@@ -9,12 +9,14 @@ import contextlib
 import datetime
 import json
 import os
+import pathlib
 import re
 import signal
 import socket
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 
@@ -34,10 +36,10 @@ COUNTED = {
 }
 DISPLAYS = {
     "quilt": ["--preset", "portrait"],
-    "stereo": ["--display", json.dumps({"stereo": {"eye_size": {"width": 1280, "height": 720}}})],
-    "grid of cameras": ["--display", json.dumps({"cameras": {
+    "stereo": {"stereo": {"eye_size": {"width": 1280, "height": 720}}},
+    "grid of cameras": {"cameras": {
         "tile_size": {"width": 480, "height": 270},
-        "grid": {"columns": 4, "rows": 2, "spacing_x_m": 0.02, "spacing_y_m": 0.02}}})],
+        "grid": {"columns": 4, "rows": 2, "spacing_x_m": 0.02, "spacing_y_m": 0.02}}},
     "panel": ["--preset", "portrait", "--native"],
 }
 
@@ -51,6 +53,14 @@ class Server:
         addresses = re.search(r"grpc=(\S+) http=(\S+)", self.process.stdout.readline())
         self.grpc_address, self.url = addresses.groups()
         self.others = []
+        self.folder = tempfile.TemporaryDirectory()
+
+    def watch(self, display):
+        if isinstance(display, dict):
+            message = pathlib.Path(self.folder.name) / f"{len(self.others)}.json"
+            message.write_text(json.dumps(display), encoding="ascii")
+            display = ["--display", message]
+        self.start("watch", STREAM, *display)
 
     def start(self, *arguments):
         self.others.append(subprocess.Popen(
@@ -68,7 +78,13 @@ class Server:
             fields = stat.read().rpartition(")")[2].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
+    def check(self):
+        for process in self.others:
+            if process.poll() is not None:
+                raise RuntimeError(f"{process.args} ended with {process.returncode}")
+
     def stop(self):
+        self.folder.cleanup()
         for process in self.others:
             process.send_signal(signal.SIGINT)
         for process in self.others:
@@ -86,13 +102,15 @@ def serving(arguments, watchers):
         server.start("publish", "--synthetic", "--size", arguments.size, "--layers", "2", "--rate",
                      str(arguments.rate), "--stream", STREAM)
         for watcher in watchers:
-            server.start("watch", STREAM, *watcher)
+            server.watch(watcher)
         deadline = time.monotonic() + PATIENCE_S
         while server.counts()["sent"] < 2 * len(watchers):
             if time.monotonic() > deadline:
                 raise TimeoutError("no atlases came")
+            server.check()
             time.sleep(0.2)
         yield server
+        server.check()
     finally:
         server.stop()
 
