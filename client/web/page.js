@@ -20,6 +20,7 @@ import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
 import {StreamList} from './stream_list.js';
 import {Tilt} from './tilt.js';
+import {ViewsOutside} from './views_outside.js';
 import {Weaver} from './weaver.js';
 
 const kRetry_ms = 2000;
@@ -36,6 +37,7 @@ const figures = new Figures();
 const commands = new Commands();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
 const budget = new DepthBudget((parameters) => controls.take(parameters));
+const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(() => stream.change(display.size()));
 const display = new DisplayChoice(autoDetail, () => { if (watching) watch(watching); });
 
@@ -57,6 +59,7 @@ const decoder = new Decoder(
       single.layoutChanged(layout.view_count);
       controls.show(layout);
       budget.show(atlas.header.depth_budget);
+      outside.show(atlas.header.views_outside, layout.view_count);
       commands.show(stream.parameters, layout);
       nameView();
     },

@@ -13,6 +13,7 @@
 #include "base/trace_method.h"
 #include "display/atlas_layout.h"
 #include "display/depth_budget.h"
+#include "display/views_outside.h"
 #include "frame/stage_times.h"
 
 namespace viewloom {
@@ -69,6 +70,7 @@ struct EncodedAtlas {
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
   std::optional<DepthBudget> depth_budget;  // where views are neighbours
+  std::vector<double> outside_shares;       // of each view; none of a cube map
   std::vector<EncodedBand> bands;
 };
 

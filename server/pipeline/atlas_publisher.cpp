@@ -39,6 +39,19 @@ void count(const Metrics& metrics, const AtlasRun& run, const StageTimes& times,
   metrics.rays[RayAnswer::kEmpty].add(static_cast<double>(coverage.empty));
 }
 
+// Of a cube map nobody looks past.
+std::vector<double> sharesOutside(const AtlasLayout& layout, const Pose& display_pose,
+                                  const ResidentStructure& structure) {
+  const SeenSource& source = structure.sources.front();
+  if (source.is_cube_map) return {};
+  const Pose& source_pose = source.camera.pose;
+  // Exact where a display stands in its source: rounding must not look like a step aside.
+  const Pose from_display =
+      display_pose == source_pose ? Pose{} : compose(inverse(source_pose), display_pose);
+  return outsideShares(layout, from_display, source.camera.intrinsics, source.size_px,
+                       {.far = structure.stats.inv_z_far, .near = structure.stats.inv_z_near});
+}
+
 }  // namespace
 
 void AtlasPublisher::begin(AtlasRunPtr run) {
@@ -100,6 +113,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
     atlas->depth_budget = budget;
+    atlas->outside_shares = sharesOutside(*atlas->layout, atlas->display_pose, *run.job.structure);
     atlas->bands = std::move(output.bands);
     links_.broadcaster.publish(std::move(atlas));
     links_.metrics.atlases_encoded.add();

@@ -194,8 +194,9 @@ void PublishCall::refreshWanted() {
   }
   v1::PublishFramesResponse response;
   *response.mutable_wanted() = wantedToProto(atlases, static_cast<uint32_t>(displays.size()));
-  std::string serialised = response.SerializeAsString();
   std::lock_guard lock(mutex_);
+  outside_.addTo(atlases, *response.mutable_wanted());
+  std::string serialised = response.SerializeAsString();
   if (ending() || serialised == last_wanted_) return;
   last_wanted_ = std::move(serialised);
   wanted_ = bytesFromMessage(response);

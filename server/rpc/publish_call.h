@@ -9,6 +9,7 @@
 
 #include "rpc/bidi_call.h"
 #include "rpc/ingest_parts.h"
+#include "rpc/outside_views.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
@@ -54,6 +55,7 @@ class PublishCall final : public BidiCall {
   size_t unreported_count_ = 0;             // frames taken whose report has not come
   std::optional<grpc::ByteBuffer> wanted_;  // newest only
   std::string last_wanted_;                 // serialised
+  OutsideViews outside_;
 };
 
 }  // namespace viewloom

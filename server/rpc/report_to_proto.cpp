@@ -60,6 +60,14 @@ v1::DepthBudget budgetToProto(const DepthBudget& budget) {
   return proto;
 }
 
+v1::ViewsOutside outsideToProto(const ViewsOutside& views) {
+  v1::ViewsOutside proto;
+  proto.set_first_view(views.first_view);
+  proto.set_last_view(views.last_view);
+  proto.set_share(views.share);
+  return proto;
+}
+
 v1::SourceStats statsToProto(const SourceStats& stats) {
   v1::SourceStats proto;
   proto.set_depth_step(stats.depth_step);

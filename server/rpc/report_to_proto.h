@@ -4,6 +4,7 @@
 #pragma once
 
 #include "display/depth_budget.h"
+#include "display/views_outside.h"
 #include "frame/frame_sink.h"
 #include "frame/stage_times.h"
 #include "viewloom/v1/atlas.pb.h"
@@ -15,6 +16,7 @@ namespace viewloom {
 v1::Coverage coverageToProto(const Coverage& coverage);
 v1::StageTimes timesToProto(const StageTimes& times);
 v1::DepthBudget budgetToProto(const DepthBudget& budget);
+v1::ViewsOutside outsideToProto(const ViewsOutside& views);
 v1::SourceStats statsToProto(const SourceStats& stats);
 v1::FrameReport reportToProto(const FrameReport& report);
 

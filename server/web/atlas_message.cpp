@@ -52,6 +52,15 @@ json budgetJson(const DepthBudget& budget) {
           {"suggested_view_cone_rad", budget.suggested_view_cone_rad}};
 }
 
+json outsideJson(const std::vector<double>& shares) {
+  json runs = json::array();
+  for (const ViewsOutside& views : viewsOutside(shares)) {
+    runs.push_back(
+        {{"first_view", views.first_view}, {"last_view", views.last_view}, {"share", views.share}});
+  }
+  return runs;
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   json header = {{"sequence", atlas.sequence},
                  {"frame_number", std::to_string(atlas.frame_number)},
@@ -68,6 +77,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"dropped_count", delivery.dropped_count},
                  {"mailbox_ns", delivery.mailbox_ns},
                  {"shown_ns", delivery.shown_ns}};
+  header["views_outside"] = outsideJson(atlas.outside_shares);
   if (atlas.depth_budget) header["depth_budget"] = budgetJson(*atlas.depth_budget);
   return header;
 }

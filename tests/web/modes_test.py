@@ -194,6 +194,24 @@ class Modes(PageTest):
         self.browser.wait_for("document.getElementById('focus-value').textContent === '1.50 m'")
         self.browser.wait_for("document.getElementById('cone-value').textContent === '30°'")
 
+    def test_views_that_look_past_the_source_are_told(self):
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            const real = JSON.parse;
+            window.outside = [{first_view: 0, last_view: 6, share: 0.0301},
+                              {first_view: 47, last_view: 47, share: 0.5}];
+            JSON.parse = (text) => {
+              const value = real(text);
+              if (value?.coverage) value.views_outside = window.outside;
+              return value;
+            };""")
+        self.open()
+        self.browser.wait_for("!document.getElementById('outside').hidden")
+        text = self.browser.evaluate("document.getElementById('outside').innerText")
+        for words in ("views 0–6 by 4 %", "view 47 by 50 %"):
+            self.assertIn(words, text)
+        self.browser.evaluate("window.outside = []")
+        self.browser.wait_for("document.getElementById('outside').hidden")
+
     def test_pages_are_dark_or_light_as_wished(self):
         for scheme, ground in (("dark", "rgb(10, 12, 16)"), ("light", "rgb(244, 246, 249)")):
             self.browser.call("Emulation.setEmulatedMedia",

@@ -2,11 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "rpc/geometry_from_proto.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
+#include "rpc/outside_views.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/stream_name.h"
 #include "rpc/wanted_to_proto.h"
@@ -138,6 +143,62 @@ TEST(WantedToProto, takesTheEyesOfAPanelForThoseOfItsView) {
   // samples may lie half a px beyond it.
   EXPECT_NEAR(std::tan(wantedToProto(atlases, 1).fov().angle_right_rad()), 5.5 / 5 + std::tan(0.3),
               1e-9);
+}
+
+std::shared_ptr<EncodedAtlas> atlasOutside(uint64_t display_id,
+                                           const std::shared_ptr<const AtlasLayout>& layout,
+                                           std::vector<double> shares) {
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->display_id = display_id;
+  atlas->layout = layout;
+  atlas->outside_shares = std::move(shares);
+  return atlas;
+}
+
+TEST(OutsideViews, areToldByDisplay) {
+  const auto layout = std::make_shared<AtlasLayout>();
+  const std::vector<AtlasPtr> atlases{atlasOutside(4, layout, {0.031, -0.1, 0.2}),
+                                      atlasOutside(7, layout, {-0.1, 0})};
+  OutsideViews outside;
+  v1::Wanted wanted;
+  outside.addTo(atlases, wanted);
+  ASSERT_EQ(wanted.outside_size(), 1) << "the other sees enough";
+  EXPECT_EQ(wanted.outside(0).display_id(), 4U);
+  ASSERT_EQ(wanted.outside(0).views_size(), 2);
+  EXPECT_EQ(wanted.outside(0).views(0).last_view(), 0U);
+  EXPECT_DOUBLE_EQ(wanted.outside(0).views(0).share(), 0.04);
+  EXPECT_EQ(wanted.outside(0).views(1).first_view(), 2U);
+}
+
+TEST(OutsideViews, areToldSeldomWhileDepthTrembles) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> tremble(0, 0.001);
+  const auto layout = std::make_shared<AtlasLayout>();
+  OutsideViews outside;
+  std::string before;
+  size_t messages = 0;
+  for (int frame = 0; frame < 1000; ++frame) {
+    std::vector<double> shares{0.04, 0.03, 0.01, 0.0, -0.01};
+    for (double& share : shares) share += tremble(random);
+    v1::Wanted wanted;
+    outside.addTo(std::vector<AtlasPtr>{atlasOutside(1, layout, shares)}, wanted);
+    messages += wanted.SerializeAsString() != before;
+    before = wanted.SerializeAsString();
+  }
+  EXPECT_LE(messages, 6U);
+}
+
+TEST(OutsideViews, areSettledAnewForAnotherLayout) {
+  const auto layout = std::make_shared<AtlasLayout>(), other = std::make_shared<AtlasLayout>();
+  OutsideViews outside;
+  const auto shareOf = [&](const std::shared_ptr<const AtlasLayout>& seen, double share) {
+    v1::Wanted wanted;
+    outside.addTo(std::vector<AtlasPtr>{atlasOutside(1, seen, {share})}, wanted);
+    return wanted.outside(0).views(0).share();
+  };
+  EXPECT_DOUBLE_EQ(shareOf(layout, 0.031), 0.04);
+  EXPECT_DOUBLE_EQ(shareOf(layout, 0.029), 0.04);
+  EXPECT_DOUBLE_EQ(shareOf(other, 0.029), 0.03);
 }
 
 TEST(StreamName, isOfLettersDigitsAndThreeSigns) {

@@ -55,12 +55,21 @@ TEST(AtlasMessage, isALengthAHeaderAndTheBandsOfColourAndDepthJoined) {
   EXPECT_EQ(std::vector<uint8_t>(end, bytes.end()), (std::vector<uint8_t>{1, 2, 3, 9, 9}));
 }
 
+nlohmann::json headerOf(const std::shared_ptr<EncodedAtlas>& atlas) {
+  const std::vector<uint8_t> bytes = joined(AtlasMessage(atlas, {}));
+  const std::string text(bytes.begin() + 4, bytes.end());
+  return nlohmann::json::parse(text.substr(0, text.rfind('}') + 1));
+}
+
+TEST(AtlasMessage, holdsTheViewsThatLookPastTheSource) {
+  const auto atlas = someAtlas();
+  EXPECT_EQ(headerOf(atlas).at("views_outside"), nlohmann::json::array());
+  atlas->outside_shares = {0.25, 0.125, -0.5};
+  EXPECT_EQ(headerOf(atlas).at("views_outside"),
+            nlohmann::json::parse(R"([{"first_view": 0, "last_view": 1, "share": 0.25}])"));
+}
+
 TEST(AtlasMessage, holdsTheDepthBudgetWhereThereIsOne) {
-  const auto headerOf = [](const std::shared_ptr<EncodedAtlas>& atlas) {
-    const std::vector<uint8_t> bytes = joined(AtlasMessage(atlas, {}));
-    const std::string text(bytes.begin() + 4, bytes.end());
-    return nlohmann::json::parse(text.substr(0, text.rfind('}') + 1));
-  };
   const auto atlas = someAtlas();
   EXPECT_FALSE(headerOf(atlas).contains("depth_budget"));
   atlas->depth_budget = DepthBudget{.disparity_max_px = 9,

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says which views look past the source, where the server says it with its atlases.
+
+const byId = (id) => document.getElementById(id);
+
+// Never less than it is: 0.4 % is 1 %.
+const percent = (share) => `${Math.ceil(100 * share - 1e-9)} %`;
+
+// runs: views_outside of an atlas's header; view_count: of its layout
+function sentence(runs, view_count) {
+  const parts = runs.map(({first_view, last_view, share}) => {
+    if (view_count === 1) return `it by ${percent(share)}`;
+    const which = first_view === last_view ? `view ${first_view}` :
+        `views ${first_view}–${last_view}`;
+    return `${which} by ${percent(share)}`;
+  });
+  return `Past the image of the source look ${parts.join(', ')}; there, its border is continued.`;
+}
+
+export class ViewsOutside {
+  show(runs, view_count) {
+    const none = !runs || runs.length === 0;
+    byId('outside').hidden = none;
+    const text = none ? '' : sentence(runs, view_count);
+    // Screen readers speak of what is written, so nothing is written twice.
+    if (byId('outside-text').textContent !== text) byId('outside-text').textContent = text;
+  }
+}
