@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/advise_command.h"
 #include "cli/cast_command.h"
 #include "cli/inspect_command.h"
 #include "cli/list_command.h"
@@ -24,6 +25,7 @@ std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app) {
   add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
   add("show", "Show a stream on a light-field panel, or in a window", addShowCommand);
   add("record", "Keep the atlases of a stream in a file", addRecordCommand);
+  add("advise", "Say which source would serve a display of a scene", addAdviseCommand);
   add("list", "Show the streams, displays and presets of a server", addListCommand);
   add("cast", "Have Looking Glass Bridge show a stream", addCastCommand);
   return commands;

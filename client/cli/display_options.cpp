@@ -30,7 +30,7 @@ absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
 
 }  // namespace
 
-void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
+CLI::Option* addDisplayShape(CLI::App& app, DisplayOptions& options) {
   auto* file = app.add_option("--display", options.file, "Display message as JSON: any kind");
   app.add_option("--preset", options.preset,
                  "A named device, see `viewloom list presets` [portrait]")
@@ -43,6 +43,11 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
   app.add_option("--focal-distance", options.focal_distance_m,
                  "Metres to the plane without parallax [by the content]")
       ->excludes(file);
+  return file;
+}
+
+void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
+  auto* file = addDisplayShape(app, options);
   app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
       ->excludes(file);
   app.add_option("--samples", options.sample_count,
@@ -111,6 +116,12 @@ bool isNative(const DisplayOptions& options) {
 }
 
 }  // namespace
+
+bool isGiven(const DisplayOptions& options) {
+  return !options.file.empty() || !options.preset.empty() || options.columns > 0 ||
+         options.rows > 0 || options.size_px.width > 0 || options.view_cone_deg != 0 ||
+         options.focal_distance_m != 0 || isNative(options);
+}
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!options.file.empty()) return readDisplay(options.file);

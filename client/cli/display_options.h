@@ -31,11 +31,17 @@ struct DisplayOptions {
   bool has_mask = false;
 };
 
+// What says where its views stand and what they frame, but for their field of view.
+CLI::Option* addDisplayShape(CLI::App& app, DisplayOptions& options);
+// That, and the rest of what is asked of a server.
 void addDisplayOptions(CLI::App& app, DisplayOptions& options);
 void addMaskOption(CLI::App& app, DisplayOptions& options);
 
 // The px of the device itself instead of a quilt.
 void addPanelOptions(CLI::App& app, DisplayOptions& options);
+
+// Whether a display was named at all.
+bool isGiven(const DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
 v1::AtlasEncoding makeEncoding(const DisplayOptions& options);

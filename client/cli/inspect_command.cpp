@@ -3,11 +3,13 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/str_cat.h"
+#include "cli/display_options.h"
 #include "cli/file_options.h"
 #include "cli/inspection_report.h"
 #include "cli/plane_options.h"
@@ -21,6 +23,7 @@ namespace {
 
 struct InspectOptions {
   FileFeedOptions files;
+  DisplayOptions display;
   uint32_t layer_count = 0;
   std::string picture;
   bool as_json = false;
@@ -45,7 +48,8 @@ void sortFiles(FileFeedOptions& options) {
 }
 
 absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader& loader,
-                                           const inputs::InputSettings& settings) {
+                                           const inputs::InputSettings& settings,
+                                           const std::optional<v1::Display>& display) {
   InspectedFile inspected{.file = files.name()};
   absl::StatusOr<std::string> format = describeFormat(files.name());
   if (!format.ok()) return format.status();
@@ -60,6 +64,12 @@ absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader&
       !files.manifest.empty() ||
       (inspected.loaded.how && inspected.loaded.how->source.camera().has_intrinsics());
   inspected.camera_is_assumed = !is_stated && !settings.fov_y_deg && !settings.focal_px;
+  if (display) {
+    absl::StatusOr<DisplayNeed> need = displayNeed(
+        *display, inspected.loaded.frame.wire.header.sources(0), inspected.sources.front());
+    if (!need.ok()) return need.status();
+    inspected.need = *std::move(need);
+  }
   return inspected;
 }
 
@@ -78,8 +88,17 @@ int inspectAll(const InspectOptions& options, const std::vector<FrameFiles>& fra
   nlohmann::json reports = nlohmann::json::array();
   int exit_code = kExitDone;
   bool has_picture = options.picture.empty();
+  std::optional<v1::Display> display;
+  if (isGiven(options.display)) {
+    absl::StatusOr<v1::Display> made = makeDisplay(options.display);
+    if (!made.ok()) {
+      reportError(made.status(), common);
+      return kExitUsage;
+    }
+    display = *std::move(made);
+  }
   for (const FrameFiles& files : frames) {
-    const auto inspected = inspectFiles(files, loader, options.files.loader.input);
+    const auto inspected = inspectFiles(files, loader, options.files.loader.input, display);
     if (!inspected.ok()) {
       reportError(inspected.status(), common);
       exit_code = kExitUsage;
@@ -122,6 +141,7 @@ RunCommand addInspectCommand(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  viewloom inspect render.0001.exr --picture look.png\n"
+      "  viewloom inspect render.0001.exr --preset portrait --cone 50\n"
       "  viewloom inspect photo.png --depth photo_depth.png --input relative --depth-near 0.8 "
       "--depth-far 12\n"
       "  viewloom inspect holiday_rgbd.png --input rgbd --depth-near 1 --depth-far inf --json");
@@ -134,6 +154,8 @@ RunCommand addInspectCommand(CLI::App& app) {
                  "without surface");
   app.add_flag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
   addPlaneOptions(app, options->files.loader.input);
+  addDisplayShape(app, options->display)->description("Display whose views may look past the file");
+  addPanelOptions(app, options->display);
   return [options](const CommonOptions& common) { return inspect(*options, common); };
 }
 

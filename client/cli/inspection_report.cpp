@@ -229,6 +229,10 @@ std::string reportText(const InspectedFile& inspected) {
       addLayer(text, its.layers[layer]);
     }
   }
+  if (inspected.need) {
+    addLine(text, inspected.need->outside.empty() ? "display" : "warning",
+            needText(*inspected.need));
+  }
   return text;
 }
 
@@ -245,6 +249,7 @@ Json reportJson(const InspectedFile& inspected) {
     json["sources"].push_back(
         {{"camera", cameraJson(source.camera, inspected.camera_is_assumed)}, {"layers", layers}});
   }
+  if (inspected.need) json["display"] = needJson(*inspected.need);
   return json;
 }
 

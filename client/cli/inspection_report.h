@@ -2,12 +2,14 @@
 // An inspected frame for people and for machines.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/frame_loader.h"
+#include "cli/inspected_display.h"
 #include "inspect/inspection.h"
 
 namespace viewloom::cli {
@@ -18,6 +20,7 @@ struct InspectedFile {
   LoadedFiles loaded;
   std::vector<inspect::SourceInspection> sources;
   bool camera_is_assumed = false;
+  std::optional<DisplayNeed> need;  // of a display, where one was named
 };
 
 // What there is to say about the file itself, before its planes are read.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/list_command.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <cstdio>
 #include <memory>
 
 #include "base/str_cat.h"
+#include "cli/print_json.h"
 #include "cli/report_error.h"
 #include "lib/catalog.h"
 #include "lib/channel.h"
@@ -85,14 +84,7 @@ absl::Status show(const absl::StatusOr<Response>& response, bool as_json) {
     print(*response);
     return absl::OkStatus();
   }
-  std::string json;
-  google::protobuf::util::JsonPrintOptions print_options;
-  print_options.add_whitespace = true;
-  print_options.always_print_primitive_fields = true;
-  const auto printed = google::protobuf::util::MessageToJsonString(*response, &json, print_options);
-  if (!printed.ok()) return absl::InternalError(std::string(printed.message()));
-  std::fputs(json.c_str(), stdout);
-  return absl::OkStatus();
+  return printJson(*response);
 }
 
 absl::Status list(const ListOptions& options, const Catalog& catalog) {

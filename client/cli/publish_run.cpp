@@ -9,6 +9,7 @@
 #include "base/str_cat.h"
 #include "cli/frame_pace.h"
 #include "cli/interrupt.h"
+#include "cli/outside_text.h"
 #include "cli/report_error.h"
 #include "cli/sent_frames.h"
 #include "cli/status_line.h"
@@ -83,7 +84,7 @@ class PublishRun {
     const OnConnection say = sayConnections(line_, common_);
     return {.on_accepted = {},
             .on_report = [this](const v1::FrameReport& report) { noteReport(report); },
-            .on_wanted = [this](const v1::Wanted& wanted) { displays_ = wanted.display_count(); },
+            .on_wanted = [this](const v1::Wanted& wanted) { noteWanted(wanted); },
             .on_connection =
                 [this, say](const ConnectionEvent& event) {
                   const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
@@ -102,6 +103,11 @@ class PublishRun {
     std::lock_guard lock(mutex_);
     if (std::exchange(last_reason_, report.reason()) == report.reason()) return;
     line_.say(strCat("frame ", report.number(), " refused: ", report.reason()));
+  }
+
+  void noteWanted(const v1::Wanted& wanted) {
+    displays_ = wanted.display_count();
+    for (const std::string& warning : outside_.note(wanted)) line_.say(warning);
   }
 
   bool isOver() const {
@@ -175,6 +181,7 @@ class PublishRun {
   SteadyClock clock_;
   SentFrames sent_{line_, clock_};
   std::atomic<uint32_t> displays_{0};
+  OutsideWarnings outside_;
   mutable std::mutex mutex_;
   absl::Status given_up_;                 // --no-retry: why
   std::string last_reason_;               // of a refused frame

@@ -14,6 +14,7 @@
 #include "cli/eye_feed.h"
 #include "cli/frame_feed.h"
 #include "cli/interrupt.h"
+#include "cli/outside_text.h"
 #include "cli/recorded_atlases.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
@@ -171,7 +172,10 @@ class WatchRun {
                   formatBytes(bytes_rate), "/s, latency ",
                   is_latency ? formatNumber(1e3 * latency_s_, 0) + " ms" : "unknown", " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
-                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off");
+                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off",
+                  newest_.views_outside().empty()
+                      ? ""
+                      : "; past the source look " + outsideText(newest_.views_outside()));
   }
 
   int end() {

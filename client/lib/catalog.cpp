@@ -12,12 +12,14 @@ namespace {
 using Stub = v1::CatalogService::Stub;
 
 template <typename Request, typename Response>
-absl::StatusOr<Response> call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*,
-                                                                       const Request&, Response*)) {
+absl::StatusOr<Response> call(Stub& stub,
+                              grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
+                                                           Response*),
+                              const Request& request = {}) {
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(5));
   Response response;
-  const grpc::Status status = (stub.*method)(&context, Request(), &response);
+  const grpc::Status status = (stub.*method)(&context, request, &response);
   if (!status.ok()) return statusFromGrpc(status);
   return response;
 }
@@ -41,6 +43,11 @@ absl::StatusOr<v1::ListPresetsResponse> Catalog::listPresets() const {
 
 absl::StatusOr<v1::GetServerInfoResponse> Catalog::getServerInfo() const {
   return call(*stub_, &Stub::GetServerInfo);
+}
+
+absl::StatusOr<v1::AdviseSourceResponse> Catalog::adviseSource(
+    const v1::AdviseSourceRequest& request) const {
+  return call(*stub_, &Stub::AdviseSource, request);
 }
 
 }  // namespace viewloom

@@ -21,6 +21,8 @@ class Catalog {
   absl::StatusOr<v1::ListDisplaysResponse> listDisplays() const;
   absl::StatusOr<v1::ListPresetsResponse> listPresets() const;
   absl::StatusOr<v1::GetServerInfoResponse> getServerInfo() const;
+  absl::StatusOr<v1::AdviseSourceResponse> adviseSource(
+      const v1::AdviseSourceRequest& request) const;
 
  private:
   std::unique_ptr<v1::CatalogService::Stub> stub_;

@@ -125,6 +125,14 @@ class Asyncio(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(info.ingest_limits, publisher.accepted)
             self.assertEqual(publisher.wanted.display_count, 1)
 
+    async def test_a_source_is_advised_as_by_the_blocking_half(self):
+        display = {"quilt": {"preset": "portrait", "fov_y_rad": 0.25}}
+        with viewloom.connect(self.daemon.address) as blocking:
+            self.assertEqual(await self.server.advise_source(display, 0.5, 3),
+                             blocking.advise_source(display, 0.5, 3))
+        await self.refused(self.server.advise_source(display, 0, 3), "INVALID_ARGUMENT", "near_m",
+                           "0")
+
     async def test_waiting_has_an_end_and_can_be_given_up(self):
         async with self.server.watch("later", "portrait", wait_for_stream=True) as watcher:
             await self.refused(watcher.receive(timeout_s=0.01), "DEADLINE_EXCEEDED", "", "0.01 s")

@@ -2,6 +2,7 @@
 """Atlases of a real server as numpy arrays, while frames come, and what it refuses."""
 
 import json
+import math
 import unittest
 import urllib.request
 
@@ -154,6 +155,24 @@ class Watching(unittest.TestCase):
             watcher.send_eye_poses((0, 0, 0), (0, 0, -scene.FAR_M))
             self.refused(lambda: watcher.receive(viewloomd.PATIENCE_S), "INVALID_ARGUMENT",
                          "eye_poses.eyes[1].pose.position.z", "focal plane")
+
+    def test_a_source_is_advised(self):
+        # Two eyes of a focal plane 2 m away where all of the scene is, framed 30 degrees high.
+        pair = display_pb2.Display(quilt=display_pb2.QuiltDisplay(
+            columns=2, rows=1, size={"width": 200, "height": 100}, view_cone_rad=0.7,
+            focal_distance_m=2, fov_y_rad=math.pi / 6))
+        advice = self.server.advise_source(pair, 2, 2)
+        size, pinhole = advice.size, advice.camera.intrinsics
+        self.assertAlmostEqual(2 * math.atan(size.height / 2 / pinhole.focal_y_px), math.pi / 6)
+        self.assertEqual((size.width, advice.layer_count), (size.height, 2))
+        deep = self.server.advise_source({"quilt": {"preset": "portrait", "fov_y_rad": 0.25}},
+                                         0.3, 1000)
+        self.assertEqual(deep.layer_count, 3)
+        self.assertGreater(abs(deep.second_source.pose.position.x), 0)
+        self.refused(lambda: self.server.advise_source("portrait", 1, 2), "INVALID_ARGUMENT",
+                     "display.quilt.fov_y_rad", "stream")
+        self.refused(lambda: self.server.advise_source(pair, 2, 1), "INVALID_ARGUMENT", "far_m",
+                     "1")
 
     def test_refusals_name_the_field(self):
         with self.server.publish("scene") as publisher:

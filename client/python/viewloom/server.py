@@ -10,7 +10,7 @@ import grpc
 
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.display import DisplayLike, EncodingLike, open_request
+from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.publisher import Publisher
 from viewloom.v1 import catalog_service_pb2 as catalog
@@ -86,6 +86,18 @@ class Server:
         """Version, device and limits."""
         answer: catalog.GetServerInfoResponse = _ask(self._catalog.GetServerInfo,
                                                      catalog.GetServerInfoRequest())
+        return answer
+
+    def advise_source(self, display: DisplayLike, near_m: float,
+                      far_m: float) -> catalog.AdviseSourceResponse:
+        """Which source would serve a display of a scene between two depths.
+
+        display: as of watch(); it has to state its own fov_y_rad, as there is no stream.
+        near_m, far_m: in front of the display's middle eye, 1e-6..1e9.
+        """
+        answer: catalog.AdviseSourceResponse = _ask(
+            self._catalog.AdviseSource,
+            catalog.AdviseSourceRequest(display=display_from(display), near_m=near_m, far_m=far_m))
         return answer
 
     def close(self) -> None:

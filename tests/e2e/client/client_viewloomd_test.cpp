@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <mutex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -125,6 +126,65 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
   EXPECT_EQ(runCommand(command + " publish --synthetic --cube --size 64x36 --seconds 0.2 -q"
                                  " --stream cube"),
             0);
+}
+
+// The sky of the scene lies beyond what the source sees, from the outermost eyes.
+TEST_F(ClientWithViewloomd, tellsPublisherAndWatcherOfViewsThatLookPastTheSource) {
+  std::vector<v1::AtlasHeader> headers;
+  const auto watcher = watch(4, [&](const Atlas& atlas) { headers.push_back(atlas.header); });
+  std::mutex mutex;
+  std::vector<v1::Wanted> wanted;
+  const auto publisher = publish({.on_wanted = [&](const v1::Wanted& message) {
+    std::lock_guard lock(mutex);
+    wanted.push_back(message);
+  }});
+  for (int frame = 0; !watcher->waitEnded(100'000'000); ++frame) {
+    publisher->offer(smallFrame(0.2 * frame));
+  }
+  ASSERT_EQ(*watcher->ended(), absl::OkStatus());
+  EXPECT_EQ(publisher->finish(kLong_ns), absl::OkStatus());
+  ASSERT_EQ(headers.size(), 4U);
+  for (const v1::AtlasHeader& header : headers) {
+    ASSERT_EQ(header.views_outside_size(), 2) << "at either end of the cone";
+    EXPECT_EQ(header.views_outside(0).first_view(), 0U);
+    EXPECT_EQ(header.views_outside(1).last_view(), 3U);
+    EXPECT_NEAR(header.views_outside(0).share(), header.views_outside(1).share(), 1e-9);
+  }
+  std::lock_guard lock(mutex);
+  const auto told = std::find_if(wanted.begin(), wanted.end(), [](const v1::Wanted& message) {
+    return message.outside_size() > 0;
+  });
+  ASSERT_NE(told, wanted.end());
+  const double share = told->outside(0).views(0).share();
+  EXPECT_GE(share, headers[0].views_outside(0).share());
+  EXPECT_LT(share, headers[0].views_outside(0).share() + 0.0101);
+  EXPECT_LE(wanted.size(), 4U) << "only what changes is sent: displays come and go";
+}
+
+TEST_F(ClientWithViewloomd, theCommandAdvisesASource) {
+  const std::string command = std::string(VIEWLOOM) + " --server " + address_ + " advise ";
+  const std::string out = (folder_ / "advice").string();
+  const auto text = [&] {
+    std::ostringstream read;
+    read << std::ifstream(out).rdbuf();
+    return read.str();
+  };
+  // Two eyes at D tan(10 degrees) of a focal plane 2 m away, framed 2 tan(15 degrees) high.
+  const std::string pair =
+      "--columns 2 --rows 1 --size 200x100 --cone 40 --fov 30 "
+      "--focal-distance 2 --near 2 --far 2 ";
+  ASSERT_EQ(runCommand(command + pair + ">" + out), 0);
+  EXPECT_THAT(text(), testing::HasSubstr("at 0 0 0 m"));
+  EXPECT_THAT(text(), testing::HasSubstr("30.00 x 30.00 degrees"));
+  EXPECT_THAT(text(), testing::HasSubstr("layers         2"));
+  ASSERT_EQ(runCommand(command + pair + "--json >" + out), 0);
+  EXPECT_THAT(text(), testing::HasSubstr("\"layerCount\": 2"));
+  ASSERT_EQ(runCommand(command + "--preset portrait --fov 14 --near 0.3 --far 1000 >" + out), 0);
+  EXPECT_THAT(text(), testing::HasSubstr("second source"));
+  EXPECT_EQ(runCommand(command + "--preset portrait --near 1 --far 2 2>" + out), 2);
+  EXPECT_THAT(text(), testing::HasSubstr("--fov is missing"));
+  EXPECT_EQ(runCommand(command + "--fov 14 --near 3 --far 2 2>" + out), 1);
+  EXPECT_THAT(text(), testing::HasSubstr("far_m"));
 }
 
 TEST_F(ClientWithViewloomd, theCommandPublishesTestPatterns) {

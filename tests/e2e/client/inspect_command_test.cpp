@@ -92,6 +92,32 @@ TEST_F(InspectCommand, saysItToMachines) {
   EXPECT_EQ(layer.at("color").at("transfer"), "linear");
 }
 
+// 8 x 4 px of 4 px of focal length: slopes up to 1 to the sides, 0.5 up and down. Square views
+// frame half of the width at 2 m, and see the sky furthest to the side.
+TEST_F(InspectCommand, saysWhichViewsOfADisplayLookPastTheFile) {
+  writeBlender("render.exr");
+  const std::string file_and_display =
+      file("render.exr") + " --focal-px 4 --columns 4 --rows 1 --size 40x10 --focal-distance 2";
+  EXPECT_THAT(inspect(file_and_display + " --cone 20").output,
+              HasSubstr("display   no view looks past the source"));
+  // Eyes at 2 tan(0.75 * 50 degrees) = 1.535 m: the sky at a slope of (1 + 1.535) / 2 = 1.267, past
+  // the image's edge at 1 of 2. The inner two stand at 0.443 m.
+  const Finished run = inspect(file_and_display + " --cone 100 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const Json outside = Json::parse(run.output)[0].at("display").at("views_outside");
+  ASSERT_EQ(outside.size(), 2U);
+  EXPECT_EQ(outside[0].at("first_view"), 0);
+  EXPECT_EQ(outside[0].at("last_view"), 0);
+  EXPECT_NEAR(outside[0].at("share"), (0.5 + std::tan(37.5 * M_PI / 180) - 1) / 2, 1e-9);
+  EXPECT_EQ(outside[1].at("first_view"), 3);
+  EXPECT_THAT(inspect(file_and_display + " --cone 100").output,
+              HasSubstr("warning   past the source look view 0 by 14 %, view 3 by 14 %; a field of "
+                        "view of 104 x 54 degrees would do"));
+  const Finished refused = inspect(file("render.exr") + " --preset none");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("quilt.preset"));
+}
+
 TEST_F(InspectCommand, warnsAndSaysWhatToDo) {
   writePng(file("color.png"), 8, 4, 3, 8, std::vector<uint16_t>(96, 90));
   std::vector<uint16_t> depth_mm;

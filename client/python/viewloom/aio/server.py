@@ -14,7 +14,7 @@ from viewloom.aio.publisher import Publisher
 from viewloom.aio.watcher import Watcher
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.display import DisplayLike, EncodingLike, open_request
+from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.server import CHANNEL_OPTIONS, DEFAULT_ADDRESS, IN_FLIGHT_MAX
 from viewloom.v1 import catalog_service_pb2 as catalog
@@ -69,6 +69,14 @@ class Server:
         """Version, device and limits."""
         answer: catalog.GetServerInfoResponse = await _ask(self._catalog.GetServerInfo,
                                                            catalog.GetServerInfoRequest())
+        return answer
+
+    async def advise_source(self, display: DisplayLike, near_m: float,
+                            far_m: float) -> catalog.AdviseSourceResponse:
+        """Which source would serve a display of a scene between two depths."""
+        answer: catalog.AdviseSourceResponse = await _ask(
+            self._catalog.AdviseSource,
+            catalog.AdviseSourceRequest(display=display_from(display), near_m=near_m, far_m=far_m))
         return answer
 
     async def close(self) -> None:

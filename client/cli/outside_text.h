@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views that look past their source, in words.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "viewloom/v1/ingest_service.pb.h"
+
+namespace viewloom::cli {
+
+// "views 0-6 by 4 %, view 47 by 1 %": shares rounded up; "" where there are none.
+std::string outsideText(const google::protobuf::RepeatedPtrField<v1::ViewsOutside>& views);
+
+// Warns of displays whose views leave the source, once each time they change.
+// Thread-safety: all methods may be called from any thread.
+class OutsideWarnings {
+ public:
+  // The lines to say.
+  std::vector<std::string> note(const v1::Wanted& wanted);
+
+ private:
+  std::mutex mutex_;
+  std::map<uint64_t, std::string> told_;  // by display
+};
+
+}  // namespace viewloom::cli

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers of the server for programs.
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include "base/status.h"
+
+namespace viewloom::cli {
+
+// On stdout, as JSON with every field.
+absl::Status printJson(const google::protobuf::Message& message);
+
+}  // namespace viewloom::cli
