@@ -27,6 +27,11 @@ struct AdviseOptions {
   bool as_json = false;
 };
 
+// To a micrometre: less is what rounding leaves of nothing.
+double wholeMicrometres(double value_m) {
+  return std::round(value_m * 1e6) / 1e6 + 0.0;  // + 0.0: no negative zero
+}
+
 std::string number(double value, int digits) {
   return formatNumber(value, digits);
 }
@@ -34,7 +39,8 @@ std::string number(double value, int digits) {
 std::string placeText(const v1::Pose& pose) {
   const v1::Vector3& at = pose.position();
   const v1::Quaternion& turn = pose.orientation();
-  std::string text = strCat("at ", at.x(), " ", at.y(), " ", at.z(), " m");
+  std::string text = strCat("at ", wholeMicrometres(at.x()), " ", wholeMicrometres(at.y()), " ",
+                            wholeMicrometres(at.z()), " m");
   const bool is_turned = std::hypot(turn.x(), turn.y(), turn.z()) > kLevelTurn;
   if (is_turned) {
     text += strCat(", turned by the quaternion ", turn.x(), " ", turn.y(), " ", turn.z(), " ",

@@ -154,7 +154,7 @@ RunCommand addInspectCommand(CLI::App& app) {
                  "without surface");
   app.add_flag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
   addPlaneOptions(app, options->files.loader.input);
-  addDisplayShape(app, options->display)->description("Display whose views may look past the file");
+  addDisplayShape(app, options->display);
   addPanelOptions(app, options->display);
   return [options](const CommonOptions& common) { return inspect(*options, common); };
 }

@@ -14,7 +14,7 @@ function sentence(runs, view_count) {
         `views ${first_view}–${last_view}`;
     return `${which} by ${percent(share)}`;
   });
-  return `Past the image of the source look ${parts.join(', ')}; there, its border is continued.`;
+  return `Past the image of the source look ${parts.join(', ')}.`;
 }
 
 export class ViewsOutside {

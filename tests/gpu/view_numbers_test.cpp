@@ -8,6 +8,7 @@
 
 #include "gpu/pattern_views.h"
 #include "patterns/view_numbers.h"
+#include "support/read_view_number.h"
 
 namespace viewloom {
 namespace {
@@ -18,31 +19,10 @@ using patterns::PxBox;
 
 constexpr SizePx kSource_px{1280, 720};
 
-// Read as the header of the pattern says, apart from what draws it; nothing where the blocks make
-// no number. Tiles show the source at `scale` around its middle.
+// Tiles show the source at `scale` around its middle.
 std::optional<uint32_t> numberIn(const ViewPicture& view, const PxBox& window, double scale) {
-  const double side = 0.4 * window.width();
-  const auto isWhite = [&](uint32_t row, uint32_t column) {
-    const double x = window.middleX() + (column == 0 ? -0.5 : 0.5) * side;
-    const double y = window.top + 3.3 * window.width() + (row + 0.5) * side;
-    const auto tile = [&](double px, uint32_t source_side, uint32_t tile_side) {
-      return static_cast<uint32_t>((px - source_side / 2.0) * scale + tile_side / 2.0);
-    };
-    return view.codeAt(tile(x, kSource_px.width, view.sizePx().width),
-                       tile(y, kSource_px.height, view.sizePx().height), 1) > 127;
-  };
-  uint32_t number = 0, white = 0;
-  for (uint32_t row = 1; row <= 5; ++row) {
-    for (uint32_t column = 0; column < 2; ++column) {
-      number = 2 * number + (isWhite(row, column) ? 1 : 0);
-      white += isWhite(row, column) ? 1 : 0;
-    }
-  }
-  const bool begins = isWhite(0, 0) && !isWhite(0, 1);
-  const bool is_odd = white % 2 == 1;
-  const bool ends = isWhite(6, 0) == is_odd && isWhite(6, 1) != is_odd;
-  if (!begins || !ends) return std::nullopt;
-  return number;
+  return test::readViewNumber(window, kSource_px, view.sizePx(), scale,
+                              [&](uint32_t x, uint32_t y) { return view.codeAt(x, y, 1) > 127; });
 }
 
 constexpr uint32_t kColumns = 8, kRows = 3, kViews = kColumns * kRows;
