@@ -43,6 +43,10 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
   app.add_option("--focal-distance", options.focal_distance_m,
                  "Metres to the plane without parallax [by the content]")
       ->excludes(file);
+  app.add_option("--focus-follow", options.focus_following_s,
+                 "Seconds in which the focal plane goes 63 % of its way to what suits new frames")
+      ->check(CLI::Range(0.01, 60.0))
+      ->excludes(file);
   app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
       ->excludes(file);
   app.add_option("--samples", options.sample_count,
@@ -116,6 +120,7 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!options.file.empty()) return readDisplay(options.file);
   v1::Display display;
   display.mutable_filter()->set_sample_count(options.sample_count);
+  display.set_focus_following_s(options.focus_following_s);
   if (!isNative(options)) {
     *display.mutable_quilt() = makeQuilt(options);
     return display;
