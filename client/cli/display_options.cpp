@@ -48,6 +48,10 @@ CLI::Option* addDisplayShape(CLI::App& app, DisplayOptions& options) {
 
 void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
   auto* file = addDisplayShape(app, options);
+  app.add_option("--focus-follow", options.focus_following_s,
+                 "Seconds in which the focal plane goes 63 % of its way to what suits new frames")
+      ->check(CLI::Range(0.01, 60.0))
+      ->excludes(file);
   app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
       ->excludes(file);
   app.add_option("--samples", options.sample_count,
@@ -140,6 +144,7 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     return display;
   }
+  display.set_focus_following_s(options.focus_following_s);
   if (!isNative(options)) {
     *display.mutable_quilt() = makeQuilt(options);
     return display;

@@ -22,6 +22,7 @@ struct DisplayOptions {
   SizePx size_px;
   double view_cone_deg = 0;
   double focal_distance_m = 0;
+  double focus_following_s = 0;  // 0 = the focal plane stays
   double fov_y_deg = 0;
   bool is_native = false;        // the panel's own px
   std::string calibration_file;  // of the panel

@@ -139,14 +139,14 @@ class WatchRun {
                 }};
   }
 
-  // Once: eyes that move change the layout alone.
+  // Once: eyes that move, and a focal plane that does, change no more than the views.
   void sayLayout(const v1::AtlasLayout& layout) {
-    std::string text = strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
+    std::string grid = strCat("atlas ", layout.size().width(), "x", layout.size().height(), ", ",
                               layout.view_count(), " views of ", layout.tile_size().width(), "x",
-                              layout.tile_size().height(), ", ", planeOf(layout));
-    if (text == said_layout_) return;
-    line_.say(text);
-    said_layout_ = std::move(text);
+                              layout.tile_size().height());
+    if (grid == said_grid_) return;
+    line_.say(strCat(grid, ", ", planeOf(layout)));
+    said_grid_ = std::move(grid);
   }
 
   void take(const Atlas& atlas) {
@@ -212,7 +212,7 @@ class WatchRun {
   v1::AtlasHeader newest_;
   double latency_s_ = 0;
   absl::Status failure_;
-  std::string said_layout_;           // the watcher's thread's own
+  std::string said_grid_;             // the watcher's thread's own
   std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
   std::unique_ptr<EyeFeed> eyes_;     // last: it gives to the watcher
 };

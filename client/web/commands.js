@@ -7,7 +7,7 @@ const kLoopback = ['localhost', '127.0.0.1', '[::1]'];
 const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
-  focus_m: '--focal-distance', fov_deg: '--fov',
+  focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
 };
 const kRadPerDeg = Math.PI / 180;
 
@@ -22,7 +22,7 @@ function quoted(text) {
 function displayFile(parameters) {
   const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
   const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
-  return JSON.stringify({quilt: {
+  return JSON.stringify({focusFollowingS: number('focus_follow_s'), quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
     viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),

@@ -51,13 +51,12 @@ InvZStretch narrowestRange(const DepthSpread& spread, double share) {
   return narrowest;
 }
 
-// Of a surface, for each 1/m that it lies beside the focal plane; eyes beside and above each other.
+}  // namespace
+
 double disparityPerInvZ(const AtlasLayout& layout) {
   const glm::dvec2 step = layout.views.front().camera.intrinsics.focal_px * layout.view_pitch_m;
   return std::max(step.x, step.y);
 }
-
-}  // namespace
 
 std::optional<DepthBudget> depthBudget(const AtlasLayout& layout, const SourceStats& stats,
                                        const DepthSpread& spread) {

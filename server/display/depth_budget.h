@@ -26,6 +26,10 @@ struct DepthBudget {
   double suggested_view_cone_rad = 0;  // up to the display's own; 0 = it has none
 };
 
+// Of a surface, for each 1/m that its 1/Z lies beside the focal plane's: px from a view to its
+// neighbour, beside or above it.
+double disparityPerInvZ(const AtlasLayout& layout);
+
 // Of a source with these stats and this spread. None where no views are neighbours on one focal
 // plane, and of a source without surface.
 std::optional<DepthBudget> depthBudget(const AtlasLayout& layout, const SourceStats& stats,

@@ -137,6 +137,7 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.tolerance_px);
   key.add(static_cast<uint32_t>(spec.outside_fill));
   key.add(spec.background_rgb);
+  key.add(spec.focus_following_s);
   key.add(spec.filter.sample_count);
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
   return key.take();

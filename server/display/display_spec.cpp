@@ -12,11 +12,52 @@
 #include "display/stereo.h"
 
 namespace viewloom {
+namespace {
+
+// Of the plane that all views frame.
+double* focalDistanceOf(QuiltSpec& quilt) {
+  return &quilt.focal_distance_m;
+}
+double* focalDistanceOf(StereoSpec& stereo) {
+  const bool has_own_eyes = stereo.is_tracked || !stereo.eyes.empty();
+  return has_own_eyes ? nullptr : &stereo.focal_distance_m;
+}
+double* focalDistanceOf(CamerasSpec& cameras) {
+  return cameras.grid ? &cameras.grid->focal_distance_m : nullptr;
+}
+double* focalDistanceOf(LenticularSpec& lenticular) {
+  return &lenticular.focal_distance_m;
+}
+double* focalDistanceOf(IntegralSpec&) {
+  return nullptr;  // its panel stands where it stands
+}
+
+absl::Status checkFocusFollowing(const DisplaySpec& spec) {
+  if (spec.focus_following_s == 0) return absl::OkStatus();
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.focus_following_s, kFocusFollowingMin_s,
+                                      kFocusFollowingMax_s, "focus_following_s"));
+  if (withFocalDistance(spec, 1)) return absl::OkStatus();
+  return invalidField(
+      "focus_following_s",
+      "came for a display without a focal plane to move; accepted for quilts, stereo "
+      "without given or tracked eyes, grids of cameras and lenticular panels");
+}
+
+}  // namespace
+
+std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m) {
+  double* const place = std::visit([](auto& kind) { return focalDistanceOf(kind); }, spec.kind);
+  if (place == nullptr) return std::nullopt;
+  *place = focal_distance_m;
+  return spec;
+}
+
 absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
   VIEWLOOM_RETURN_IF_ERROR(std::visit([](auto& kind) { return complete(kind); }, spec.kind));
   VIEWLOOM_RETURN_IF_ERROR(
       checkCount(spec.filter.sample_count, kFilterSampleCountMax, "filter.sample_count"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.filter.width, 0, kFilterWidthMax, "filter.width"));
+  VIEWLOOM_RETURN_IF_ERROR(checkFocusFollowing(spec));
   if (spec.world_pose) VIEWLOOM_RETURN_IF_ERROR(validatePose(*spec.world_pose, "world_pose"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
   if (spec.tolerance_px == 0) spec.tolerance_px = kDefaultTolerance_px;

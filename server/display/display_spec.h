@@ -21,17 +21,24 @@ struct DisplaySpec {
   std::optional<Pose> world_pose;  // none = stands in the source's camera
   double tolerance_px = 0;         // output px; 0 = 0.25
   OutsideFill outside_fill = OutsideFill::kBorder;
-  uint32_t background_rgb = 0;  // 0xRRGGBB, sRGB
+  uint32_t background_rgb = 0;   // 0xRRGGBB, sRGB
+  double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
 };
 
 // Ranges of proto Display.
 inline constexpr double kTolerancePxMax = 16;
 inline constexpr uint32_t kJpegSidePxMax = 65500;  // libjpeg's JPEG_MAX_DIMENSION
 inline constexpr double kDefaultTolerance_px = 0.25;
+inline constexpr double kFocusFollowingMin_s = 0.01;
+inline constexpr double kFocusFollowingMax_s = 60;
 
 // Checks every range and fills in presets and defaults that need no stream. Errors name the field
 // as in proto Display ("quilt.columns"). NOT_FOUND for a preset that does not exist.
 absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec);
+
+// The same display with its focal plane elsewhere. Empty where views frame no plane in common, or
+// one that is not the display's to move.
+std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m);
 
 // kJpegPlanes: red, green and blue as images of one channel each.
 enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw };

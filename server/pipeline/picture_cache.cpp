@@ -5,6 +5,8 @@
 #include <atomic>
 #include <utility>
 
+#include "display/depth_budget.h"
+
 namespace viewloom {
 namespace {
 
@@ -29,13 +31,15 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   const bool stands_in_only =
       !display.spec.world_pose && source.sources.size() == 1 && entry.sources.size() == 1;
   const bool is_aimed = stands_in_only || entry.sources == source.sources;
-  if (entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes) {
-    auto layout = makeLayout(display.spec, source.defaults, eyes.get());
-    if (!layout.ok()) return layout.status();
-    entry.layout = *std::move(layout);
-  } else if (is_aimed) {
-    return entry.jobs.front();
+  bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
+  if (is_new) {
+    VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
   }
+  if (moveFocus(display.spec, source, entry)) {
+    VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
+    is_new = true;
+  }
+  if (!is_new && is_aimed) return entry.jobs.front();
   const Pose display_pose = displayPose(display.spec, source.sources.front().camera);
   if (std::shared_ptr<TraceJob>* free = findFree(entry.jobs)) {
     (*free)->layout = entry.layout;
@@ -52,12 +56,30 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   return entry.jobs.front();
 }
 
-absl::StatusOr<std::shared_ptr<const AtlasLayout>> PictureCache::makeLayout(
-    const DisplaySpec& spec, const StreamDefaults& defaults, const EyePoses* eyes) const {
+absl::Status PictureCache::layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
+                                  const EyePosesPtr& eyes, Entry& entry) const {
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, limits_));
-  absl::StatusOr<AtlasLayout> made = makeAtlasLayout(spec, defaults, eyes);
+  absl::StatusOr<AtlasLayout> made =
+      entry.focal_distance_m
+          ? makeAtlasLayout(*withFocalDistance(spec, *entry.focal_distance_m), defaults, eyes.get())
+          : makeAtlasLayout(spec, defaults, eyes.get());
   if (!made.ok()) return made.status();
-  return std::make_shared<const AtlasLayout>(*std::move(made));
+  entry.layout = std::make_shared<const AtlasLayout>(*std::move(made));
+  return absl::OkStatus();
+}
+
+// True when the focal plane has moved so far that it shows. What a structure says counts for the
+// time since the one before was built, and once: publishers' clocks may stand, and go back.
+bool PictureCache::moveFocus(const DisplaySpec& spec, const ResidentStructure& source,
+                             Entry& entry) {
+  if (spec.focus_following_s == 0) return false;
+  const auto budget = depthBudget(*entry.layout, source.stats, source.depths);
+  const double suggested_m =
+      budget ? budget->suggested_focal_distance_m : entry.layout->focal_distance_m;
+  const std::optional<double> moved_m =
+      entry.focus.follow(*entry.layout, suggested_m, spec.focus_following_s, source.built_at_ns);
+  if (moved_m) entry.focal_distance_m = moved_m;
+  return moved_m.has_value();
 }
 
 void PictureCache::keepOnly(const std::vector<ActiveDisplayPtr>& displays) {

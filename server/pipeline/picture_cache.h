@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views of each picture as the tracer takes them. Layouts stay as long as a display, its eyes
-// and its stream ask for nothing else; views are aimed anew when a camera moves, in memory that is
-// there.
+// The views of each picture as the tracer takes them. Layouts stay as long as a display, its eyes,
+// its focal plane and its stream ask for nothing else; views are aimed anew when a camera moves, in
+// memory that is there.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "display/atlas_layout.h"
+#include "display/focus_follower.h"
 #include "pipeline/resident_structure.h"
 #include "publish/broadcaster.h"
 #include "trace/trace_job.h"
@@ -34,14 +36,16 @@ class PictureCache {
   struct Entry {
     StreamDefaults defaults;
     EyePosesPtr eyes;
-    std::shared_ptr<const AtlasLayout> layout;    // of these defaults and eyes
+    FocusFollower focus;
+    std::optional<double> focal_distance_m;       // where it has moved to
+    std::shared_ptr<const AtlasLayout> layout;    // of all that
     std::vector<std::shared_ptr<TraceJob>> jobs;  // the last aimed is in front
     std::vector<SeenSource> sources;              // that it is aimed at
   };
 
-  absl::StatusOr<std::shared_ptr<const AtlasLayout>> makeLayout(const DisplaySpec& spec,
-                                                                const StreamDefaults& defaults,
-                                                                const EyePoses* eyes) const;
+  absl::Status layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
+                      const EyePosesPtr& eyes, Entry& entry) const;
+  static bool moveFocus(const DisplaySpec& spec, const ResidentStructure& source, Entry& entry);
 
   const AtlasLimits limits_;
   std::map<std::string, Entry> entries_;  // by picture_key

@@ -31,6 +31,7 @@ constexpr std::array kParameters = {
     ParameterField{"aspect", "quilt.aspect"},
     ParameterField{"cone_deg", "quilt.view_cone_rad"},
     ParameterField{"focus_m", "quilt.focal_distance_m"},
+    ParameterField{"focus_follow_s", "focus_following_s"},
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
@@ -150,6 +151,7 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
   VIEWLOOM_RETURN_IF_ERROR(quilt.status());
   DisplaySpec display;
   display.kind = *quilt;
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
   absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(display);
   VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status()));
   const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters);

@@ -204,6 +204,15 @@ const std::vector<BadDisplay> kCommon = {
     {"depth as JPEG",
      [](auto& o) { encoding(o).set_planes(v1::BAND_ENCODING_JPEG); },
      {kInvalid, "open.encoding.planes"}},
+    {"a focal plane that follows for an hour",
+     [](auto& o) { o.mutable_display()->set_focus_following_s(3600); },
+     {kInvalid, "open.display.focus_following_s"}},
+    {"a focal plane that follows, of cameras",
+     [](auto& o) {
+       cameras(o, 2);
+       o.mutable_display()->set_focus_following_s(1);
+     },
+     {kInvalid, "open.display.focus_following_s"}},
     {"17 samples",
      [](auto& o) { o.mutable_display()->mutable_filter()->set_sample_count(17); },
      {kInvalid, "open.display.filter.sample_count"}},

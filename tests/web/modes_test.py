@@ -164,6 +164,7 @@ class Modes(PageTest):
         command = {name: self.browser.wait_for(f"document.getElementById('command-{name}').value")
                    for name in ("watch", "still", "socket")}
         self.assertIn("viewloom watch painted --display display.json", command["watch"])
+        self.assertNotIn("focusFollowing", command["watch"])
         curl, _, name, url = shlex.split(command["still"])
         self.assertEqual((curl, name), ("curl", "painted_qs8x6a0.75.jpg"))
         still = fetch(self.server.port, url.removeprefix(self.server.url.rstrip("/")))
@@ -174,6 +175,13 @@ class Modes(PageTest):
             "fetch('/api/displays').then(r => r.text())"))["displays"]
         self.assertEqual(viewer.receive_atlas().header["layout"], shown[0]["layout"])
         self.assertEqual(len(shown), 1)
+
+    def test_a_focal_plane_that_follows_does_so_in_the_commands_too(self):
+        for address, words in ((SMALL, '{"focusFollowingS":0.5,"quilt":'),
+                               ("?stream=painted", " --focus-follow 0.5")):
+            self.open(address + "&focus_follow_s=0.5")
+            watch = self.browser.wait_for("document.getElementById('command-watch').value")
+            self.assertIn(words, watch)
 
     def test_the_depth_budget_is_shown_where_the_server_says_it(self):
         self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""

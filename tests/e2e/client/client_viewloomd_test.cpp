@@ -117,6 +117,8 @@ TEST_F(ClientWithViewloomd, theCommandPublishesAndWritesAQuilt) {
                        out.string()),
             0);
   EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 1 + 4);
+  EXPECT_EQ(runCommand(command + " watch s --count 1 -q --focus-follow 0.5"), 0);
+  EXPECT_NE(runCommand(command + " watch s --count 1 -q --focus-follow 99 2>/dev/null"), 0);
   EXPECT_EQ(runCommand(command + " list --json streams >/dev/null"), 0);
   EXPECT_EQ(runCommand(command + " publish --synthetic --size 64x36 --seconds 0.2 -q --stream t"),
             0);

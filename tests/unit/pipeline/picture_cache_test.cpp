@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace viewloom {
 namespace {
 
@@ -113,6 +115,35 @@ TEST_F(PictureCacheTest, seesByTheEyesThatItIsGiven) {
   EXPECT_EQ(fieldOf(cache_.get(tracked, seenFrom(0), eyesAt(-1e200)).status()),
             "eye_poses.eyes[0].pose.position");
   EXPECT_EQ(*cache_.get(tracked, seenFrom(0), right), moved) << "after eyes that were refused";
+}
+
+TEST_F(PictureCacheTest, followsWhatFramesShowOncePerFrameAndOnlyAsFarAsItShows) {
+  ActiveDisplay following = display_;
+  following.spec.focus_following_s = 2;
+  following.picture_key = "following";
+  ResidentStructure frame = seenFrom(0);
+  const auto show = [&](double time_s, double inv_z) {
+    frame.built_at_ns = int64_t(time_s * 1e9);
+    frame.depths = {{.inv_z_low = inv_z - 0.001, .inv_z_high = inv_z + 0.001, .count = 9}};
+    return *cache_.get(following, frame);
+  };
+  const PicturePtr first = show(10, 1.5);
+  EXPECT_EQ(first->layout->focal_distance_m, 2);
+  EXPECT_EQ(show(10, 1.5), first);
+  const PicturePtr second = show(11, 1.5);
+  EXPECT_NEAR(1 / second->layout->focal_distance_m, 1.5 - std::exp(-0.5), 1e-9);
+  EXPECT_EQ(second->layout->eye_focus_m, second->layout->focal_distance_m);
+  // For another encoding of the same frame.
+  EXPECT_EQ(show(11, 1.5), second);
+  // At rest, nothing is laid out, and a source without surface says nothing.
+  const PicturePtr third = show(60, 1.5);
+  EXPECT_NEAR(1 / third->layout->focal_distance_m, 1.5, 1e-9);
+  EXPECT_EQ(show(70, 1.5), third);
+  frame.built_at_ns += 10'000'000'000;
+  frame.depths.clear();
+  EXPECT_EQ(*cache_.get(following, frame), third);
+  // The display without stays.
+  EXPECT_EQ((*cache_.get(display_, frame))->layout->focal_distance_m, 2);
 }
 
 TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {
