@@ -31,6 +31,9 @@ double* focalDistanceOf(LenticularSpec& lenticular) {
 double* focalDistanceOf(IntegralSpec&) {
   return nullptr;  // its panel stands where it stands
 }
+double* focalDistanceOf(RgbdSpec&) {
+  return nullptr;  // one view frames nothing that others do
+}
 
 absl::Status checkFocusFollowing(const DisplaySpec& spec) {
   if (spec.focus_following_s == 0) return absl::OkStatus();
