@@ -34,6 +34,14 @@ absl::StatusOr<LoadedFiles> FrameLoader::loadDeep(const std::string& file) const
 }
 
 absl::StatusOr<LoadedFiles> FrameLoader::load(const FrameFiles& files) {
+  absl::StatusOr<LoadedFiles> loaded = loadAny(files);
+  if (loaded.ok() && options_.input.tone_map != v1::TONE_MAP_UNSPECIFIED) {
+    loaded->frame.wire.header.set_tone_map(options_.input.tone_map);
+  }
+  return loaded;
+}
+
+absl::StatusOr<LoadedFiles> FrameLoader::loadAny(const FrameFiles& files) {
   if (!files.manifest.empty()) {
     const std::filesystem::path path = files.manifest;
     const absl::StatusOr<v1::FrameManifest> manifest = files::readFrameManifest(path);

@@ -41,6 +41,7 @@ class FrameLoader {
   absl::StatusOr<LoadedFiles> load(const FrameFiles& files);
 
  private:
+  absl::StatusOr<LoadedFiles> loadAny(const FrameFiles& files);
   absl::StatusOr<LoadedFiles> loadDeep(const std::string& file) const;
 
   LoaderOptions options_;

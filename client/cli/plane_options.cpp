@@ -22,6 +22,8 @@ const std::map<std::string, v1::ColorPrimaries> kPrimaries{{"bt709", v1::COLOR_P
 const std::map<std::string, v1::AlphaMode> kAlphas{{"opaque", v1::ALPHA_MODE_OPAQUE},
                                                    {"premultiplied", v1::ALPHA_MODE_PREMULTIPLIED},
                                                    {"straight", v1::ALPHA_MODE_STRAIGHT}};
+const std::map<std::string, v1::ToneMap> kToneMaps{
+    {"clip", v1::TONE_MAP_CLIP}, {"filmic", v1::TONE_MAP_FILMIC}, {"agx", v1::TONE_MAP_AGX}};
 const std::map<std::string, v1::ImagePart> kSides{{"right", v1::IMAGE_PART_RIGHT},
                                                   {"left", v1::IMAGE_PART_LEFT},
                                                   {"top", v1::IMAGE_PART_TOP},
@@ -149,6 +151,11 @@ void addPlaneOptions(CLI::App& app, InputSettings& settings) {
       ->group("Colour");
   addWord(app, "--alpha", settings.alpha, kAlphas,
           "What alpha says: opaque, premultiplied or straight [by the file]")
+      ->group("Colour");
+  addWord(
+      app, "--tone-map", settings.tone_map, kToneMaps,
+      "Of linear colour, how light brighter than white is shown: clip, filmic (a film's shoulder "
+      "and toe) or agx (bright colours go to white) [a manifest's, else clip]")
       ->group("Colour");
   addCameraOptions(app, settings);
 }

@@ -120,6 +120,7 @@ absl::StatusOr<LoadedFrame> loadFrame(const v1::FrameManifest& manifest,
   header.set_number(std::max<uint64_t>(manifest.number(), 1));
   header.set_capture_time_ns(manifest.capture_time_ns());
   header.set_exposure_ev(manifest.exposure_ev());
+  header.set_tone_map(manifest.tone_map());
   for (int i = 0; i < manifest.sources_size(); ++i) {
     const absl::Status status =
         loadSource(manifest.sources(i), folder, *header.add_sources(), frame);

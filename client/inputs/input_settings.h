@@ -49,6 +49,7 @@ struct InputSettings {
   v1::ColorTransfer transfer = v1::COLOR_TRANSFER_UNSPECIFIED;
   v1::ColorPrimaries primaries = v1::COLOR_PRIMARIES_UNSPECIFIED;
   v1::AlphaMode alpha = v1::ALPHA_MODE_UNSPECIFIED;
+  v1::ToneMap tone_map = v1::TONE_MAP_UNSPECIFIED;
 
   std::optional<double> fov_y_deg;   // 40 without any word of a camera
   std::optional<double> focal_px;    // instead of fov_y_deg; vertical, in px of the depth

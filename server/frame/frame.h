@@ -28,6 +28,8 @@ enum class PlaneCompression : uint8_t { kNone, kZstd, kPredictedZstd };
 enum class ColorTransfer : uint8_t { kSrgb, kLinear };
 enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
 enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };
+// How light brighter than white is shown, of planes of linear colour (proto ToneMap).
+enum class ToneMap : uint8_t { kClip, kFilmic, kAgx };
 enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity };
 
 // How depth samples become 1/Z; frame/depth.h makes of it what kernels compute with.
@@ -77,6 +79,7 @@ struct FrameFormat {
   int64_t capture_time_ns = 0;
   std::vector<SourceFormat> sources;
   double exposure_ev = 0;
+  ToneMap tone_map = ToneMap::kClip;
 };
 
 // Decoded, packed planes. color: uint8_t[h][w][4] for kRgba8 (kRgb8 and kJpeg decode to it), or

@@ -44,11 +44,11 @@ bool haveSameContent(const SourceFormat& one, const SourceFormat& other) {
 }
 
 bool haveSameContent(const FrameFormat& one, const FrameFormat& other) {
-  const auto& [number, capture_time_ns, sources, exposure_ev] = one;
+  const auto& [number, capture_time_ns, sources, exposure_ev, tone_map] = one;
   const auto same_source = [](const SourceFormat& a, const SourceFormat& b) {
     return haveSameContent(a, b);
   };
-  return exposure_ev == other.exposure_ev &&
+  return exposure_ev == other.exposure_ev && tone_map == other.tone_map &&
          std::ranges::equal(sources, other.sources, same_source);
 }
 

@@ -47,9 +47,10 @@ constexpr EnumRow<v1::AlphaMode, AlphaMode> kAlphas[] = {
     {v1::ALPHA_MODE_STRAIGHT, AlphaMode::kStraight}};
 
 // The only one that is served, and nothing has to be done for it.
-enum class ToneMap : uint8_t { kClip };
 constexpr EnumRow<v1::ToneMap, ToneMap> kToneMaps[] = {{v1::TONE_MAP_UNSPECIFIED, ToneMap::kClip},
-                                                       {v1::TONE_MAP_CLIP, ToneMap::kClip}};
+                                                       {v1::TONE_MAP_CLIP, ToneMap::kClip},
+                                                       {v1::TONE_MAP_FILMIC, ToneMap::kFilmic},
+                                                       {v1::TONE_MAP_AGX, ToneMap::kAgx}};
 
 constexpr EnumRow<v1::DepthMeaning, DepthMeaning> kMeanings[] = {
     {v1::DEPTH_MEANING_PLANAR, DepthMeaning::kPlanar},
@@ -179,7 +180,8 @@ absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
                                             const FrameLimits& limits) {
   VIEWLOOM_RETURN_IF_ERROR(
       validateSourceCount(static_cast<uint32_t>(proto.sources_size()), limits));
-  VIEWLOOM_RETURN_IF_ERROR(enumFromProto(proto.tone_map(), "tone_map", kToneMaps).status());
+  const auto tone_map = enumFromProto(proto.tone_map(), "tone_map", kToneMaps);
+  VIEWLOOM_RETURN_IF_ERROR(tone_map.status());
   FrameFormat format;
   for (int i = 0; i < proto.sources_size(); ++i) {
     auto source = sourceFromProto(proto.sources(i), limits);
@@ -189,6 +191,7 @@ absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
   format.number = proto.number();
   format.capture_time_ns = proto.capture_time_ns();
   format.exposure_ev = proto.exposure_ev();
+  format.tone_map = *tone_map;
   return format;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frame/depth.h"
+#include "shared/tone_map.h"
 
 namespace viewloom {
 namespace {
@@ -39,17 +40,19 @@ abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes) {
 }
 
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
-                                         double exposure_ev) {
+                                         double exposure_ev, ToneMap tone_map) {
+  const bool is_linear = color.transfer == ColorTransfer::kLinear;
   return {.from = {},
           .to = {},
           .texel_count = uint32_t(color.size_px.area()),
           .from_format =
               decoded_encoding == PlaneEncoding::kRgba8 ? abi::kColorRgba8 : abi::kColorRgba16f,
           .to_format = abi::kColorRgba16f,
-          .is_linear = color.transfer == ColorTransfer::kLinear,
+          .is_linear = is_linear,
           .primaries = uint32_t(color.primaries),
           .alpha = uint32_t(color.alpha),
-          .light_scale = float(std::exp2(exposure_ev))};
+          .light_scale = float(std::exp2(exposure_ev)),
+          .tone_map = is_linear ? uint32_t(tone_map) : abi::kToneMapClip};
 }
 
 static_assert(uint32_t(ColorPrimaries::kBt709) == abi::kPrimariesBt709);
@@ -58,5 +61,8 @@ static_assert(uint32_t(ColorPrimaries::kBt2020) == abi::kPrimariesBt2020);
 static_assert(uint32_t(AlphaMode::kOpaque) == abi::kAlphaOpaque);
 static_assert(uint32_t(AlphaMode::kPremultiplied) == abi::kAlphaPremultiplied);
 static_assert(uint32_t(AlphaMode::kStraight) == abi::kAlphaStraight);
+static_assert(uint32_t(ToneMap::kClip) == abi::kToneMapClip);
+static_assert(uint32_t(ToneMap::kFilmic) == abi::kToneMapFilmic);
+static_assert(uint32_t(ToneMap::kAgx) == abi::kToneMapAgx);
 
 }  // namespace viewloom

@@ -11,6 +11,6 @@ namespace viewloom {
 abi::DepthPlane describeDepth(const PlaneFormat& depth, uint64_t offset_bytes);
 // All but the addresses and what it becomes.
 abi::ConvertColorPush describeConversion(const PlaneFormat& color, PlaneEncoding decoded_encoding,
-                                         double exposure_ev);
+                                         double exposure_ev, ToneMap tone_map);
 
 }  // namespace viewloom

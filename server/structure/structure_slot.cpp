@@ -121,7 +121,7 @@ void StructureSlot::describe(const Frame& frame, const SourcePart& part) {
     depth_planes_.planes[i] = describeDepth(source.layers[i].depth, staged_[i].depth.offset);
     abi::ConvertColorPush color =
         describeConversion(source.layers[i].color, frame.sources[part.source][i].color_encoding,
-                           frame.format.exposure_ev);
+                           frame.format.exposure_ev, frame.format.tone_map);
     color.texel_count = uint32_t(shape_.color_px[i].area());
     color.from = addressWords(staging().address() + staged_[i].color.offset);
     color.to = addressWords(color_.address(layer));

@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +23,7 @@ using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
+using std::pow;
 
 #define VIEWLOOM_ABI_BEGIN namespace viewloom::abi {
 #define VIEWLOOM_ABI_END }

@@ -128,7 +128,7 @@ VIEWLOOM_ABI_FUNCTION int smoothingStride(uint pass) {
 // what bends, or rises from one to the other, by more than that counts less, down to nothing here.
 // Powers of two, so that no kernel rounds otherwise than another.
 VIEWLOOM_ABI_CONST float kPairReaches = 4.0f;
-VIEWLOOM_ABI_CONST float kSmoothingShare = 0.125f;  // of each of four pairs
+VIEWLOOM_ABI_CONST float kSmoothingShare = 0.125f;    // of each of four pairs
 VIEWLOOM_ABI_CONST float kSmoothingGapShare = 0.25f;  // of the way to the next layer, at most
 
 // A face of a cube map is surrounded by so many px of its neighbours, seen by its own pinhole.
@@ -192,8 +192,8 @@ struct MeasuredHead {
   float noise_sigma;    // 1/m
   float kappa_abs;      // 1/m
   float kappa_rel;
-  float inv_z_far;   // 2nd percentile of layer 0, 1/m
-  float inv_z_near;  // 98th percentile of layer 0, 1/m
+  float inv_z_far;        // 2nd percentile of layer 0, 1/m
+  float inv_z_near;       // 98th percentile of layer 0, 1/m
   float smoothing_reach;  // how far smoothing may move a sample, 1/m
   uint first_smoothing_pass;
   // Groups of smooth_columns.comp, before kFirstShortPass and from there on: none where depth is
@@ -232,13 +232,14 @@ struct ConvertColorPush {
   uint primaries;     // kPrimaries...
   uint alpha;         // kAlpha...
   float light_scale;  // 2^exposure
+  uint tone_map;      // kToneMap... (shared/tone_map.h), of linear planes
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 108);
 static_assert(offsetof(Measured, noise_histogram) == 72 + 4 * kDepthHistogramBinCount);
-static_assert(sizeof(ConvertColorPush) == 44);
+static_assert(sizeof(ConvertColorPush) == 48);
 #endif
 
 VIEWLOOM_ABI_END

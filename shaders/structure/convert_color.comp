@@ -6,6 +6,7 @@
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
 #include "lib/srgb.glsl"
+#include "shared/tone_map.h"
 
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { ConvertColorPush push; };
@@ -18,6 +19,13 @@ const mat3 kBt709FromDisplayP3 = mat3(1.2249402, -0.0420570, -0.0196376,  //
 const mat3 kBt709FromBt2020 = mat3(1.6604910, -0.1245505, -0.0181508,  //
                                    -0.5876411, 1.1328999, -0.1005789,  //
                                    -0.0728499, -0.0083494, 1.1187297);
+
+// A curve applies to the colour itself, so premultiplied light is divided first; what has light
+// without covering anything is as bright as that.
+vec3 toneMappedSurface(vec3 light, float alpha) {
+  const float cover = push.alpha == kAlphaPremultiplied && alpha > 0.0 ? alpha : 1.0;
+  return cover * toneMapped(light / cover, push.tone_map);
+}
 
 void main() {
   const uint index =
@@ -41,6 +49,7 @@ void main() {
   if (push.primaries == kPrimariesDisplayP3) light = kBt709FromDisplayP3 * light;
   if (push.primaries == kPrimariesBt2020) light = kBt709FromBt2020 * light;
   light *= push.light_scale;
+  if (push.tone_map != kToneMapClip) light = toneMappedSurface(light, alpha);
   if (push.alpha != kAlphaPremultiplied || is_encoded) light *= alpha;
   if (push.to_format == kColorRgb16) {
     Uvec2Ref(push.to).at[index] = rgb16FromLinear(light);

@@ -92,6 +92,31 @@ class Publishing(unittest.TestCase):
                                  display=scene.own_place())
             np.testing.assert_allclose(atlas.view(0), srgb_from_linear(light), atol=1)
 
+    def test_light_brighter_than_white_is_mapped_as_asked(self):
+        stops = np.linspace(-6, 5, scene.WIDTH_PX)
+        ramp = np.broadcast_to(0.18 * 2.0 ** stops, (scene.HEIGHT_PX, scene.WIDTH_PX))
+        light = np.stack([ramp, ramp, ramp], axis=-1).copy()
+        light[40:] *= [1, 0.1, 0]
+        light = light.astype(np.float16)
+
+        def curve(value):
+            power = np.clip(value, 0, 16) ** 1.25
+            k = 0.82 * 0.18 ** 1.25 / (0.18 - (0.18 / 16) ** 1.25)
+            return (1 + k / 32) * power / (power + k)
+
+        inset = 0.55 * np.eye(3) + 0.15
+        exact = light.astype(np.float64)
+        expected = {"clip": np.clip(exact, 0, 1), "filmic": curve(exact),
+                    "agx": np.clip(curve(exact @ inset) @ np.linalg.inv(inset), 0, 1)}
+        with self.server.publish("mapped") as publisher:
+            for name, mapped in expected.items():
+                publisher.send(scene.source(light, scene.step_depth()),
+                               tone_map=name).result(viewloomd.PATIENCE_S)
+                shown = self.server.still("mapped", scene.own_place(), encoding=LOSSLESS).color
+                self.assertLess(np.abs(shown - srgb_from_linear(mapped)).max(), 0.8, name)
+            with self.assertRaisesRegex(viewloom.BadInput, "clip, filmic, agx"):
+                publisher.send(scene.source(light, scene.step_depth()), tone_map="gamma")
+
     def test_depth_in_millimetres_is_the_same_depth(self):
         millimetres = (scene.step_depth() * 1000).astype(np.uint16)
         atlas = self.publish(

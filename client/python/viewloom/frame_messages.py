@@ -15,6 +15,9 @@ from viewloom.v1.ingest_service_pb2 import FrameChunk, PublishFramesRequest, Pub
 
 CHUNK_BYTES_MAX = 1 << 20
 
+_TONE_MAPS = {"clip": frame_pb2.TONE_MAP_CLIP, "filmic": frame_pb2.TONE_MAP_FILMIC,
+              "agx": frame_pb2.TONE_MAP_AGX}
+
 Sources = Union[Source, Sequence[Source]]
 
 
@@ -37,14 +40,21 @@ def _chunks(plane_index: int, wire_bytes: Any) -> Iterator[PublishFramesRequest]
             data=bytes(wire_bytes[offset:offset + CHUNK_BYTES_MAX])))
 
 
+def tone_map_from(name: str) -> frame_pb2.ToneMap:
+    """Raises BadInput for a name that is none."""
+    if name not in _TONE_MAPS:
+        raise BadInput("tone_map", f"is {name!r}, must be one of {', '.join(_TONE_MAPS)}")
+    return _TONE_MAPS[name]
+
+
 def frame_messages(number: int, sources: Sources, *, capture_time_ns: int, exposure_ev: float = 0.0,
-                   zstd_level: int = 0) -> list[PublishFramesRequest]:
+                   tone_map: str = "clip", zstd_level: int = 0) -> list[PublishFramesRequest]:
     """What says and carries the frame. Raises BadInput for arrays that make no frame.
 
     The messages hold copies: the arrays may change at once.
     """
     header = frame_pb2.FrameHeader(number=number, capture_time_ns=capture_time_ns,
-                                   exposure_ev=exposure_ev)
+                                   exposure_ev=exposure_ev, tone_map=tone_map_from(tone_map))
     chunks: list[PublishFramesRequest] = []
     plane_count = 0
     for source in [sources] if isinstance(sources, Source) else sources:

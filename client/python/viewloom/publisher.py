@@ -89,13 +89,14 @@ class Publisher:
         return self._ledger.wanted
 
     def send(self, sources: Sources, *, capture_time_ns: Optional[int] = None,
-             exposure_ev: float = 0.0) -> Future[FrameReport]:
+             exposure_ev: float = 0.0, tone_map: str = "clip") -> Future[FrameReport]:
         """Sends a frame of one or up to eight sources; its report is the future's result.
 
         The arrays are copied before this returns. It waits while in_flight_max frames are
         unreported; later frames replace earlier ones that the server has not begun.
         capture_time_ns: any clock of yours, echoed with every atlas; None = time.time_ns().
         exposure_ev:     stops by which linear colour is raised, -32..32.
+        tone_map:        "clip", "filmic" or "agx": how linear colour brighter than white is shown.
         Raises BadInput before anything is sent, and ViewloomError when the call has ended; a
         refused frame raises from the future.
         """
@@ -103,7 +104,7 @@ class Publisher:
             with self._changed:
                 self._changed.wait_for(self._ledger.may_send)
             messages = frame_messages(
-                self._ledger.next_number(), sources, exposure_ev=exposure_ev,
+                self._ledger.next_number(), sources, exposure_ev=exposure_ev, tone_map=tone_map,
                 capture_time_ns=time.time_ns() if capture_time_ns is None else capture_time_ns,
                 zstd_level=self._zstd_level)
             with self._changed:

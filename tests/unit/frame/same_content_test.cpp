@@ -72,6 +72,7 @@ TEST(SameContent, isThereWhateverTheNumberTheTimesAndTheWay) {
 TEST(SameContent, endsWithAnyDifference) {
   const std::vector<Change> changes = {
       {"exposure", [](Frame& f) { f.format.exposure_ev = 1; }},
+      {"tone map", [](Frame& f) { f.format.tone_map = ToneMap::kAgx; }},
       {"a source less",
        [](Frame& f) {
          f.format.sources.pop_back();

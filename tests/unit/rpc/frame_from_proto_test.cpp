@@ -13,6 +13,7 @@ v1::FrameHeader header() {
   proto.set_number(7);
   proto.set_capture_time_ns(-5);
   proto.set_exposure_ev(1.5);
+  proto.set_tone_map(v1::TONE_MAP_FILMIC);
   v1::Source& source = *proto.add_sources();
   source.set_connection_tolerance(0.25);
   v1::Intrinsics& intrinsics = *source.mutable_camera()->mutable_intrinsics();
@@ -53,6 +54,7 @@ TEST(FrameFromProto, takesEveryNumberOver) {
   EXPECT_EQ(format.number, 7u);
   EXPECT_EQ(format.capture_time_ns, -5);
   EXPECT_EQ(format.exposure_ev, 1.5);
+  EXPECT_EQ(format.tone_map, ToneMap::kFilmic);
   const SourceFormat& source = format.sources.at(0);
   EXPECT_EQ(source.connection_tolerance, 0.25);
   EXPECT_EQ(source.camera.intrinsics.focal_px, glm::dvec2(10, 11));

@@ -71,12 +71,12 @@ class Publisher:
         return self._ledger.wanted
 
     async def send(self, sources: Sources, *, capture_time_ns: Optional[int] = None,
-                   exposure_ev: float = 0.0) -> asyncio.Future[FrameReport]:
+                   exposure_ev: float = 0.0, tone_map: str = "clip") -> asyncio.Future[FrameReport]:
         """As the blocking Publisher.send: `report = await (await publisher.send(source))`."""
         async with self._send_lock:
             await until(self._changed, self._ledger.may_send)
             messages = frame_messages(
-                self._ledger.next_number(), sources, exposure_ev=exposure_ev,
+                self._ledger.next_number(), sources, exposure_ev=exposure_ev, tone_map=tone_map,
                 capture_time_ns=time.time_ns() if capture_time_ns is None else capture_time_ns,
                 zstd_level=self._zstd_level)
             promise = self._ledger.open_frame()
