@@ -27,7 +27,7 @@ uint32_t sidePx(double focal_px, double tangent_extent) {
 
 }  // namespace
 
-OutermostViews outermostViews(const AtlasLayout& layout) {
+OutermostViews outermostViewsOf(const AtlasLayout& layout, const View& view) {
   if (!std::holds_alternative<PinholeRays>(layout.rays)) {
     RayExtent extent = rayExtent(layout);
     return {.cameras = std::move(extent.corners), .size_px = extent.size_px};
@@ -37,15 +37,23 @@ OutermostViews outermostViews(const AtlasLayout& layout) {
     beside_m = glm::max(beside_m, glm::abs(sample.eye_m));
   }
   OutermostViews views{.cameras = {}, .size_px = layout.tile_size_px};
+  if (beside_m == glm::dvec2(0.0)) {
+    views.cameras = {view.camera};
+    return views;
+  }
+  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
+    views.cameras.push_back(
+        sampledCamera(view.camera, {.eye_m = corner * beside_m}, layout.focusOf(view)));
+  }
+  return views;
+}
+
+OutermostViews outermostViews(const AtlasLayout& layout) {
+  OutermostViews views{.cameras = {}, .size_px = {}};
   for (const View& view : layout.views) {
-    if (beside_m == glm::dvec2(0.0)) {
-      views.cameras.push_back(view.camera);
-      continue;
-    }
-    for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
-      views.cameras.push_back(
-          sampledCamera(view.camera, {.eye_m = corner * beside_m}, layout.focusOf(view)));
-    }
+    const OutermostViews own = outermostViewsOf(layout, view);
+    views.cameras.insert(views.cameras.end(), own.cameras.begin(), own.cameras.end());
+    views.size_px = own.size_px;
   }
   return views;
 }

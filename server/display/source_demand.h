@@ -23,6 +23,8 @@ struct OutermostViews {
   SizePx size_px;
 };
 
+// Of one view, and of all of them.
+OutermostViews outermostViewsOf(const AtlasLayout& layout, const View& view);
 OutermostViews outermostViews(const AtlasLayout& layout);
 
 // Of a pinhole that looks along -z from where poses are relative to. It serves what lies up to

@@ -51,15 +51,16 @@ double shareOfView(const Camera& view, SizePx view_px, const Intrinsics& source,
 std::vector<double> outsideShares(const AtlasLayout& layout, const Pose& source_from_display,
                                   const Intrinsics& source, SizePx source_px,
                                   const InvZRange& range) {
-  const OutermostViews outermost = outermostViews(layout);
-  const size_t cameras_per_view = outermost.cameras.size() / layout.views.size();
   std::vector<double> shares;
-  for (size_t i = 0; i < outermost.cameras.size(); ++i) {
-    Camera camera = outermost.cameras[i];
-    camera.pose = compose(source_from_display, camera.pose);
-    const double share = shareOfView(camera, outermost.size_px, source, source_px, range);
-    if (i % cameras_per_view == 0) shares.push_back(share);
-    shares.back() = std::max(shares.back(), share);
+  shares.reserve(layout.views.size());
+  for (const View& view : layout.views) {
+    const OutermostViews outermost = outermostViewsOf(layout, view);
+    double share = -1;
+    for (Camera camera : outermost.cameras) {
+      camera.pose = compose(source_from_display, camera.pose);
+      share = std::max(share, shareOfView(camera, outermost.size_px, source, source_px, range));
+    }
+    shares.push_back(share);
   }
   return shares;
 }
