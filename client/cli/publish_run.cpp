@@ -81,20 +81,14 @@ class PublishRun {
   }
 
   PublisherCallbacks callbacks() {
-    const OnConnection say = sayConnections(line_, common_);
     return {.on_accepted = {},
             .on_report = [this](const v1::FrameReport& report) { noteReport(report); },
             .on_wanted = [this](const v1::Wanted& wanted) { noteWanted(wanted); },
-            .on_connection =
-                [this, say](const ConnectionEvent& event) {
-                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
-                  if (is_lost && options_.has_no_retry) {
-                    std::lock_guard lock(mutex_);
-                    given_up_ = event.reason;
-                  } else {
-                    say(event);
-                  }
-                },
+            .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
+                                         [this](const absl::Status& reason) {
+                                           std::lock_guard lock(mutex_);
+                                           given_up_ = reason;
+                                         }),
             .on_sent = [this](const CompressedFrame& frame) { sent_.take(frame); }};
   }
 

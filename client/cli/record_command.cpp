@@ -65,19 +65,12 @@ class RecordRun {
   }
 
   WatcherCallbacks callbacks() {
-    const OnConnection say = sayConnections(line_, common_);
-    return {.on_layout = {},
-            .on_atlas = {},
-            .on_connection =
-                [this, say](const ConnectionEvent& event) {
-                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
-                  if (is_lost && options_.has_no_retry) {
-                    setFailure(event.reason);
-                  } else {
-                    say(event);
-                  }
-                },
-            .on_message = [this](const v1::StreamAtlasesResponse& message) { take(message); }};
+    return {
+        .on_layout = {},
+        .on_atlas = {},
+        .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
+                                     [this](const absl::Status& reason) { setFailure(reason); }),
+        .on_message = [this](const v1::StreamAtlasesResponse& message) { take(message); }};
   }
 
   void take(const v1::StreamAtlasesResponse& message) {

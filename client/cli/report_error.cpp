@@ -46,4 +46,17 @@ OnConnection sayConnections(StatusLine& line, const CommonOptions& common) {
   };
 }
 
+OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has_no_retry,
+                         std::function<void(const absl::Status&)> give_up) {
+  OnConnection say = sayConnections(line, common);
+  if (!has_no_retry) return say;
+  return [say = std::move(say), give_up = std::move(give_up)](const ConnectionEvent& event) {
+    if (event.kind == ConnectionEvent::Kind::kRetrying) {
+      give_up(event.reason);
+    } else {
+      say(event);
+    }
+  };
+}
+
 }  // namespace viewloom::cli

@@ -2,6 +2,7 @@
 // Errors as a person wants to read them: what happened, and what to do about it.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "base/status.h"
@@ -19,5 +20,9 @@ int reportError(const absl::Status& status, const CommonOptions& common);
 
 // Says when the connection comes, goes and is tried again.
 OnConnection sayConnections(StatusLine& line, const CommonOptions& common);
+
+// The same; but give_up gets the reason why it went where it is not to be tried again.
+OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has_no_retry,
+                         std::function<void(const absl::Status&)> give_up);
 
 }  // namespace viewloom::cli

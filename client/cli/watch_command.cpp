@@ -125,18 +125,11 @@ class WatchRun {
   }
 
   WatcherCallbacks callbacks() {
-    const OnConnection say = sayConnections(line_, common_);
-    return {.on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
-            .on_atlas = [this](const Atlas& atlas) { take(atlas); },
-            .on_connection =
-                [this, say](const ConnectionEvent& event) {
-                  const bool is_lost = event.kind == ConnectionEvent::Kind::kRetrying;
-                  if (is_lost && options_.has_no_retry) {
-                    setFailure(event.reason);
-                  } else {
-                    say(event);
-                  }
-                }};
+    return {
+        .on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
+        .on_atlas = [this](const Atlas& atlas) { take(atlas); },
+        .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
+                                     [this](const absl::Status& reason) { setFailure(reason); })};
   }
 
   // Once: eyes that move, and a focal plane that does, change no more than the views.

@@ -7,38 +7,12 @@
 #include <glm/gtc/packing.hpp>
 
 #include "frame/depth.h"
+#include "rpc/depth_format_from_proto.h"
 
 namespace viewloom::inspect {
 namespace {
 
 constexpr float kHuge = 1e9F;
-
-DepthMeaning meaningOf(v1::DepthMeaning meaning) {
-  switch (meaning) {
-    case v1::DEPTH_MEANING_RAY_DISTANCE:
-      return DepthMeaning::kRayDistance;
-    case v1::DEPTH_MEANING_WINDOW:
-      return DepthMeaning::kWindow;
-    case v1::DEPTH_MEANING_DISPARITY:
-      return DepthMeaning::kDisparity;
-    default:
-      return DepthMeaning::kPlanar;
-  }
-}
-
-DepthFormat formatOf(const v1::DepthFormat& proto) {
-  DepthFormat format{.meaning = meaningOf(proto.meaning()),
-                     .scale = proto.scale() == 0 ? 1 : proto.scale(),
-                     .offset = proto.offset(),
-                     .min_depth = proto.min_depth(),
-                     .max_depth = proto.max_depth() == 0 ? 1 : proto.max_depth(),
-                     .near_z_m = proto.near_z_m(),
-                     .far_z_m = proto.far_z_m(),
-                     .invalid_value = {},
-                     .invalid_is_far = proto.invalid_is_far()};
-  if (proto.has_invalid_value()) format.invalid_value = proto.invalid_value();
-  return format;
-}
 
 PlaneEncoding encodingOf(v1::PlaneEncoding encoding) {
   return encoding == v1::PLANE_ENCODING_DEPTH_F32   ? PlaneEncoding::kDepthF32
@@ -114,11 +88,12 @@ class SampleReader {
 absl::StatusOr<DepthSamples> readDepthSamples(const v1::Plane& plane,
                                               const std::vector<uint8_t>& bytes,
                                               const v1::Camera& camera) {
-  const DepthFormat format = formatOf(plane.depth());
+  const absl::StatusOr<DepthFormat> format = depthFormatFromProto(plane.depth());
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(format.status(), "depth"));
   const PlaneEncoding encoding = encodingOf(plane.encoding());
-  VIEWLOOM_RETURN_IF_ERROR(validateDepthFormat(format, encoding, "depth"));
+  VIEWLOOM_RETURN_IF_ERROR(validateDepthFormat(*format, encoding, "depth"));
   DepthSamples samples{.width_px = plane.size().width(), .height_px = plane.size().height()};
-  DepthCoefficients coefficients = makeDepthCoefficients(format, encoding);
+  DepthCoefficients coefficients = makeDepthCoefficients(*format, encoding);
   if (!camera.has_intrinsics()) coefficients.ray_distance = 0;
   SampleReader reader(coefficients, camera, samples);
   samples.inv_z.reserve(samples.sampleCount());

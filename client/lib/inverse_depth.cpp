@@ -3,41 +3,22 @@
 
 #include <cmath>
 #include <cstring>
+#include <variant>
 
 #include "frame/cube_map.h"
 #include "frame/depth.h"
+#include "rpc/depth_format_from_proto.h"
+#include "rpc/geometry_from_proto.h"
 
 namespace viewloom {
 namespace {
 
+// Nothing where a server refuses it.
 std::optional<DepthFormat> formatOf(const v1::DepthFormat& proto) {
-  DepthFormat format{.scale = proto.scale() == 0 ? 1 : proto.scale(),
-                     .offset = proto.offset(),
-                     .min_depth = proto.min_depth(),
-                     .max_depth = proto.max_depth() == 0 ? 1 : proto.max_depth(),
-                     .near_z_m = proto.near_z_m(),
-                     .far_z_m = proto.far_z_m(),
-                     .invalid_value = std::nullopt,
-                     .invalid_is_far = proto.invalid_is_far()};
-  if (proto.has_invalid_value()) format.invalid_value = proto.invalid_value();
-  switch (proto.meaning()) {
-    case v1::DEPTH_MEANING_PLANAR:
-      format.meaning = DepthMeaning::kPlanar;
-      break;
-    case v1::DEPTH_MEANING_RAY_DISTANCE:
-      format.meaning = DepthMeaning::kRayDistance;
-      break;
-    case v1::DEPTH_MEANING_WINDOW:
-      format.meaning = DepthMeaning::kWindow;
-      break;
-    case v1::DEPTH_MEANING_DISPARITY:
-      format.meaning = DepthMeaning::kDisparity;
-      break;
-    default:
-      return std::nullopt;
-  }
-  if (!validateDepthFormat(format, PlaneEncoding::kDepthF32, "depth").ok()) return std::nullopt;
-  return format;
+  const absl::StatusOr<DepthFormat> format = depthFormatFromProto(proto);
+  if (!format.ok()) return std::nullopt;
+  if (!validateDepthFormat(*format, PlaneEncoding::kDepthF32, "depth").ok()) return std::nullopt;
+  return *format;
 }
 
 float withinRange(float inv_z) {
@@ -92,20 +73,11 @@ std::optional<Intrinsics> depthIntrinsics(const v1::Source& source) {
   }
   if (size_px.area() == 0) return std::nullopt;
   if (source.cube_map()) return cubeFaceIntrinsics(size_px.width);
-  Intrinsics intrinsics;
-  if (source.camera().has_intrinsics()) {
-    const v1::Intrinsics& proto = source.camera().intrinsics();
-    intrinsics = {.focal_px = {proto.focal_x_px(), proto.focal_y_px()},
-                  .principal_px = {proto.principal_x_px(), proto.principal_y_px()}};
-  } else {
-    const v1::Fov& proto = source.camera().fov();
-    const Fov fov{.left_rad = proto.angle_left_rad(),
-                  .right_rad = proto.angle_right_rad(),
-                  .up_rad = proto.angle_up_rad(),
-                  .down_rad = proto.angle_down_rad()};
-    if (!validateFov(fov, "fov").ok()) return std::nullopt;
-    intrinsics = intrinsicsFromFov(fov, size_px);
-  }
+  const auto projection = projectionFromProto(source.camera());
+  if (!projection.ok()) return std::nullopt;
+  const Fov* const fov = std::get_if<Fov>(&*projection);
+  const Intrinsics intrinsics =
+      fov != nullptr ? intrinsicsFromFov(*fov, size_px) : std::get<Intrinsics>(*projection);
   if (!validateIntrinsics(intrinsics, "intrinsics").ok()) return std::nullopt;
   return intrinsics;
 }

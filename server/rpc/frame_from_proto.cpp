@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frame/cube_map.h"
+#include "rpc/depth_format_from_proto.h"
 #include "rpc/enum_from_proto.h"
 #include "rpc/geometry_from_proto.h"
 
@@ -51,12 +52,6 @@ constexpr EnumRow<v1::ToneMap, ToneMap> kToneMaps[] = {{v1::TONE_MAP_UNSPECIFIED
                                                        {v1::TONE_MAP_CLIP, ToneMap::kClip},
                                                        {v1::TONE_MAP_FILMIC, ToneMap::kFilmic},
                                                        {v1::TONE_MAP_AGX, ToneMap::kAgx}};
-
-constexpr EnumRow<v1::DepthMeaning, DepthMeaning> kMeanings[] = {
-    {v1::DEPTH_MEANING_PLANAR, DepthMeaning::kPlanar},
-    {v1::DEPTH_MEANING_RAY_DISTANCE, DepthMeaning::kRayDistance},
-    {v1::DEPTH_MEANING_WINDOW, DepthMeaning::kWindow},
-    {v1::DEPTH_MEANING_DISPARITY, DepthMeaning::kDisparity}};
 
 absl::Status colorFromProto(const v1::Plane& proto, PlaneFormat& plane) {
   if (proto.transfer() == v1::COLOR_TRANSFER_UNSPECIFIED) {
@@ -196,22 +191,6 @@ absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
 }
 
 }  // namespace
-
-absl::StatusOr<DepthFormat> depthFormatFromProto(const v1::DepthFormat& proto) {
-  const auto meaning = enumFromProto(proto.meaning(), "meaning", kMeanings);
-  VIEWLOOM_RETURN_IF_ERROR(meaning.status());
-  DepthFormat depth{.meaning = *meaning,
-                    .scale = proto.scale() == 0 ? 1 : proto.scale(),
-                    .offset = proto.offset(),
-                    .min_depth = proto.min_depth(),
-                    .max_depth = proto.max_depth() == 0 ? 1 : proto.max_depth(),
-                    .near_z_m = proto.near_z_m(),
-                    .far_z_m = proto.far_z_m(),
-                    .invalid_value = std::nullopt,
-                    .invalid_is_far = proto.invalid_is_far()};
-  if (proto.has_invalid_value()) depth.invalid_value = proto.invalid_value();
-  return depth;
-}
 
 absl::StatusOr<FrameFormat> frameFormatFromProto(const v1::FrameHeader& proto,
                                                  const FrameLimits& limits) {

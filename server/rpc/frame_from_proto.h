@@ -15,7 +15,4 @@ namespace viewloom {
 absl::StatusOr<FrameFormat> frameFormatFromProto(const v1::FrameHeader& proto,
                                                  const FrameLimits& limits);
 
-// As within a plane; also for manifests.
-absl::StatusOr<DepthFormat> depthFormatFromProto(const v1::DepthFormat& proto);
-
 }  // namespace viewloom

@@ -2,7 +2,6 @@
 // viewloom-bench-forms: colour in RGB beside the planes that JPEG takes, for who makes them and for
 // the encoder. Prints JSON; medians of turns, ns of all cores per px, by the process's own clock:
 // what else the machine does counts little. `viewloom-bench-forms [CONE_DEGREES]`.
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
@@ -13,15 +12,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/built_frame.h"
 #include "commands/median.h"
 #include "e2e/test_frames.h"
 #include "encode/band_encoder.h"
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
-#include "structure/structure_builder.h"
-#include "sweep/sweep_source.h"
-#include "sweep/view_sweeper.h"
-#include "trace/view_tracer.h"
 
 namespace viewloom {
 namespace {
@@ -51,26 +45,10 @@ double usedNs() {
 
 class FormsBench {
  public:
-  FormsBench(const Device& device, FramePtr frame, const DisplaySpec& spec)
-      : device_(device),
-        timeline_(device),
-        recorder_(device),
-        structure_(device, shapeOf(*frame)),
-        tracer_(device) {
-    sweep_source_.prepare(frame, workers_);
-    structure_.upload(*frame);
-    const StructureBuilder builder(device);
-    builder.record(recorder_.begin(), structure_, nullptr);
-    timeline_.wait(recorder_.submit(timeline_));
-    const Camera& camera = structure_.sourceCamera();
-    layout_ = std::make_shared<const AtlasLayout>(
-        makeAtlasLayout(spec, {.source_intrinsics = camera.intrinsics,
-                               .source_size_px = kSource_px,
-                               .focal_distance_m = contentFocalDistance(structure_.stats())})
-            .value());
-    job_ = makeTraceJob(layout_, spec, displayPose(spec, camera), camera, kSource_px);
-    plan_ = SweepPlan::make(job_, inv_z_max());
-  }
+  FormsBench(const Device& device, const FramePtr& frame, const DisplaySpec& spec)
+      : frame_(device, frame),
+        job_(frame_.jobOf(spec)),
+        plan_(SweepPlan::make(job_, frame_.inv_z_max()).value()) {}
 
   // One turn of everything, for each form.
   void takeTurn() {
@@ -91,33 +69,27 @@ class FormsBench {
   }
 
  private:
-  double inv_z_max() const { return structure_.stats().inv_z_max; }
+  const AtlasLayout& layout() const { return *job_.layout; }
 
   template <typename Work>
   void time(const char* what, const NamedForm& named, const Work& work) {
     const double start_ns = usedNs();
     work();
-    ns_per_px_[what][named.name].push_back((usedNs() - start_ns) / double(layout_->size_px.area()));
+    ns_per_px_[what][named.name].push_back((usedNs() - start_ns) / double(layout().size_px.area()));
   }
 
   void sweepAndEncode(const NamedForm& named) {
     SweptAtlas& atlas = atlases_[named.form];
-    time("sweep", named, [&] {
-      sweepAtlas({.job = &job_,
-                  .plan = &*plan_,
-                  .source = sweep_source_.rowSource(),
-                  .inv_z_max = float(inv_z_max())},
-                 {.color = named.form}, workers_, sweepers_, atlas);
-    });
+    time("sweep", named, [&] { frame_.sweep(job_, plan_, {.color = named.form}, atlas); });
     time("encode_one_thread", named, [&] {
-      encode(named, colorPixels(atlas.color, atlas.ycbcr, layout_->size_px, named.form));
+      encode(named, colorPixels(atlas.color, atlas.ycbcr, layout().size_px, named.form));
     });
   }
 
   void encode(const NamedForm& named, const BandPixels& pixels) {
     const uint32_t band_rows = bandRowCount(named.encoding);
     for (uint32_t row = 0; row < pixels.row_count; row += band_rows) {
-      encoder_.encode(rowsOf(pixels, row, band_rows), named.encoding, *layout_);
+      encoder_.encode(rowsOf(pixels, row, band_rows), named.encoding, layout());
     }
   }
 
@@ -126,31 +98,17 @@ class FormsBench {
     std::unique_ptr<TraceSlot>& slot = slots_[named.form];
     if (!slot) {
       slot = std::make_unique<TraceSlot>(
-          device_, TraceSlotShape{.width_px = layout_->size_px.width,
-                                  .row_count_max = band_rows,
-                                  .tile_count_max = uint32_t(job_.tiles.size()),
-                                  .outputs = {.color = named.form}});
+          frame_.device(), TraceSlotShape{.width_px = layout().size_px.width,
+                                          .row_count_max = band_rows,
+                                          .tile_count_max = uint32_t(job_.tiles.size()),
+                                          .outputs = {.color = named.form}});
     }
-    time("walk", named, [&] {
-      for (uint32_t row = 0; row < layout_->size_px.height; row += band_rows) {
-        const BandRows rows = {row, std::min(band_rows, layout_->size_px.height - row)};
-        tracer_.recordBand(recorder_.begin(), structure_, job_, rows, *slot, nullptr);
-        timeline_.wait(recorder_.submit(timeline_));
-      }
-    });
+    time("walk", named, [&] { frame_.walk(job_, band_rows, *slot); });
   }
 
-  const Device& device_;
-  Timeline timeline_;
-  CommandRecorder recorder_;
-  StructureSlot structure_;
-  ViewTracer tracer_;
-  WorkerPool workers_;
-  SweepSource sweep_source_;
-  std::shared_ptr<const AtlasLayout> layout_;
-  TraceJob job_;
-  std::optional<SweepPlan> plan_;
-  std::vector<ViewSweeper> sweepers_;
+  bench::BuiltFrame frame_;
+  const TraceJob job_;
+  const SweepPlan plan_;
   BytePool pool_{4};
   BandEncoder encoder_{pool_};
   std::map<ColorForm, SweptAtlas> atlases_;

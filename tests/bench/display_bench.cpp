@@ -14,16 +14,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "bench/built_frame.h"
 #include "bench/display_loads.h"
 #include "bench/report.h"
 #include "commands/median.h"
 #include "e2e/test_frames.h"
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
-#include "structure/structure_builder.h"
-#include "sweep/sweep_source.h"
-#include "sweep/view_sweeper.h"
-#include "trace/view_tracer.h"
 
 namespace viewloom::bench {
 namespace {
@@ -54,88 +49,39 @@ double timedMs(const Work& work) {
 // One display of the frame, with what its trace needs.
 struct Contender {
   DisplayLoad load;
-  std::shared_ptr<const AtlasLayout> layout;
   TraceJob job;
   std::optional<SweepPlan> plan;  // where the server would sweep
   std::vector<double> ms;
 };
 
-class DisplayBench {
- public:
-  DisplayBench(const Device& device, FramePtr frame)
-      : device_(device),
-        timeline_(device),
-        recorder_(device),
-        structure_(device, shapeOf(*frame)),
-        tracer_(device) {
-    sweep_source_.prepare(frame, workers_);
-    structure_.upload(*frame);
-    const StructureBuilder builder(device);
-    builder.record(recorder_.begin(), structure_, nullptr);
-    timeline_.wait(recorder_.submit(timeline_));
+Contender enter(DisplayLoad load, const BuiltFrame& frame) {
+  Contender contender{.load = std::move(load)};
+  contender.job = frame.jobOf(contender.load.spec);
+  if (frame.device().info().is_software) {
+    contender.plan = SweepPlan::make(contender.job, frame.inv_z_max());
   }
+  return contender;
+}
 
-  Contender enter(DisplayLoad load) const {
-    const Camera& camera = structure_.sourceCamera();
-    const SizePx source_px = structure_.shape().depth_px;
-    Contender contender{.load = std::move(load)};
-    contender.layout = std::make_shared<const AtlasLayout>(
-        makeAtlasLayout(contender.load.spec,
-                        {.source_intrinsics = camera.intrinsics,
-                         .source_size_px = source_px,
-                         .focal_distance_m = contentFocalDistance(structure_.stats())})
-            .value());
-    contender.job = makeTraceJob(contender.layout, contender.load.spec,
-                                 displayPose(contender.load.spec, camera), camera, source_px);
-    if (device_.info().is_software) {
-      contender.plan = SweepPlan::make(contender.job, structure_.stats().inv_z_max);
-    }
-    return contender;
+void trace(const Contender& contender, BuiltFrame& frame, SweptAtlas& swept) {
+  const TraceJob& job = contender.job;
+  if (contender.plan) {
+    frame.sweep(job, *contender.plan, {}, swept);
+    return;
   }
-
-  void trace(Contender& contender) {
-    contender.ms.push_back(timedMs([&] { contender.plan ? sweep(contender) : walk(contender); }));
-  }
-
- private:
-  void sweep(const Contender& contender) {
-    sweepAtlas({.job = &contender.job,
-                .plan = &*contender.plan,
-                .source = sweep_source_.rowSource(),
-                .inv_z_max = float(structure_.stats().inv_z_max)},
-               {}, workers_, sweepers_, swept_);
-  }
-
-  void walk(const Contender& contender) {
-    const SizePx size_px = contender.layout->size_px;
-    TraceSlot slot(device_, {.width_px = size_px.width,
-                             .row_count_max = kBandRows,
-                             .tile_count_max = uint32_t(contender.job.tileCount()),
-                             .sample_count = contender.job.sample_count});
-    for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
-      const BandRows rows{row, std::min(kBandRows, size_px.height - row)};
-      tracer_.recordBand(recorder_.begin(), structure_, contender.job, rows, slot, nullptr);
-      timeline_.wait(recorder_.submit(timeline_));
-    }
-  }
-
-  const Device& device_;
-  Timeline timeline_;
-  CommandRecorder recorder_;
-  StructureSlot structure_;
-  ViewTracer tracer_;
-  WorkerPool workers_;
-  SweepSource sweep_source_;
-  std::vector<ViewSweeper> sweepers_;
-  SweptAtlas swept_;
-};
+  TraceSlot slot(frame.device(), {.width_px = job.layout->size_px.width,
+                                  .row_count_max = kBandRows,
+                                  .tile_count_max = uint32_t(job.tileCount()),
+                                  .sample_count = job.sample_count});
+  frame.walk(job, kBandRows, slot);
+}
 
 Json resultOf(const Contender& contender) {
-  const SizePx size_px = contender.layout->size_px;
+  const SizePx size_px = contender.job.layout->size_px;
   return {{"name", contender.load.name},
           {"width_px", size_px.width},
           {"height_px", size_px.height},
-          {"views", contender.layout->views.size()},
+          {"views", contender.job.layout->views.size()},
           {"method", contender.plan ? "sweep" : "walk"},
           {"trace_ms", medianOf(contender.ms)}};
 }
@@ -154,19 +100,22 @@ void measure(const Arguments& arguments) {
   const Device device({.select = arguments.device});
   const SizePx source_px{kSource_px.width / arguments.miniature,
                          kSource_px.height / arguments.miniature};
-  DisplayBench bench(device, test::syntheticFrame(1, source_px, kLayerCount));
+  BuiltFrame frame(device, test::syntheticFrame(1, source_px, kLayerCount));
   std::vector<Contender> contenders;
   for (DisplayLoad& load :
        displayLoads(arguments.miniature, arguments.cone_deg * std::numbers::pi / 180)) {
     if (load.name.find(arguments.only) == std::string::npos) continue;
-    contenders.push_back(bench.enter(std::move(load)));
+    contenders.push_back(enter(std::move(load), frame));
   }
   if (contenders.empty()) {
     throw std::runtime_error("--only: no display has \"" + arguments.only + "\" in its name");
   }
   // Turn by turn; the first compiles, and warms the caches.
+  SweptAtlas swept;
   for (int round = 0; round <= arguments.round_count; ++round) {
-    for (Contender& contender : contenders) bench.trace(contender);
+    for (Contender& contender : contenders) {
+      contender.ms.push_back(timedMs([&] { trace(contender, frame, swept); }));
+    }
   }
   Json json{{"device", device.info().name}, {"date", today()}, {"displays", Json::array()}};
   for (Contender& contender : contenders) {

@@ -74,11 +74,7 @@ TEST_F(PipelineBytesTest, comeInOrderOfSequenceAndFrame) {
   const Viewer viewer = watch(server, smallQuilt());
   const FramePtr first = syntheticFrame(1);
   for (uint64_t number = 1; number <= kFrameCount; ++number) {
-    auto frame = std::make_shared<Frame>(*first);
-    frame->format.number = number;
-    // None is like another.
-    frame->format.sources[0].camera.pose.position_m.x = 0.001 * static_cast<double>(number);
-    server.offer(frame);
+    server.offer(movedFrame(*first, number));
     if (number % 3 == 0) server.reports.waitForReports(number);
   }
   server.reports.waitForReports(kFrameCount);

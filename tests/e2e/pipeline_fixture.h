@@ -17,6 +17,11 @@
 
 namespace viewloom::test {
 
+inline double tracedCount(const Metrics& metrics) {
+  return metrics.atlases_traced[TraceMethod::kWalk].value() +
+         metrics.atlases_traced[TraceMethod::kSweep].value();
+}
+
 // Reports as they come. Thread-safety: all methods may be called from any thread.
 class ReportLog {
  public:

@@ -2,8 +2,6 @@
 // What a stream that has sent one frame, and sends no more, still serves.
 #include <gmock/gmock.h>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "e2e/pipeline_fixture.h"
 
 namespace viewloom::test {
@@ -15,21 +13,6 @@ using PipelineResidentTest = PipelineFixture;
 
 DisplaySpec withFocus(DisplaySpec spec, double focal_distance_m) {
   std::get<QuiltSpec>(spec.kind).focal_distance_m = focal_distance_m;
-  return spec;
-}
-
-double tracedCount(const Metrics& metrics) {
-  return metrics.atlases_traced[TraceMethod::kWalk].value() +
-         metrics.atlases_traced[TraceMethod::kSweep].value();
-}
-
-// A camera that stands in the source's place, turned: no row of it lies in a row of the source.
-DisplaySpec turnedCamera() {
-  DisplaySpec spec;
-  ViewCamera camera;
-  camera.pose.orientation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
-  camera.projection = Intrinsics{.focal_px = {100, 100}, .principal_px = {80, 45}};
-  spec.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 90}, .columns = 1};
   return spec;
 }
 

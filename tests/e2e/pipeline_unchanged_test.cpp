@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "e2e/pipeline_fixture.h"
 
 namespace viewloom::test {
@@ -27,19 +25,8 @@ struct Work {
 
 Work workOf(const Metrics& metrics) {
   return {.built = metrics.structures_built.value(),
-          .traced = metrics.atlases_traced[TraceMethod::kWalk].value() +
-                    metrics.atlases_traced[TraceMethod::kSweep].value(),
+          .traced = tracedCount(metrics),
           .encoded = metrics.atlases_encoded.value()};
-}
-
-// A camera turned about its axis: no row of it lies in a row of the source, so it needs the walk.
-DisplaySpec turnedCamera() {
-  DisplaySpec spec;
-  ViewCamera camera;
-  camera.pose.orientation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
-  camera.projection = Intrinsics{.focal_px = {100, 100}, .principal_px = {80, 45}};
-  spec.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 90}, .columns = 1};
-  return spec;
 }
 
 std::vector<FrameOutcome> outcomesOf(const std::vector<FrameReport>& reports) {

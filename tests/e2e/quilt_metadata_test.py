@@ -4,18 +4,17 @@ file of `viewloom watch`. Arguments: viewloomd, viewloom."""
 import io
 import json
 import pathlib
-import re
-import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 import urllib.request
 
+import viewloomd  # takes its argument
+
 from PIL import Image
 
-SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
-PATIENCE_S = 120
+CLIENT = sys.argv.pop(1)
 EXIF_IFD, EXIF_VERSION, USER_COMMENT = 0x8769, 0x9000, 0x9286
 QUILT = {"LKGNumViews": 6, "LKGRows": 2, "LKGColumns": 3, "LKGAspect": 0.75, "LKGType": "quilt"}
 
@@ -23,26 +22,16 @@ QUILT = {"LKGNumViews": 6, "LKGRows": 2, "LKGColumns": 3, "LKGAspect": 0.75, "LK
 class QuiltMetadata(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = subprocess.Popen(
-            [SERVER, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
-            stdout=subprocess.PIPE, text=True)
-        addresses = re.search(r"grpc=(\S+) http=(\S+)", cls.server.stdout.readline())
-        cls.grpc_address, cls.url = addresses.groups()
-        subprocess.run([CLIENT, "--server", cls.grpc_address, "publish", "--synthetic", "--stream",
-                        "scene", "--size", "160x120", "--seconds", "0.1", "--quiet"], check=True,
-                       timeout=PATIENCE_S)
+        cls.server = viewloomd.Viewloomd()
+        cls.addClassCleanup(cls.server.stop)
+        subprocess.run([CLIENT, "--server", cls.server.address, "publish", "--synthetic",
+                        "--stream", "scene", "--size", "160x120", "--seconds", "0.1", "--quiet"],
+                       check=True, timeout=viewloomd.PATIENCE_S)
         cls.address = "still/scene_qs3x2a0.75.{}?width=240&height=240"
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.send_signal(signal.SIGTERM)
-        code = cls.server.wait(PATIENCE_S)
-        cls.server.stdout.close()
-        assert code == 0, code
-
     def get(self, extension):
-        with urllib.request.urlopen(self.url + self.address.format(extension),
-                                    timeout=PATIENCE_S) as reply:
+        with urllib.request.urlopen(self.server.url + self.address.format(extension),
+                                    timeout=viewloomd.PATIENCE_S) as reply:
             return reply.read()
 
     def check(self, jpeg):
@@ -58,7 +47,8 @@ class QuiltMetadata(unittest.TestCase):
         self.assertEqual(code, b"ASCII\0\0\0")
         self.assertEqual(json.loads(text), QUILT)
         told = subprocess.run(["exiftool", "-json", "-warning", "-error", "-UserComment", "-"],
-                              input=jpeg, capture_output=True, check=True, timeout=PATIENCE_S)
+                              input=jpeg, capture_output=True, check=True,
+                              timeout=viewloomd.PATIENCE_S)
         (told,) = json.loads(told.stdout)
         self.assertEqual(json.loads(told.pop("UserComment")), QUILT)
         self.assertEqual(list(told), ["SourceFile"], "ExifTool has something to say")
@@ -72,9 +62,9 @@ class QuiltMetadata(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             spec = pathlib.Path(folder) / "display.json"
             spec.write_text(json.dumps(display), encoding="ascii")
-            subprocess.run([CLIENT, "--server", self.grpc_address, "watch", "scene", "--display",
+            subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene", "--display",
                             spec, "--count", "1", "--out", folder, "--quiet"], check=True,
-                           timeout=PATIENCE_S)
+                           timeout=viewloomd.PATIENCE_S)
             (file,) = pathlib.Path(folder).glob("*_qs3x2a0.75.jpg")
             self.check(file.read_bytes())
 

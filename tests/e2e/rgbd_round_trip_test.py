@@ -2,19 +2,18 @@
 """Colour with depth as files: what `viewloom watch --rgbd` writes, and what comes of it when
 `viewloom publish --input rgbd` reads it. Arguments: viewloomd, viewloom."""
 import pathlib
-import re
-import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
 
+import viewloomd  # takes its argument
+
 import numpy as np
 from PIL import Image
 
-SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
-PATIENCE_S = 120
+CLIENT = sys.argv.pop(1)
 WIDTH, HEIGHT = 160, 90
 NEAR_M, FAR_M = 1.0, 20.0
 RANGE = ["--depth-near", str(NEAR_M), "--depth-far", str(FAR_M)]
@@ -55,19 +54,10 @@ def png_16(data):
 class RgbdRoundTrip(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = subprocess.Popen(
-            [SERVER, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
-            stdout=subprocess.PIPE, text=True)
-        cls.grpc_address = re.search(r"grpc=(\S+) http=(\S+)", cls.server.stdout.readline())[1]
+        cls.server = viewloomd.Viewloomd()
+        cls.addClassCleanup(cls.server.stop)
         cls.run_client("publish", "--synthetic", "--stream", "scene", "--size",
                        f"{WIDTH}x{HEIGHT}", "--seconds", "0.1", "--quiet")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.send_signal(signal.SIGTERM)
-        code = cls.server.wait(PATIENCE_S)
-        cls.server.stdout.close()
-        assert code == 0, code
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -76,8 +66,8 @@ class RgbdRoundTrip(unittest.TestCase):
 
     @classmethod
     def run_client(cls, *arguments):
-        return subprocess.run([CLIENT, "--server", cls.grpc_address, *arguments], check=True,
-                              timeout=PATIENCE_S, capture_output=True, text=True)
+        return subprocess.run([CLIENT, "--server", cls.server.address, *arguments], check=True,
+                              timeout=viewloomd.PATIENCE_S, capture_output=True, text=True)
 
     def watch(self, stream, *arguments):
         """The one file that is written."""
@@ -143,9 +133,9 @@ class RgbdRoundTrip(unittest.TestCase):
         for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "depth_placement"),
                           (["--preset", "portrait"], "excludes"),
                           (["--depth-near", "3", "--depth-far", "2"], "rgbd.far_m")):
-            run = subprocess.run([CLIENT, "--server", self.grpc_address, "watch", "scene",
+            run = subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene",
                                   "--rgbd", "8x8", "--count", "1", "--no-retry", *bad],
-                                 timeout=PATIENCE_S, capture_output=True, text=True)
+                                 timeout=viewloomd.PATIENCE_S, capture_output=True, text=True)
             self.assertNotEqual(run.returncode, 0)
             self.assertIn(said, run.stderr)
 

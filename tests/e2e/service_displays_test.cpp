@@ -2,32 +2,13 @@
 // Every kind of display of a whole server, as a client decodes it.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
-#include <optional>
 
-#include "base/clock.h"
-#include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
-#include "lib/watcher.h"
-#include "service.h"
+#include "e2e/atlas_viewer.h"
+#include "e2e/service_fixture.h"
 
 namespace viewloom::test {
 namespace {
-
-constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
-
-Config anyPorts() {
-  Config config;
-  config.validation = true;
-  config.grpc.address = "127.0.0.1:0";
-  config.http.address = "127.0.0.1:0";
-  return config;
-}
 
 v1::OpenDisplay openScene() {
   v1::OpenDisplay open;
@@ -74,42 +55,16 @@ double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
   return 10 * std::log10(255.0 * 255 * double(a.samples.size()) / sum);
 }
 
-class ServiceDisplaysTest : public DeviceNeededTest {
+class ServiceDisplaysTest : public ServiceFixture {
  protected:
   void SetUp() override {
-    DeviceNeededTest::SetUp();
-    if (IsSkipped()) return;
-    service_.emplace(anyPorts(), clock_,
-                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
-    Publisher publisher(makeChannel(service_->grpcAddress()),
-                        {.stream = "scene", .session_id = "", .backoff = {}}, {});
-    publisher.offer(syntheticWireFrame({160, 90}, 2, 0));
-    const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
-    ASSERT_TRUE(end.ok()) << end;
-  }
-
-  void TearDown() override {
-    if (IsSkipped()) return;
-    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+    ServiceFixture::SetUp();
+    if (!IsSkipped()) publishOnce(2);
   }
 
   // Its one atlas.
   Atlas atlasOf(const v1::OpenDisplay& open) {
-    std::mutex mutex;
-    std::condition_variable came;
-    std::optional<Atlas> atlas;
-    const Watcher watcher(makeChannel(service_->grpcAddress()), open,
-                          {.on_layout = {},
-                           .on_atlas =
-                               [&](const Atlas& given) {
-                                 std::lock_guard lock(mutex);
-                                 atlas = given;
-                                 came.notify_all();
-                               },
-                           .on_connection = {}});
-    std::unique_lock lock(mutex);
-    EXPECT_TRUE(came.wait_for(lock, kGiveUpAfter, [&] { return atlas.has_value(); }));
-    return atlas.value();
+    return AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
   }
 
   static AtlasPicture colorOf(const Atlas& atlas) {
@@ -117,9 +72,6 @@ class ServiceDisplaysTest : public DeviceNeededTest {
     EXPECT_TRUE(picture.ok()) << picture.status();
     return *std::move(picture);
   }
-
-  SteadyClock clock_;
-  std::optional<Service> service_;
 };
 
 TEST_F(ServiceDisplaysTest, sendsEachViewAsAnImageOfItsOwn) {

@@ -9,18 +9,11 @@
 #include <thread>
 #include <vector>
 
-#include "base/clock.h"
 #include "e2e/atlas_viewer.h"
-#include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
-#include "service.h"
+#include "e2e/service_fixture.h"
 
 namespace viewloom::test {
 namespace {
-
-constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
 
 // The rectangle that a display of these frames: 1.5 m x 1 m, 4 m in front of it.
 constexpr double kHalfWidth_m = 0.75;
@@ -28,14 +21,6 @@ constexpr double kHalfHeight_m = 0.5;
 constexpr double kDistance_m = 4;
 constexpr uint32_t kEyeWidth_px = 96;
 constexpr uint32_t kEyeHeight_px = 64;
-
-Config anyPorts() {
-  Config config;
-  config.validation = true;
-  config.grpc.address = "127.0.0.1:0";
-  config.http.enabled = false;
-  return config;
-}
 
 v1::OpenDisplay openEyes() {
   v1::OpenDisplay open;
@@ -97,13 +82,11 @@ std::vector<uint8_t> colorOf(const Atlas& atlas) {
   return std::move(picture->samples);
 }
 
-class ServiceEyesTest : public DeviceNeededTest {
+class ServiceEyesTest : public ServiceFixture {
  protected:
   void SetUp() override {
-    DeviceNeededTest::SetUp();
+    ServiceFixture::SetUp();
     if (IsSkipped()) return;
-    service_.emplace(anyPorts(), clock_,
-                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
     publisher_.emplace(makeChannel(service_->grpcAddress()),
                        PublisherOptions{.stream = "scene", .session_id = "", .backoff = {}},
                        PublisherCallbacks{});
@@ -111,8 +94,7 @@ class ServiceEyesTest : public DeviceNeededTest {
 
   void TearDown() override {
     publisher_.reset();
-    if (IsSkipped()) return;
-    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+    ServiceFixture::TearDown();
   }
 
   void publish() { publisher_->offer(syntheticWireFrame({160, 90}, 2, 0.1 * ++frame_count_)); }
@@ -136,8 +118,6 @@ class ServiceEyesTest : public DeviceNeededTest {
            service_->metrics().atlases_traced[TraceMethod::kSweep].value();
   }
 
-  SteadyClock clock_;
-  std::optional<Service> service_;
   std::optional<Publisher> publisher_;
   int frame_count_ = 0;
 };

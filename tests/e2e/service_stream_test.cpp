@@ -2,32 +2,16 @@
 // Publishers and displays of a whole server, over gRPC, on a validated device.
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <vector>
 
-#include "base/clock.h"
-#include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
+#include "e2e/service_fixture.h"
 #include "lib/watcher.h"
-#include "service.h"
 
 namespace viewloom::test {
 namespace {
-
-constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
-
-Config anyPorts() {
-  Config config;
-  config.validation = true;
-  config.grpc.address = "127.0.0.1:0";
-  config.http.address = "127.0.0.1:0";
-  return config;
-}
 
 // The frames of which a display got an atlas. Thread-safety: all methods from any thread.
 class FrameLog {
@@ -56,15 +40,8 @@ class FrameLog {
   std::vector<uint64_t> numbers_;
 };
 
-class ServiceStreamTest : public DeviceNeededTest {
+class ServiceStreamTest : public ServiceFixture {
  protected:
-  void SetUp() override {
-    DeviceNeededTest::SetUp();
-    if (IsSkipped()) return;
-    service_.emplace(anyPorts(), clock_,
-                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
-  }
-
   std::unique_ptr<Watcher> watch(FrameLog& log, SizePx size_px) {
     return std::make_unique<Watcher>(
         makeChannel(service_->grpcAddress()), openQuilt("scene", size_px),
@@ -76,9 +53,6 @@ class ServiceStreamTest : public DeviceNeededTest {
                              },
                          .on_connection = {}});
   }
-
-  SteadyClock clock_;
-  std::optional<Service> service_;
 };
 
 TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
@@ -121,22 +95,14 @@ TEST_F(ServiceStreamTest, fastDisplaysLoseNothingBesideOneThatNeverReads) {
   EXPECT_EQ(first_log.numbers(), every_frame);
   EXPECT_EQ(second_log.numbers(), every_frame);
   never_reads.TryCancel();
-  EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
 }
 
 TEST_F(ServiceStreamTest, servesAJoinerFromTheLastFrameOfAPublisherThatHasLeft) {
-  {
-    Publisher publisher(makeChannel(service_->grpcAddress()),
-                        {.stream = "scene", .session_id = "", .backoff = {}}, {});
-    publisher.offer(syntheticWireFrame({160, 90}, 1, 0));
-    const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
-    ASSERT_TRUE(end.ok()) << end;
-  }
+  publishOnce(1);
   FrameLog log;
   const auto joiner = watch(log, {320, 200});
   EXPECT_TRUE(log.waitFor(1));
   EXPECT_EQ(service_->metrics().structures_built.value(), 1);
-  EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@ asserts what was counted. Arguments: viewloomd, viewloom."""
 import array
 import os
 import pathlib
-import re
 import signal
 import subprocess
 import sys
@@ -13,10 +12,11 @@ import time
 import unittest
 import urllib.request
 
+import viewloomd  # takes its argument
+
 from PIL import Image
 
-SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
-PATIENCE_S = 120
+CLIENT = sys.argv.pop(1)
 MEASURED_S = 10
 UNCHANGED_COUNT = 20  # frames that are sent again at least
 SIZE_PX = (320, 240)
@@ -29,12 +29,8 @@ WORK = ("viewloom_structures_built_total", "viewloom_atlases_encoded_total",
 
 class StaticInput(unittest.TestCase):
     def setUp(self):
-        self.server = subprocess.Popen(
-            [SERVER, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
-            stdout=subprocess.PIPE, text=True)
-        self.addCleanup(self.stop)
-        addresses = re.search(r"grpc=(\S+) http=(\S+)", self.server.stdout.readline())
-        self.grpc_address, self.url = addresses.groups()
+        self.server = viewloomd.Viewloomd()
+        self.addCleanup(self.server.stop)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
@@ -44,16 +40,10 @@ class StaticInput(unittest.TestCase):
         (self.folder / "depth.pfm").write_bytes(
             b"Pf\n%d %d\n-1\n" % SIZE_PX + depth_m.tobytes())
 
-    def stop(self):
-        self.server.send_signal(signal.SIGTERM)
-        code = self.server.wait(PATIENCE_S)
-        self.server.stdout.close()
-        self.assertEqual(code, 0)
-
     def start(self, *arguments):
-        process = subprocess.Popen([CLIENT, "--server", self.grpc_address, *arguments, "--quiet"],
+        process = subprocess.Popen([CLIENT, "--server", self.server.address, *arguments, "--quiet"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.addCleanup(process.wait, PATIENCE_S)
+        self.addCleanup(process.wait, viewloomd.PATIENCE_S)
         self.addCleanup(process.send_signal, signal.SIGINT)
 
     def publish(self, *more):
@@ -61,19 +51,20 @@ class StaticInput(unittest.TestCase):
                    str(self.folder / "depth.pfm"), "--fov", "50", "--stream", "scene", *more)
 
     def metrics(self):
-        with urllib.request.urlopen(self.url + "metrics", timeout=PATIENCE_S) as reply:
+        with urllib.request.urlopen(self.server.url + "metrics",
+                                    timeout=viewloomd.PATIENCE_S) as reply:
             return {name: float(value) for name, value in
                     (line.rsplit(" ", 1) for line in reply.read().decode().splitlines()
                      if not line.startswith("#"))}
 
     def wait_for(self, metric, count):
-        deadline = time.monotonic() + PATIENCE_S
+        deadline = time.monotonic() + viewloomd.PATIENCE_S
         while self.metrics()[metric] < count:
             self.assertLess(time.monotonic(), deadline, f"{metric} stays below {count}")
             time.sleep(0.05)
 
     def cpu_s(self):
-        fields = pathlib.Path(f"/proc/{self.server.pid}/stat").read_text(encoding="ascii")
+        fields = pathlib.Path(f"/proc/{self.server.process.pid}/stat").read_text(encoding="ascii")
         user, system = fields.rsplit(")", 1)[1].split()[11:13]
         return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 

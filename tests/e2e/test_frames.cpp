@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "base/check.h"
 #include "frame/cube_map.h"
 
@@ -72,6 +74,13 @@ FramePtr syntheticFrame(uint64_t number, SizePx size_px, uint32_t layer_count, d
   return frame;
 }
 
+FramePtr movedFrame(const Frame& frame, uint64_t number) {
+  auto moved = std::make_shared<Frame>(frame);
+  moved->format.number = number;
+  moved->format.sources[0].camera.pose.position_m.x = 0.001 * static_cast<double>(number);
+  return moved;
+}
+
 FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m, SizePx size_px) {
   const std::shared_ptr<Frame> frame = emptyFrame(number);
   for (const double place_m : places_m) {
@@ -114,6 +123,15 @@ DisplaySpec smallQuilt(SizePx size_px) {
   absl::StatusOr<DisplaySpec> complete = completeDisplaySpec(spec);
   VIEWLOOM_CHECK(complete.ok());
   return *complete;
+}
+
+DisplaySpec turnedCamera() {
+  DisplaySpec spec;
+  ViewCamera camera;
+  camera.pose.orientation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
+  camera.projection = Intrinsics{.focal_px = {100, 100}, .principal_px = {80, 45}};
+  spec.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 90}, .columns = 1};
+  return spec;
 }
 
 }  // namespace viewloom::test

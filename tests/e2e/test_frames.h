@@ -14,6 +14,9 @@ namespace viewloom::test {
 FramePtr syntheticFrame(uint64_t number, SizePx size_px = {160, 90}, uint32_t layer_count = 2,
                         double time_s = 0);
 
+// The frame, numbered `number` and seen from a place of that number: no two of them are alike.
+FramePtr movedFrame(const Frame& frame, uint64_t number);
+
 // Such layers, of any scene; 0 = a connection tolerance by the content.
 FramePtr layeredFrame(uint64_t number, const Camera& camera, SizePx size_px,
                       std::vector<SyntheticLayer> layers, double connection_tolerance = 0);
@@ -27,5 +30,9 @@ FramePtr syntheticCubeFrame(uint64_t number, uint32_t side_px = 48);
 
 // A small quilt of 4x2 views, complete.
 DisplaySpec smallQuilt(SizePx size_px = {320, 200});
+
+// A camera that stands in the source's place, turned: no row of it lies in a row of the source, so
+// it needs the walk.
+DisplaySpec turnedCamera();
 
 }  // namespace viewloom::test

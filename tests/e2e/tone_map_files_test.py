@@ -3,18 +3,17 @@
 viewloomd, viewloom."""
 import json
 import pathlib
-import re
-import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import viewloomd  # takes its argument
+
 import numpy as np
 from PIL import Image
 
-SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
-PATIENCE_S = 120
+CLIENT = sys.argv.pop(1)
 SIZE = 32
 
 
@@ -28,26 +27,17 @@ def write_pfm(path, samples):
 class ToneMap(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = subprocess.Popen(
-            [SERVER, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
-            stdout=subprocess.PIPE, text=True)
-        cls.grpc_address = re.search(r"grpc=(\S+) http=(\S+)", cls.server.stdout.readline())[1]
+        cls.server = viewloomd.Viewloomd()
+        cls.addClassCleanup(cls.server.stop)
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         write_pfm(cls.folder / "depth.pfm", np.full((SIZE, SIZE), 2.0))
         write_pfm(cls.folder / "color.pfm", np.full((SIZE, SIZE, 3), (6.0, 0.0, 0.0)))
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.send_signal(signal.SIGTERM)
-        code = cls.server.wait(PATIENCE_S)
-        cls.server.stdout.close()
-        assert code == 0, code
-
     def run_client(self, *arguments):
-        subprocess.run([CLIENT, "--server", self.grpc_address, *arguments], check=True,
-                       timeout=PATIENCE_S, capture_output=True)
+        subprocess.run([CLIENT, "--server", self.server.address, *arguments], check=True,
+                       timeout=viewloomd.PATIENCE_S, capture_output=True)
 
     def shown(self, name, *published):
         """The one colour that is left of the picture, 0..255."""

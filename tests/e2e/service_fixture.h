@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole server in process, on a validated device and on ports of its choice.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <optional>
+
+#include "base/clock.h"
+#include "e2e/wire_frames.h"
+#include "gpu/test_device.h"
+#include "lib/channel.h"
+#include "lib/publisher.h"
+#include "service.h"
+
+namespace viewloom::test {
+
+inline constexpr std::chrono::seconds kGiveUpAfter{120};  // reached only by a test that fails
+
+// Fails on any validation message of warning or above that the server caused.
+class ServiceFixture : public DeviceNeededTest {
+ protected:
+  void SetUp() override {
+    DeviceNeededTest::SetUp();
+    if (IsSkipped()) return;
+    Config config;
+    config.validation = true;
+    config.grpc.address = "127.0.0.1:0";
+    config.http.address = "127.0.0.1:0";
+    service_.emplace(config, clock_,
+                     [](const std::exception& error) { ADD_FAILURE() << error.what(); });
+  }
+
+  void TearDown() override {
+    if (IsSkipped()) return;
+    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+  }
+
+  // A frame of "scene", by a publisher that has left.
+  void publishOnce(uint32_t layer_count) {
+    Publisher publisher(makeChannel(service_->grpcAddress()),
+                        {.stream = "scene", .session_id = "", .backoff = {}}, {});
+    publisher.offer(syntheticWireFrame({160, 90}, layer_count, 0));
+    const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
+    ASSERT_TRUE(end.ok()) << end;
+  }
+
+  SteadyClock clock_;
+  std::optional<Service> service_;
+};
+
+}  // namespace viewloom::test
