@@ -68,8 +68,8 @@ void print(const v1::ListPresetsResponse& response) {
 }
 
 void print(const v1::GetServerInfoResponse& info) {
-  std::printf("viewloomd %s on %s (%s)\n", info.version().c_str(), info.device().c_str(),
-              info.driver().c_str());
+  std::printf("viewloomd %s on %s (%s)%s\n", info.version().c_str(), info.device().c_str(),
+              info.driver().c_str(), info.traces_on_cpu() ? ", a CPU" : "");
   std::printf("frames: up to %.0f MB, %u px a side, %u layers; atlases: up to %u px a side\n",
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),

@@ -25,7 +25,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180;
 struct ShowOptions {
   std::string stream = "demo";
   DisplayOptions display;
-  std::string mode;  // "": native on a calibrated panel, else view
+  std::string mode;  // "": as suits the server on a calibrated panel, else view
   std::string calibration_file;
   std::optional<int> monitor;
   bool is_windowed = false;
@@ -72,6 +72,7 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
   VIEWLOOM_RETURN_IF_ERROR(checkMode(mode, calibration->has_value()));
   const absl::StatusOr<v1::Display> display = displayOf(options.display, *calibration);
   if (!display.ok()) return display.status();
+  const bool is_mode_open = options.mode.empty() && calibration->has_value();
   return show::SessionOptions{.stream = options.stream,
                               .display = *display,
                               .encoding = makeEncoding(options.display),
@@ -81,6 +82,7 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
                                            .pair_distance = options.pair_distance,
                                            .is_blended = options.views_between == "blend",
                                            .has_statistics = options.has_statistics},
+                              .is_mode_open = is_mode_open,
                               .monitor = options.monitor,
                               .is_windowed = options.is_windowed};
 }
@@ -135,7 +137,8 @@ RunCommand addShowCommand(CLI::App& app) {
   app.add_option(
          "--mode", options->mode,
          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
-         "two side by side; quilt [native on a calibrated panel, else view]")
+         "two side by side; quilt [on a calibrated panel weave where the server traces on a CPU, "
+         "else native; without one view]")
       ->check(CLI::IsMember({"native", "weave", "view", "pair", "quilt"}));
   app.add_option("--calibration", options->calibration_file,
                  "The panel's visual.json [the one on its USB storage]");

@@ -23,6 +23,9 @@ struct SessionOptions {
   v1::AtlasEncoding encoding;
   std::optional<Calibration> calibration;
   ShowSettings settings;
+  // The settings' mode is kNative until the server has been asked which suits a panel; what came
+  // of it is said.
+  bool is_mode_open = false;
   std::optional<int> monitor;
   bool is_windowed = false;
 };

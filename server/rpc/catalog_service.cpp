@@ -24,6 +24,7 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   proto.set_version(description.version);
   proto.set_device(description.device);
   proto.set_driver(description.driver);
+  proto.set_traces_on_cpu(description.is_software);
   *proto.mutable_ingest_limits() = limitsToProto(description.frame_limits);
   proto.set_atlas_side_px_max(description.atlas_limits.side_px_max);
   proto.set_atlas_px_max(description.atlas_limits.area_px_max);

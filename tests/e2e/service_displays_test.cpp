@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "e2e/wire_frames.h"
 #include "gpu/test_device.h"
+#include "lib/catalog.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "lib/watcher.h"
@@ -121,6 +122,14 @@ class ServiceDisplaysTest : public DeviceNeededTest {
   SteadyClock clock_;
   std::optional<Service> service_;
 };
+
+TEST_F(ServiceDisplaysTest, saysWhetherItTracesThemOnACpu) {
+  const auto info = Catalog(makeChannel(service_->grpcAddress())).getServerInfo();
+  ASSERT_TRUE(info.ok()) << info.status();
+  // Lavapipe's name for itself.
+  EXPECT_EQ(info->traces_on_cpu(), info->device().find("llvmpipe") != std::string::npos)
+      << info->device();
+}
 
 TEST_F(ServiceDisplaysTest, sendsEachViewAsAnImageOfItsOwn) {
   v1::OpenDisplay together = openScene();

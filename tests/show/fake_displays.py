@@ -9,6 +9,8 @@ from concurrent import futures
 import grpc
 
 from viewloom.v1 import atlas_pb2
+from viewloom.v1 import catalog_service_pb2 as catalog
+from viewloom.v1 import catalog_service_pb2_grpc as catalog_grpc
 from viewloom.v1 import display_pb2 as display
 from viewloom.v1 import display_service_pb2 as watching
 from viewloom.v1 import display_service_pb2_grpc as watching_grpc
@@ -48,16 +50,33 @@ class Atlas:
         yield response(end=watching.AtlasEnd(sequence=sequence))
 
 
-class FakeDisplays(watching_grpc.DisplayServiceServicer):
-    """answer(Display) gives the Atlas of a display; a grpc.StatusCode refuses it."""
+class FakeCatalog(catalog_grpc.CatalogServiceServicer):
+    """Says what its server traces on."""
 
-    def __init__(self, answer, address="127.0.0.1:0"):
+    def __init__(self, traces_on_cpu):
+        self._info = catalog.GetServerInfoResponse(device="a device of the test",
+                                                   traces_on_cpu=traces_on_cpu)
+
+    def GetServerInfo(self, request, context):  # pylint: disable=invalid-name
+        return self._info
+
+
+class FakeDisplays(watching_grpc.DisplayServiceServicer):
+    """answer(Display) gives the Atlas of a display; a grpc.StatusCode refuses it.
+
+    traces_on_cpu: as the server says; None = it says nothing about itself.
+    """
+
+    def __init__(self, answer, address="127.0.0.1:0", traces_on_cpu=None):
         self._answer = answer
         self.displays = queue.Queue()   # asked for: opened, then changed
         self.presented = queue.Queue()  # as the client reports
         self._server = grpc.server(futures.ThreadPoolExecutor(8),
                                    options=[("grpc.so_reuseport", 0)])
         watching_grpc.add_DisplayServiceServicer_to_server(self, self._server)
+        if traces_on_cpu is not None:
+            catalog_grpc.add_CatalogServiceServicer_to_server(FakeCatalog(traces_on_cpu),
+                                                              self._server)
         self.address = f"127.0.0.1:{self._server.add_insecure_port(address)}"
         self._server.start()
 
