@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/str_cat.h"
+#include "eyes/eye_feed.h"
 #include "show/arrivals.h"
 #include "show/display_link.h"
 #include "show/mode_question.h"
@@ -35,20 +36,25 @@ class ShowSession {
         can_native_(options.calibration.has_value()) {}
 
   absl::Status run() {
+    VIEWLOOM_RETURN_IF_ERROR(openEyes());
     VIEWLOOM_RETURN_IF_ERROR(openWindow());
     if (options_.is_mode_open) {
       askForMode();
     } else {
       connect();
     }
+    if (eyes_) followEyes();
     absl::Status status;
     while (status.ok() && !is_done_ && !callbacks_.is_interrupted()) status = turn();
     question_.reset();
+    eyes_.reset();
     link_.reset();
     return status;
   }
 
  private:
+  absl::Status openEyes();
+  void followEyes();
   absl::Status openWindow();
   void askForMode();
   void takeMode();
@@ -82,7 +88,20 @@ class ShowSession {
   Arrivals arrivals_;
   std::unique_ptr<ModeQuestion> question_;  // until it is answered; link_ comes after it
   std::unique_ptr<DisplayLink> link_;
+  std::unique_ptr<EyeFeed> eyes_;
 };
+
+absl::Status ShowSession::openEyes() {
+  if (options_.eye_file.empty()) return absl::OkStatus();
+  auto eyes = EyeFeed::open(options_.eye_file);
+  if (eyes.ok()) eyes_ = *std::move(eyes);
+  return eyes.status();
+}
+
+void ShowSession::followEyes() {
+  eyes_->start({.send = [this](const v1::EyePoses& poses) { link_->sendEyePoses(poses); },
+                .on_failure = [this](const absl::Status& problem) { arrivals_.fail(problem); }});
+}
 
 absl::Status ShowSession::openWindow() {
   const std::optional<Calibration>& panel = options_.calibration;

@@ -64,11 +64,13 @@ class FakeCatalog(catalog_grpc.CatalogServiceServicer):
 class FakeDisplays(watching_grpc.DisplayServiceServicer):
     """answer(Display) gives the Atlas of a display; a grpc.StatusCode refuses it.
 
+    see(EyePoses): the Atlas that those eyes see.
     traces_on_cpu: as the server says; None = it says nothing about itself.
     """
 
-    def __init__(self, answer, address="127.0.0.1:0", traces_on_cpu=None):
+    def __init__(self, answer, address="127.0.0.1:0", see=None, traces_on_cpu=None):
         self._answer = answer
+        self._see = see
         self.displays = queue.Queue()   # asked for: opened, then changed
         self.presented = queue.Queue()  # as the client reports
         self._server = grpc.server(futures.ThreadPoolExecutor(8),
@@ -90,7 +92,8 @@ class FakeDisplays(watching_grpc.DisplayServiceServicer):
         reader.start()
         sequence = 0
         while (asked := wanted.get()) is not None:
-            atlas = self._answer(asked)
+            is_eyes = isinstance(asked, watching.EyePoses)
+            atlas = self._see(asked) if is_eyes else self._answer(asked)
             if isinstance(atlas, grpc.StatusCode):
                 context.abort(atlas, "the test says so")
             sequence += 1
@@ -102,6 +105,9 @@ class FakeDisplays(watching_grpc.DisplayServiceServicer):
             for request in requests:
                 if request.HasField("presented"):
                     self.presented.put(request.presented)
+                    continue
+                if request.HasField("eye_poses"):
+                    wanted.put(request.eye_poses)
                     continue
                 asked = request.open.display if request.HasField("open") else request.change.display
                 self.displays.put(asked)
