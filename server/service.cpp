@@ -139,6 +139,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
   const ServerDescription description{.version = VIEWLOOM_VERSION,
                                       .device = device.info().name,
                                       .driver = device.info().driver,
+                                      .is_software = device.info().is_software,
                                       .frame_limits = frameLimits(config.limits),
                                       .atlas_limits = atlasLimits(config.limits),
                                       .stream_count_max = config.limits.streams_max,

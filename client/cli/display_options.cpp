@@ -83,7 +83,7 @@ void addPanelOptions(CLI::App& app, DisplayOptions& options) {
 
 void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options) {
   std::vector<CLI::Option*> others;
-  for (const char* name : {"--display", "--preset", "--columns", "--rows", "--size", "--cone",
+  for (const char* name : {"--display", "--columns", "--rows", "--size", "--cone",
                            "--focal-distance", "--native", "--calibration"}) {
     if (CLI::Option* const other = app.get_option_no_throw(name)) others.push_back(other);
   }
@@ -142,6 +142,7 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   display.mutable_filter()->set_sample_count(options.sample_count);
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
+    display.mutable_rgbd()->set_preset(options.preset);
     return display;
   }
   display.set_focus_following_s(options.focus_following_s);

@@ -15,8 +15,8 @@
 namespace viewloom::cli {
 
 struct DisplayOptions {
-  std::string file;  // Display as JSON; or a quilt from what follows
-  std::string preset;
+  std::string file;    // Display as JSON; or a quilt from what follows
+  std::string preset;  // of the quilt, the panel, or colour and depth
   uint32_t columns = 0;
   uint32_t rows = 0;
   SizePx size_px;

@@ -18,7 +18,9 @@ struct ListOptions {
   bool as_json = false;
 };
 
+// "-": not known.
 std::string sizeText(const v1::SizePx& size) {
+  if (size.width() == 0) return "-";
   return strCat(size.width(), "x", size.height());
 }
 
@@ -57,19 +59,20 @@ void print(const v1::ListPresetsResponse& response) {
       "PRESET           ATLAS        GRID     ASPECT  KINDS              PANEL        DEVICE\n");
   for (const v1::Preset& preset : response.presets()) {
     const v1::AtlasLayout& layout = preset.layout();
-    std::printf("%-16s %-12s %-8s %-7.4g %-18s %-12s %s\n", preset.name().c_str(),
+    char aspect[16] = "-";
+    if (layout.aspect() > 0) std::snprintf(aspect, sizeof aspect, "%.4g", layout.aspect());
+    std::printf("%-16s %-12s %-8s %-7s %-18s %-12s %s\n", preset.name().c_str(),
                 sizeText(layout.size()).c_str(),
-                strCat(layout.columns(), "x", layout.rows()).c_str(), layout.aspect(),
-                joined(preset.kinds()).c_str(),
-                preset.has_panel_size() ? sizeText(preset.panel_size()).c_str() : "",
+                strCat(layout.columns(), "x", layout.rows()).c_str(), aspect,
+                joined(preset.kinds()).c_str(), sizeText(preset.panel_size()).c_str(),
                 preset.device().c_str());
     if (!preset.note().empty()) std::printf("%-16s %s\n", "", preset.note().c_str());
   }
 }
 
 void print(const v1::GetServerInfoResponse& info) {
-  std::printf("viewloomd %s on %s (%s)\n", info.version().c_str(), info.device().c_str(),
-              info.driver().c_str());
+  std::printf("viewloomd %s on %s (%s)%s\n", info.version().c_str(), info.device().c_str(),
+              info.driver().c_str(), info.traces_on_cpu() ? ", a CPU" : "");
   std::printf("frames: up to %.0f MB, %u px a side, %u layers; atlases: up to %u px a side\n",
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),

@@ -25,8 +25,9 @@ constexpr double kRadPerDeg = std::numbers::pi / 180;
 struct ShowOptions {
   std::string stream = "demo";
   DisplayOptions display;
-  std::string mode;  // "": native on a calibrated panel, else view
+  std::string mode;  // "": what suits panel, display and server
   std::string calibration_file;
+  std::string eye_file;  // "" = the eyes are the display's own
   std::optional<int> monitor;
   bool is_windowed = false;
   std::optional<uint32_t> view;
@@ -47,6 +48,20 @@ absl::Status checkMode(show::ShowMode mode, bool is_calibrated) {
   return absl::InvalidArgumentError(strCat("--mode ", show::nameOf(mode), kNoPanel));
 }
 
+// Eyes move the views of a stereo display; a panel has all of them at once.
+absl::Status checkEyes(show::ShowMode mode, const v1::Display& display) {
+  if (mode == show::ShowMode::kNative || mode == show::ShowMode::kWeave) {
+    return absl::InvalidArgumentError(
+        strCat("--mode ", show::nameOf(mode),
+               " is for a panel that shows all views at once; accepted beside --eyes-from are "
+               "pair, view and quilt"));
+  }
+  if (display.stereo().tracked()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--eyes-from is for a display that is tracked; accepted is a --display whose stereo says "
+      "\"tracked\": true");
+}
+
 // What a calibration says about the quilt to ask for, where the user has not.
 absl::StatusOr<v1::Display> displayOf(DisplayOptions options,
                                       const std::optional<Calibration>& calibration) {
@@ -63,24 +78,40 @@ absl::StatusOr<v1::Display> displayOf(DisplayOptions options,
   return display;
 }
 
+// What suits no calibrated panel: both eyes of a pair of them, or one view of many.
+show::ShowMode plainMode(const v1::Display& display) {
+  return display.has_stereo() ? show::ShowMode::kPair : show::ShowMode::kView;
+}
+
+// None is looked for where the views follow eyes.
+absl::StatusOr<std::optional<Calibration>> calibrationOf(const ShowOptions& options) {
+  if (!options.eye_file.empty()) return std::nullopt;
+  return show::chooseCalibration(options.calibration_file, "/");
+}
+
 absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
-  const auto calibration = show::chooseCalibration(options.calibration_file, "/");
+  const auto calibration = calibrationOf(options);
   if (!calibration.ok()) return calibration.status();
-  const show::ShowMode usual =
-      calibration->has_value() ? show::ShowMode::kNative : show::ShowMode::kView;
-  const show::ShowMode mode = show::modeNamed(options.mode).value_or(usual);
-  VIEWLOOM_RETURN_IF_ERROR(checkMode(mode, calibration->has_value()));
+  const bool is_panel = calibration->has_value();
   const absl::StatusOr<v1::Display> display = displayOf(options.display, *calibration);
   if (!display.ok()) return display.status();
+  const show::ShowMode usual = is_panel ? show::ShowMode::kNative : plainMode(*display);
+  const show::ShowMode mode = show::modeNamed(options.mode).value_or(usual);
+  if (!options.eye_file.empty()) {
+    VIEWLOOM_RETURN_IF_ERROR(checkEyes(mode, *display));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(checkMode(mode, is_panel));
   return show::SessionOptions{.stream = options.stream,
                               .display = *display,
                               .encoding = makeEncoding(options.display),
                               .calibration = *calibration,
+                              .eye_file = options.eye_file,
                               .settings = {.mode = mode,
                                            .view = options.view,
                                            .pair_distance = options.pair_distance,
                                            .is_blended = options.views_between == "blend",
                                            .has_statistics = options.has_statistics},
+                              .is_mode_open = options.mode.empty() && is_panel,
                               .monitor = options.monitor,
                               .is_windowed = options.is_windowed};
 }
@@ -130,15 +161,21 @@ RunCommand addShowCommand(CLI::App& app) {
       "  viewloom show                          on the panel whose USB storage is plugged in\n"
       "  viewloom show --monitor 1 --calibration visual.json --mode weave\n"
       "  viewloom show --windowed --mode pair   two views side by side, in a window\n"
+      "  head-tracker | viewloom show --display tracked.json --eyes-from -\n"
       "  viewloom show --tune --out visual.json adjust the calibration by eye");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
   app.add_option(
          "--mode", options->mode,
          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
-         "two side by side; quilt [native on a calibrated panel, else view]")
+         "two side by side; quilt [on a calibrated panel weave where the server traces on a CPU, "
+         "else native; without one pair of a stereo display, else view]")
       ->check(CLI::IsMember({"native", "weave", "view", "pair", "quilt"}));
-  app.add_option("--calibration", options->calibration_file,
-                 "The panel's visual.json [the one on its USB storage]");
+  auto* calibration = app.add_option("--calibration", options->calibration_file,
+                                     "The panel's visual.json [the one on its USB storage]");
+  auto* eyes = app.add_option("--eyes-from", options->eye_file,
+                              "Where the eyes before a tracked --display are, as `viewloom watch "
+                              "--eyes` takes them; - reads them from a pipe")
+                   ->excludes(calibration);
   app.add_option("--monitor", options->monitor,
                  "Number of the monitor [the one of the panel's size]");
   app.add_flag("--windowed", options->is_windowed, "A window instead of the full screen");
@@ -152,6 +189,7 @@ RunCommand addShowCommand(CLI::App& app) {
   app.add_flag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
   auto* tune = app.add_flag("--tune", options->is_tuning,
                             "Adjust pitch, slope and centre by eye; its keys stand on the screen")
+                   ->excludes(eyes)
                    ->group("Calibration");
   app.add_option("--out", options->out_file, "The calibration that --tune writes")
       ->needs(tune)

@@ -25,6 +25,12 @@ void DisplayLink::change(v1::ChangeDisplay change) {
   filled_.notify_one();
 }
 
+void DisplayLink::sendEyePoses(v1::EyePoses poses) {
+  std::lock_guard lock(mutex_);
+  eyes_ = std::move(poses);
+  filled_.notify_one();
+}
+
 void DisplayLink::reportPresented(uint64_t sequence, int64_t presented_time_ns) {
   std::lock_guard lock(mutex_);
   if (presented_.size() == kPresentedMax) presented_.pop_front();
@@ -34,11 +40,13 @@ void DisplayLink::reportPresented(uint64_t sequence, int64_t presented_time_ns) 
 
 void DisplayLink::send(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (filled_.wait(lock, stop, [this] { return change_ || !presented_.empty(); })) {
+  while (filled_.wait(lock, stop, [this] { return change_ || eyes_ || !presented_.empty(); })) {
     const std::optional<v1::ChangeDisplay> change = std::exchange(change_, std::nullopt);
+    const std::optional<v1::EyePoses> eyes = std::exchange(eyes_, std::nullopt);
     const std::deque<Presented> presented = std::exchange(presented_, {});
     lock.unlock();
     if (change) watcher_.change(*change);
+    if (eyes) watcher_.sendEyePoses(*eyes);
     for (const Presented& shown : presented) {
       watcher_.reportPresented(shown.sequence, shown.time_ns);
     }

@@ -28,6 +28,8 @@ class DisplayLink {
   // Another display, also for calls after a broken connection. Newest wins: what has not been sent
   // is replaced.
   void change(v1::ChangeDisplay change);
+  // Where the eyes before a tracked display are. Newest wins.
+  void sendEyePoses(v1::EyePoses poses);
   // What was shown when, by this machine's clock. While 64 wait to be sent, the oldest goes.
   void reportPresented(uint64_t sequence, int64_t presented_time_ns);
   // As the watcher has them.
@@ -45,6 +47,7 @@ class DisplayLink {
   std::mutex mutex_;
   std::condition_variable_any filled_;
   std::optional<v1::ChangeDisplay> change_;
+  std::optional<v1::EyePoses> eyes_;
   std::deque<Presented> presented_;
 
   Watcher watcher_;

@@ -4,18 +4,18 @@
 #include <SDL.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <mutex>
 #include <utility>
 
 #include "base/str_cat.h"
+#include "eyes/eye_feed.h"
+#include "show/arrivals.h"
 #include "show/display_link.h"
-#include "show/present_queue.h"
+#include "show/mode_question.h"
 #include "show/show_statistics.h"
 #include "show/shown_atlas.h"
 #include "show/stage.h"
 #include "show/text_overlay.h"
+#include "show/wall_time.h"
 
 namespace viewloom::show {
 namespace {
@@ -24,36 +24,6 @@ namespace {
 constexpr int64_t kTick_ns = 50'000'000;
 constexpr SizePx kPlainWindow_px = {1280, 720};
 constexpr uint32_t kNativeJpegQuality = 95;  // what blurs shows to the wrong eye
-
-// Nanoseconds since 1970: what publishers on machines with the same time say as well.
-int64_t wallTimeNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-// What the watcher's thread hands to the main thread.
-struct Arrivals {
-  PresentQueue<DecodedAtlas> queue;
-  std::atomic<bool> is_connected = false;
-  std::mutex mutex;
-  absl::Status failure;  // guarded by mutex
-
-  void fail(const absl::Status& status) {
-    std::lock_guard lock(mutex);
-    failure = status;
-  }
-  absl::Status failed() {
-    std::lock_guard lock(mutex);
-    return failure;
-  }
-};
-
-void wakeMainThread() {
-  SDL_Event event = {};
-  event.type = SDL_USEREVENT;
-  SDL_PushEvent(&event);
-}
 
 class ShowSession {
  public:
@@ -66,16 +36,28 @@ class ShowSession {
         can_native_(options.calibration.has_value()) {}
 
   absl::Status run() {
+    VIEWLOOM_RETURN_IF_ERROR(openEyes());
     VIEWLOOM_RETURN_IF_ERROR(openWindow());
-    connect();
+    if (options_.is_mode_open) {
+      askForMode();
+    } else {
+      connect();
+    }
+    if (eyes_) followEyes();
     absl::Status status;
     while (status.ok() && !is_done_ && !callbacks_.is_interrupted()) status = turn();
+    question_.reset();
+    eyes_.reset();
     link_.reset();
     return status;
   }
 
  private:
+  absl::Status openEyes();
+  void followEyes();
   absl::Status openWindow();
+  void askForMode();
+  void takeMode();
   void connect();
   WatcherCallbacks watcherCallbacks();
   absl::Status turn();
@@ -104,8 +86,22 @@ class ShowSession {
   std::unique_ptr<ShownAtlas> shown_;
   std::unique_ptr<TextOverlay> overlay_;
   Arrivals arrivals_;
+  std::unique_ptr<ModeQuestion> question_;  // until it is answered; link_ comes after it
   std::unique_ptr<DisplayLink> link_;
+  std::unique_ptr<EyeFeed> eyes_;
 };
+
+absl::Status ShowSession::openEyes() {
+  if (options_.eye_file.empty()) return absl::OkStatus();
+  auto eyes = EyeFeed::open(options_.eye_file);
+  if (eyes.ok()) eyes_ = *std::move(eyes);
+  return eyes.status();
+}
+
+void ShowSession::followEyes() {
+  eyes_->start({.send = [this](const v1::EyePoses& poses) { link_->sendEyePoses(poses); },
+                .on_failure = [this](const absl::Status& problem) { arrivals_.fail(problem); }});
+}
 
 absl::Status ShowSession::openWindow() {
   const std::optional<Calibration>& panel = options_.calibration;
@@ -132,7 +128,20 @@ v1::AtlasEncoding ShowSession::encoding() const {
   return encoding;
 }
 
+void ShowSession::askForMode() {
+  question_ = std::make_unique<ModeQuestion>(channel_, callbacks_.on_connection, &wakeMainThread);
+}
+
+void ShowSession::takeMode() {
+  const std::optional<SuitedMode> suited = question_->answer();
+  if (!suited) return;
+  settings_.mode = suited->mode;
+  callbacks_.say(suited->reason);
+  connect();
+}
+
 void ShowSession::connect() {
+  question_.reset();
   v1::OpenDisplay open;
   open.set_stream(options_.stream);
   *open.mutable_display() = displayFor(settings_, options_.display, options_.calibration);
@@ -143,14 +152,7 @@ void ShowSession::connect() {
 
 WatcherCallbacks ShowSession::watcherCallbacks() {
   return {.on_layout = {},
-          .on_atlas =
-              [this](const Atlas& atlas) {
-                absl::StatusOr<DecodedAtlas> decoded = decodeAtlas(atlas);
-                if (!decoded.ok()) return arrivals_.fail(decoded.status());
-                const int64_t due_ns = dueTimeNs(atlas.header.present_at_ns(), wallTimeNs());
-                arrivals_.queue.offer(*std::move(decoded), due_ns);
-                wakeMainThread();
-              },
+          .on_atlas = [this](const Atlas& atlas) { arrivals_.take(atlas); },
           .on_connection =
               [this](const ConnectionEvent& event) {
                 arrivals_.is_connected = event.kind == ConnectionEvent::Kind::kConnected;
@@ -164,15 +166,16 @@ absl::Status ShowSession::turn() {
     VIEWLOOM_RETURN_IF_ERROR(handleEvent(event));
   }
   VIEWLOOM_RETURN_IF_ERROR(arrivals_.failed());
+  if (question_) takeMode();
   VIEWLOOM_RETURN_IF_ERROR(checkEnded());
-  if (const auto atlas = arrivals_.queue.take(wallTimeNs())) return present(*atlas);
+  if (const auto atlas = arrivals_.queue().take(wallTimeNs())) return present(*atlas);
   const bool is_due = settings_.has_statistics && wallTimeNs() - statistics_at_ns_ > 10 * kTick_ns;
   return is_stale_ || is_due ? redraw() : absl::OkStatus();
 }
 
 void ShowSession::waitForEvents() {
   int64_t wait_ns = is_stale_ ? 0 : kTick_ns;
-  if (const std::optional<int64_t> due_ns = arrivals_.queue.nextDueNs()) {
+  if (const std::optional<int64_t> due_ns = arrivals_.queue().nextDueNs()) {
     wait_ns = std::clamp<int64_t>(*due_ns - wallTimeNs(), 0, wait_ns);
   }
   const auto wait_ms = static_cast<int>((wait_ns + 999'999) / 1'000'000);
@@ -205,11 +208,15 @@ absl::Status ShowSession::act(ShowAction action) {
       is_stale_ = true;
       break;
     case ShowEffect::kNewDisplay: {
+      is_stale_ = true;
+      if (link_ == nullptr) {  // the key has answered the question
+        connect();
+        break;
+      }
       v1::ChangeDisplay change;
       *change.mutable_display() = displayFor(settings_, options_.display, options_.calibration);
       *change.mutable_encoding() = encoding();
       link_->change(std::move(change));
-      is_stale_ = true;
       break;
     }
   }
@@ -217,7 +224,7 @@ absl::Status ShowSession::act(ShowAction action) {
 }
 
 absl::Status ShowSession::checkEnded() {
-  const std::optional<absl::Status> ended = link_->ended();
+  const std::optional<absl::Status> ended = link_ ? link_->ended() : std::nullopt;
   if (!ended) return absl::OkStatus();
   const bool is_refused =
       ended->code() == absl::StatusCode::kUnimplemented && settings_.mode == ShowMode::kNative;
@@ -261,12 +268,12 @@ absl::Status ShowSession::drawStatistics() {
     overlay_ = *std::move(overlay);
   }
   statistics_at_ns_ = wallTimeNs();
-  const ShowStatistics statistics{
-      .rate_hz = rate_.perSecond(statistics_at_ns_),
-      .dropped_count = link_->counts().atlases.gaps + arrivals_.queue.droppedCount(),
-      .latency_s = latency_s_,
-      .frame_number = shown_->header().frame_number(),
-      .is_connected = arrivals_.is_connected};
+  const ShowStatistics statistics{.rate_hz = rate_.perSecond(statistics_at_ns_),
+                                  .dropped_count = (link_ ? link_->counts().atlases.gaps : 0) +
+                                                   arrivals_.queue().droppedCount(),
+                                  .latency_s = latency_s_,
+                                  .frame_number = shown_->header().frame_number(),
+                                  .is_connected = arrivals_.is_connected};
   return overlay_->draw(describe(statistics, settings_, shown_->layout()), *stage_.painter);
 }
 

@@ -22,7 +22,11 @@ struct SessionOptions {
   v1::Display display;  // of every mode but kNative
   v1::AtlasEncoding encoding;
   std::optional<Calibration> calibration;
+  std::string eye_file;  // of EyeFeed, for a tracked display; "" = the eyes are the display's own
   ShowSettings settings;
+  // The settings' mode is kNative until the server has been asked which suits a panel; what came
+  // of it is said.
+  bool is_mode_open = false;
   std::optional<int> monitor;
   bool is_windowed = false;
 };
@@ -34,9 +38,9 @@ struct SessionCallbacks {
   OnConnection on_connection;
 };
 
-// Returns when the user ends it: OK. INVALID_ARGUMENT: no such monitor, or px that are no px of the
-// panel; FAILED_PRECONDITION: no screen; else what the server ended the call with. Where the server
-// does not interlace, quilts are woven here instead. Main thread.
+// Returns when the user ends it: OK. INVALID_ARGUMENT: no such monitor, px that are no px of the
+// panel, or eyes that cannot be read; FAILED_PRECONDITION: no screen; else what the server ended
+// the call with. Where the server does not interlace, quilts are woven here instead. Main thread.
 absl::Status showStream(std::shared_ptr<grpc::Channel> channel, const SessionOptions& options,
                         const SessionCallbacks& callbacks);
 

@@ -9,6 +9,10 @@ const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
 };
+const kRgbdOptions = {
+  ...kEncodingOptions, preset: '--preset', rgbd: '--rgbd-form', near_m: '--depth-near',
+  far_m: '--depth-far', screen_m: '--screen', depth_side: '--depth-side', fov_deg: '--fov',
+};
 const kRadPerDeg = Math.PI / 180;
 
 const byId = (id) => document.getElementById(id);
@@ -29,8 +33,8 @@ function displayFile(parameters) {
   }});
 }
 
-// parameters: URLSearchParams of /ws
-function watchCommand(parameters) {
+// parameters: URLSearchParams of /ws; isRgbd: of colour with depth
+function watchCommand(parameters, isRgbd) {
   const words = ['viewloom'];
   if (!kLoopback.includes(location.hostname)) {
     words.push('--server', `${location.hostname}:${kGrpcPort}`);
@@ -39,12 +43,15 @@ function watchCommand(parameters) {
   // An aspect beside that of a tile is told by a file alone.
   const isFile = parameters.has('aspect') && !parameters.has('preset');
   if (isFile) words.push('--display', 'display.json');
-  for (const [name, option] of Object.entries(isFile ? kEncodingOptions : kOptions)) {
+  const options = isRgbd ? kRgbdOptions : isFile ? kEncodingOptions : kOptions;
+  for (const [name, option] of Object.entries(options)) {
     if (parameters.has(name)) words.push(option, parameters.get(name));
   }
   if (!isFile && parameters.has('width') && parameters.has('height')) {
-    words.push('--size', `${parameters.get('width')}x${parameters.get('height')}`);
+    words.push(isRgbd ? '--rgbd' : '--size',
+        `${parameters.get('width')}x${parameters.get('height')}`);
   }
+  if (parameters.get('black_near') === '1') words.push('--black-near');
   if (parameters.get('chroma') === '444') words.push('--444');
   const watch = [...words, '--out', 'atlases'].map(quoted).join(' ');
   if (!isFile) return watch;
@@ -91,8 +98,10 @@ export class Commands {
 
   // parameters: URLSearchParams of /ws; layout: of an atlas that they gave
   show(parameters, layout) {
+    const isQuilt = layout.suffix !== '';  // only quilts have one, and stills are named by it
+    byId('still-elsewhere').hidden = !isQuilt;
     const texts = {
-      watch: watchCommand(parameters),
+      watch: watchCommand(parameters, !isQuilt),
       still: stillCommand(parameters, layout.suffix),
       socket: socketAddress(parameters),
     };

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which display is watched: a preset, or a quilt of one's own, and in how much detail.
+// Which display is watched: a preset, a quilt of one's own, or colour with depth, and in how much
+// detail.
 import {keepInAddress, pageParameters, watchedParameters} from './address.js';
+import {RgbdChoice} from './rgbd_choice.js';
 
 const kDefaultPreset = 'portrait';
 const kQuiltFields = ['columns', 'rows', 'width', 'height', 'aspect'];
 const kMiddle = {columns: 1, rows: 1, depth: 1};
 const kNone = Object.fromEntries(
-    [...kQuiltFields, 'preset', 'cone_deg', 'focus_m'].map((name) => [name, null]));
+    [...kQuiltFields, 'preset', 'cone_deg', 'focus_m', 'rgbd', 'near_m', 'far_m', 'screen_m',
+      'depth_side', 'black_near'].map((name) => [name, null]));
 
 const byId = (id) => document.getElementById(id);
+
+function group(label, options) {
+  const element = document.createElement('optgroup');
+  element.label = label;
+  element.append(...options);
+  return element;
+}
 
 export class DisplayChoice {
   #presets = [];
@@ -18,6 +28,10 @@ export class DisplayChoice {
   constructor(autoDetail, onChange) {
     this.autoDetail = autoDetail;
     this.onChange = onChange;
+    this.rgbd = new RgbdChoice((parameters) => {
+      byId('detail').value = '1';
+      this.#keep({...parameters, detail: '1'});
+    });
     byId('preset').addEventListener('change', ({target}) => this.#choose(target.value));
     byId('detail').addEventListener('change', ({target}) => {
       this.#keep({detail: target.value});
@@ -34,14 +48,21 @@ export class DisplayChoice {
   show(presets) {
     this.#presets = presets;
     const parameters = pageParameters();
-    const options = presets.map(({name, device}) => new Option(device, name));
-    options.push(new Option('custom quilt', ''));
-    byId('preset').replaceChildren(...options);
+    const ofKind = (wanted) => presets.filter(({kind}) => kind === wanted);
+    const quilts = ofKind('quilt').map(({name, device}) => new Option(device, name));
+    byId('preset').replaceChildren(
+        group('Quilts', [...quilts, new Option('custom quilt', '')]),
+        group('Colour with depth (RGBD, 2D+Z)', this.rgbd.options(ofKind('rgbd'))));
     const standard = parameters.has('columns') ? '' : kDefaultPreset;
-    byId('preset').value = parameters.get('preset') ?? standard;
+    byId('preset').value = parameters.get('preset') ?? this.rgbd.valueOf(parameters) ?? standard;
     byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
     if (byId('detail').selectedIndex < 0) byId('detail').value = 'auto';  // none of the choices
     this.#showFields();
+  }
+
+  // Whether it is colour with depth, and no quilt.
+  get isRgbd() {
+    return this.rgbd.isForm(byId('preset').value) || this.#preset()?.kind === 'rgbd';
   }
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
@@ -60,7 +81,7 @@ export class DisplayChoice {
     const detail = chosen === 'auto' ? this.autoDetail.detail : Number(chosen);
     const size = {};
     for (const [side, count] of [['width', 'columns'], ['height', 'rows']]) {
-      const full_px = Number(parameters.get(side) ?? this.#preset()?.size[side]);
+      const full_px = Number(parameters.get(side) ?? this.#preset()?.size?.[side]);
       const tiles = this.#isMiddle ? this.#value(count) : 1;
       if (full_px) size[side] = Math.max(1, Math.round(full_px * detail / tiles));
     }
@@ -94,12 +115,18 @@ export class DisplayChoice {
 
   // A quilt of one's own begins as the preset that was chosen before it.
   #choose(name) {
+    if (this.isRgbd) {
+      byId('detail').value = '1';
+      this.#keep({...kNone, focus_follow_s: null, ...this.rgbd.chosen(name), detail: '1'});
+      return;
+    }
     if (name) {
       this.#keep({...kNone, preset: name});
       return;
     }
-    const before = this.#presets.find((one) => one.name === (pageParameters().get('preset') ??
-                                                             kDefaultPreset));
+    const quilt = (wanted) => this.#presets.find((one) => one.kind === 'quilt' &&
+                                                          one.name === wanted);
+    const before = quilt(pageParameters().get('preset')) ?? quilt(kDefaultPreset);
     const {columns, rows, size, aspect} = before;
     this.#keep({...kNone, columns, rows, ...size, aspect});
     byId('custom-columns').focus();
@@ -112,6 +139,7 @@ export class DisplayChoice {
   }
 
   #showFields() {
+    this.rgbd.show(this.isRgbd, pageParameters(), this.#preset()?.note);
     byId('custom').hidden = byId('preset').value !== '';
     for (const name of kQuiltFields) {
       byId(`custom-${name}`).value = pageParameters().get(name) ?? '';

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sliders that change the display while it is watched: focal distance and view cone.
+// Sliders and a switch that change the display while it is watched: focal distance, whether it
+// follows the content, and view cone.
+import {keepInAddress, pageParameters} from './address.js';
 
 const kThrottle_ms = 120;
+const kFollow_s = '1';
 const kDegPerRad = 180 / Math.PI;
 
 const byId = (id) => document.getElementById(id);
@@ -11,7 +14,7 @@ export class DisplayControls {
   #pending = null;
   #timer = 0;
 
-  // onChange({focus_m, cone_deg}): parameters of /ws; null = the default
+  // onChange({focus_m, focus_follow_s, cone_deg}): parameters of /ws; null = the default
   constructor(onChange) {
     this.onChange = onChange;
     byId('focus').addEventListener('input', ({target}) => {
@@ -22,6 +25,11 @@ export class DisplayControls {
     byId('cone').addEventListener('input', ({target}) => {
       this.#write('cone', `${target.value}°`);
       this.#change({cone_deg: target.value});
+    });
+    byId('follow').addEventListener('change', ({target}) => {
+      const following = {focus_follow_s: target.checked ? kFollow_s : null};
+      keepInAddress(following);
+      this.#change(following);
     });
     byId('reset').addEventListener('click', () => {
       this.forget();
@@ -37,11 +45,15 @@ export class DisplayControls {
   // Another stream or device: its focal distance becomes the middle of the slider.
   forget() {
     this.#neutral_m = 0;
+    byId('follow').checked = pageParameters().has('focus_follow_s');
   }
 
   // What the newest atlas was made with.
   show(layout) {
-    for (const id of ['focus', 'cone', 'reset']) byId(id).disabled = false;
+    // Colour with depth has neither: its views are one.
+    const isSpread = layout.view_cone_rad > 0;
+    for (const id of ['focus', 'follow', 'cone', 'reset']) byId(id).disabled = !isSpread;
+    if (!isSpread) return;
     const sliding = document.querySelector('#focus:active, #cone:active');
     if (this.#pending || sliding) return;
     if (this.#neutral_m === 0) this.#neutral_m = layout.focal_distance_m;

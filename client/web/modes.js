@@ -13,9 +13,17 @@ export class Modes {
     byId('modes').addEventListener('change', ({target}) => this.choose(target.value));
   }
 
-  // By name; what is no mode is the first.
+  // To some names, of which the first is the usual one.
+  restrict(names) {
+    this.usual = names[0];
+    for (const radio of this.radios) radio.disabled = !names.includes(radio.value);
+    if (this.mode && !names.includes(this.mode)) this.choose(this.usual);
+  }
+
+  // By name; what is no mode here is the usual one.
   choose(name) {
-    const radio = this.radios.find(({value}) => value === name) ?? this.radios[0];
+    const find = (wanted) => this.radios.find(({value, disabled}) => value === wanted && !disabled);
+    const radio = find(name) ?? find(this.usual);
     radio.checked = true;
     if (radio.value === this.mode) return;
     this.handlers[this.mode]?.leave?.();

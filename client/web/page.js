@@ -26,6 +26,9 @@ import {Weaver} from './weaver.js';
 const kRetry_ms = 2000;
 const kHiddenGrace_ms = 5000;
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
+const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
+// Of colour with depth: there is one view of it, and nothing to weave.
+const kRgbdModes = ['quilt', 'single'];
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
@@ -39,7 +42,10 @@ const controls = new DisplayControls((parameters) => stream.change(parameters));
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(() => stream.change(display.size()));
-const display = new DisplayChoice(autoDetail, () => { if (watching) watch(watching); });
+const display = new DisplayChoice(autoDetail, () => {
+  offerModes();
+  if (watching) watch(watching);
+});
 
 const stage = new Stage(byId('stage'), (atlas) => {
   if (!atlas.acknowledged) {
@@ -128,6 +134,11 @@ const modes = new Modes({
   keepInAddress({mode: mode === 'look' ? null : mode});
 });
 
+function offerModes() {
+  modes.restrict(display.isRgbd ? kRgbdModes : kModes);
+  byId('quilt-name').textContent = display.isRgbd ? 'Whole picture' : 'Quilt';
+}
+
 function nameView() {
   const count = stage.layout?.view_count ?? 0;
   const view = Math.round(stage.position * (count - 1)) + 1;
@@ -176,6 +187,7 @@ async function start() {
     notice(kSilence, 'bad', Infinity);
     return;
   }
+  offerModes();
   modes.choose(pageParameters().get('mode'));
   streams.poll();
 }

@@ -79,8 +79,8 @@ export class Stage {
   }
 
   // The largest rectangle of an aspect that fits the canvas with a margin, in the middle.
-  frame(aspect) {
-    const margin = Math.round(Math.min(this.canvas.width, this.canvas.height) * 0.025);
+  frame(aspect, marginShare = 0.025) {
+    const margin = Math.round(Math.min(this.canvas.width, this.canvas.height) * marginShare);
     const width = this.canvas.width - 2 * margin;
     const height = this.canvas.height - 2 * margin;
     const w = Math.min(width, height * aspect);
@@ -90,7 +90,9 @@ export class Stage {
 
   #drawWhole() {
     const {bitmap} = this.#atlas;
-    this.context.drawImage(bitmap, ...this.frame(bitmap.width / bitmap.height));
+    // A display that takes the whole picture has no room for a margin.
+    const marginShare = document.fullscreenElement ? 0 : undefined;
+    this.context.drawImage(bitmap, ...this.frame(bitmap.width / bitmap.height, marginShare));
     delete this.canvas.dataset.view;
   }
 

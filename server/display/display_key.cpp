@@ -92,7 +92,9 @@ class KeyText {
   void add(const RgbdSpec& rgbd) {
     text_ += "rgbd ";
     add(rgbd.view_size_px);
-    add(static_cast<uint32_t>(rgbd.form));
+    // What a preset gives beyond the form: where the screen is.
+    add(static_cast<uint32_t>(!rgbd.preset.empty() && rgbd.screen_m == 0));
+    add(static_cast<uint32_t>(*rgbd.form));
     if (rgbd.depth_placement) add(static_cast<uint32_t>(*rgbd.depth_placement));
     add(static_cast<uint32_t>(rgbd.is_black_near));
     for (const double depth_m : {rgbd.near_m, rgbd.far_m, rgbd.screen_m}) add(depth_m);

@@ -108,13 +108,14 @@ enum class DepthPlacement : uint8_t { kRight, kLeft, kTop, kBottom };
 
 // One view with its depth as grey (proto RgbdDisplay).
 struct RgbdSpec {
+  std::string preset;
   SizePx view_size_px;
-  RgbdForm form = RgbdForm::kColorDepth;
+  std::optional<RgbdForm> form;                   // completed: never empty
   std::optional<DepthPlacement> depth_placement;  // completed: where depth lies in the colour
   bool is_black_near = false;
   double near_m = 0;        // 0 = from the stream
   double far_m = 0;         // may be infinite; 0 = from the stream
-  double screen_m = 0;      // has the middle code; 0 = the range stays as it is
+  double screen_m = 0;      // has the middle code; 0 = the preset's, else the range stays as it is
   double fov_y_rad = 0;     // 0 = what the source sees
   uint32_t depth_bits = 0;  // 8 or 16; 0 = 8
 };

@@ -15,6 +15,42 @@ constexpr uint32_t kDefaultDepthBits = 8;
 // Of the nearest 1/Z, the least range of a stream that is all at one depth.
 constexpr double kRangeShareMin = 0.01;
 
+// The 3D Interface White Paper of Philips; Dimenco's displays take the same. Both have white near,
+// 8 bits, and the screen at code 128, an offset that their header could change.
+constexpr RgbdPreset kPresets[] = {
+    {.name = "wowvx",
+     .device = "Philips WOWvx, Dimenco: 2D-plus-Depth",
+     .form = RgbdForm::kColorDepth,
+     .note = "say the px of a view; the header that it reads in the picture is not published and "
+             "not written"},
+    {.name = "wowvx_declipse",
+     .device = "Philips WOWvx: Declipse, four quadrants",
+     .form = RgbdForm::kTwoLayers,
+     .note = "say the px of a view; the header that it reads in the picture is not published and "
+             "not written"},
+};
+
+absl::Status applyPreset(RgbdSpec& rgbd) {
+  if (rgbd.preset.empty()) {
+    if (!rgbd.form) rgbd.form = RgbdForm::kColorDepth;
+    return absl::OkStatus();
+  }
+  const auto preset = std::ranges::find(kPresets, std::string_view(rgbd.preset), &RgbdPreset::name);
+  if (preset == std::end(kPresets)) {
+    return fieldError(absl::StatusCode::kNotFound, "rgbd.preset",
+                      absl::StrCat("there is no \"", rgbd.preset, "\"; there are ",
+                                   kPresets[0].name, ", ", kPresets[1].name));
+  }
+  if (!rgbd.form) rgbd.form = preset->form;
+  return absl::OkStatus();
+}
+
+// Of the screen, m; 0 = the range stays as it is.
+double screenDistance(const RgbdSpec& rgbd, const DepthCodes& range) {
+  if (rgbd.screen_m > 0 || rgbd.preset.empty()) return rgbd.screen_m;
+  return 2 / (range.inv_z_near + range.inv_z_far);
+}
+
 bool isBeside(const RgbdSpec& rgbd) {
   return rgbd.depth_bits == 8 &&
          (rgbd.form == RgbdForm::kTwoLayers || rgbd.depth_placement == DepthPlacement::kRight ||
@@ -60,7 +96,7 @@ void widenAround(double screen_inv_z, DepthCodes& codes) {
   codes.inv_z_far = screen_inv_z - beyond * inv_z_per_code;
 }
 
-DepthCodes codesOf(const RgbdSpec& rgbd, const StreamDefaults& defaults) {
+DepthCodes rangeOf(const RgbdSpec& rgbd, const StreamDefaults& defaults) {
   DepthCodes codes{.bits = rgbd.depth_bits,
                    .inv_z_near = rgbd.near_m > 0 ? 1 / rgbd.near_m : defaults.inv_z_near,
                    .inv_z_far = rgbd.far_m > 0 ? 1 / rgbd.far_m : defaults.inv_z_far,
@@ -70,14 +106,17 @@ DepthCodes codesOf(const RgbdSpec& rgbd, const StreamDefaults& defaults) {
     if (!(codes.inv_z_near > 0)) codes.inv_z_near = StreamDefaults{}.inv_z_near;
     codes.inv_z_far = std::min(codes.inv_z_far, (1 - kRangeShareMin) * codes.inv_z_near);
   }
-  if (rgbd.screen_m > 0 && codes.inv_z_near > codes.inv_z_far)
-    widenAround(1 / rgbd.screen_m, codes);
   return codes;
 }
 
 }  // namespace
 
+std::span<const RgbdPreset> rgbdPresets() {
+  return kPresets;
+}
+
 absl::Status complete(RgbdSpec& rgbd) {
+  VIEWLOOM_RETURN_IF_ERROR(applyPreset(rgbd));
   VIEWLOOM_RETURN_IF_ERROR(checkSize(rgbd.view_size_px, kEyeSidePxMax, "rgbd.view_size"));
   if (rgbd.depth_bits == 0) rgbd.depth_bits = kDefaultDepthBits;
   if (rgbd.depth_bits != 8 && rgbd.depth_bits != 16) {
@@ -103,11 +142,14 @@ TileGrid tileGrid(const RgbdSpec& rgbd) {
 }
 
 void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout& layout) {
-  layout.depth_codes = codesOf(rgbd, defaults);
-  layout.focal_distance_m = rgbd.screen_m;
+  DepthCodes codes = rangeOf(rgbd, defaults);
+  const double screen_m = screenDistance(rgbd, codes);
+  if (screen_m > 0 && codes.inv_z_near > codes.inv_z_far) widenAround(1 / screen_m, codes);
+  layout.depth_codes = codes;
+  layout.focal_distance_m = screen_m;
   // A view from the middle sees the same through a window at any distance.
   const FocalWindow window =
-      focalWindow(focalDistance(rgbd.screen_m, defaults), rgbd.fov_y_rad, layout.aspect, defaults);
+      focalWindow(focalDistance(screen_m, defaults), rgbd.fov_y_rad, layout.aspect, defaults);
   const Camera camera = cameraThroughWindow(window, glm::dvec3(0.0), rgbd.view_size_px);
   const bool depth_is_first =
       rgbd.depth_placement == DepthPlacement::kLeft || rgbd.depth_placement == DepthPlacement::kTop;

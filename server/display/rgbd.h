@@ -2,12 +2,24 @@
 // Displays that make their own views: one view and its depth as grey, or two layers of them.
 #pragma once
 
+#include <span>
+
 #include "display/atlas_layout.h"
 #include "display/tile_grid.h"
 
 namespace viewloom {
 
-// Errors name the field as "rgbd.view_size".
+struct RgbdPreset {
+  const char* name;
+  const char* device;
+  RgbdForm form;
+  const char* note;
+};
+
+// Sorted by name. None is verified on hardware, and px of none are published.
+std::span<const RgbdPreset> rgbdPresets();
+
+// Errors name the field as "rgbd.view_size". NOT_FOUND for a preset that does not exist.
 absl::Status complete(RgbdSpec& rgbd);
 
 // What follows expects a completed spec.

@@ -8,6 +8,7 @@
 #include "display/integral.h"
 #include "display/panels.h"
 #include "display/presets.h"
+#include "display/rgbd.h"
 #include "display/source_advice.h"
 #include "rpc/display_from_proto.h"
 #include "rpc/geometry_to_proto.h"
@@ -24,6 +25,7 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   proto.set_version(description.version);
   proto.set_device(description.device);
   proto.set_driver(description.driver);
+  proto.set_traces_on_cpu(description.is_software);
   *proto.mutable_ingest_limits() = limitsToProto(description.frame_limits);
   proto.set_atlas_side_px_max(description.atlas_limits.side_px_max);
   proto.set_atlas_px_max(description.atlas_limits.area_px_max);
@@ -82,10 +84,27 @@ void addIntegralPresets(v1::ListPresetsResponse& proto) {
   }
 }
 
+void addRgbdPresets(v1::ListPresetsResponse& proto) {
+  constexpr SizePx kAnySize{.width = 1, .height = 1};
+  for (const RgbdPreset& preset : rgbdPresets()) {
+    v1::Preset& entry = *proto.add_presets();
+    entry.set_name(preset.name);
+    entry.set_device(preset.device);
+    v1::AtlasLayout& layout = *entry.mutable_layout();
+    layout = gridOfPreset(RgbdSpec{.preset = preset.name, .view_size_px = kAnySize});
+    layout.clear_size();
+    layout.clear_tile_size();
+    layout.clear_aspect();
+    entry.set_note(preset.note);
+    entry.add_kinds("rgbd");
+  }
+}
+
 v1::ListPresetsResponse presetsToProto() {
   v1::ListPresetsResponse proto;
   addQuiltPresets(proto);
   addIntegralPresets(proto);
+  addRgbdPresets(proto);
   std::sort(proto.mutable_presets()->begin(), proto.mutable_presets()->end(),
             [](const v1::Preset& a, const v1::Preset& b) { return a.name() < b.name(); });
   return proto;

@@ -17,6 +17,7 @@ struct ServerDescription {
   std::string version;
   std::string device;  // Vulkan device name
   std::string driver;
+  bool is_software = false;  // the device is a CPU
   FrameLimits frame_limits;
   AtlasLimits atlas_limits;
   uint32_t stream_count_max = 0;

@@ -40,8 +40,8 @@ constexpr EnumRow<v1::TileArrangement, TileArrangement> kArrangements[] = {
     {v1::TILE_ARRANGEMENT_QUAD_2X2, TileArrangement::kQuad},
     {v1::TILE_ARRANGEMENT_SEPARATE_VIEWS, TileArrangement::kSeparate}};
 
-constexpr EnumRow<v1::RgbdForm, RgbdForm> kRgbdForms[] = {
-    {v1::RGBD_FORM_UNSPECIFIED, RgbdForm::kColorDepth},
+constexpr EnumRow<v1::RgbdForm, std::optional<RgbdForm>> kRgbdForms[] = {
+    {v1::RGBD_FORM_UNSPECIFIED, std::nullopt},
     {v1::RGBD_FORM_COLOR_DEPTH, RgbdForm::kColorDepth},
     {v1::RGBD_FORM_TWO_LAYERS, RgbdForm::kTwoLayers}};
 
@@ -160,7 +160,8 @@ absl::StatusOr<RgbdSpec> rgbdFromProto(const v1::RgbdDisplay& proto) {
   const auto placement =
       enumFromProto(proto.depth_placement(), "depth_placement", kDepthPlacements);
   VIEWLOOM_RETURN_IF_ERROR(placement.status());
-  return RgbdSpec{.view_size_px = sizeFromProto(proto.view_size()),
+  return RgbdSpec{.preset = proto.preset(),
+                  .view_size_px = sizeFromProto(proto.view_size()),
                   .form = *form,
                   .depth_placement = *placement,
                   .is_black_near = proto.black_near(),

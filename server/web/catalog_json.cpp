@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "display/presets.h"
+#include "display/rgbd.h"
 
 namespace viewloom {
 
@@ -76,12 +77,19 @@ json presetsJson() {
   json entries = json::array();
   for (const Preset& preset : allPresets()) {
     entries.push_back({{"name", preset.name},
+                       {"kind", "quilt"},
                        {"device", preset.device},
                        {"columns", preset.columns},
                        {"rows", preset.rows},
                        {"size", sizeJson(preset.size_px)},
                        {"aspect", preset.aspect},
                        {"view_cone_deg", preset.view_cone_deg},
+                       {"note", preset.note}});
+  }
+  for (const RgbdPreset& preset : rgbdPresets()) {
+    entries.push_back({{"name", preset.name},
+                       {"kind", "rgbd"},
+                       {"device", preset.device},
                        {"note", preset.note}});
   }
   return {{"presets", std::move(entries)}};

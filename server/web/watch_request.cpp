@@ -2,26 +2,22 @@
 #include "web/watch_request.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <numbers>
+#include <span>
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "display/atlas_layout.h"
+#include "web/rgbd_request.h"
+#include "web/watch_parameters.h"
 
 namespace viewloom {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
-// Parameters, and the fields of the API that the checks of displays and encodings name.
-struct ParameterField {
-  const char* parameter;
-  const char* field;
-};
-constexpr std::array kParameters = {
+constexpr std::array kQuiltParameters = {
     ParameterField{"stream", "stream"},
     ParameterField{"preset", "quilt.preset"},
     ParameterField{"columns", "quilt.columns"},
@@ -40,9 +36,9 @@ constexpr std::array kParameters = {
 
 // The same refusal, told to somebody who wrote a parameter and not a field. Angles came in degrees:
 // the sentence says that its range is in radians.
-absl::Status namedByParameter(const absl::Status& status) {
+absl::Status namedByParameter(const absl::Status& status, std::span<const ParameterField> all) {
   const std::string field = fieldOf(status);
-  for (const ParameterField& known : kParameters) {
+  for (const ParameterField& known : all) {
     if (field != known.field) continue;
     std::string problem(status.message());
     if (problem.starts_with(field + ": ")) problem.erase(0, field.size() + 2);
@@ -52,34 +48,17 @@ absl::Status namedByParameter(const absl::Status& status) {
   return status;
 }
 
-absl::Status checkKnown(const QueryParameters& parameters) {
+absl::Status checkKnown(const QueryParameters& parameters, std::span<const ParameterField> all) {
   for (const auto& [name, value] : parameters) {
     bool known = false;
-    for (const ParameterField& accepted : kParameters) known |= name == accepted.parameter;
+    for (const ParameterField& accepted : all) known |= name == accepted.parameter;
     if (known) continue;
     const auto append = [](std::string* out, const ParameterField& accepted) {
       out->append(accepted.parameter);
     };
     return invalidField(name, absl::StrCat("there is no such parameter, accepted are ",
-                                           absl::StrJoin(kParameters, ", ", append)));
+                                           absl::StrJoin(all, ", ", append)));
   }
-  return absl::OkStatus();
-}
-
-// Leaves `value` alone when the parameter is not given.
-template <typename Number>
-absl::Status readNumber(const QueryParameters& parameters, const char* name, Number& value) {
-  const auto found = parameters.find(name);
-  if (found == parameters.end()) return absl::OkStatus();
-  const std::string& text = found->second;
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (!whole || !std::isfinite(static_cast<double>(number))) {
-    return invalidField(name, absl::StrCat("got \"", text, "\", accepted is a ",
-                                           std::is_integral_v<Number> ? "whole number" : "number"));
-  }
-  value = number;
   return absl::OkStatus();
 }
 
@@ -106,8 +85,10 @@ absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
   return quilt;
 }
 
-absl::StatusOr<EncodingSpec> readEncoding(const QueryParameters& parameters) {
+// Colour next to the greys of a depth image shows in them where chroma is shared.
+absl::StatusOr<EncodingSpec> readEncoding(const QueryParameters& parameters, bool is_rgbd) {
   EncodingSpec encoding;
+  if (is_rgbd) encoding.chroma = Chroma::k444;
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "quality", encoding.jpeg_quality));
   if (const auto chroma = parameters.find("chroma"); chroma != parameters.end()) {
     if (chroma->second != "420" && chroma->second != "444") {
@@ -142,26 +123,45 @@ absl::StatusOr<std::string> readStream(const QueryParameters& parameters,
                                  existing.empty() ? "there are none yet" : existing));
 }
 
+absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool is_rgbd) {
+  DisplaySpec display;
+  if (is_rgbd) {
+    absl::StatusOr<RgbdSpec> rgbd = readRgbd(parameters);
+    VIEWLOOM_RETURN_IF_ERROR(rgbd.status());
+    display.kind = *std::move(rgbd);
+    return display;
+  }
+  absl::StatusOr<QuiltSpec> quilt = readQuilt(parameters);
+  VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+  display.kind = *std::move(quilt);
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
+  return display;
+}
+
 }  // namespace
 
 absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
                                                const StreamDirectory& streams) {
-  VIEWLOOM_RETURN_IF_ERROR(checkKnown(parameters));
-  const absl::StatusOr<QuiltSpec> quilt = readQuilt(parameters);
-  VIEWLOOM_RETURN_IF_ERROR(quilt.status());
-  DisplaySpec display;
-  display.kind = *quilt;
-  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
-  absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(display);
-  VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status()));
-  const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters);
-  VIEWLOOM_RETURN_IF_ERROR(namedByParameter(encoding.status()));
+  const bool is_rgbd = asksForRgbd(parameters);
+  const std::span<const ParameterField> all = is_rgbd ? rgbdParameters() : kQuiltParameters;
+  VIEWLOOM_RETURN_IF_ERROR(checkKnown(parameters, all));
+  const absl::StatusOr<DisplaySpec> display = readDisplay(parameters, is_rgbd);
+  VIEWLOOM_RETURN_IF_ERROR(display.status());
+  absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(*display);
+  VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status(), all));
+  const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters, is_rgbd);
+  VIEWLOOM_RETURN_IF_ERROR(namedByParameter(encoding.status(), all));
   absl::StatusOr<std::string> stream = readStream(parameters, streams);
   VIEWLOOM_RETURN_IF_ERROR(stream.status());
   return WatchRequest{*std::move(stream), *std::move(completed), *encoding};
 }
 
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display) {
+  if (!std::holds_alternative<QuiltSpec>(display.kind)) {
+    return invalidField("preset",
+                        "came for colour with depth, and addresses with a suffix are of quilts; "
+                        "accepted is the preset of a quilt, or /ws");
+  }
   // The suffix does not depend on the stream: any camera serves.
   const StreamDefaults any_stream{.source_intrinsics = {}, .source_size_px = {1, 1}};
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(display, any_stream);

@@ -13,18 +13,18 @@ namespace viewloom {
 
 struct WatchRequest {
   std::string stream;
-  DisplaySpec display;  // completed; a quilt
+  DisplaySpec display;  // completed; a quilt, or colour with depth
   EncodingSpec encoding;
 };
 
 // Parameters: stream, preset (default "portrait" when neither columns nor rows say otherwise),
 // columns, rows, width, height, aspect, cone_deg, focus_m, focus_follow_s, fov_deg, quality, chroma
-// (420, 444). NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for anything else, with
-// the parameter as the field.
+// (420, 444), depth. Those of colour with depth: see rgbd_request.h. NOT_FOUND for an unknown
+// stream or preset, INVALID_ARGUMENT for anything else, with the parameter as the field.
 absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
                                                const StreamDirectory& streams);
 
-// "_qs8x6a0.75": what the name of a still must end with.
+// "_qs8x6a0.75": what the name of a still must end with. INVALID_ARGUMENT for what is no quilt.
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display);
 
 }  // namespace viewloom

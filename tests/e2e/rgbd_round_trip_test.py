@@ -123,6 +123,15 @@ class RgbdRoundTrip(unittest.TestCase):
         self.assertLessEqual(np.abs(sixteen[:, WIDTH:] - eight[:, WIDTH:] * 257).max(), 130)
         self.assertGreater((eight[:HEIGHT] != eight[HEIGHT:]).mean(), 0.02)
 
+    def test_a_preset_is_the_form_with_the_screen_at_the_middle_code(self):
+        lossless = ["--lossless", "--format", "png"]
+        middle_m = 2 / (1 / NEAR_M + 1 / FAR_M)
+        for preset, form in (("wowvx", "color-depth"), ("wowvx_declipse", "two-layers")):
+            by_name = self.watch("scene", *RANGE, *lossless, "--preset", preset).read_bytes()
+            by_hand = self.watch("scene", *RANGE, *lossless, "--rgbd-form", form,
+                                 "--screen", repr(middle_m)).read_bytes()
+            self.assertEqual(by_name, by_hand, preset)
+
     def test_jpeg_is_the_servers_own(self):
         file = self.watch("scene", "--screen", "4")
         self.assertTrue(file.name.endswith("_rgbd.jpg"), file.name)
@@ -131,7 +140,8 @@ class RgbdRoundTrip(unittest.TestCase):
 
     def test_refuses_what_does_not_fit_together(self):
         for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "depth_placement"),
-                          (["--preset", "portrait"], "excludes"),
+                          (["--preset", "portrait"], 'there is no "portrait"; there are wowvx'),
+                          (["--cone", "30"], "excludes"),
                           (["--depth-near", "3", "--depth-far", "2"], "rgbd.far_m")):
             run = subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene",
                                   "--rgbd", "8x8", "--count", "1", "--no-retry", *bad],

@@ -95,6 +95,12 @@ TEST(CatalogService, listsPresetsWithTheirLayouts) {
     names.push_back(preset.name());
     EXPECT_EQ(preset.layout().views_size(), 0);
     EXPECT_FALSE(preset.layout().has_encoding());
+    if (preset.name() == "wowvx_declipse") {
+      EXPECT_THAT(preset.kinds(), ::testing::ElementsAre("rgbd"));
+      EXPECT_EQ(preset.layout().rows(), 2u);
+      EXPECT_FALSE(preset.layout().has_size()) << "not published";
+      EXPECT_THAT(preset.note(), ::testing::HasSubstr("header"));
+    }
     if (preset.name() != "portrait") continue;
     EXPECT_THAT(preset.device(), ::testing::StartsWith("Looking Glass Portrait"));
     EXPECT_EQ(preset.layout().columns(), 8u);
@@ -105,7 +111,8 @@ TEST(CatalogService, listsPresetsWithTheirLayouts) {
     EXPECT_EQ(preset.layout().suffix(), "_qs8x6a0.75");
     EXPECT_EQ(preset.layout().focal_distance_m(), 0);
   }
-  EXPECT_THAT(names, ::testing::Contains("portrait"));
+  EXPECT_THAT(names,
+              ::testing::IsSupersetOf({"near_eye_2013", "portrait", "wowvx", "wowvx_declipse"}));
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
 }
 

@@ -6,6 +6,8 @@
 
 #include "e2e/atlas_viewer.h"
 #include "e2e/service_fixture.h"
+#include "lib/catalog.h"
+#include "lib/channel.h"
 
 namespace viewloom::test {
 namespace {
@@ -73,6 +75,14 @@ class ServiceDisplaysTest : public ServiceFixture {
     return *std::move(picture);
   }
 };
+
+TEST_F(ServiceDisplaysTest, saysWhetherItTracesThemOnACpu) {
+  const auto info = Catalog(makeChannel(service_->grpcAddress())).getServerInfo();
+  ASSERT_TRUE(info.ok()) << info.status();
+  // Lavapipe's name for itself.
+  EXPECT_EQ(info->traces_on_cpu(), info->device().find("llvmpipe") != std::string::npos)
+      << info->device();
+}
 
 TEST_F(ServiceDisplaysTest, sendsEachViewAsAnImageOfItsOwn) {
   v1::OpenDisplay together = openScene();

@@ -9,6 +9,8 @@ from concurrent import futures
 import grpc
 
 from viewloom.v1 import atlas_pb2
+from viewloom.v1 import catalog_service_pb2 as catalog
+from viewloom.v1 import catalog_service_pb2_grpc as catalog_grpc
 from viewloom.v1 import display_pb2 as display
 from viewloom.v1 import display_service_pb2 as watching
 from viewloom.v1 import display_service_pb2_grpc as watching_grpc
@@ -48,16 +50,35 @@ class Atlas:
         yield response(end=watching.AtlasEnd(sequence=sequence))
 
 
-class FakeDisplays(watching_grpc.DisplayServiceServicer):
-    """answer(Display) gives the Atlas of a display; a grpc.StatusCode refuses it."""
+class FakeCatalog(catalog_grpc.CatalogServiceServicer):
+    """Says what its server traces on."""
 
-    def __init__(self, answer, address="127.0.0.1:0"):
+    def __init__(self, traces_on_cpu):
+        self._info = catalog.GetServerInfoResponse(device="a device of the test",
+                                                   traces_on_cpu=traces_on_cpu)
+
+    def GetServerInfo(self, request, context):  # pylint: disable=invalid-name
+        return self._info
+
+
+class FakeDisplays(watching_grpc.DisplayServiceServicer):
+    """answer(Display) gives the Atlas of a display; a grpc.StatusCode refuses it.
+
+    see(EyePoses): the Atlas that those eyes see.
+    traces_on_cpu: as the server says; None = it says nothing about itself.
+    """
+
+    def __init__(self, answer, address="127.0.0.1:0", see=None, traces_on_cpu=None):
         self._answer = answer
+        self._see = see
         self.displays = queue.Queue()   # asked for: opened, then changed
         self.presented = queue.Queue()  # as the client reports
         self._server = grpc.server(futures.ThreadPoolExecutor(8),
                                    options=[("grpc.so_reuseport", 0)])
         watching_grpc.add_DisplayServiceServicer_to_server(self, self._server)
+        if traces_on_cpu is not None:
+            catalog_grpc.add_CatalogServiceServicer_to_server(FakeCatalog(traces_on_cpu),
+                                                              self._server)
         self.address = f"127.0.0.1:{self._server.add_insecure_port(address)}"
         self._server.start()
 
@@ -71,7 +92,8 @@ class FakeDisplays(watching_grpc.DisplayServiceServicer):
         reader.start()
         sequence = 0
         while (asked := wanted.get()) is not None:
-            atlas = self._answer(asked)
+            is_eyes = isinstance(asked, watching.EyePoses)
+            atlas = self._see(asked) if is_eyes else self._answer(asked)
             if isinstance(atlas, grpc.StatusCode):
                 context.abort(atlas, "the test says so")
             sequence += 1
@@ -83,6 +105,9 @@ class FakeDisplays(watching_grpc.DisplayServiceServicer):
             for request in requests:
                 if request.HasField("presented"):
                     self.presented.put(request.presented)
+                    continue
+                if request.HasField("eye_poses"):
+                    wanted.put(request.eye_poses)
                     continue
                 asked = request.open.display if request.HasField("open") else request.change.display
                 self.displays.put(asked)

@@ -52,14 +52,14 @@ class Screen:
 class Show:
     """`viewloom show` on a screen."""
 
-    def __init__(self, viewloom, screen, server, *arguments):
+    def __init__(self, viewloom, screen, server, *arguments, stdin=None):
         self._said = tempfile.TemporaryFile("w+")
         environment = screen.environment() if screen else \
             {name: value for name, value in os.environ.items()
              if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
         self._process = subprocess.Popen(
             [viewloom, "--server", server, "show", "known", *map(str, arguments)],
-            env=environment, stderr=self._said)
+            env=environment, stdin=stdin, stderr=self._said)
 
     def said(self):
         self._said.seek(0)

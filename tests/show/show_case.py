@@ -29,8 +29,9 @@ class ShowTest(unittest.TestCase):
         self.addCleanup(server.stop)
         return server
 
-    def start_show(self, screen, server, *arguments):
-        show = Show(self.viewloom, screen, server.address if server else "127.0.0.1:1", *arguments)
+    def start_show(self, screen, server, *arguments, **options):
+        show = Show(self.viewloom, screen, server.address if server else "127.0.0.1:1", *arguments,
+                    **options)
         self.addCleanup(show.close)
         return show
 

@@ -69,7 +69,7 @@ class Modes(PageTest):
         self.browser.call("Emulation.setFocusEmulationEnabled", enabled=True)
         self.open()
         reached = []
-        for _ in range(30):
+        for _ in range(32):
             self.browser.call("Input.dispatchKeyEvent", type="rawKeyDown", key="Tab", code="Tab",
                               windowsVirtualKeyCode=9)
             name, outline = self.browser.evaluate(
@@ -79,7 +79,7 @@ class Modes(PageTest):
             if name != "BODY":
                 self.assertNotEqual(outline, "none", name)
         for name in ("stream", "preset", "detail", "custom-columns", "look", "stage", "view",
-                     "blend", "focus", "cone", "command-watch", "copy-socket"):
+                     "blend", "focus", "follow", "cone", "command-watch", "copy-socket"):
             self.assertIn(name, reached)
 
     def test_single_views_stand_still_and_go_by_number(self):

@@ -135,6 +135,37 @@ TEST(Rgbd, givesTheScreenTheMiddleCodeAndKeepsAllInRange) {
   }
 }
 
+TEST(Rgbd, hasTheScreenOfAPresetHalfWayInItsRange) {
+  RgbdSpec rgbd = small();
+  rgbd.preset = "wowvx";
+  const AtlasLayout layout = *layoutOf(rgbd, someStream());
+  EXPECT_EQ(tilesOf(layout), "cd/");
+  EXPECT_DOUBLE_EQ(layout.focal_distance_m, 1.6) << "the harmonic mean of 1 m and 4 m";
+  EXPECT_EQ(codeOf(1 / 1.6, layout), 128u);
+  EXPECT_EQ(codeOf(1, layout), 255u);
+  EXPECT_EQ(codeOf(0.25, layout), 1u) << "as far from the middle, of which there is one code more";
+
+  rgbd.far_m = kInf;
+  EXPECT_DOUBLE_EQ(layoutOf(rgbd, someStream())->focal_distance_m, 2);
+  rgbd.screen_m = 3;
+  const AtlasLayout said = *layoutOf(rgbd, someStream());
+  EXPECT_EQ(said.focal_distance_m, 3);
+  EXPECT_EQ(codeOf(1.0 / 3, said), 128u);
+}
+
+TEST(Rgbd, takesWhatIsSaidBesideAPreset) {
+  RgbdSpec rgbd = small();
+  rgbd.preset = "wowvx_declipse";
+  EXPECT_EQ(tilesOf(*layoutOf(rgbd, someStream())), "cd/CD/");
+  rgbd.form = RgbdForm::kColorDepth;
+  rgbd.depth_placement = DepthPlacement::kTop;
+  rgbd.is_black_near = true;
+  const AtlasLayout layout = *layoutOf(rgbd, someStream());
+  EXPECT_EQ(tilesOf(layout), "d/c/");
+  EXPECT_LE(codeOf(1, layout), 1u);
+  EXPECT_EQ(codeOf(0.25, layout), 255u);
+}
+
 TEST(Rgbd, findsARangeInStreamsThatHaveNone) {
   StreamDefaults flat = someStream();
   flat.inv_z_near = flat.inv_z_far = 0.5;
@@ -160,6 +191,7 @@ struct BadRgbd {
 
 TEST(Rgbd, refusesByFieldWhatCannotBe) {
   const std::vector<BadRgbd> cases = {
+      {"rgbd.preset", [](auto& r) { r.preset = "portrait"; }},
       {"rgbd.view_size.width", [](auto& r) { r.view_size_px.width = 0; }},
       {"rgbd.view_size.height", [](auto& r) { r.view_size_px.height = 8193; }},
       {"rgbd.depth_bits", [](auto& r) { r.depth_bits = 7; }},
@@ -208,8 +240,13 @@ TEST(Rgbd, isAnotherPictureWithAnyOtherRange) {
     changed.*field = 2;
     EXPECT_NE(keyOf(changed), key);
   }
+  other.preset = "wowvx";
+  EXPECT_NE(keyOf(other), key) << "its screen has the middle code";
+  RgbdSpec said = small();
+  said.screen_m = other.screen_m = 2;
+  EXPECT_EQ(keyOf(other), keyOf(said));
   other.is_black_near = true;
-  EXPECT_NE(keyOf(other), key);
+  EXPECT_NE(keyOf(other), keyOf(said));
 }
 
 }  // namespace

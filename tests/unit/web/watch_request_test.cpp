@@ -55,6 +55,51 @@ TEST_F(WatchRequests, overrideThePreset) {
   EXPECT_EQ(request->encoding.chroma, Chroma::k444);
 }
 
+TEST_F(WatchRequests, areColorWithDepthByItsPresetOrByName) {
+  const auto preset =
+      parse({{"preset", "wowvx_declipse"}, {"width", "64"}, {"height", "48"}, {"screen_m", "2"}});
+  ASSERT_TRUE(preset.ok()) << preset.status();
+  const auto& declipse = std::get<RgbdSpec>(preset->display.kind);
+  EXPECT_EQ(declipse.form, RgbdForm::kTwoLayers);
+  EXPECT_EQ(declipse.view_size_px, (SizePx{64, 48}));
+  EXPECT_EQ(declipse.screen_m, 2);
+  EXPECT_EQ(preset->encoding.chroma, Chroma::k444);
+
+  const auto named = parse({{"rgbd", "color-depth"},
+                            {"width", "64"},
+                            {"height", "48"},
+                            {"depth_side", "bottom"},
+                            {"black_near", "1"},
+                            {"near_m", "1"},
+                            {"far_m", "9"},
+                            {"chroma", "420"}});
+  ASSERT_TRUE(named.ok()) << named.status();
+  const auto& rgbd = std::get<RgbdSpec>(named->display.kind);
+  EXPECT_EQ(rgbd.form, RgbdForm::kColorDepth);
+  EXPECT_EQ(rgbd.depth_placement, DepthPlacement::kBottom);
+  EXPECT_TRUE(rgbd.is_black_near);
+  EXPECT_EQ(rgbd.near_m, 1);
+  EXPECT_EQ(rgbd.far_m, 9);
+  EXPECT_EQ(named->encoding.chroma, Chroma::k420);
+  EXPECT_EQ(fieldOf(quiltSuffix(named->display).status()), "preset");
+}
+
+TEST_F(WatchRequests, nameTheParameterOfColorWithDepthAtFault) {
+  EXPECT_EQ(fieldOf(parse({{"preset", "wowvx"}}).status()), "width");
+  EXPECT_EQ(fieldOf(parse({{"rgbd", "both"}}).status()), "rgbd");
+  const QueryParameters whole{{"rgbd", "two-layers"}, {"width", "64"}, {"height", "48"}};
+  for (const auto& [name, value] : QueryParameters{{"depth_side", "left"},
+                                                   {"black_near", "yes"},
+                                                   {"cone_deg", "40"},
+                                                   {"focus_follow_s", "1"},
+                                                   {"preset", "portrait"},
+                                                   {"screen_m", "-1"}}) {
+    QueryParameters bad = whole;
+    bad.emplace(name, value);
+    EXPECT_EQ(fieldOf(parse(bad).status()), name);
+  }
+}
+
 TEST_F(WatchRequests, nameTheParameterAtFaultAndWhatIsAccepted) {
   const auto bad = parse({{"cone_deg", "400"}});
   EXPECT_EQ(fieldOf(bad.status()), "cone_deg");

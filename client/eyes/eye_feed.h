@@ -12,7 +12,7 @@
 #include "base/status.h"
 #include "viewloom/v1/display_service.pb.h"
 
-namespace viewloom::cli {
+namespace viewloom {
 
 // {"time_ns": 8, "left": [-0.03, 0, 0.1], "right": [0.03, 0, 0.1]}: metres relative to the display,
 // in any clock. May have predicted_display_time_ns; what else it has is for others. Errors name the
@@ -62,4 +62,4 @@ class EyeFeed {
   std::jthread thread_;         // last: it uses the rest
 };
 
-}  // namespace viewloom::cli
+}  // namespace viewloom

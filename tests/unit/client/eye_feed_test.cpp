@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/eye_feed.h"
+#include "eyes/eye_feed.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <future>
 #include <vector>
 
-namespace viewloom::cli {
+namespace viewloom {
 namespace {
 
 using testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(EyeFeed, stopsWhileALineIsNotDue) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom

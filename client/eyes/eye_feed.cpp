@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/eye_feed.h"
+#include "eyes/eye_feed.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -19,7 +19,7 @@
 
 #include "base/str_cat.h"
 
-namespace viewloom::cli {
+namespace viewloom {
 namespace {
 
 constexpr size_t kLineBytesMax = 64 << 10;
@@ -49,6 +49,10 @@ absl::Status addEye(const nlohmann::json& line, const char* key, v1::EyePoses& p
 
 int64_t nowNs() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string nameOf(const std::string& file) {
+  return file == "-" ? "the eyes of the standard input" : "eyes of " + file;
 }
 
 bool isFile(int descriptor) {
@@ -83,7 +87,7 @@ absl::StatusOr<std::unique_ptr<EyeFeed>> EyeFeed::open(const std::string& file) 
       file == "-" ? dup(STDIN_FILENO) : ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
     return absl::InvalidArgumentError(
-        strCat("--eyes ", file, ": cannot be read: ", std::strerror(errno)));
+        strCat(nameOf(file), ": cannot be read: ", std::strerror(errno)));
   }
   return std::unique_ptr<EyeFeed>(new EyeFeed(file, descriptor));
 }
@@ -117,7 +121,7 @@ void EyeFeed::run(const std::stop_token& stop) {
       }
     }
     callbacks_.on_failure(absl::InvalidArgumentError(
-        strCat("--eyes ", file_, ", line ", line_number_, ": ", std::string(problem.message()))));
+        strCat(nameOf(file_), ", line ", line_number_, ": ", std::string(problem.message()))));
     return;
   }
 }
@@ -170,4 +174,4 @@ void EyeFeed::waitUntilDue(int64_t time_ns, const std::stop_token& stop) {
                    [] { return false; });
 }
 
-}  // namespace viewloom::cli
+}  // namespace viewloom

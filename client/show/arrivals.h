@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What other threads hand to the one that draws.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+
+#include "base/status.h"
+#include "show/present_queue.h"
+#include "show/shown_atlas.h"
+
+namespace viewloom::show {
+
+// Thread-safety: all methods may be called from any thread.
+class Arrivals {
+ public:
+  // Decoded here; one that cannot be is a failure.
+  void take(const Atlas& atlas);
+  // The session ends with it.
+  void fail(const absl::Status& status);
+  absl::Status failed() const;
+
+  PresentQueue<DecodedAtlas>& queue() { return queue_; }
+  std::atomic<bool> is_connected = false;
+
+ private:
+  PresentQueue<DecodedAtlas> queue_;
+  mutable std::mutex mutex_;
+  absl::Status failure_;  // guarded by mutex_
+};
+
+// So that it looks what has come.
+void wakeMainThread();
+
+}  // namespace viewloom::show

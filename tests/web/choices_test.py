@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page's picker and switches: colour with depth as a display, a focal plane that follows.
+Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
+import shlex
+import sys
+import unittest
+
+from modes_test import NAMELESS, SMALL_TARGETS
+from page_test import SMALL, PageTest, keep
+from web_client import Server, decode_code
+
+OPEN_MODES = """[...document.querySelectorAll('#modes input')]
+  .filter(e => !e.disabled).map(e => e.value)"""
+DISPLAY_IDS = "fetch('/api/displays').then(r => r.json()).then(r => r.displays.map(d => d.id))"
+FACTS = "document.getElementById('facts').innerText"
+WATCH = "document.getElementById('command-watch').value"
+
+
+class Choices(PageTest):
+    def setUp(self):
+        self.server = Server(PROGRAM, "--rate-hz", 5)
+        self.addCleanup(lambda: self.server.__exit__())
+        self.start_browser()
+
+    def choose(self, value):
+        self.browser.evaluate(
+            f"(s => {{ s.value = {value!r}; s.dispatchEvent(new Event('change')); }})"
+            "(document.getElementById('preset'))")
+
+    def watch_views_of(self, width, height):
+        for name, value in (("width", width), ("height", height), ("screen_m", 2)):
+            self.browser.evaluate(f"document.getElementById('rgbd-{name}').value = {value}")
+        self.browser.click("#rgbd button")
+
+    def nodes(self):
+        tree = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        return {(node["role"]["value"], node["name"]["value"]): node for node in tree
+                if "name" in node and not node["ignored"]}
+
+    def codes(self, columns, rows):
+        """What stands in the tiles of the picture, row by row from the top."""
+        left, top, width, height = self.canvas()
+        canvas = self.browser.screenshot().crop((left, top, left + width, top + height))
+        margin = 0.025 * min(width, height)
+        aspect = columns / rows * 320 / 180
+        shown = min(width - 2 * margin, (height - 2 * margin) * aspect)
+        side, line = shown / columns, shown / aspect / rows
+        x, y = (width - shown) / 2, (height - shown / aspect) / 2
+        return [decode_code(canvas.crop((int(x + c * side), int(y + r * line),
+                                         int(x + (c + 1) * side), int(y + (r + 1) * line))))
+                for r in range(rows) for c in range(columns)]
+
+    def test_a_preset_of_colour_with_depth_is_watched_whole(self):
+        self.open(SMALL + "&focus_follow_s=1&focus_m=2&mode=rgbd")
+        self.choose("wowvx")
+        self.browser.wait_for(f"{FACTS}.includes('1920 × 540')")
+        note = self.browser.evaluate("document.getElementById('rgbd-note').textContent")
+        self.assertIn("header", note)
+        self.assertIn("not published", note)
+        self.watch_views_of(320, 180)
+        self.browser.wait_for(f"{FACTS}.includes('640 × 180')")
+        self.assertEqual(self.browser.evaluate("document.documentElement.dataset.mode"), "quilt")
+        self.assertEqual(self.browser.evaluate(OPEN_MODES), ["single", "quilt"])
+        self.assertEqual(self.codes(2, 1), [0, 1])
+        for slider in ("focus", "follow", "cone"):
+            self.assertTrue(self.browser.evaluate(f"document.getElementById('{slider}').disabled"))
+        self.assertEqual(self.browser.evaluate(NAMELESS), [])
+        keep(self.browser.screenshot(), "rgbd_display")
+        self.assertEqual(
+            shlex.split(self.browser.evaluate(WATCH)),
+            "viewloom watch painted --preset wowvx --screen 2 --rgbd 320x180 --out atlases".split())
+        self.assertTrue(self.browser.evaluate("document.getElementById('still-elsewhere').hidden"))
+
+        self.open(self.browser.evaluate("location.search"))
+        self.browser.wait_for(f"{FACTS}.includes('640 × 180')")
+        self.assertEqual(self.browser.evaluate("document.getElementById('preset').value"), "wowvx")
+        self.choose("portrait")
+        self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
+        self.assertEqual(len(self.browser.evaluate(OPEN_MODES)), 6)
+        self.assertTrue(self.browser.evaluate("document.getElementById('rgbd').hidden"))
+        self.assertNotIn("width", self.browser.evaluate("location.search"))
+        self.assertEqual(self.browser.messages, [])
+
+    def test_two_layers_are_four_quadrants(self):
+        self.open()
+        self.choose("rgbd:two-layers")
+        self.watch_views_of(320, 180)
+        self.browser.wait_for(f"{FACTS}.includes('640 × 360')")
+        self.assertEqual(self.codes(2, 2), [0, 1, 2, 3])
+        self.assertIn("--rgbd-form two-layers", self.browser.evaluate(WATCH))
+        self.choose("")
+        self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
+
+    def test_a_full_screen_shows_nothing_but_the_picture(self):
+        self.open("?stream=painted&rgbd=color-depth&width=320&height=180")
+        self.browser.click("#fullscreen")
+        self.browser.wait_for("document.fullscreenElement && innerWidth === "
+                              "document.getElementById('stage').clientWidth")
+        self.browser.wait_for("document.getElementById('stage').width === innerWidth")
+        # Less the ring that shown_picture() leaves out; the margin would be 2.5 % of the height.
+        self.assertGreaterEqual(self.shown_picture().width, self.canvas()[2] - 2 * 4 - 2)
+
+    def test_the_focal_plane_follows_by_a_checkbox(self):
+        self.browser.call("Emulation.setFocusEmulationEnabled", enabled=True)
+        self.open()
+        before = self.browser.evaluate(DISPLAY_IDS)
+        self.browser.wait_for("!document.getElementById('follow').disabled")
+        name = ("checkbox", "Focus follows the content")
+        self.assertIn(name, self.nodes())
+        self.browser.evaluate("document.getElementById('follow').focus()")
+        for kind in ("keyDown", "keyUp"):
+            self.browser.call("Input.dispatchKeyEvent", type=kind, key=" ", code="Space", text=" ",
+                              windowsVirtualKeyCode=32)
+        self.browser.wait_for("location.search.includes('focus_follow_s=1')")
+        self.browser.wait_for(f"{WATCH}.includes('\"focusFollowingS\":1')")
+        # Another display to the server, as it is another picture.
+        self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
+                              f"ids[0] !== {before[0]})")
+        self.browser.evaluate("document.getElementById('follow').scrollIntoView()")
+        keep(self.browser.screenshot(), "focus_follows")
+        self.open(self.browser.evaluate("location.search"))
+        self.assertTrue(self.browser.evaluate("document.getElementById('follow').checked"))
+        self.browser.evaluate("document.getElementById('follow').scrollIntoView()")
+        self.browser.click("label.check:has(#follow)")
+        self.browser.wait_for("!location.search.includes('focus_follow_s')")
+        self.browser.wait_for(f"!{WATCH}.includes('focusFollowing')")
+        self.assertEqual(self.browser.messages, [])
+
+    def test_fingers_hit_the_fields_of_colour_with_depth_and_the_checkbox(self):
+        self.browser.resize(360, 780, scale=2, mobile=True)
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        for query in ("?stream=painted&preset=wowvx&width=320&height=180", SMALL):
+            self.open(query)
+            self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 360)
+            self.assertEqual(self.browser.evaluate(SMALL_TARGETS), [])
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main(argv=[sys.argv[0], *sys.argv[1:], *([] if sys.argv[1:] else ["Choices"])])
