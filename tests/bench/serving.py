@@ -225,7 +225,7 @@ def print_table(report):
         added = (f"{row['added_ms_per_client']:.2f} ms | {row['socket_copy_ms']:.2f} ms | "
                  f"{row['of_socket_copy']:.1f}x | {row['of_memory_copy']:.1f}x"
                  if "of_socket_copy" in row else "- | - | - | -")
-        print(f"| {row['clients']} | {row['traced_per_frame']:.2f} | "
+        print(f"| {row['clients']:.0f} | {row['traced_per_frame']:.2f} | "
               f"{row['encoded_per_frame']:.2f} | {row['sent_per_atlas']:.1f} | "
               f"{row['cpu_ms_per_atlas']:.0f} | {added} |")
     print("\n| displays | uploads per frame | builds | swept | walked | encoded |\n"
