@@ -145,10 +145,7 @@ void Pipeline::offerFrame(const std::string& stream_name, FramePtr frame, Report
   }
   const auto replaced =
       loops_->streams.open(stream_name)->inbox.push({std::move(frame), std::move(ticket)});
-  if (replaced) {
-    loops_->links.directory.countReplaced(stream_name);
-    loops_->links.metrics.replaced[HandOver::kStructure].add();
-  }
+  if (replaced) loops_->links.metrics.replaced[HandOver::kStructure].add();
   loops_->structure_wake_up.ring();
 }
 

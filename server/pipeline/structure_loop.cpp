@@ -57,10 +57,7 @@ void StructureLoop::run(const std::stop_token& stop) {
 // One frame of the stream; false when there is none or no slot for it.
 bool StructureLoop::serve(PipelineStream& stream) {
   if (auto newest = stream.inbox.take()) {
-    if (stream.next) {
-      links_.directory.countReplaced(stream.name);
-      links_.metrics.replaced[HandOver::kStructure].add();
-    }
+    if (stream.next) links_.metrics.replaced[HandOver::kStructure].add();
     stream.next = std::move(newest);
     if (dropUnchanged(stream)) return true;
   }
@@ -70,7 +67,6 @@ bool StructureLoop::serve(PipelineStream& stream) {
     slot = takeSlot(stream, *stream.next->frame);
   } catch (const vk::OutOfDeviceMemoryError& error) {
     log(LogLevel::kWarning, "stream ", stream.name, ": ", error.what());
-    links_.directory.countRefused(stream.name);
     stream.next->ticket->noteRefused(strCat("the device has no room for it: ", error.what()));
     stream.next.reset();
     return true;

@@ -54,6 +54,7 @@ class StreamDirectory {
   // it first. Whoever answers true lets go of what it keeps for the stream; its entry goes.
   void onRoomNeeded(std::function<bool(const std::string& stream)> may_forget);
 
+  // Each frame once, by whoever hands out its report.
   void countReceived(const std::string& stream);
   void countReplaced(const std::string& stream);
   void countRefused(const std::string& stream);

@@ -86,7 +86,9 @@ void BidiCall::advance() {
     if (std::optional<grpc::ByteBuffer> message = takeMessage()) {
       outgoing_ = *std::move(message);
       writing_ = true;
-      StartWrite(&outgoing_);
+      grpc::WriteOptions options;
+      if (moreFollows()) options.set_buffer_hint();
+      StartWrite(&outgoing_, options);
     }
   }
   if (!end_status_.has_value()) {

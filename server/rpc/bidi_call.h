@@ -46,6 +46,9 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   virtual void dropReads() {}
   // The next message to write. With the lock.
   virtual std::optional<grpc::ByteBuffer> takeMessage() = 0;
+  // Whether takeMessage has another to give right after the one it gave last, which then need not
+  // leave alone. With the lock.
+  virtual bool moreFollows() const { return false; }
   // False holds the next read back until a message is written. With the lock.
   virtual bool wantsToRead() const { return true; }
   // False holds the end back although there is nothing to write yet. With the lock.

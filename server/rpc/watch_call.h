@@ -33,6 +33,7 @@ class WatchCall final : public BidiCall {
   void handleWritten() override;
   void release() override;
   std::optional<grpc::ByteBuffer> takeMessage() override;
+  bool moreFollows() const override { return sending_.has_value(); }
 
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);

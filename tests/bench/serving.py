@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a running viewloomd takes for many clients of one display, and for different displays of
 one stream: the CPU time of its process for each atlas and client, beside what it takes to write the
-same bytes to as many sockets, and how often frames are uploaded, built, traced and encoded."""
+same bytes to as many readers, and how often frames are uploaded, built, traced and encoded."""
 
 import argparse
 import contextlib
@@ -21,6 +21,7 @@ import time
 import urllib.request
 
 STREAM = "bench"
+WRITE_BYTES = 1 << 20  # of an atlas, as the server gathers them (kWriteBufferBytes)
 PATIENCE_S = 300
 GRPC_SENT = 'viewloom_atlases_sent_total{transport="grpc"}'
 GRPC_BYTES = 'viewloom_sent_bytes_total{transport="grpc"}'
@@ -125,29 +126,42 @@ def measured(arguments, watchers):
     return counts
 
 
-def read_all(listener, size_bytes):
-    connection = listener.accept()[0]
+def read_all(connection):
     buffer = bytearray(1 << 20)
-    while size_bytes > 0:
-        size_bytes -= connection.recv_into(buffer)
+    while connection.recv_into(buffer) > 0:
+        pass
     os._exit(0)
 
 
-def socket_copy_s_per_byte(size_bytes):
-    """CPU time of a process that writes an atlas into a TCP connection to its own machine."""
-    atlas, repeats = bytes(size_bytes), 50
-    listener = socket.create_server(("127.0.0.1", 0))
+def connected_reader(listener):
+    """A process that reads what is written into the connection, and that connection."""
     reader = os.fork()
     if reader == 0:
-        read_all(listener, size_bytes * repeats)
-    with socket.create_connection(listener.getsockname()) as connection:
+        with socket.create_connection(listener.getsockname()) as connection:
+            listener.close()
+            read_all(connection)
+    return reader, listener.accept()[0]
+
+
+def socket_copy_s_per_byte(size_bytes, client_count):
+    """CPU time of a process that hands atlases, one after the other, to so many readers by TCP
+    connections to its own machine, in writes as large as the server's."""
+    atlas, repeats, spent_s = memoryview(bytes(size_bytes)), 20, []
+    with socket.create_server(("127.0.0.1", 0), backlog=client_count) as listener:
+        readers = [connected_reader(listener) for _ in range(client_count)]
+    for _ in range(repeats):
         begun_s = time.process_time()
-        for _ in range(repeats):
-            connection.sendall(atlas)
-        spent_s = time.process_time() - begun_s
-    os.waitpid(reader, 0)
-    listener.close()
-    return spent_s / (size_bytes * repeats)
+        for _, connection in readers:
+            for first in range(0, size_bytes, WRITE_BYTES):
+                connection.sendall(atlas[first:first + WRITE_BYTES])
+        spent_s.append(time.process_time() - begun_s)
+        time.sleep(0.1)  # as atlases come, readers wait for each
+    for _, connection in readers:
+        connection.shutdown(socket.SHUT_WR)
+    for reader, connection in readers:
+        os.waitpid(reader, 0)
+        connection.close()
+    return statistics.median(spent_s) / (size_bytes * client_count)
 
 
 def memory_copy_s_per_byte(size_bytes):
@@ -160,27 +174,37 @@ def memory_copy_s_per_byte(size_bytes):
     return statistics.median(spent_s) / size_bytes
 
 
+def client_row(arguments, count, first):
+    run = measured(arguments, [["--preset", "portrait", "--cone", "2"]] * count)
+    atlas_bytes = run["sent_bytes"] / run["sent"]
+    row = {"clients": count,
+           "traced_per_frame": (run["swept"] + run["walked"]) / run["frames"],
+           "encoded_per_frame": run["encoded"] / run["frames"],
+           "sent_per_atlas": run["sent"] / run["encoded"],
+           "atlas_bytes": atlas_bytes,
+           "cpu_ms_per_atlas": 1e3 * run["cpu_s"] / run["encoded"]}
+    if first:
+        row["added_ms_per_client"] = (row["cpu_ms_per_atlas"] - first["cpu_ms_per_atlas"]) / (
+            row["sent_per_atlas"] - first["sent_per_atlas"])
+        copies = {"socket": socket_copy_s_per_byte(int(atlas_bytes), count),
+                  "memory": memory_copy_s_per_byte(int(atlas_bytes))}
+        for where, s_per_byte in copies.items():
+            row[f"{where}_copy_ms"] = 1e3 * s_per_byte * atlas_bytes
+            row[f"of_{where}_copy"] = row["added_ms_per_client"] / row[f"{where}_copy_ms"]
+    return row
+
+
 def client_rows(arguments):
-    rows = []
-    display = ["--preset", "portrait", "--cone", "2"]
-    for count in arguments.clients:
-        run = measured(arguments, [display] * count)
-        atlas_bytes = run["sent_bytes"] / run["sent"]
-        row = {"clients": count,
-               "traced_per_frame": (run["swept"] + run["walked"]) / run["frames"],
-               "encoded_per_frame": run["encoded"] / run["frames"],
-               "sent_per_atlas": run["sent"] / run["encoded"],
-               "atlas_bytes": atlas_bytes,
-               "cpu_ms_per_atlas": 1e3 * run["cpu_s"] / run["encoded"]}
-        if rows:
-            first = rows[0]
-            added_s = (run["cpu_s"] / run["encoded"] - first["cpu_ms_per_atlas"] / 1e3) / (
-                row["sent_per_atlas"] - first["sent_per_atlas"])
-            row["added_ms_per_client"] = 1e3 * added_s
-            row["of_socket_copy"] = added_s / atlas_bytes / socket_copy_s_per_byte(int(atlas_bytes))
-            row["of_memory_copy"] = added_s / atlas_bytes / memory_copy_s_per_byte(int(atlas_bytes))
-        rows.append(row)
-    return rows
+    """Medians of the rounds, in each of which all counts have their turn: what a client adds is
+    the difference to the first count of the same round."""
+    rounds = []
+    for _ in range(arguments.rounds):
+        rows = []
+        for count in arguments.clients:
+            rows.append(client_row(arguments, count, rows[0] if rows else None))
+        rounds.append(rows)
+    return [{key: statistics.median(row[key] for row in same_count) for key in same_count[0]}
+            for same_count in zip(*rounds)]
 
 
 def display_rows(arguments):
@@ -195,12 +219,13 @@ def display_rows(arguments):
 
 def print_table(report):
     print("| clients | traced per frame | encoded | sent per atlas | server's CPU ms per atlas | "
-          "added per client | of writing to a socket | of a copy in memory |\n"
-          "|---|---|---|---|---|---|---|---|")
+          "added per client | writing to a socket | of it | of a copy in memory |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     for row in report["clients"]:
-        added = (f"{row['added_ms_per_client']:.2f} ms | {row['of_socket_copy']:.1f}x | "
-                 f"{row['of_memory_copy']:.1f}x" if "of_socket_copy" in row else "- | - | -")
-        print(f"| {row['clients']} | {row['traced_per_frame']:.2f} | "
+        added = (f"{row['added_ms_per_client']:.2f} ms | {row['socket_copy_ms']:.2f} ms | "
+                 f"{row['of_socket_copy']:.1f}x | {row['of_memory_copy']:.1f}x"
+                 if "of_socket_copy" in row else "- | - | - | -")
+        print(f"| {row['clients']:.0f} | {row['traced_per_frame']:.2f} | "
               f"{row['encoded_per_frame']:.2f} | {row['sent_per_atlas']:.1f} | "
               f"{row['cpu_ms_per_atlas']:.0f} | {added} |")
     print("\n| displays | uploads per frame | builds | swept | walked | encoded |\n"
@@ -219,6 +244,7 @@ def main():
     parser.add_argument("--size", default="1920x1080", help="px of the source")
     parser.add_argument("--rate", type=float, default=1, help="frames a second, less than served")
     parser.add_argument("--seconds", type=float, default=20, help="of each measurement")
+    parser.add_argument("--rounds", type=int, default=1, help="medians of so many")
     parser.add_argument("--clients", type=lambda text: [int(count) for count in text.split(",")],
                         default=[1, 4, 16, 64])
     arguments = parser.parse_args()

@@ -2,13 +2,16 @@
 // Publishers and displays of a whole server, over gRPC, on a validated device.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "e2e/service_fixture.h"
 #include "lib/watcher.h"
+#include "viewloom/v1/catalog_service.grpc.pb.h"
 
 namespace viewloom::test {
 namespace {
@@ -103,6 +106,31 @@ TEST_F(ServiceStreamTest, servesAJoinerFromTheLastFrameOfAPublisherThatHasLeft) 
   const auto joiner = watch(log, {320, 200});
   EXPECT_TRUE(log.waitFor(1));
   EXPECT_EQ(service_->metrics().structures_built.value(), 1);
+}
+
+TEST_F(ServiceStreamTest, countsAFrameThatANewerOneReplacedOnce) {
+  FrameLog log;
+  const auto watcher = watch(log, {960, 600});  // traced for longer than a frame takes to come
+  const auto channel = makeChannel(service_->grpcAddress());
+  Publisher publisher(
+      channel, {.stream = "scene", .session_id = "", .in_flight_max = 32, .backoff = {}}, {});
+  const auto give_up = std::chrono::steady_clock::now() + kGiveUpAfter;
+  WireFrame frame = syntheticWireFrame({160, 90}, 1, 0);
+  const auto& replaced = service_->metrics().replaced[HandOver::kStructure];
+  while (replaced.value() == 0 && std::chrono::steady_clock::now() < give_up) {
+    frame.header.set_exposure_ev(frame.header.exposure_ev() + 1e-3);  // none is like another
+    publisher.offer(frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  ASSERT_GT(replaced.value(), 0);
+  ASSERT_TRUE(publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count()).ok());
+
+  v1::ListStreamsResponse streams;
+  grpc::ClientContext context;
+  const auto catalog = v1::CatalogService::NewStub(channel);
+  ASSERT_TRUE(catalog->ListStreams(&context, {}, &streams).ok());
+  ASSERT_EQ(streams.streams_size(), 1);
+  EXPECT_EQ(streams.streams(0).replaced_count(), publisher.counts().replaced_there);
 }
 
 }  // namespace

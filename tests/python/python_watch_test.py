@@ -5,14 +5,16 @@ import json
 import math
 import unittest
 import urllib.request
+from concurrent import futures
 
 import viewloomd  # takes its argument
 
+import grpc
 import numpy as np
 
 import scene
 import viewloom
-from viewloom.v1 import atlas_pb2, display_pb2, geometry_pb2
+from viewloom.v1 import atlas_pb2, display_pb2, display_service_pb2_grpc, geometry_pb2
 
 LOSSLESS = viewloom.encoding(lossless=True)
 FRAMES = 8
@@ -234,6 +236,29 @@ class Watching(unittest.TestCase):
         self.daemon.process.terminate()
         self.refused(watcher.receive, "UNAVAILABLE", "", "")
         self.refused(publisher.close, "UNAVAILABLE", "", "")
+
+
+class Leaving(display_service_pb2_grpc.DisplayServiceServicer):
+    """Ends calls as gRPC does with those that reach a server while it shuts down."""
+
+    def StreamAtlases(self, request_iterator, context):
+        context.abort(grpc.StatusCode.CANCELLED, "CANCELLED")
+        yield
+
+
+class CutOff(unittest.TestCase):
+    def test_a_call_that_the_server_cancels_as_it_leaves_is_an_error_like_its_others(self):
+        leaving = grpc.server(futures.ThreadPoolExecutor(2))
+        display_service_pb2_grpc.add_DisplayServiceServicer_to_server(Leaving(), leaving)
+        port = leaving.add_insecure_port("127.0.0.1:0")
+        leaving.start()
+        self.addCleanup(leaving.stop, None)
+        with viewloom.connect(f"127.0.0.1:{port}") as server:
+            for call in (lambda: server.still("scene", "portrait"),
+                         server.watch("scene", "portrait").receive):
+                with self.assertRaises(viewloom.ViewloomError) as end:
+                    call()
+                self.assertEqual(end.exception.status.name, "UNAVAILABLE", end.exception)
 
 
 if __name__ == "__main__":

@@ -52,7 +52,15 @@ def _violated_field(rpc_error: Any) -> str:
 
 
 def error_from_rpc(rpc_error: Any) -> ViewloomError:
-    """The grpc.RpcError of a blocking or of an asyncio call, in viewloom's words."""
+    """The grpc.RpcError of a blocking or of an asyncio call, in viewloom's words.
+
+    Of calls that the caller has not cancelled himself: then it is gRPC that did. It does so with
+    those that reach a server between the end of its drain and the end of its connections, which
+    are to be tried again like all others that a leaving server turns away.
+    """
+    if rpc_error.code() == grpc.StatusCode.CANCELLED:
+        return ViewloomError(grpc.StatusCode.UNAVAILABLE, "",
+                             "the call was cut off as the server or the connection ended")
     field = _violated_field(rpc_error)
     # The server's message begins with the field, which stands beside it here.
     message = (rpc_error.details() or "").removeprefix(f"{field}: ")
