@@ -213,6 +213,7 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   DisplaySpec spec;
   VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
   VIEWLOOM_RETURN_IF_ERROR(refuseEffects(proto.effects()));
+  if (proto.quality() != v1::QUALITY_UNSPECIFIED) return notServedYet("quality");
   spec.focus_following_s = proto.focus_following_s();
   if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();
   if (proto.filter().width() != 0) spec.filter.width = proto.filter().width();

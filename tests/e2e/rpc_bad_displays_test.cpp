@@ -233,6 +233,9 @@ const std::vector<BadDisplay> kServedLater = {
     {"reflection",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_reflection(); },
      {kLater, "open.display.effects.reflection"}},
+    {"quality",
+     [](auto& o) { o.mutable_display()->set_quality(v1::QUALITY_BEST); },
+     {kLater, "open.display.quality"}},
 };
 
 TEST(StreamAtlases, refusesQuiltsThatCannotBe) {
