@@ -108,10 +108,7 @@ class DisplayBench {
 
   void walk(const Contender& contender) {
     const SizePx size_px = contender.layout->size_px;
-    TraceSlot slot(device_, {.width_px = size_px.width,
-                             .row_count_max = kBandRows,
-                             .tile_count_max = uint32_t(contender.job.tileCount()),
-                             .sample_count = contender.job.sample_count});
+    TraceSlot slot(device_, slotShape(contender.job, kBandRows, {}));
     for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
       const BandRows rows{row, std::min(kBandRows, size_px.height - row)};
       tracer_.recordBand(recorder_.begin(), structure_, contender.job, rows, slot, nullptr);

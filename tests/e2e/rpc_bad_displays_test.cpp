@@ -224,18 +224,12 @@ const std::vector<BadDisplay> kCommon = {
 };
 
 const std::vector<BadDisplay> kServedLater = {
-    {"lens",
-     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
-     {kLater, "open.display.effects.lens"}},
     {"temporal",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_temporal(); },
      {kLater, "open.display.effects.temporal"}},
     {"reflection",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_reflection(); },
      {kLater, "open.display.effects.reflection"}},
-    {"quality",
-     [](auto& o) { o.mutable_display()->set_quality(v1::QUALITY_BEST); },
-     {kLater, "open.display.quality"}},
 };
 
 TEST(StreamAtlases, refusesQuiltsThatCannotBe) {
