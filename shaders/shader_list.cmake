@@ -17,4 +17,6 @@ set(VIEWLOOM_SHADERS
   trace/join_faces.comp
   trace/merge_sources.comp
   trace/blend_samples.comp
+  trace/list_met.comp
+  trace/gather_lens.comp
   trace/pack_band.comp)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/status.h"
+#include "cli/lens_options.h"
 #include "cli/rgbd_options.h"
 #include "frame/size.h"
 #include "viewloom/v1/atlas.pb.h"
@@ -28,6 +29,7 @@ struct DisplayOptions {
   std::string calibration_file;  // of the panel
   RgbdOptions rgbd;              // instead of all that
   uint32_t sample_count = 1;
+  LensOptions lens;
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
   bool is_lossless = false;

@@ -74,12 +74,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   reserve(outputs, atlas);
   const TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, source_camera), sources_);
   const SizePx size_px = atlas.layout->size_px;
-  TraceSlot slot(device_, {.width_px = size_px.width,
-                           .row_count_max = std::min(kBandRows, size_px.height),
-                           .tile_count_max = atlas.layout->columns * atlas.layout->rows,
-                           .walk_count = job.walk_count,
-                           .sample_count = job.sample_count,
-                           .outputs = outputs});
+  TraceSlot slot(device_, slotShape(job, std::min(kBandRows, size_px.height), outputs));
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
     const uint32_t row_count = std::min(kBandRows, size_px.height - row);
     traceBand(job, {.first_row = row, .row_count = row_count}, slot);

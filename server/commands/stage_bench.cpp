@@ -72,11 +72,8 @@ class StageBench {
       plan_ = SweepPlan::make(job_, structure_.stats().inv_z_max);
     }
     trace_slot_ = std::make_unique<TraceSlot>(
-        device, TraceSlotShape{.width_px = layout_->size_px.width,
-                               .row_count_max = bandRowCount(encoding_),
-                               .tile_count_max = layout_->columns * layout_->rows,
-                               .sample_count = job_.sample_count,
-                               .outputs = {.color = tracer_.colorForm(directForm(encoding_))}});
+        device, slotShape(job_, bandRowCount(encoding_),
+                          {.color = tracer_.colorForm(directForm(encoding_))}));
   }
 
   void repeat() {

@@ -21,6 +21,28 @@ TileGrid tileGridOf(const DisplaySpec& spec) {
   return std::visit([](const auto& kind) { return tileGrid(kind); }, spec.kind);
 }
 
+// A lens has at least as many samples as it has points to be walked through. Without a filter they
+// are spread over the px alone, so that what is in focus has no stairs.
+absl::Status addSamples(const DisplaySpec& spec, const StreamDefaults& defaults,
+                        AtlasLayout& layout) {
+  RayFilter filter = spec.filter;
+  if (spec.lens) {
+    const auto lens = lensRays(*spec.lens, layout, defaults);
+    VIEWLOOM_RETURN_IF_ERROR(lens.status());
+    layout.lens = *lens;
+  }
+  if (layout.lens) {
+    if (filter.sample_count == 1) filter.width = 0;
+    filter.sample_count = std::max(filter.sample_count, layout.lens->walked_count);
+    layout.lens->walked_count = filter.sample_count;
+    layout.lens_points = lensPoints(*layout.lens);
+  }
+  const bool has_channels = std::holds_alternative<LenticularRays>(layout.rays);
+  layout.samples = has_channels ? channelSamples(filter, layout.view_pitch_m)
+                                : filterSamples(filter, layout.view_pitch_m);
+  return absl::OkStatus();
+}
+
 bool isUsable(const Intrinsics& intrinsics) {
   for (int axis = 0; axis < 2; ++axis) {
     const double focal_px = intrinsics.focal_px[axis];
@@ -40,9 +62,9 @@ TileOrigin AtlasLayout::tileOrigin(uint32_t view) const {
           .y_px = padding_top_px + row_from_top * tile_size_px.height};
 }
 
-double AtlasLayout::focusOf(const View& view) const {
-  const double focus_m = eye_focus_m + view.camera.pose.position_m.z;
-  return focus_m > 0 ? focus_m : kNoFocus_m;
+double AtlasLayout::distanceOf(double plane_m, const View& view) const {
+  const double distance_m = plane_m + view.camera.pose.position_m.z;
+  return distance_m > 0 ? distance_m : kNoFocus_m;
 }
 
 uint32_t AtlasLayout::viewAt(uint32_t column, uint32_t row_from_top) const {
@@ -85,9 +107,7 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
     VIEWLOOM_RETURN_IF_ERROR(placeEyes(*eyes, std::get<StereoSpec>(spec.kind), defaults, layout));
   }
   if (layout.depth_codes) VIEWLOOM_RETURN_IF_ERROR(validateDepthCodes(*layout.depth_codes));
-  const bool has_channels = std::holds_alternative<LenticularRays>(layout.rays);
-  layout.samples = has_channels ? channelSamples(spec.filter, layout.view_pitch_m)
-                                : filterSamples(spec.filter, layout.view_pitch_m);
+  VIEWLOOM_RETURN_IF_ERROR(addSamples(spec, defaults, layout));
   for (const View& view : layout.views) {
     if (isUsable(view.camera.intrinsics)) continue;
     return fieldError(absl::StatusCode::kFailedPrecondition, grid.size_field,

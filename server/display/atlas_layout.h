@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "display/depth_codes.h"
 #include "display/display_spec.h"
+#include "display/lens.h"
 #include "frame/stage_times.h"
 
 namespace viewloom {
@@ -72,6 +73,9 @@ struct AtlasLayout {
   std::vector<View> views;      // [view]
   DisplayRays rays;
   std::vector<RaySample> samples = {RaySample{}};  // of each px
+  // Before every view: sample i passes through point i of it, of each channel.
+  std::optional<LensRays> lens;
+  std::vector<glm::vec2> lens_points;  // of `lens`, as lensPoints() gives them
   // Seen from beside, px stay on what is so far in front of the display's eyes; kNoFocus_m: no such
   // plane.
   double eye_focus_m = kNoFocus_m;
@@ -85,7 +89,9 @@ struct AtlasLayout {
   TileOrigin tileOrigin(uint32_t view) const;
   // Of the plane at eye_focus_m from a view that stands in front of the display's eyes, or behind
   // them; kNoFocus_m where it is not in front of the view.
-  double focusOf(const View& view) const;
+  double focusOf(const View& view) const { return distanceOf(eye_focus_m, view); }
+  // The same of a plane that is `plane_m` in front of the display's eyes.
+  double distanceOf(double plane_m, const View& view) const;
   // The view whose tile stands in this column and this row from the top; views.size() = none.
   uint32_t viewAt(uint32_t column, uint32_t row_from_top) const;
 };

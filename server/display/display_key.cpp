@@ -101,6 +101,16 @@ class KeyText {
     add(rgbd.fov_y_rad);
     add(rgbd.depth_bits);
   }
+  void add(const LensSpec& lens) {
+    text_ += "lens ";
+    add(lens.aperture_radius_m);  // 0: automatic
+    add(lens.focus_distance_m.value_or(0));
+    add(lens.blades);
+    if (lens.blades > 0) add(lens.rotation_rad);
+    add(lens.walked_count);
+    add(*lens.gathered_count);
+    add(static_cast<uint32_t>(lens.is_exact));
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -142,6 +152,7 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.focus_following_s);
   key.add(spec.filter.sample_count);
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
+  if (spec.lens) key.add(*spec.lens);
   return key.take();
 }
 

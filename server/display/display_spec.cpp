@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/display_spec.h"
 
+#include <array>
+
 #include "absl/strings/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/camera_list.h"
@@ -13,6 +15,9 @@
 
 namespace viewloom {
 namespace {
+
+// By quality: draft, balanced, best.
+constexpr std::array<double, 3> kTolerances_px = {1, kDefaultTolerance_px, 0.0625};
 
 // Of the plane that all views frame.
 double* focalDistanceOf(QuiltSpec& quilt) {
@@ -61,9 +66,13 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
       checkCount(spec.filter.sample_count, kFilterSampleCountMax, "filter.sample_count"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.filter.width, 0, kFilterWidthMax, "filter.width"));
   VIEWLOOM_RETURN_IF_ERROR(checkFocusFollowing(spec));
+  if (spec.lens) {
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(completeLens(*spec.lens, spec.quality), "effects.lens"));
+  }
   if (spec.world_pose) VIEWLOOM_RETURN_IF_ERROR(validatePose(*spec.world_pose, "world_pose"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
-  if (spec.tolerance_px == 0) spec.tolerance_px = kDefaultTolerance_px;
+  if (spec.tolerance_px == 0) spec.tolerance_px = kTolerances_px[size_t(spec.quality)];
   if (spec.background_rgb > 0xFFFFFF) {
     return invalidField("background_rgb", absl::StrCat("got 0x", absl::Hex(spec.background_rgb),
                                                        ", accepted is 0..0xffffff"));

@@ -56,12 +56,7 @@ uint32_t AtlasRun::rowCount(uint32_t strip) const {
 }
 
 TraceSlotShape AtlasRun::stripShape() const {
-  return {.width_px = picture->layout->size_px.width,
-          .row_count_max = strip_row_count,
-          .tile_count_max = static_cast<uint32_t>(picture->tileCount()),
-          .walk_count = picture->walk_count,
-          .sample_count = picture->sample_count,
-          .outputs = planes};
+  return slotShape(*picture, strip_row_count, planes);
 }
 
 void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns) {

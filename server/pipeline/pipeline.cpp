@@ -42,7 +42,8 @@ int64_t rayCount(const RgbdSpec& rgbd) {
 }
 int64_t rayCount(const DisplaySpec& spec) {
   const int64_t px_count = std::visit([](const auto& kind) { return rayCount(kind); }, spec.kind);
-  return px_count * spec.filter.sample_count;
+  const uint32_t of_lens = spec.lens ? spec.lens->walked_count : 1;
+  return px_count * std::max(spec.filter.sample_count, of_lens);
 }
 
 using OnFailure = std::function<void(const std::exception&)>;

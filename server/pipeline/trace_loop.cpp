@@ -61,11 +61,7 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
   SlotRing& ring = *std::find_if(rings_.begin(), rings_.end(), [&](const SlotRing& candidate) {
     return candidate.largest.outputs == shape.outputs;
   });
-  ring.largest.width_px = std::max(ring.largest.width_px, shape.width_px);
-  ring.largest.row_count_max = std::max(ring.largest.row_count_max, shape.row_count_max);
-  ring.largest.tile_count_max = std::max(ring.largest.tile_count_max, shape.tile_count_max);
-  ring.largest.walk_count = std::max(ring.largest.walk_count, shape.walk_count);
-  ring.largest.sample_count = std::max(ring.largest.sample_count, shape.sample_count);
+  ring.largest.include(shape);
   return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }

@@ -67,6 +67,8 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
     case v1::StreamAtlasesRequest::kPresented:
       parts_.metrics.atlases_presented.add();
       return absl::OkStatus();
+    case v1::StreamAtlasesRequest::kClockProbe:
+      return fieldError(absl::StatusCode::kUnimplemented, "clock_probe", "is not served yet");
     case v1::StreamAtlasesRequest::MESSAGE_NOT_SET:
       break;
   }

@@ -63,13 +63,13 @@ const ComputePass& ViewTracer::joinPass() {
 // The walks of a piece of the band that may see something, a bit each.
 uint64_t ViewTracer::recordWalks(vk::CommandBuffer commands,
                                  std::span<const StructureSlot* const> structures,
-                                 const TraceJob& job, BandRows piece, uint32_t sample,
+                                 const TraceJob& job, BandRows piece, const Rays& rays,
                                  const AnswersLayout& answers, const TraceSlot& slot) {
   uint64_t walked = 0;
   for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
     const StructureSlot& structure = *structures[walk];
     if (structure.shape().is_cube_face &&
-        !raysMayEnterFace(raysOf(job, walk, sample), structure.shape().depth_px,
+        !raysMayEnterFace(raysOf(job, walk, rays.sample), structure.shape().depth_px,
                           structure.stats().inv_z_max)) {
       continue;
     }
@@ -79,7 +79,7 @@ uint64_t ViewTracer::recordWalks(vk::CommandBuffer commands,
                             .buffer = slot.answers_.handle(),
                             .offset_bytes = walk * size_bytes,
                             .size_bytes = size_bytes};
-    recordWalk(commands, {structure, job, walk, sample, slot, target}, piece);
+    recordWalk(commands, {structure, job, walk, rays, slot, target}, piece);
     walked |= uint64_t{1} << walk;
   }
   recordComputeBarrier(commands);
@@ -108,17 +108,16 @@ void ViewTracer::recordJoins(vk::CommandBuffer commands, const TraceJob& job, ui
 // Piece by piece of the band: what each walk answers, and the px that follow from all answers.
 void ViewTracer::recordMerged(vk::CommandBuffer commands,
                               std::span<const StructureSlot* const> structures, const TraceJob& job,
-                              BandRows rows, uint32_t sample, TraceSlot& slot) {
+                              BandRows rows, const Rays& rays, TraceSlot& slot) {
   const AtlasLayout& layout = *job.layout;
   const AnswersLayout answers = answersLayout(layout.size_px.width, rows.row_count, job.walk_count);
-  const uint32_t wanted = sample == 0 ? wantedFlags(slot.shape_.outputs) : 0;
-  const ComputePass& merge = mergePass(wanted, raySourceOf(layout));
-  std::vector<Descriptor> descriptors = describeParams(job, 0, sample, slot);
+  const ComputePass& merge = mergePass(rays.wanted, raySourceOf(layout));
+  std::vector<Descriptor> descriptors = describeParams(job, 0, rays.sample, slot);
   descriptors.push_back(wholeBuffer(abi::kBindingBand, slot.sampleTarget(job)));
   descriptors.push_back(wholeBuffer(abi::kBindingAnswers, slot.answers_));
   for (uint32_t row = 0; row < rows.row_count; row += answers.row_count) {
     const BandRows piece{rows.first_row + row, std::min(answers.row_count, rows.row_count - row)};
-    const uint64_t walked = recordWalks(commands, structures, job, piece, sample, answers, slot);
+    const uint64_t walked = recordWalks(commands, structures, job, piece, rays, answers, slot);
     recordJoins(commands, job, walked, layout.size_px.width * piece.row_count, answers, slot);
     const abi::MergePush push{.atlas_width_px = layout.size_px.width,
                               .first_row = piece.first_row,

@@ -62,6 +62,43 @@ struct SeenWalk {
   SizePx size_px;
 };
 
+constexpr glm::dvec2 kLensCorners[] = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+
+// A camera as seen from a corner of the square around the lens before it.
+Camera fromLensCorner(const Camera& camera, const AtlasLayout& layout, glm::dvec2 corner) {
+  const double focus_m = layout.distanceOf(layout.lens->focus_m, {camera});
+  return sampledCamera(camera, {.eye_m = corner * layout.lens->radius_m}, focus_m);
+}
+
+// The tolerance is that of the outermost rays.
+void addLens(TraceJob& job, const Pose& display_pose, const SeenWalk& seen, const View& view,
+             abi::ViewParams& tile) {
+  const AtlasLayout& layout = *job.layout;
+  tile.lens_px_m = abi::vec2(layout.lens->radius_m * view.camera.intrinsics.focal_px);
+  tile.lens_inv_focus = float(1 / layout.distanceOf(layout.lens->focus_m, view));
+  for (const glm::dvec2 corner : kLensCorners) {
+    const abi::ViewParams seen_from =
+        makeViewParams({fromLensCorner(view.camera, layout, corner)}, display_pose, seen.camera,
+                       seen.size_px, job.tolerance_px);
+    tile.inv_z_tolerance = std::min(tile.inv_z_tolerance, seen_from.inv_z_tolerance);
+  }
+}
+
+// Of the views as they are without a filter.
+void addLensBounds(TraceJob& job, const Pose& display_pose, const SeenWalk& seen) {
+  const AtlasLayout& layout = *job.layout;
+  for (uint32_t tile = 0; tile < layout.columns * layout.rows; ++tile) {
+    const uint32_t index = layout.viewAt(tile % layout.columns, tile / layout.columns);
+    for (const glm::dvec2 corner : kLensCorners) {
+      job.lens_bounds.push_back(
+          index < layout.views.size()
+              ? makeViewParams({fromLensCorner(layout.views[index].camera, layout, corner)},
+                               display_pose, seen.camera, seen.size_px, job.tolerance_px)
+              : abi::ViewParams{});
+    }
+  }
+}
+
 // What all views see of it, each px from where the sample has it.
 void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
               const RaySample& sample) {
@@ -80,6 +117,9 @@ void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
       }
       job.tiles.push_back(
           makeViewParams(sampled, display_pose, seen.camera, seen.size_px, job.tolerance_px));
+      if (job.hasLens() && !sampled.shows_depth) {
+        addLens(job, display_pose, seen, sampled, job.tiles.back());
+      }
       // An error that moves nothing would still be seen in the codes.
       if (layout.depth_codes) job.tiles.back().inv_z_tolerance = 0;
     }
@@ -103,10 +143,17 @@ void addBounds(TraceJob& job, const Pose& display_pose, const SeenWalk& seen) {
                    .extent = {},
                    .extent_px = extent.size_px};
   float tolerance = float(kInvZToleranceMax);
-  for (const Camera& corner : extent.corners) {
+  const auto include = [&](const Camera& camera) {
     bounds.extent.push_back(
-        makeViewParams({corner}, display_pose, seen.camera, seen.size_px, job.tolerance_px));
+        makeViewParams({camera}, display_pose, seen.camera, seen.size_px, job.tolerance_px));
     tolerance = std::min(tolerance, bounds.extent.back().inv_z_tolerance);
+  };
+  for (const Camera& corner : extent.corners) {
+    include(corner);
+    if (!job.hasLens()) continue;
+    for (const glm::dvec2 of_lens : kLensCorners) {
+      include(fromLensCorner(corner, *job.layout, of_lens));
+    }
   }
   const auto walk = uint32_t(job.bounds.size());
   const size_t count = job.tileCount();
@@ -154,6 +201,11 @@ absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSour
 }
 
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
+  if (!job.hasEyesBeside() && job.hasLens()) {
+    const size_t count = job.lens_bounds.size() / job.walk_count;
+    return {std::span(job.lens_bounds).subspan(walk * count, count), job.layout->tile_size_px,
+            true};
+  }
   if (!job.hasEyesBeside()) return {job.tilesOf(walk, sample), job.layout->tile_size_px};
   return {job.bounds[walk].extent, job.bounds[walk].extent_px, true};
 }
@@ -236,7 +288,12 @@ void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSo
     for (const SeenWalk& walk : walks) addTiles(job, display_pose, walk, sample);
   }
   job.bounds.clear();
-  if (std::holds_alternative<PinholeRays>(layout.rays)) return;
+  job.lens_bounds.clear();
+  if (std::holds_alternative<PinholeRays>(layout.rays)) {
+    if (!job.hasLens()) return;
+    for (const SeenWalk& walk : walks) addLensBounds(job, display_pose, walk);
+    return;
+  }
   for (const SeenWalk& walk : walks) addBounds(job, display_pose, walk);
 }
 

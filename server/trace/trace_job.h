@@ -70,6 +70,9 @@ struct TraceJob {
   uint32_t sample_count = 1;  // rays of a px
   // Of displays whose rays do not all come from their view's eye, [walk]; else empty.
   std::vector<RayBounds> bounds;
+  // Of other displays with a lens, the tiles as seen from the corners of the square around it, four
+  // for each: [walk][tile][corner]. Else empty.
+  std::vector<abi::ViewParams> lens_bounds;
   std::vector<JobSource> sources;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
@@ -80,6 +83,14 @@ struct TraceJob {
   }
   size_t tileCount() const { return tiles.size() / (size_t{sample_count} * walk_count); }
   bool hasEyesBeside() const { return !bounds.empty(); }
+  bool hasLens() const { return layout->lens.has_value(); }
+  // Whether there may be a second stage of the lens: one structure, each px with one eye.
+  bool mayGather() const {
+    return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
+           !layout->depth_codes;
+  }
+  // Px are made of several rays' light.
+  bool sumsLight() const { return sample_count > 1 || mayGather(); }
 };
 
 // The tiles that tell of all rays of a walk: their own, or those that enclose them.

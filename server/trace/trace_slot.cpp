@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gpu/barrier.h"
+#include "trace/met_blocks.h"
 
 namespace viewloom {
 namespace {
@@ -43,7 +44,35 @@ uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
 bool TraceSlotShape::holds(const TraceSlotShape& other) const {
   return width_px >= other.width_px && row_count_max >= other.row_count_max &&
          tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
-         sample_count >= other.sample_count && outputs == other.outputs;
+         sample_count >= other.sample_count && lens_point_count >= other.lens_point_count &&
+         sums_light >= other.sums_light && met_count >= other.met_count &&
+         met_lists_bytes >= other.met_lists_bytes && outputs == other.outputs;
+}
+
+void TraceSlotShape::include(const TraceSlotShape& other) {
+  width_px = std::max(width_px, other.width_px);
+  row_count_max = std::max(row_count_max, other.row_count_max);
+  tile_count_max = std::max(tile_count_max, other.tile_count_max);
+  walk_count = std::max(walk_count, other.walk_count);
+  sample_count = std::max(sample_count, other.sample_count);
+  lens_point_count = std::max(lens_point_count, other.lens_point_count);
+  sums_light = sums_light || other.sums_light;
+  met_count = std::max(met_count, other.met_count);
+  met_lists_bytes = std::max(met_lists_bytes, other.met_lists_bytes);
+}
+
+TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs) {
+  const AtlasLayout& layout = *job.layout;
+  return {.width_px = layout.size_px.width,
+          .row_count_max = row_count_max,
+          .tile_count_max = uint32_t(job.tileCount()),
+          .walk_count = job.walk_count,
+          .sample_count = job.sample_count,
+          .lens_point_count = uint32_t(layout.lens_points.size()),
+          .sums_light = job.sumsLight(),
+          .met_count = job.mayGather() ? job.sample_count : 0,
+          .met_lists_bytes = job.mayGather() ? metListsBytes(layout, row_count_max) : 0,
+          .outputs = outputs};
 }
 
 AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
@@ -53,13 +82,24 @@ AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk
   return {.row_count = uint32_t(rows), .stride = uint32_t(steps * kAnswersStep)};
 }
 
-static_assert(sizeof(abi::TraceExtras) <= kDescriptorAlignment_bytes);
+static_assert(sizeof(abi::TraceExtras) <= kExtrasStride_bytes);
 
 uint64_t TraceSlot::tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count) {
   const uint64_t tiles_bytes = tile_count * sizeof(abi::ViewParams);
   const uint64_t stride = (tiles_bytes + kDescriptorAlignment_bytes - 1) /
                           kDescriptorAlignment_bytes * kDescriptorAlignment_bytes;
   return extrasOffset(part_count) + part * stride;
+}
+
+uint64_t TraceSlot::lensOffset(const TraceJob& job) {
+  const uint32_t part_count = job.sample_count * job.walk_count;
+  return tilesOffset(part_count, part_count, job.tileCount());
+}
+
+uint64_t TraceSlot::lensAddress(const TraceJob& job, uint32_t sample) const {
+  const uint32_t point = sample % job.layout->lens->walked_count;
+  return params_.address() + lensOffset(job) +
+         uint64_t{point} * kLensPatternArea_px * sizeof(abi::vec2);
 }
 
 ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
@@ -91,7 +131,8 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
       planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
   const uint32_t part_count = shape.sample_count * shape.walk_count;
-  const uint64_t params_bytes = tilesOffset(part_count, part_count, shape.tile_count_max);
+  const uint64_t params_bytes = tilesOffset(part_count, part_count, shape.tile_count_max) +
+                                uint64_t{shape.lens_point_count} * sizeof(abi::vec2);
   upload_ = Buffer(
       device,
       {.size_bytes = params_bytes, .intent = MemoryIntent::kUpload, .debug_name = "trace upload"});
@@ -100,9 +141,15 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
     answers_ =
         Buffer(device, {.size_bytes = answersBytes(shape), .debug_name = "answers of sources"});
   }
-  if (shape.sample_count > 1) {
+  if (shape.sums_light) {
     sample_ = Buffer(device, {.size_bytes = area_px * sizeof(uint32_t), .debug_name = "sample"});
     sums_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::vec3), .debug_name = "sums"});
+  }
+  if (shape.met_count > 0) {
+    met_ = Buffer(device, {.size_bytes = shape.met_count * area_px * sizeof(uint32_t),
+                           .debug_name = "met surfaces"});
+    met_lists_ =
+        Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
   }
 }
 
@@ -112,7 +159,7 @@ uint64_t TraceSlot::sizeBytes() const {
     total_bytes += plane->bytes().size();
   }
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
-         sample_.sizeBytes() + sums_.sizeBytes();
+         sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {

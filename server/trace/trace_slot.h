@@ -19,11 +19,20 @@ struct TraceSlotShape {
   uint32_t tile_count_max = 0;
   uint32_t walk_count = 1;
   uint32_t sample_count = 1;
+  uint32_t lens_point_count = 0;  // of all px of the pattern
+  bool sums_light = false;
+  uint32_t met_count = 0;        // rays a px of which it is kept what they met
+  uint64_t met_lists_bytes = 0;  // 0 = no second stage of a lens
   TraceOutputs outputs;
 
   // Whether a slot of this shape can hold a band of that one.
   bool holds(const TraceSlotShape& other) const;
+  // Makes it hold those of that one, too, which has the same outputs.
+  void include(const TraceSlotShape& other);
 };
+
+// That of bands of a job, of so many rows at most.
+TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs);
 
 // A plane that kernels write and the CPU reads. On a device whose memory is the CPU's, one buffer;
 // elsewhere a device buffer and the copy of it.
@@ -49,6 +58,7 @@ inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCo
 
 // What descriptors of any device may begin at.
 inline constexpr uint64_t kDescriptorAlignment_bytes = 256;
+inline constexpr uint64_t kExtrasStride_bytes = 2 * kDescriptorAlignment_bytes;
 // What the answers of several walks take at most, unless a single row takes more: they are
 // merged before the next rows are traced.
 inline constexpr uint64_t kAnswersBytesMax = uint64_t{32} << 20;
@@ -88,12 +98,20 @@ class TraceSlot {
   }
   // Where walks store colour of one sample of several.
   const Buffer& sampleTarget(const TraceJob& job) const {
-    return job.sample_count == 1 ? rgba() : sample_;
+    return job.sumsLight() ? sample_ : rgba();
+  }
+  // uint32_t[rows][width] of a sample.
+  uint64_t metAddress(uint32_t sample) const {
+    return met_.address() + sample * band_px_.area() * sizeof(uint32_t);
   }
   // Of each walk of each sample in the parameters: its abi::TraceExtras, and after all of those its
   // tiles. `part`: counts through the walks of the first sample, then of the next.
-  static uint64_t extrasOffset(uint32_t part) { return part * kDescriptorAlignment_bytes; }
+  static uint64_t extrasOffset(uint32_t part) { return part * kExtrasStride_bytes; }
   static uint64_t tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count);
+  // After all tiles, AtlasLayout::lens_points.
+  static uint64_t lensOffset(const TraceJob& job);
+  // On the device, of a sample's point.
+  uint64_t lensAddress(const TraceJob& job, uint32_t sample) const;
 
   TraceSlotShape shape_;
   SizePx band_px_;  // of the band in it
@@ -109,6 +127,8 @@ class TraceSlot {
   Buffer answers_;  // abi::RayAnswer, of several walks
   Buffer sample_;   // RGBA of one of several samples
   Buffer sums_;     // light of those before it
+  Buffer met_;      // what rays through a lens met
+  Buffer met_lists_;
 };
 
 }  // namespace viewloom

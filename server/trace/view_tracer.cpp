@@ -77,7 +77,7 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 }  // namespace
 
 ViewTracer::ViewTracer(const Device& device)
-    : device_(&device), averager_(device), packer_(device), blender_(device) {}
+    : device_(&device), averager_(device), packer_(device), blender_(device), gatherer_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -102,7 +102,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.is_one_of_several,
                                   variant.is_cube_face,
                                   variant.rays,
-                                  variant.shown_beside};
+                                  variant.shown_beside,
+                                  variant.through_lens};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -129,7 +130,9 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .eye_axes = job.hasEyesBeside() ? job.bounds[walk].eye_axes : abi::EyeAxes{},
       .microlenses = microlensesOf(*job.layout),
       .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count),
-      .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{}))};
+      .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{})),
+      .lens_points = addressWords(job.hasLens() ? slot.lensAddress(job, part / job.walk_count) : 0),
+      .met = addressWords(job.mayGather() ? slot.metAddress(part) : 0)};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
   }
@@ -148,6 +151,9 @@ void ViewTracer::fillParams(std::span<const StructureSlot* const> structures, co
     std::memcpy(to + TraceSlot::tilesOffset(part, part_count, tiles.size()), tiles.data(),
                 tiles.size_bytes());
   }
+  // Each sample's point, and those of the second stage after them.
+  const std::span points(job.layout->lens_points);
+  std::memcpy(to + TraceSlot::lensOffset(job), points.data(), points.size_bytes());
 }
 
 std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t walk,
@@ -192,7 +198,7 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
 void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
-  const TileRays rays = raysOf(walk.job, walk.index, walk.sample);
+  const TileRays rays = raysOf(walk.job, walk.index, walk.rays.sample);
   const double inv_z_max = structure.stats().inv_z_max;
   const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
   const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
@@ -204,21 +210,22 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
       (eyes_in_plane || !rays.are_bounds) && raysArePlain(rays.tiles, rays.tile_px, inv_z_max);
   const ColorAverager::Color color =
       averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));
-  const ComputePass& walk_views = pass(
-      {.reads_by_address = structure.readsByAddress(),
-       .wanted = is_one_of_several || walk.sample > 0 ? 0 : wantedFlags(walk.slot.shape_.outputs),
-       .color_format = color.format,
-       .pixels_per_invocation = pixels,
-       .lanes_are_views = lanes_are_views,
-       .color_is_scaled = structure.shape().colorIsScaled(),
-       .rays_are_plain = rays_are_plain,
-       .eyes_in_plane = eyes_in_plane,
-       .is_one_of_several = is_one_of_several,
-       .is_cube_face = structure.shape().is_cube_face,
-       .rays = raySourceOf(layout),
-       .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job)});
+  const ComputePass& walk_views =
+      pass({.reads_by_address = structure.readsByAddress(),
+            .wanted = is_one_of_several ? 0 : walk.rays.wanted,
+            .color_format = color.format,
+            .pixels_per_invocation = pixels,
+            .lanes_are_views = lanes_are_views,
+            .color_is_scaled = structure.shape().colorIsScaled(),
+            .rays_are_plain = rays_are_plain,
+            .eyes_in_plane = eyes_in_plane,
+            .is_one_of_several = is_one_of_several,
+            .is_cube_face = structure.shape().is_cube_face,
+            .rays = raySourceOf(layout),
+            .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job),
+            .through_lens = walk.rays.through_lens});
   std::vector<Descriptor> descriptors =
-      describeParams(walk.job, walk.index, walk.sample, walk.slot);
+      describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
   for (const Descriptor& descriptor :
        {structure.measuredDescriptor(), walk.target,
         structure.structure().asTexels(abi::kBindingStructure),
@@ -232,26 +239,6 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
                     rows.row_count);
 }
 
-void ViewTracer::recordSamples(vk::CommandBuffer commands,
-                               std::span<const StructureSlot* const> structures,
-                               const TraceJob& job, BandRows rows, TraceSlot& slot) {
-  const BlendTarget blended{
-      .sample = slot.sampleTarget(job),
-      .sums = slot.sums_,
-      .band = slot.rgba(),
-      .linear_address = slot.linear_.isEmpty() ? 0 : slot.linear_.target().address(),
-      .px_count = uint32_t(slot.band_px_.area())};
-  for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
-    if (job.walk_count == 1) {
-      const Descriptor band = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
-      recordWalk(commands, {*structures[0], job, 0, sample, slot, band}, rows);
-    } else {
-      recordMerged(commands, structures, job, rows, sample, slot);
-    }
-    if (job.sample_count > 1) blender_.record(commands, blended, job.layout->samples, sample);
-  }
-}
-
 void ViewTracer::recordBand(vk::CommandBuffer commands,
                             std::span<const StructureSlot* const> structures, const TraceJob& job,
                             BandRows rows, TraceSlot& slot, GpuTimer* timer) {
@@ -259,17 +246,17 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
   VIEWLOOM_CHECK(
       slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
       slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
-      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count);
+      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count &&
+      slot.shape_.lens_point_count >= layout.lens_points.size());
   VIEWLOOM_CHECK(structures.size() == job.walk_count);
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   const uint64_t area_px = slot.band_px_.area();
   fillParams(structures, job, slot);
 
-  const uint32_t part_count = job.sample_count * job.walk_count;
   if (timer) timer->recordBegin(commands, "trace");
-  commands.copyBuffer(
-      slot.upload_.handle(), slot.params_.handle(),
-      vk::BufferCopy{.size = TraceSlot::tilesOffset(part_count, part_count, job.tileCount())});
+  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
+                      vk::BufferCopy{.size = TraceSlot::lensOffset(job) +
+                                             std::span(job.layout->lens_points).size_bytes()});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
     commands.fillBuffer(slot.sampleTarget(job).handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);

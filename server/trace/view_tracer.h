@@ -14,6 +14,7 @@
 #include "structure/structure_slot.h"
 #include "trace/band_packer.h"
 #include "trace/color_averager.h"
+#include "trace/lens_gatherer.h"
 #include "trace/sample_blender.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
@@ -56,8 +57,16 @@ class ViewTracer {
     uint32_t is_cube_face;
     uint32_t rays;          // abi::kRaysOf...
     uint32_t shown_beside;  // abi::kShows... flags that some tile has
+    uint32_t through_lens;
 
     auto operator<=>(const Variant&) const = default;
+  };
+
+  // One ray of each px.
+  struct Rays {
+    uint32_t sample = 0;
+    bool through_lens = false;
+    uint32_t wanted = 0;  // abi::kWant... flags
   };
 
   // One of the walks of a job, and where its answers go.
@@ -65,7 +74,7 @@ class ViewTracer {
     const StructureSlot& structure;
     const TraceJob& job;
     uint32_t index;
-    uint32_t sample;
+    Rays rays;
     const TraceSlot& slot;
     Descriptor target;
   };
@@ -79,11 +88,13 @@ class ViewTracer {
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                    const TraceJob& job, BandRows rows, uint32_t sample, TraceSlot& slot);
+                    const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
+  void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                  const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
   void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                      const TraceJob& job, BandRows rows, TraceSlot& slot);
   uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                       const TraceJob& job, BandRows piece, uint32_t sample,
+                       const TraceJob& job, BandRows piece, const Rays& rays,
                        const AnswersLayout& answers, const TraceSlot& slot);
   void recordJoins(vk::CommandBuffer commands, const TraceJob& job, uint64_t walked,
                    uint32_t answer_count, const AnswersLayout& answers, const TraceSlot& slot);
@@ -97,6 +108,7 @@ class ViewTracer {
   ColorAverager averager_;
   BandPacker packer_;
   SampleBlender blender_;
+  LensGatherer gatherer_;
   // By abi::kWant... flags and abi::kRaysOf...
   std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ComputePass>> merge_passes_;
   std::unique_ptr<ComputePass> join_pass_;

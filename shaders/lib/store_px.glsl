@@ -5,6 +5,7 @@
 #define VIEWLOOM_LIB_STORE_PX_GLSL_
 
 #include "lib/edge_blend.glsl"
+#include "lib/met_surface.glsl"
 #include "lib/ray.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/walk.glsl"
@@ -47,6 +48,7 @@ void storeOthers(uint index, Walk walk, Ray ray, vec3 eye, vec3 direction) {
     FloatRef(extras.depth).at[index] = depthOf(walk, ray, eye, direction);
   }
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
+  if ((kWanted & kWantMet) != 0u) UintRef(extras.met).at[index] = nameOfMet(walk);
   if ((kWanted & kWantRecords) != 0u) {
     RecordsRef(extras.records).at[index] =
         RayRecord(point.x, point.y, point.z, ray_class, walk.layer, walk.visits);

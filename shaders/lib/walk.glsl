@@ -26,11 +26,9 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
-// Of the distance to a facet, as a share of the ray's own inv_z: 16 ulp, the rounding of positions
-// along a ray and a few of the sums. Not of the largest in the source, which the error of a plane
-// may have raised.
+// Of the distance to a facet, as a share of the ray's own inv_z (the largest in the source may be
+// raised by the error of a plane): 16 ulp, the rounding of positions along a ray and of a few sums.
 const float kRounding = 16.0 / 8388608.0;
-
 const uvec4 kLayers = uvec4(0u, 1u, 2u, 3u);
 
 struct WalkStart {
@@ -47,6 +45,7 @@ struct Walk {
   float t;            // of the hit; the ray's end without
   ivec2 cell;         // of the hit; the last column without
   uint layer;         // of the hit
+  uint level;         // of the plane hit; kLevelFacets: of one facet, or an edge
   float passed_t;     // where it first passed behind known surface; 2 = never
   // Passed behind a silhouette: the column before the last one, and the layer there, whose surface
   // the ray was in front of. Behind that layer from the beginning: the first column.
@@ -77,6 +76,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   result.t = ray.t_end;
   result.cell = start.cell;
   result.layer = 0u;
+  result.level = kLevelFacets;
   result.has_far_side = false;
   result.far_cell = start.cell;
   result.far_layer = 0u;
@@ -255,6 +255,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       result.t = hits_edge ? at.t : last_t;
       result.cell = hits_edge ? at.cell ^ flip : inside;
       result.layer = hits_edge ? crossing.hit_layer : layer;
+      result.level = hits_edge ? kLevelFacets : own_level;
     }
     if (event == kEnds && layer == 0u) {
       result.ends_behind = !in_front;

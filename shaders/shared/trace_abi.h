@@ -24,6 +24,10 @@ struct ViewParams {
   float inv_z_tolerance;
   uint is_used;  // 0: no view stands here
   uint shows;    // kShows... flags: else the colour of the first surface
+  // Of a lens before the view: px of the tile that its rim moves a surface by for each 1/m that its
+  // 1/Z lies beside the focus, along both axes; and 1/Z of the focus, 1/m.
+  vec2 lens_px_m;
+  float lens_inv_focus;
 };
 
 VIEWLOOM_ABI_CONST uint kShowsDepth = 1u;   // its depth, as grey of TraceExtras.depth_scale
@@ -70,6 +74,10 @@ VIEWLOOM_ABI_CONST uint kCounterStride = 16u;  // of 4 bytes: a cache line
 VIEWLOOM_ABI_CONST uint kRaysOfPinholes = 0u;     // all from the eye of their view
 VIEWLOOM_ABI_CONST uint kRaysOfMicrolenses = 1u;  // each from the middle of its lens
 VIEWLOOM_ABI_CONST uint kRaysOfLenticular = 2u;   // each from where its lens sends a subpixel
+
+// Px of a tile whose x and whose y are equal modulo this pass through the same points of a lens.
+VIEWLOOM_ABI_CONST uint kLensPatternSide_px = 8u;
+VIEWLOOM_ABI_CONST uint kLensPatternArea_px = kLensPatternSide_px * kLensPatternSide_px;
 
 // A view's eye moved by a metre, in homogeneous image coordinates of the source.
 struct EyeAxes {
@@ -131,6 +139,10 @@ struct TraceExtras {
   Microlenses microlenses;
   LenticularEyes lenticular;
   DepthScale depth_scale;  // of tiles that show depth
+  // vec2[kLensPatternArea_px]: where the rays pass through the lens, by place in the pattern; of
+  // the second stage, [point][kLensPatternArea_px]
+  Address lens_points;
+  Address met;  // uint[rows][width]: lib/met_surface.glsl; 0 = not wanted
 };
 
 // What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
@@ -210,6 +222,33 @@ struct BlendPush {
 VIEWLOOM_ABI_CONST uint kBindingSample = 15u;  // storage, read: uint per px, as in the band
 VIEWLOOM_ABI_CONST uint kBindingSums = 16u;    // storage: linear light, vec3 per px
 
+// The second stage of a lens: surfaces that the walked rays of a block of px met, each once.
+struct GatherPush {
+  Address layers[kLayerCountMax];  // of the structure
+  Address color[kLayerCountMax];   // texels of the source
+  uint source_size_px;             // width | height << 16
+  uint layer_count;
+  uint atlas_width_px;
+  uint first_row;  // of the band, in the atlas
+  uint row_count;
+  uint tile_size_px;  // width | height << 16
+  uint tile_grid;     // columns | rows << 16
+  uint padding_top_px;
+  uint fill;             // as in TracePush
+  uint first_block_row;  // of blocks of all tile rows: that of the band's first row
+  uint walked_count;
+  uint gathered_count;
+};
+
+VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
+// Surfaces of a block; of one that met more, the walked rays are all there is.
+VIEWLOOM_ABI_CONST uint kMetListMax = 47u;
+VIEWLOOM_ABI_CONST uint kMetListStride = kMetListMax + 1u;  // their number first
+VIEWLOOM_ABI_CONST uint kMetNothing = 0xffffffffu;
+VIEWLOOM_ABI_CONST float kDepthMax = 1e30f;  // m: no surface is further away
+VIEWLOOM_ABI_CONST uint kBindingMet = 17u;  // storage: lib/met_surface.glsl, [sample][row][width]
+VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: uint[block][kMetListStride]
+
 // A band's colour, packed as planes of Y'CbCr.
 struct PackPush {
   uint width_px;
@@ -235,18 +274,20 @@ VIEWLOOM_ABI_CONST uint kWantDepth = 1u;
 VIEWLOOM_ABI_CONST uint kWantMask = 2u;
 VIEWLOOM_ABI_CONST uint kWantLinear = 4u;
 VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
+VIEWLOOM_ABI_CONST uint kWantMet = 16u;  // what rays met, for the second stage of a lens
 
 #ifdef __cplusplus
-static_assert(sizeof(ViewParams) == 60);
+static_assert(sizeof(ViewParams) == 72);
 static_assert(sizeof(EyeAxes) == 28);
 static_assert(sizeof(Microlenses) == 40);
 static_assert(sizeof(Lenticular) == 72);
 static_assert(sizeof(DepthScale) == 12);
-static_assert(sizeof(TraceExtras) == 244);
+static_assert(sizeof(TraceExtras) == 260);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 96);
 static_assert(sizeof(AveragePush) == 104);
+static_assert(sizeof(GatherPush) == 112);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(BlendPush) == 32);
 static_assert(sizeof(RayRecord) == 24);

@@ -28,6 +28,9 @@ layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
 layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
 layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kShows... of some tile
+layout(constant_id = kOwnConstants + 11u) const bool kThroughLens = false;
+// Each px has an eye of its own, or several.
+const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens;
 const bool kIsLayered = kColorFormat == kColorRgba16f;
 const bool kLooksBehind = (kShownBeside & kShowsBehind) != 0u;
 const bool kSeesThrough = kIsLayered || kLooksBehind;
@@ -50,6 +53,9 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
   RayRecord at[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vec2Ref {
+  vec2 at[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref {
   uint8_t at[];
 };
@@ -58,6 +64,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/color.glsl"
 #include "lib/edge_blend.glsl"
 #include "lib/face_ray.glsl"
+#include "lib/lens.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_source.glsl"
@@ -71,8 +78,8 @@ uvec2 unpackSize(uint size_px) {
 
 // A ray that never sees the image continues the border next to where it goes.
 Walk walkBeside(WalkStart start) {
-  return Walk(false, false, false, true, 1.0, start.cell, 0u, 2.0, false, start.cell, 0u, 0.0,
-              kAxisNone, 0.0, 0u);
+  return Walk(false, false, false, true, 1.0, start.cell, 0u, kLevelFacets, 2.0, false,
+              start.cell, 0u, 0.0, kAxisNone, 0.0, 0u);
 }
 
 Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
@@ -137,14 +144,18 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   Traced traced;
   const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
   traced.is_used = aim.is_used;
-  if (kRays != kRaysOfPinholes) {
-    view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  if (kThroughLens) {
+    const uvec2 px = uvec2(run.first_x + i, uint(run.tile_y));
+    view = viewThrough(view, Vec2Ref(extras.lens_points).at[lensPatternIndex(px)]);
+  }
+  if (kHasOwnEyes) {
     if (kEyesInPlane) view.eye.z = 0.0;
     near_eye = view.eye * scene.inv_z_near;
   }
   traced.view = view;
   traced.direction = rayDirection(view, aim.tile_px);
-  if (kRays != kRaysOfPinholes) {
+  if (kHasOwnEyes) {
     bound = boundBetween(scene, near_eye, traced.direction, traced.direction);
   }
   const vec2 size_px = vec2(scene.extent.size_px);
@@ -197,7 +208,7 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
       storeOthers(run.first_index + i, px.walk, px.ray, px.view.eye, px.direction);
       count(counts, classOf(px.walk));
     }
-    const bool may_be_edge = !kIsOneOfSeveral && kRays == kRaysOfPinholes && i > 0u &&
+    const bool may_be_edge = !kIsOneOfSeveral && !kHasOwnEyes && i > 0u &&
                              (kShownBeside & view.shows) == 0u &&
                              mayBeEdge(scene, inv_z_before, px.seen.inv_z);
     const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
@@ -260,7 +271,7 @@ void main() {
     Run run;
     const uint first_x = run_in_tile * kPixelsPerInvocation;
     const bool has_trail = first_x + kPixelsPerInvocation < tile_size.x;
-    const bool looks_for_edges = !kIsOneOfSeveral && kRays == kRaysOfPinholes;
+    const bool looks_for_edges = !kIsOneOfSeveral && !kHasOwnEyes;
     run.lead = looks_for_edges ? min(first_x, 1u) : 0u;
     run.trail = has_trail && looks_for_edges ? 1u : 0u;
     run.first_x = first_x - run.lead;

@@ -69,10 +69,7 @@ void trace(const Contender& contender, BuiltFrame& frame, SweptAtlas& swept) {
     frame.sweep(job, *contender.plan, {}, swept);
     return;
   }
-  TraceSlot slot(frame.device(), {.width_px = job.layout->size_px.width,
-                                  .row_count_max = kBandRows,
-                                  .tile_count_max = uint32_t(job.tileCount()),
-                                  .sample_count = job.sample_count});
+  TraceSlot slot(frame.device(), slotShape(job, kBandRows, {}));
   frame.walk(job, kBandRows, slot);
 }
 

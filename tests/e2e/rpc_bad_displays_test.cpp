@@ -224,9 +224,6 @@ const std::vector<BadDisplay> kCommon = {
 };
 
 const std::vector<BadDisplay> kServedLater = {
-    {"lens",
-     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_lens(); },
-     {kLater, "open.display.effects.lens"}},
     {"temporal",
      [](auto& o) { o.mutable_display()->mutable_effects()->mutable_temporal(); },
      {kLater, "open.display.effects.temporal"}},

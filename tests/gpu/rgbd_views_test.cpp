@@ -165,10 +165,7 @@ class RgbdViewsTest : public GpuTest {
 
   std::vector<uint32_t> walked(const TraceJob& job) {
     const SizePx size_px = job.layout->size_px;
-    TraceSlot slot(device(), {.width_px = size_px.width,
-                              .row_count_max = size_px.height,
-                              .tile_count_max = uint32_t(job.tileCount()),
-                              .sample_count = job.sample_count});
+    TraceSlot slot(device(), slotShape(job, size_px.height, {}));
     CommandRecorder recorder(device());
     Timeline timeline(device());
     ViewTracer tracer(device());

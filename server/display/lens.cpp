@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "display/lens.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "display/atlas_layout.h"
+#include "display/depth_budget.h"
+#include "display/display_kinds.h"
+#include "display/field_checks.h"
+
+namespace viewloom {
+namespace {
+
+struct SampleCounts {
+  uint32_t walked;
+  uint32_t gathered;
+};
+
+// By quality: draft, balanced, best.
+constexpr std::array<SampleCounts, 3> kSampleCounts = {{{4, 16}, {8, 32}, {16, 64}}};
+
+// The positive root of x^3 = x + 1: R2 steps by its negative powers.
+constexpr double kRoot = 1.32471795724474602596;
+
+glm::dvec2 quasiRandom(uint32_t index) {
+  return glm::fract(0.5 + double(index) * glm::dvec2(1 / kRoot, 1 / (kRoot * kRoot)));
+}
+
+// Of a px of the pattern: from the bits of x xor y and of y, the lowest first, as in Bayer's
+// dither.
+uint32_t ditherRank(uint32_t x_px, uint32_t y_px) {
+  uint32_t rank = 0;
+  for (uint32_t bit = 1, weight = kLensPatternArea_px / 4; weight > 0; bit *= 2, weight /= 4) {
+    const uint32_t y_bit = (y_px & bit) != 0 ? 1 : 0;
+    const uint32_t x_bit = (x_px & bit) != 0 ? 1 : 0;
+    rank += weight * (2 * (x_bit ^ y_bit) + y_bit);
+  }
+  return rank;
+}
+
+// Hammersley's point set: no shift is the difference of two points of the R2 sequence, so that no
+// px has the points of another.
+glm::dvec2 shiftOfRank(uint32_t rank) {
+  double inverse = 0;
+  double digit = 0.5;
+  for (uint32_t bits = rank; bits > 0; bits /= 2, digit /= 2) inverse += digit * (bits % 2);
+  return {double(rank) / kLensPatternArea_px, inverse};
+}
+
+// Shirley and Chiu, "A Low Distortion Map Between Disk and Square" (1997): squares around the
+// middle become rings of the same share of the area.
+struct Polar {
+  double radius = 0;
+  double angle_rad = 0;
+};
+Polar concentric(glm::dvec2 square) {
+  const glm::dvec2 at = 2.0 * square - 1.0;
+  if (at.x == 0 && at.y == 0) return {};
+  constexpr double kQuarter_rad = std::numbers::pi / 4;
+  if (std::abs(at.x) > std::abs(at.y)) return {at.x, kQuarter_rad * at.y / at.x};
+  return {at.y, kQuarter_rad * (2 - at.x / at.y)};
+}
+
+// A blade is a straight side: rings become polygons, and the area of the triangle between a side
+// and the middle is covered as evenly as that of the sector was.
+glm::dvec2 throughBlades(Polar at, uint32_t blades, double rotation_rad) {
+  if (at.radius < 0) at = {-at.radius, at.angle_rad + std::numbers::pi};
+  if (blades == 0) return at.radius * glm::dvec2(std::cos(at.angle_rad), std::sin(at.angle_rad));
+  const double turn = at.angle_rad / (2 * std::numbers::pi);
+  const double place = (turn - std::floor(turn)) * blades;
+  const double blade = std::floor(place);
+  const auto corner = [&](double index) {
+    const double angle_rad = rotation_rad + 2 * std::numbers::pi * index / blades;
+    return glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  return at.radius * glm::mix(corner(blade), corner(blade + 1), place - blade);
+}
+
+// With the blur taken off, no surface moves by more than the ghosting limit from view to view: a
+// lens as wide as the way between two eyes blurs a surface by as much as that moves.
+double automaticRadius_m(const AtlasLayout& layout, const StreamDefaults& defaults,
+                         double focus_m) {
+  const double beside_focus = std::max(std::abs(defaults.inv_z_near - 1 / focus_m),
+                                       std::abs(defaults.inv_z_far - 1 / focus_m));
+  const double moved_px = disparityPerInvZ(layout) * beside_focus;
+  if (moved_px <= kGhostingLimit_px) return 0;
+  const double pitch_m = std::max(layout.view_pitch_m.x, layout.view_pitch_m.y);
+  return pitch_m / 2 * (1 - kGhostingLimit_px / moved_px);
+}
+
+}  // namespace
+
+absl::Status completeLens(LensSpec& lens, Quality quality) {
+  if (lens.has_automatic_aperture) {
+    if (lens.aperture_radius_m != 0) {
+      return invalidField("aperture_radius_m", "came with automatic_aperture; accepted is one");
+    }
+  } else {
+    const double radius_m = lens.aperture_radius_m;
+    if (!(radius_m > 0 && radius_m <= kApertureRadiusMax_m)) {
+      return invalidField("aperture_radius_m",
+                          absl::StrCat("got ", radius_m, ", accepted is more than 0, up to ",
+                                       kApertureRadiusMax_m, " m, or automatic_aperture"));
+    }
+  }
+  if (lens.focus_distance_m) {
+    VIEWLOOM_RETURN_IF_ERROR(checkRange(*lens.focus_distance_m, kFocalDistanceMin_m,
+                                        kFocalDistanceMax_m, "focus_distance_m"));
+  }
+  if (lens.blades != 0 && (lens.blades < kLensBladesMin || lens.blades > kLensBladesMax)) {
+    return invalidField("blades", absl::StrCat("got ", lens.blades, ", accepted is 0 or ",
+                                               kLensBladesMin, "..", kLensBladesMax));
+  }
+  if (!std::isfinite(lens.rotation_rad)) {
+    return invalidField("rotation_rad",
+                        absl::StrCat("got ", lens.rotation_rad, ", accepted is what is finite"));
+  }
+  const SampleCounts counts = kSampleCounts[size_t(quality)];
+  if (lens.walked_count == 0) lens.walked_count = counts.walked;
+  VIEWLOOM_RETURN_IF_ERROR(checkCount(lens.walked_count, kWalkedSamplesMax, "samples"));
+  lens.gathered_count = lens.gathered_count.value_or(counts.gathered);
+  if (*lens.gathered_count > kGatheredSamplesMax) {
+    return invalidField("gathered_samples", absl::StrCat("got ", *lens.gathered_count,
+                                                         ", accepted is 0..", kGatheredSamplesMax));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::optional<LensRays>> lensRays(const LensSpec& lens, const AtlasLayout& layout,
+                                                 const StreamDefaults& defaults) {
+  const double focus_m = lens.focus_distance_m.value_or(layout.eye_focus_m);
+  if (focus_m == kNoFocus_m) {
+    return fieldError(absl::StatusCode::kFailedPrecondition, "effects.lens.focus_distance_m",
+                      "was not given, and this display has no focal plane");
+  }
+  double radius_m = lens.aperture_radius_m;
+  if (lens.has_automatic_aperture) {
+    if (!(disparityPerInvZ(layout) > 0)) {
+      return fieldError(absl::StatusCode::kFailedPrecondition, "effects.lens.automatic_aperture",
+                        "came for a display without neighbouring views; accepted for those with a "
+                        "depth budget");
+    }
+    radius_m = automaticRadius_m(layout, defaults, focus_m);
+    if (radius_m == 0) return std::nullopt;
+  }
+  return LensRays{.radius_m = radius_m,
+                  .focus_m = focus_m,
+                  .blades = lens.blades,
+                  .rotation_rad = lens.rotation_rad,
+                  .walked_count = lens.walked_count,
+                  .gathered_count = *lens.gathered_count,
+                  .is_exact = lens.is_exact};
+}
+
+std::vector<glm::vec2> lensPoints(const LensRays& lens) {
+  std::vector<glm::vec2> points;
+  points.reserve(size_t{lens.pointCount()} * kLensPatternArea_px);
+  for (uint32_t point = 0; point < lens.pointCount(); ++point) {
+    for (uint32_t y_px = 0; y_px < kLensPatternSide_px; ++y_px) {
+      for (uint32_t x_px = 0; x_px < kLensPatternSide_px; ++x_px) {
+        const glm::dvec2 moved = quasiRandom(point) + shiftOfRank(ditherRank(x_px, y_px));
+        const Polar at = concentric(glm::fract(moved));
+        points.emplace_back(throughBlades(at, lens.blades, lens.rotation_rad));
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thin lens in front of every view: what is not in focus is blurred, as by a camera's opening.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "base/status.h"
+
+namespace viewloom {
+
+struct AtlasLayout;
+struct StreamDefaults;
+
+// Ranges of proto LensEffect.
+inline constexpr double kApertureRadiusMax_m = 10;
+inline constexpr uint32_t kLensBladesMin = 3;
+inline constexpr uint32_t kLensBladesMax = 16;
+inline constexpr uint32_t kWalkedSamplesMax = 64;
+inline constexpr uint32_t kGatheredSamplesMax = 256;
+
+// How a lens is asked for, as proto LensEffect.
+struct LensSpec {
+  double aperture_radius_m = 0;
+  bool has_automatic_aperture = false;
+  std::optional<double> focus_distance_m;  // none = the display's focal plane
+  uint32_t blades = 0;                     // 0 = round
+  double rotation_rad = 0;
+  uint32_t walked_count = 0;               // 0 = of the quality
+  std::optional<uint32_t> gathered_count;  // none = of the quality
+  bool is_exact = false;  // gathered rays that something else may stand in the way of are walked
+};
+
+// How much is spent on what a display leaves open.
+enum class Quality : uint8_t { kDraft, kBalanced, kBest };
+
+// Errors name the field as in proto LensEffect ("aperture_radius_m"). Counts that quality gives are
+// filled in.
+absl::Status completeLens(LensSpec& lens, Quality quality);
+
+// A lens before the views of a layout.
+struct LensRays {
+  double radius_m = 0;
+  double focus_m = 0;  // in front of the display's eyes, along its axis
+  uint32_t blades = 0;
+  double rotation_rad = 0;
+  uint32_t walked_count = 1;
+  uint32_t gathered_count = 0;
+  bool is_exact = false;
+
+  uint32_t pointCount() const { return walked_count + gathered_count; }
+};
+
+// Nothing where an automatic aperture has nothing to blur. FAILED_PRECONDITION for a layout that
+// has no focal plane, or no depth budget, where the lens leaves that to it.
+absl::StatusOr<std::optional<LensRays>> lensRays(const LensSpec& lens, const AtlasLayout& layout,
+                                                 const StreamDefaults& defaults);
+
+// Px of a tile whose x and whose y are equal modulo this share their points on the lens.
+inline constexpr uint32_t kLensPatternSide_px = 8;
+inline constexpr uint32_t kLensPatternArea_px = kLensPatternSide_px * kLensPatternSide_px;
+
+// Where the rays of each px of the pattern pass through a lens of radius 1, to the right and up:
+// [point][px of the pattern, row by row]. Points are those of Roberts' R2 sequence ("The
+// Unreasonable Effectiveness of Quasirandom Sequences", 2018), moved for each px by a vector of its
+// own: any few neighbours among the points of a px are spread evenly, and so is one point of
+// neighbouring px; all stay the same from frame to frame.
+std::vector<glm::vec2> lensPoints(const LensRays& lens);
+
+}  // namespace viewloom

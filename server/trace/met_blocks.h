@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blocks of px that share what the walked rays of a lens met.
+#pragma once
+
+#include <cstdint>
+
+#include "trace/trace_job.h"
+
+namespace viewloom {
+
+// Blocks of px (shaders/lib/met_blocks.glsl) of a band.
+struct MetBlocks {
+  uint32_t first_row = 0;  // of all rows of blocks
+  uint32_t row_count = 0;
+  uint32_t per_row = 0;
+};
+MetBlocks metBlocks(const AtlasLayout& layout, BandRows rows);
+// Bytes of the lists of a band with so many rows, wherever it begins.
+uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max);
+
+}  // namespace viewloom

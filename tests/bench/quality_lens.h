@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a lens is worth: its picture beside one of many exact rays, and what it costs.
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "display/lens.h"
+#include "gpu/device.h"
+
+namespace viewloom::bench {
+
+// How a view is seen through the lens.
+struct LensWay {
+  uint32_t layer_count = 1;  // of the source
+  uint32_t walked_count = 1;
+  uint32_t gathered_count = 0;
+  bool is_exact = false;
+};
+
+struct LensScore {
+  LensWay way;
+  double psnr_db = 0;     // sRGB, of all px that the source can show
+  double mean_error = 0;  // signed, of linear light; 0..1
+  double trace_ms = 0;    // median
+  double pinholes = 0;    // the same, in traces of the view without a lens
+};
+
+struct LensScoring {
+  uint32_t source_width_px = 960;
+  uint32_t view_width_px = 320;
+  uint32_t true_ray_count = 1024;  // a px
+  uint32_t round_count = 5;        // of each trace, for the median
+};
+
+// The cluttered room, in focus at a third of its depth, seen from the source's own place.
+std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
+                                  const std::vector<LensWay>& ways);
+
+nlohmann::ordered_json qualityOfLens(const Device& device);
+
+}  // namespace viewloom::bench

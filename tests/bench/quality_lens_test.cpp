@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lens beside many exact rays, in small.
+#include "bench/quality_lens.h"
+
+#include <cmath>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "gpu/test_device.h"
+
+namespace viewloom::bench {
+namespace {
+
+class QualityOfLens : public GpuTest {
+ protected:
+  std::vector<LensScore> scoresOf(const std::vector<LensWay>& ways) {
+    const LensScoring scoring{
+        .source_width_px = 480, .view_width_px = 160, .true_ray_count = 256, .round_count = 0};
+    std::vector<LensScore> scores = lensScores(device(), scoring, ways);
+    for (const LensScore& score : scores) {
+      std::cout << score.way.layer_count << " layers, " << score.way.walked_count << " + "
+                << score.way.gathered_count << ": " << score.psnr_db << " dB, mean error "
+                << score.mean_error << "\n";
+    }
+    return scores;
+  }
+};
+
+TEST_F(QualityOfLens, growsWithTheRaysAndByTheSecondStage) {
+  const auto scores = scoresOf({{.layer_count = 2, .walked_count = 2},
+                                {.layer_count = 2, .walked_count = 8},
+                                {.layer_count = 2, .walked_count = 8, .gathered_count = 32},
+                                {.layer_count = 2, .walked_count = 40}});
+  EXPECT_GT(scores[1].psnr_db, scores[0].psnr_db + 3);
+  EXPECT_GT(scores[2].psnr_db, scores[1].psnr_db + 0.3);
+  EXPECT_LT(std::abs(scores[2].mean_error), 1e-3);
+}
+
+}  // namespace
+}  // namespace viewloom::bench
