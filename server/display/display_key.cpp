@@ -99,6 +99,12 @@ class KeyText {
     add(rgbd.fov_y_rad);
     add(rgbd.depth_bits);
   }
+  void add(const TemporalSpec& temporal) {
+    text_ += "temporal ";
+    add(temporal.output_rate_hz);
+    add(static_cast<uint32_t>(temporal.mode));
+    add(temporal.bridge_s);
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -140,6 +146,7 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.focus_following_s);
   key.add(spec.filter.sample_count);
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
+  if (spec.temporal) key.add(*spec.temporal);
   return key.take();
 }
 

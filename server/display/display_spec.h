@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "display/display_kinds.h"
 #include "display/ray_samples.h"
+#include "display/temporal_spec.h"
 #include "frame/camera.h"
 
 namespace viewloom {
@@ -23,6 +24,7 @@ struct DisplaySpec {
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;   // 0xRRGGBB, sRGB
   double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
+  std::optional<TemporalSpec> temporal;  // none = an atlas a frame
 };
 
 // Ranges of proto Display.
