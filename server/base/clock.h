@@ -2,6 +2,7 @@
 // Monotonic time in nanoseconds, and one that tests turn by hand.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -14,6 +15,8 @@ class Clock {
   virtual ~Clock() = default;
   // Nanoseconds since an arbitrary start; never goes back.
   virtual int64_t nowNs() const = 0;
+  // For how long whoever waits for this time may sleep, at most, before it looks at it again.
+  virtual std::chrono::nanoseconds napUntil(int64_t due_ns) const = 0;
 };
 
 class SteadyClock final : public Clock {
@@ -23,11 +26,16 @@ class SteadyClock final : public Clock {
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
   }
+  std::chrono::nanoseconds napUntil(int64_t due_ns) const override {
+    return std::chrono::nanoseconds(std::max(due_ns - nowNs(), int64_t{0}));
+  }
 };
 
 class ManualClock final : public Clock {
  public:
   int64_t nowNs() const override { return now_ns_; }
+  // It may be turned at any time, and wakes nobody.
+  std::chrono::nanoseconds napUntil(int64_t) const override { return std::chrono::milliseconds(1); }
   void advance(int64_t by_ns) { now_ns_ += by_ns; }
 
  private:

@@ -68,6 +68,14 @@ Labelled<Stage, Histogram> stageHistograms(prometheus::Registry& registry) {
                                     kStageBounds);
 }
 
+Histogram outputDelayHistogram(prometheus::Registry& registry) {
+  return Histogram(prometheus::BuildHistogram()
+                       .Name("viewloom_output_delay_seconds")
+                       .Help("From the tick of a display with an output rate to its atlas.")
+                       .Register(registry)
+                       .Add({}, kStageBounds));
+}
+
 }  // namespace
 
 void Counter::add(double amount) const {
@@ -123,6 +131,9 @@ Metrics::Metrics()
       sent_bytes(counters<Transport>(store_->registry, "viewloom_sent_bytes_total",
                                      "Bytes of atlases written to clients.", "transport",
                                      kTransports)),
+      output_ticks_skipped(counter(store_->registry, "viewloom_output_ticks_skipped_total",
+                                   "Ticks of displays with an output rate at which the atlas "
+                                   "before was still on its way.")),
       atlases_presented(counter(store_->registry, "viewloom_atlases_presented_total",
                                 "Atlases that gRPC clients say they have shown.")),
       http_responses(counters<HttpAnswer>(store_->registry, "viewloom_http_responses_total",
@@ -135,12 +146,17 @@ Metrics::Metrics()
       displays(gauge(store_->registry, "viewloom_displays", "Displays watched now.")),
       http_connections(gauge(store_->registry, "viewloom_http_connections",
                              "HTTP and WebSocket connections open now.")),
-      stage(stageHistograms(store_->registry)) {}
+      stage(stageHistograms(store_->registry)),
+      output_delay(outputDelayHistogram(store_->registry)) {}
 
 Metrics::~Metrics() = default;
 
 std::string Metrics::text() const {
   return prometheus::TextSerializer().Serialize(store_->registry.Collect());
+}
+
+void Metrics::observeOutputDelay(int64_t duration_ns) const {
+  output_delay.observe(static_cast<double>(duration_ns) * kSecondsPerNs);
 }
 
 void Metrics::observeStage(Stage which, int64_t duration_ns) const {

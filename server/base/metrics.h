@@ -65,7 +65,15 @@ class Labelled {
 
 // Where the time of an atlas goes; the fields of StageTimes.
 enum class Stage : uint8_t {
-  kReceive, kDecode, kUpload, kBuild, kWait, kTrace, kEncode, kTotal, kCount
+  kReceive,
+  kDecode,
+  kUpload,
+  kBuild,
+  kWait,
+  kTrace,
+  kEncode,
+  kTotal,
+  kCount
 };
 // Where something newer replaces something that waits: ingest to decoding, decoded frames to the
 // structure loop, trace jobs, atlases to a gRPC client, atlases to a browser.
@@ -94,22 +102,27 @@ class Metrics {
   Counter frames_unchanged;  // the same as the resident one
   Counter received_bytes;    // of planes, as they came on the wire
   Counter structures_built;
-  Labelled<TraceMethod, Counter> atlases_traced;     // {method}
+  Labelled<TraceMethod, Counter> atlases_traced;  // {method}
   Counter atlases_encoded;
   Counter bands_encoded;
   Counter encoded_bytes;
-  Labelled<RayAnswer, Counter> rays;                 // {answer}; shares are ratios of their rates
-  Labelled<HandOver, Counter> replaced;              // {hand_over}; drops, newest wins
-  Labelled<Transport, Counter> atlases_sent;         // {transport}
-  Labelled<Transport, Counter> sent_bytes;           // {transport}
-  Counter atlases_presented;                         // shown, as gRPC clients say
-  Labelled<HttpAnswer, Counter> http_responses;      // {answer}
-  Labelled<Transport, Gauge> subscribers;            // {transport}; now
-  Gauge streams_live;                                // now
-  Gauge displays;                                    // watched now
-  Gauge http_connections;                            // open now
-  Labelled<Stage, Histogram> stage;                  // viewloom_stage_seconds{stage}
+  Labelled<RayAnswer, Counter> rays;          // {answer}; shares are ratios of their rates
+  Labelled<HandOver, Counter> replaced;       // {hand_over}; drops, newest wins
+  Labelled<Transport, Counter> atlases_sent;  // {transport}
+  Labelled<Transport, Counter> sent_bytes;    // {transport}
+  Counter output_ticks_skipped;  // of displays with a rate: the last atlas was still on its way
+  Counter atlases_presented;     // shown, as gRPC clients say
+  Labelled<HttpAnswer, Counter> http_responses;  // {answer}
+  Labelled<Transport, Gauge> subscribers;        // {transport}; now
+  Gauge streams_live;                            // now
+  Gauge displays;                                // watched now
+  Gauge http_connections;                        // open now
+  Labelled<Stage, Histogram> stage;              // viewloom_stage_seconds{stage}
 
+  Histogram
+      output_delay;  // viewloom_output_delay_seconds; from tick to atlas: jitter is its spread
+
+  void observeOutputDelay(int64_t duration_ns) const;
   void observeStage(Stage which, int64_t duration_ns) const;
 };
 

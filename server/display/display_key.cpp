@@ -111,6 +111,12 @@ class KeyText {
     add(*lens.gathered_count);
     add(static_cast<uint32_t>(lens.is_exact));
   }
+  void add(const TemporalSpec& temporal) {
+    text_ += "temporal ";
+    add(temporal.output_rate_hz);
+    add(static_cast<uint32_t>(temporal.mode));
+    add(temporal.bridge_s);
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -153,6 +159,7 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.filter.sample_count);
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
   if (spec.lens) key.add(*spec.lens);
+  if (spec.temporal) key.add(*spec.temporal);
   return key.take();
 }
 

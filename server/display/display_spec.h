@@ -10,6 +10,7 @@
 #include "display/display_kinds.h"
 #include "display/lens.h"
 #include "display/ray_samples.h"
+#include "display/temporal_spec.h"
 #include "frame/camera.h"
 
 namespace viewloom {
@@ -26,6 +27,7 @@ struct DisplaySpec {
   double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
   std::optional<LensSpec> lens;  // none = everything is sharp
   Quality quality = Quality::kBalanced;
+  std::optional<TemporalSpec> temporal;  // none = an atlas a frame
 };
 
 // Ranges of proto Display.

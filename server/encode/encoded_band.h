@@ -15,6 +15,7 @@
 #include "display/depth_budget.h"
 #include "display/views_outside.h"
 #include "frame/stage_times.h"
+#include "frame/timing.h"
 
 namespace viewloom {
 
@@ -65,6 +66,8 @@ struct EncodedAtlas {
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;
   int64_t present_at_ns = 0;
+  int64_t shown_time_ns = 0;  // the publisher's clock; capture_time_ns without a TemporalSpec
+  Timing timing = Timing::kCaptured;
   int64_t eye_poses_time_ns = 0;  // of a tracked display, the client's clock; 0 = none came yet
   int64_t predicted_display_time_ns = 0;
   Camera source_camera;

@@ -25,7 +25,8 @@ StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
 
 void count(const Metrics& metrics, const AtlasRun& run, const StageTimes& times,
            const Coverage& coverage) {
-  if (!run.eyes) {  // a frame stands as long as it likes while eyes move: that is nobody's delay
+  // A frame stands as long as it likes while eyes move or time goes on: that is nobody's delay.
+  if (!run.eyes && !run.job.tick) {
     metrics.observeStage(Stage::kWait, times.wait_ns);
     metrics.observeStage(Stage::kTotal, times.total_ns);
   }
@@ -88,7 +89,9 @@ void AtlasPublisher::dropAll() {
 }
 
 void AtlasPublisher::publish(AtlasRun& run) {
-  const StageTimes times = stageTimes(run, links_.clock.nowNs());
+  const int64_t now_ns = links_.clock.nowNs();
+  const StageTimes times = stageTimes(run, now_ns);
+  if (run.job.tick) links_.metrics.observeOutputDelay(now_ns - run.job.tick->due_ns);
   const Coverage coverage = run.coverage();
   count(links_.metrics, run, times, coverage);
   const std::optional<DepthBudget> budget =
@@ -100,12 +103,15 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->sequence = links_.broadcaster.atlasCount(display_id) + 1;
     atlas->frame_number = run.job.structure->frame_number;
     atlas->capture_time_ns = run.job.structure->capture_time_ns;
+    const std::optional<OutputTick>& tick = run.job.tick;
+    atlas->shown_time_ns = tick ? tick->shown.time_ns : atlas->capture_time_ns;
+    if (tick) atlas->timing = tick->shown.timing;
     if (run.eyes) {
       atlas->eye_poses_time_ns = run.eyes->time_ns;
       atlas->predicted_display_time_ns = run.eyes->predicted_display_time_ns;
     }
     atlas->source_camera = run.job.structure->sources.front().camera;
-    atlas->display_pose = displayPose(output.display->spec, atlas->source_camera);
+    atlas->display_pose = run.display_pose;
     atlas->layout = run.picture->layout;
     atlas->encoding = output.display->encoding;
     atlas->times = times;

@@ -23,8 +23,9 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
 
 }  // namespace
 
-AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays)
-    : job(std::move(atlas_job)), picture(std::move(resolved)) {
+AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
+                   std::vector<ActiveDisplayPtr> displays)
+    : job(std::move(atlas_job)), picture(std::move(resolved)), display_pose(pose) {
   // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
   const bool is_one_image = picture->layout->image_count == 1;
   planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;

@@ -32,12 +32,13 @@ struct AtlasOutput {
 // Thread-safety: next_strip is the trace loop's; strips are noted from any thread.
 class AtlasRun {
  public:
-  // `displays` share the job's picture and want its atlas.
-  AtlasRun(AtlasJob atlas_job, PicturePtr resolved, std::vector<ActiveDisplayPtr> displays);
+  // `displays` share the job's picture and want its atlas, seen from `pose`.
+  AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
+           std::vector<ActiveDisplayPtr> displays);
 
   // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
-  // are then, and no other display waits for more than one of them.
-  bool isTracked() const { return outputs.front().display->eyes != nullptr; }
+  // are then, and no other display waits for more than one of them. So do displays with a rate.
+  bool isWaitedFor() const { return outputs.front().display->eyes != nullptr || job.tick; }
 
   uint32_t stripCount() const;
   uint32_t imageOf(uint32_t strip) const { return strip / stripsPerImage(); }
@@ -53,7 +54,8 @@ class AtlasRun {
 
   AtlasJob job;
   const PicturePtr picture;
-  EyePosesPtr eyes;  // that it is seen by, of a tracked display
+  const Pose display_pose;  // in the world
+  EyePosesPtr eyes;         // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
   // That some output wants; colour as all of them take it most directly, or kRgba. Settled once it
   // is known how it is traced.

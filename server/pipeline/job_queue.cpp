@@ -27,6 +27,12 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   return std::exchange(*older, std::move(job));
 }
 
+bool JobQueue::isBusy(const std::string& picture_key) const {
+  return begun_.contains(picture_key) ||
+         std::any_of(waiting_.begin(), waiting_.end(),
+                     [&](const AtlasJob& waiting) { return waiting.picture_key == picture_key; });
+}
+
 std::vector<AtlasJob>::const_iterator JobQueue::soonest() const {
   auto best = waiting_.end();
   for (auto job = waiting_.begin(); job != waiting_.end(); ++job) {

@@ -11,8 +11,15 @@
 
 #include "pipeline/frame_ticket.h"
 #include "pipeline/resident_structure.h"
+#include "temporal/camera_motion.h"
 
 namespace viewloom {
+
+// What a display with a rate of its own wants at one of its ticks.
+struct OutputTick {
+  int64_t due_ns = 0;  // server's monotonic clock
+  ShownInstant shown;
+};
 
 // An atlas to be made: one picture, from one structure. Displays with equal picture_key share it.
 struct AtlasJob {
@@ -21,6 +28,8 @@ struct AtlasJob {
   int64_t deadline_ns = 0;   // server's monotonic clock
   FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
   bool is_for_eyes = false;  // that have moved since the display was given this structure
+  std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
+  ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
 };
 
 // Jobs that have not begun, at most one per picture. Thread-safety: none; the trace loop's.
@@ -30,6 +39,9 @@ class JobQueue {
   // deadline, so that a picture with ever newer structures is not put off for ever; the other one
   // is returned. With the same structure the two become one.
   std::optional<AtlasJob> push(AtlasJob job);
+
+  // A job of the picture waits, or has begun.
+  bool isBusy(const std::string& picture_key) const;
 
   // The soonest deadline of a job that may begin; none while its picture is being traced.
   std::optional<int64_t> soonestDeadlineNs() const;

@@ -23,14 +23,11 @@ std::shared_ptr<TraceJob>* findFree(std::vector<std::shared_ptr<TraceJob>>& jobs
 }  // namespace
 
 absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
-                                             const ResidentStructure& source,
+                                             const ResidentStructure& source, const Aim& aim,
                                              const EyePosesPtr& eyes) {
-  VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(display.spec, source.sources));
+  VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(display.spec, aim.sources));
   Entry& entry = entries_[display.picture_key];
-  // Who stands in the place of the only source sees the same wherever that is.
-  const bool stands_in_only =
-      !display.spec.world_pose && source.sources.size() == 1 && entry.sources.size() == 1;
-  const bool is_aimed = stands_in_only || entry.sources == source.sources;
+  const bool is_aimed = (aim.standsInOnly() && entry.aim.standsInOnly()) || aim == entry.aim;
   bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
   if (is_new) {
     VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
@@ -40,19 +37,18 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
     is_new = true;
   }
   if (!is_new && is_aimed) return entry.jobs.front();
-  const Pose display_pose = displayPose(display.spec, source.sources.front().camera);
   if (std::shared_ptr<TraceJob>* free = findFree(entry.jobs)) {
     (*free)->layout = entry.layout;
-    aimTraceJob(**free, display_pose, source.sources);
+    aimTraceJob(**free, aim.display_pose, aim.sources);
     std::swap(entry.jobs.front(), *free);
   } else {
     entry.jobs.insert(entry.jobs.begin(),
                       std::make_shared<TraceJob>(
-                          makeTraceJob(entry.layout, display.spec, display_pose, source.sources)));
+                          makeTraceJob(entry.layout, display.spec, aim.display_pose, aim.sources)));
   }
   entry.defaults = source.defaults;
   entry.eyes = eyes;
-  entry.sources = source.sources;
+  entry.aim = aim;
   return entry.jobs.front();
 }
 

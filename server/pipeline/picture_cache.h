@@ -20,6 +20,18 @@ namespace viewloom {
 
 using PicturePtr = std::shared_ptr<const TraceJob>;
 
+// What a display sees, and from where.
+struct Aim {
+  std::vector<SeenSource> sources;
+  Pose display_pose;  // in the world
+
+  // In the place of the only source: the same is seen wherever that is.
+  bool standsInOnly() const {
+    return sources.size() == 1 && sources.front().camera.pose == display_pose;
+  }
+  bool operator==(const Aim&) const = default;
+};
+
 // Thread-safety: none; the GPU loop's. Pictures may be let go on any thread.
 class PictureCache {
  public:
@@ -28,7 +40,7 @@ class PictureCache {
   // `eyes`: of a tracked display, as they come; nullptr = none came yet. Fails when the display
   // does not fit the stream, the eyes or the limits; errors name the field.
   absl::StatusOr<PicturePtr> get(const ActiveDisplay& display, const ResidentStructure& source,
-                                 const EyePosesPtr& eyes = nullptr);
+                                 const Aim& aim, const EyePosesPtr& eyes = nullptr);
   // Forgets the pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);
 
@@ -40,7 +52,7 @@ class PictureCache {
     std::optional<double> focal_distance_m;       // where it has moved to
     std::shared_ptr<const AtlasLayout> layout;    // of all that
     std::vector<std::shared_ptr<TraceJob>> jobs;  // the last aimed is in front
-    std::vector<SeenSource> sources;              // that it is aimed at
+    Aim aim;                                      // of the last
   };
 
   absl::Status layOut(const DisplaySpec& spec, const StreamDefaults& defaults,

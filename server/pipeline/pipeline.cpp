@@ -11,6 +11,7 @@
 #include "pipeline/gpu_loop.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
+#include "pipeline/tick_loop.h"
 #include "pipeline/trace_loop.h"
 
 namespace viewloom {
@@ -75,13 +76,20 @@ struct Pipeline::Loops {
                [this] { gpu_wake_up.ring(); }),
         streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
         gpu(links, timeline, builder, traces, gpu_wake_up),
+        ticks(links,
+              [this](AtlasJob job, const DisplaySpec& spec) {
+                job.deadline_ns = deadlineNs(spec);
+                const bool is_taken = traces.offerUnlessBusy(job);
+                if (is_taken) gpu_wake_up.ring();
+                return is_taken;
+              }),
         structures(links, streams, gpu, structure_wake_up,
                    [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
                      serve(stream, ticket);
                    }) {}
 
-  // A job for each picture of the stream. The ticket is of the resident structure's frame, if that
-  // has not been reported.
+  // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
+  // the resident structure's frame, if that has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
   // Of an atlas that is wanted from now on.
   int64_t deadlineNs(const DisplaySpec& spec) const;
@@ -101,6 +109,7 @@ struct Pipeline::Loops {
   TraceLoop traces;
   StreamTable streams;
   GpuLoop gpu;
+  TickLoop ticks;
   StructureLoop structures;
 };
 
@@ -111,18 +120,20 @@ void Pipeline::Loops::fail(const std::exception& error) {
 }
 
 void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& ticket) {
-  const ResidentPtr resident = stream.resident();
+  const StreamInstant newest = stream.newest();
+  const ResidentPtr& resident = newest.structure;
   if (!resident) return;
   const std::vector<ActiveDisplayPtr> displays = links.broadcaster.displays(stream.name);
   if (ticket) ticket->noteBuilt(resident->stats, !displays.empty());
   std::set<std::string_view> offered;
   for (const ActiveDisplayPtr& display : displays) {
-    if (!offered.insert(display->picture_key).second) continue;
+    if (display->spec.temporal || !offered.insert(display->picture_key).second) continue;
     traces.offer({.picture_key = display->picture_key,
                   .structure = resident,
                   .deadline_ns = deadlineNs(display->spec),
                   .ticket = ticket});
   }
+  ticks.offer(stream.name, newest, ticket);
   gpu_wake_up.ring();
 }
 
@@ -161,6 +172,7 @@ void Pipeline::serveDisplays(const std::string& stream_name) {
 }
 
 void Pipeline::serveEyes(const ActiveDisplay& display) {
+  if (display.spec.temporal) return;  // seen by the newest eyes at its next tick
   const PipelineStreamPtr stream = loops_->streams.find(display.stream);
   if (!stream) return;
   const ResidentPtr resident = stream->resident();
@@ -175,6 +187,7 @@ void Pipeline::serveEyes(const ActiveDisplay& display) {
 void Pipeline::drain() {
   if (loops_->is_draining.exchange(true)) return;
   loops_->structures.stop();
+  loops_->ticks.stop();
   loops_->gpu.stop();
   loops_->encoders.stop();
   loops_->traces.dropAll();

@@ -36,7 +36,8 @@ class Pipeline final : public FrameSink {
   void serveDisplays(const std::string& stream);
 
   // The eyes before a tracked display have moved: it is served from what is resident, once its last
-  // atlas is done. However often, no more than one job waits.
+  // atlas is done. However often, no more than one job waits. One that ticks is served when it
+  // does.
   void serveEyes(const ActiveDisplay& display);
 
   // Takes no more frames, finishes and publishes the atlases that have begun, reports every frame.

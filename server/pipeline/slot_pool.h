@@ -21,6 +21,9 @@ class SlotPool {
   SlotPool(size_t slot_count_max, std::function<void()> on_return)
       : shelf_(std::make_shared<Shelf>(slot_count_max, std::move(on_return))) {}
 
+  // From now on so many. Those too many go as they come back.
+  void setCountMax(size_t slot_count_max) { shelf_->setCountMax(slot_count_max); }
+
   // A slot for which `fits(slot)`: a free one, else one that `make()` allocates, in the place of a
   // free misfit once slot_count_max slots exist. nullptr = all are lent. What make() throws passes.
   template <typename Fits, typename Make>
@@ -42,7 +45,7 @@ class SlotPool {
  private:
   struct Shelf {
     Shelf(size_t count_max, std::function<void()> callback)
-        : slot_count_max(count_max), on_return(std::move(callback)) {
+        : on_return(std::move(callback)), slot_count_max(count_max) {
       free_slots.reserve(count_max);
     }
 
@@ -76,17 +79,33 @@ class SlotPool {
       --slot_count;
     }
 
+    void setCountMax(size_t count_max) {
+      std::vector<std::unique_ptr<Slot>> dropped;  // freed after the lock
+      std::lock_guard lock(mutex);
+      slot_count_max = count_max;
+      while (slot_count > slot_count_max && !free_slots.empty()) {
+        dropped.push_back(std::move(free_slots.back()));
+        free_slots.pop_back();
+        --slot_count;
+      }
+    }
+
     void putBack(std::unique_ptr<Slot> slot) {
       {
         std::lock_guard lock(mutex);
-        free_slots.push_back(std::move(slot));
+        if (slot_count > slot_count_max) {
+          --slot_count;
+        } else {
+          free_slots.push_back(std::move(slot));
+        }
       }
+      slot.reset();
       on_return();
     }
 
-    const size_t slot_count_max;
     const std::function<void()> on_return;
-    std::mutex mutex;
+    std::mutex mutex;  // guards what follows
+    size_t slot_count_max;
     size_t slot_count = 0;  // free and lent
     std::vector<std::unique_ptr<Slot>> free_slots;
   };

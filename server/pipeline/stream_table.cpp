@@ -5,14 +5,20 @@
 
 namespace viewloom {
 
-ResidentPtr PipelineStream::resident() const {
+StreamInstant PipelineStream::newest() const {
   std::lock_guard lock(mutex_);
-  return resident_;
+  return newest_;
 }
 
-void PipelineStream::setResident(ResidentPtr structure) {
+// What it replaces goes with the argument, after the lock.
+void PipelineStream::setNewest(StreamInstant newest) {
   std::lock_guard lock(mutex_);
-  resident_.swap(structure);
+  std::swap(newest_, newest);
+}
+
+void PipelineStream::setMotion(const CameraMotion& motion) {
+  std::lock_guard lock(mutex_);
+  newest_.motion = motion;
 }
 
 StreamTable::StreamTable(uint32_t slots_per_stream, std::function<void()> on_slot_return)

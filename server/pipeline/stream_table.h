@@ -15,6 +15,7 @@
 #include "pipeline/frame_ticket.h"
 #include "pipeline/resident_structure.h"
 #include "pipeline/slot_pool.h"
+#include "temporal/camera_track.h"
 
 namespace viewloom {
 
@@ -23,29 +24,45 @@ struct OfferedFrame {
   FrameTicketPtr ticket;
 };
 
-// Thread-safety: inbox, slots, resident() and setResident() from any thread; the other fields are
-// the structure loop's.
+// What there is of a stream: its newest structure, and how its camera moves.
+struct StreamInstant {
+  ResidentPtr structure;
+  CameraMotion motion;
+  // The one before it, from elsewhere, where some display shows what lies between them.
+  ResidentPtr before = nullptr;
+};
+
+// Thread-safety: inbox, slots, newest(), setNewest() and setMotion() from any thread; the other
+// fields are the structure loop's.
 class PipelineStream {
  public:
-  PipelineStream(std::string stream_name, uint32_t slot_count, std::function<void()> on_slot_return)
-      : name(std::move(stream_name)), slots(slot_count, std::move(on_slot_return)) {}
+  PipelineStream(std::string stream_name, uint32_t least_slot_count,
+                 std::function<void()> on_slot_return)
+      : name(std::move(stream_name)),
+        slot_count(least_slot_count),
+        slots(least_slot_count, std::move(on_slot_return)) {}
 
-  ResidentPtr resident() const;
-  void setResident(ResidentPtr structure);
+  // Its structure is nullptr before the first frame was built.
+  StreamInstant newest() const;
+  ResidentPtr resident() const { return newest().structure; }
+  void setNewest(StreamInstant newest);
+  void setMotion(const CameraMotion& motion);
 
   const std::string name;
+  const uint32_t slot_count;  // without the structure before the newest
   LatestMailbox<OfferedFrame> inbox;
   SlotPool<StructureBuild> slots;
   FramePtr resident_frame;                 // of which the resident structure was made
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
   std::optional<SourceStats> first_stats;  // of the first frame, then held
+  CameraTrack track;                       // of the frames that were resident, or equal to it
   FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other
   // A display of the stream needed the walk since the last frame came: the next is built for it.
   std::shared_ptr<std::atomic<bool>> is_walked = std::make_shared<std::atomic<bool>>(false);
 
  private:
   mutable std::mutex mutex_;
-  ResidentPtr resident_;
+  StreamInstant newest_;
 };
 
 using PipelineStreamPtr = std::shared_ptr<PipelineStream>;

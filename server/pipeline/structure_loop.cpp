@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/structure_loop.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/log.h"
@@ -8,6 +9,14 @@
 
 namespace viewloom {
 namespace {
+
+TrackedFrame trackedFrame(const Frame& frame, const SourceStats& stats, int64_t now_ns) {
+  return {.pose = frame.format.sources.front().camera.pose,
+          .captured_ns = frame.format.capture_time_ns,
+          .arrived_ns = frame.times.first_chunk_ns,
+          .built_ns = now_ns,
+          .inv_z_near = stats.inv_z_near};
+}
 
 // What the frame itself says.
 ResidentStructure describe(const Frame& frame) {
@@ -77,18 +86,32 @@ bool StructureLoop::serve(PipelineStream& stream) {
 }
 
 // The frame is compared with the resident one, not with the last: that may have been replaced or
-// refused. That a display needs the walk stays noted for the next build.
+// refused. That a display needs the walk stays noted for the next build. A camera that stood since
+// the last frame moves no more: only then is there something to tell.
 bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   const ResidentPtr resident = stream.resident();
   if (!resident || !haveSameContent(*stream.resident_frame, *stream.next->frame)) return false;
   links_.metrics.frames_unchanged.add();
   stream.next->ticket->noteUnchanged(resident->stats);
+  const bool was_moving = stream.newest().motion.isMoving();
+  stream.setMotion(
+      stream.track.add(trackedFrame(*stream.next->frame, resident->stats, links_.clock.nowNs())));
   stream.next.reset();
+  if (was_moving) on_resident_(stream, nullptr);
   return true;
+}
+
+// Some display of the stream shows what lies between its frames.
+bool StructureLoop::isInterpolated(const PipelineStream& stream) const {
+  const std::vector<ActiveDisplayPtr> displays = links_.broadcaster.displays(stream.name);
+  return std::any_of(displays.begin(), displays.end(), [](const ActiveDisplayPtr& display) {
+    return display->spec.temporal && display->spec.temporal->mode == TemporalMode::kInterpolate;
+  });
 }
 
 std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
                                                         const Frame& frame) const {
+  stream.slots.setCountMax(stream.slot_count + (isInterpolated(stream) ? 1 : 0));
   const std::vector<FrameShape> shapes = shapesOf(frame);
   std::shared_ptr<StructureBuild> slot =
       stream.slots.take([&](const StructureBuild& free) { return free.shapes == shapes; },
@@ -137,7 +160,11 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->build = std::move(slot);
 
   count(*structure);
-  stream.setResident(std::move(structure));
+  const CameraMotion& motion =
+      stream.track.add(trackedFrame(*offered.frame, structure->stats, structure->built_at_ns));
+  // A camera that stands has seen nothing else a frame ago.
+  const bool keeps_before = motion.isMoving() && isInterpolated(stream);
+  stream.setNewest({std::move(structure), motion, keeps_before ? stream.resident() : nullptr});
   stream.resident_frame = std::move(offered.frame);
   on_resident_(stream, std::move(offered.ticket));
 }

@@ -33,6 +33,7 @@ class StructureLoop {
   void run(const std::stop_token& stop);
   bool serve(PipelineStream& stream);
   bool dropUnchanged(PipelineStream& stream) const;
+  bool isInterpolated(const PipelineStream& stream) const;
   std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
   void count(const ResidentStructure& structure) const;

@@ -6,8 +6,44 @@
 
 #include "base/log.h"
 #include "base/str_cat.h"
+#include "display/rgbd.h"
 
 namespace viewloom {
+
+namespace {
+
+// Of what a display was shown of the same structure.
+bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
+  return job.tick && shown && !job.tick->shown.looksLike(*shown);
+}
+
+// A display without a place of its own stands where the camera is at the time shown.
+Aim aimOf(const ActiveDisplay& display, const AtlasJob& job) {
+  Camera camera = job.structure->sources.front().camera;
+  if (job.tick) camera.pose = job.tick->shown.source_pose;
+  Aim aim{.sources = job.structure->sources, .display_pose = displayPose(display.spec, camera)};
+  if (!job.before) return aim;
+  const std::vector<SeenSource>& before = job.before->sources;
+  aim.sources.insert(aim.sources.end(), before.begin(), before.end());
+  return aim;
+}
+
+// The structure before the newest is asked, too, where one more of its kind can be.
+bool canAskBoth(const ActiveDisplay& display, const AtlasJob& job) {
+  return !hasLayerBehind(display.spec) &&
+         job.structure->sources.size() + job.before->sources.size() <= kMergedSourcesMax;
+}
+
+std::vector<const StructureSlot*> partsOf(const AtlasJob& job) {
+  const auto& parts = job.structure->build->walked->structure.parts();
+  std::vector<const StructureSlot*> all(parts.begin(), parts.end());
+  if (!job.before) return all;
+  const auto& before = job.before->build->walked->structure.parts();
+  all.insert(all.end(), before.begin(), before.end());
+  return all;
+}
+
+}  // namespace
 
 TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
                      const StructureBuilder& builder, EncodePool& encoders,
@@ -36,6 +72,13 @@ void TraceLoop::offer(AtlasJob job) {
   std::lock_guard lock(mutex_);
   replaced = jobs_.push(std::move(job));
   if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
+}
+
+bool TraceLoop::offerUnlessBusy(const AtlasJob& job) {
+  std::lock_guard lock(mutex_);
+  if (jobs_.isBusy(job.picture_key)) return false;
+  jobs_.push(job);
+  return true;
 }
 
 void TraceLoop::dropAll() {
@@ -85,7 +128,8 @@ void TraceLoop::beginDueJobs() {
 }
 
 // The displays of the picture that have not got this structure, or a newer one; or have got it, but
-// not as the newest eyes see it. A structure that they have not got comes with a job of its own.
+// not as the newest eyes see it, or not from where its camera is by now. A structure that they have
+// not got comes with a job of its own.
 TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
   const uint64_t serial = job.structure->serial;
   const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
@@ -101,9 +145,11 @@ TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
     if (display->eyes) unserved.eyes = display->eyes->newest();
     Served& served = served_[display->id];
     const bool is_newer = serial > served.serial && !job.is_for_eyes;
-    const bool has_moved = serial == served.serial && unserved.eyes != served.eyes;
+    const bool has_moved =
+        serial == served.serial && (unserved.eyes != served.eyes || hasMoved(job, served.shown));
     if (!is_newer && !has_moved) continue;
-    served = {serial, unserved.eyes};
+    served = {serial, unserved.eyes, {}};
+    if (job.tick) served.shown = job.tick->shown;
     unserved.displays.push_back(display);
   }
   return unserved;
@@ -112,12 +158,14 @@ TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
 bool TraceLoop::begin(AtlasJob& job) {
   auto [displays, eyes] = takeUnserved(job);
   if (displays.empty()) return false;
-  const auto picture = pictures_.get(*displays.front(), *job.structure, eyes);
+  if (job.before && !canAskBoth(*displays.front(), job)) job.before.reset();
+  const Aim aim = aimOf(*displays.front(), job);
+  const auto picture = pictures_.get(*displays.front(), *job.structure, aim, eyes);
   if (!picture.ok()) {
     refuse(displays, picture.status());
     return false;
   }
-  const auto method = prepareMethod(**picture, *job.structure);
+  const auto method = prepareMethod(**picture, job);
   if (!method.ok()) {
     refuse(displays, method.status());
     return false;
@@ -125,7 +173,8 @@ bool TraceLoop::begin(AtlasJob& job) {
   for (const ActiveDisplayPtr& display : displays) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
   }
-  auto run = std::make_shared<AtlasRun>(std::move(job), *picture, std::move(displays));
+  auto run =
+      std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, std::move(displays));
   run->eyes = std::move(eyes);
   run->method = *method;
   if (*method == TraceMethod::kWalk) {
@@ -143,20 +192,21 @@ void TraceLoop::refuse(const std::vector<ActiveDisplayPtr>& displays, const absl
   }
 }
 
-// Sweeps what can be swept; else sees to it that the structure can be walked.
-absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture,
-                                                     const ResidentStructure& structure) {
-  StructureBuild& build = *structure.build;
-  if (build.is_swept && SweepPlan::make(picture, structure.stats.inv_z_max)) {
+// Sweeps what can be swept; else sees to it that the structures can be walked.
+absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture, const AtlasJob& job) {
+  const ResidentStructure& newest = *job.structure;
+  if (!job.before && newest.build->is_swept && SweepPlan::make(picture, newest.stats.inv_z_max)) {
     return TraceMethod::kSweep;
   }
   try {
-    if (!build.is_walked) buildForWalk(build);
+    for (const ResidentPtr& structure : {job.structure, job.before}) {
+      if (structure && !structure->build->is_walked) buildForWalk(*structure->build);
+    }
   } catch (const vk::OutOfDeviceMemoryError& error) {
     return absl::ResourceExhaustedError(
         strCat("the device has no room to walk frames of this stream: ", error.what()));
   }
-  structure.stream_is_walked->store(true);
+  newest.stream_is_walked->store(true);
   return TraceMethod::kWalk;
 }
 
@@ -192,9 +242,8 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
 
 void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
   const uint32_t strip = run->next_strip++;
-  tracer_.recordBand(trace->recorder.begin(), run->job.structure->build->walked->structure.parts(),
-                     *run->picture, {run->firstRow(strip), run->rowCount(strip)}, trace->slot,
-                     nullptr);
+  tracer_.recordBand(trace->recorder.begin(), partsOf(run->job), *run->picture,
+                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
   const uint64_t value = trace->recorder.submit(timeline_);
   encoders_.push(TracedStrip{run, strip, std::move(trace), value});
   if (run->next_strip == run->stripCount()) finish(run);
@@ -202,7 +251,7 @@ void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace
 
 // Everything of it has been handed on.
 void TraceLoop::finish(const AtlasRunPtr& run) {
-  if (!run->isTracked()) {
+  if (!run->isWaitedFor()) {
     std::lock_guard lock(mutex_);
     jobs_.finish(run->job.picture_key);
   }
@@ -210,7 +259,7 @@ void TraceLoop::finish(const AtlasRunPtr& run) {
 }
 
 void TraceLoop::noteComplete(const AtlasRun& run) {
-  if (!run.isTracked()) return;
+  if (!run.isWaitedFor()) return;
   std::lock_guard lock(mutex_);
   jobs_.finish(run.job.picture_key);
 }

@@ -33,6 +33,8 @@ class TraceLoop {
 
   // Replaces a job of the same picture and an older structure that has not begun.
   void offer(AtlasJob job);
+  // Of a tick: false while an atlas of its picture is on its way.
+  bool offerUnlessBusy(const AtlasJob& job);
   // The run's atlas is published: the next of its picture may begin. From any thread.
   void noteComplete(const AtlasRun& run);
   // Forgets the jobs that have not begun and, after a failure, those that will not be finished.
@@ -48,6 +50,7 @@ class TraceLoop {
   struct Served {
     uint64_t serial = 0;  // of its structure
     EyePosesPtr eyes;
+    std::optional<ShownInstant> shown;  // at a tick
   };
   // The displays that a job is for, and by which eyes they are seen.
   struct Unserved {
@@ -68,8 +71,7 @@ class TraceLoop {
   AtlasRunPtr soonestRun() const;
   bool submitSweep(const AtlasRunPtr& run);
   void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
-  absl::StatusOr<TraceMethod> prepareMethod(const TraceJob& picture,
-                                            const ResidentStructure& structure);
+  absl::StatusOr<TraceMethod> prepareMethod(const TraceJob& picture, const AtlasJob& job);
   void buildForWalk(StructureBuild& build);
   void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status);
   void finish(const AtlasRunPtr& run);

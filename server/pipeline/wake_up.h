@@ -2,6 +2,7 @@
 // What a loop sleeps on: something changed, look at everything again.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -20,6 +21,13 @@ class WakeUp {
   void wait() {
     std::unique_lock lock(mutex_);
     rings_.wait(lock, [this] { return rung_; });
+    rung_ = false;
+  }
+
+  // Returns without a ring, too, once so much time has passed.
+  void waitFor(std::chrono::nanoseconds time) {
+    std::unique_lock lock(mutex_);
+    rings_.wait_for(lock, time, [this] { return rung_; });
     rung_ = false;
   }
 

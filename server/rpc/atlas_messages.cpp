@@ -46,6 +46,21 @@ v1::TraceMethod methodToProto(TraceMethod method) {
   return method == TraceMethod::kSweep ? v1::TRACE_METHOD_SWEEP : v1::TRACE_METHOD_WALK;
 }
 
+v1::Timing timingToProto(Timing timing) {
+  switch (timing) {
+    case Timing::kCaptured:
+      return v1::TIMING_CAPTURED;
+    case Timing::kPredicted:
+      return v1::TIMING_PREDICTED;
+    case Timing::kInterpolated:
+      return v1::TIMING_INTERPOLATED;
+    case Timing::kHeld:
+      return v1::TIMING_HELD;
+  }
+  VIEWLOOM_CHECK(false && "unknown Timing");
+  return v1::TIMING_UNSPECIFIED;
+}
+
 void writeBytesTag(CodedOutputStream& output, int field_number, size_t byte_count) {
   output.WriteTag(WireFormatLite::MakeTag(field_number, WireFormatLite::WIRETYPE_LENGTH_DELIMITED));
   output.WriteVarint32(static_cast<uint32_t>(byte_count));
@@ -111,6 +126,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
   header.set_eye_poses_time_ns(atlas_->eye_poses_time_ns);
   header.set_predicted_display_time_ns(atlas_->predicted_display_time_ns);
+  header.set_shown_time_ns(atlas_->shown_time_ns);
+  header.set_timing(timingToProto(atlas_->timing));
   for (const ViewsOutside& views : viewsOutside(atlas_->outside_shares)) {
     *header.add_views_outside() = outsideToProto(views);
   }

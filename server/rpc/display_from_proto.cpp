@@ -8,6 +8,7 @@
 #include "rpc/enum_from_proto.h"
 #include "rpc/geometry_from_proto.h"
 #include "rpc/lens_from_proto.h"
+#include "rpc/temporal_from_proto.h"
 
 namespace viewloom {
 namespace {
@@ -203,7 +204,6 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
 }
 
 absl::Status refuseEffects(const v1::Effects& effects) {
-  if (effects.has_temporal()) return notServedYet("effects.temporal");
   if (effects.has_reflection()) return notServedYet("effects.reflection");
   return absl::OkStatus();
 }
@@ -222,6 +222,11 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   const auto quality = qualityFromProto(proto.quality());
   VIEWLOOM_RETURN_IF_ERROR(quality.status());
   spec.quality = *quality;
+  if (proto.effects().has_temporal()) {
+    const auto temporal = temporalFromProto(proto.effects().temporal());
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(temporal.status(), "effects.temporal"));
+    spec.temporal = *temporal;
+  }
   spec.focus_following_s = proto.focus_following_s();
   if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();
   if (proto.filter().width() != 0) spec.filter.width = proto.filter().width();

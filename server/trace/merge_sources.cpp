@@ -23,7 +23,7 @@ constexpr DescriptorSlot kJoinSlots[] = {{abi::kBindingAnswers, DescriptorKind::
 
 // 8 bits a source.
 abi::uvec2 packFirstWalks(const TraceJob& job) {
-  VIEWLOOM_CHECK(job.sources.size() <= 8 && job.walk_count <= 64);
+  VIEWLOOM_CHECK(job.sources.size() <= kMergedSourcesMax && job.walk_count <= 64);
   uint32_t words[2] = {};
   for (size_t i = 0; i < job.sources.size(); ++i) {
     words[i / 4] |= job.sources[i].first_walk << (8 * (i % 4));

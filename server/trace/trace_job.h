@@ -44,6 +44,9 @@ struct SeenSource {
 
 SeenSource seenSource(const SourceFormat& source);
 
+// As many can be asked by one job.
+inline constexpr size_t kMergedSourcesMax = 8;
+
 // The walks whose answers are those of one source.
 struct JobSource {
   uint32_t first_walk = 0;

@@ -34,7 +34,7 @@ ResidentStructure seenFrom(double x_m) {
 class PictureCacheTest : public ::testing::Test {
  protected:
   PicturePtr get(const ResidentStructure& source) {
-    absl::StatusOr<PicturePtr> picture = cache_.get(display_, source);
+    absl::StatusOr<PicturePtr> picture = cache_.get(display_, source, {source.sources, {}});
     EXPECT_TRUE(picture.ok()) << picture.status();
     return picture.value_or(nullptr);
   }
@@ -68,6 +68,18 @@ TEST_F(PictureCacheTest, aPictureInUseStaysAsItIs) {
 TEST_F(PictureCacheTest, aPictureThatWasLetGoIsUsedAgain) {
   const TraceJob* first = get(seenFrom(0)).get();
   EXPECT_EQ(get(seenFrom(0.25)).get(), first);
+}
+
+TEST_F(PictureCacheTest, aDisplayThatLeavesTheSourcesPlaceIsAimedAnew) {
+  const auto seenAt = [&](double display_m) {
+    const ResidentStructure source = seenFrom(0.5);
+    return *cache_.get(display_, source, {source.sources, {.position_m = {display_m, 0, 0}}});
+  };
+  const float in_place = seenAt(0.5)->tiles.front().eye.x;
+  const PicturePtr carried = seenAt(0.75);
+  EXPECT_NEAR(carried->tiles.front().eye.x - in_place, 50 * 0.25, 1e-4);
+  EXPECT_EQ(seenAt(0.75), carried);
+  EXPECT_FLOAT_EQ(seenAt(0.5)->tiles.front().eye.x, in_place);
 }
 
 TEST_F(PictureCacheTest, anotherLensMakesAnotherLayout) {
@@ -105,16 +117,18 @@ TEST_F(PictureCacheTest, seesByTheEyesThatItIsGiven) {
     poses->eyes[1].pose.position_m = {x_m + 0.06, 0, 0};
     return poses;
   };
-  const PicturePtr without = *cache_.get(tracked, seenFrom(0));
+  const PicturePtr without = *cache_.get(tracked, seenFrom(0), {seenFrom(0).sources, {}});
   const EyePosesPtr right = eyesAt(0.5);
-  const PicturePtr moved = *cache_.get(tracked, seenFrom(0), right);
+  const PicturePtr moved = *cache_.get(tracked, seenFrom(0), {seenFrom(0).sources, {}}, right);
   EXPECT_FLOAT_EQ(without->tiles[0].eye.x, float(50 * -0.0315));
   EXPECT_FLOAT_EQ(moved->tiles[0].eye.x, float(50 * 0.5));
   EXPECT_EQ(moved->layout->views[1].camera.pose.position_m.x, 0.56);
-  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), right), moved);
-  EXPECT_EQ(fieldOf(cache_.get(tracked, seenFrom(0), eyesAt(-1e200)).status()),
-            "eye_poses.eyes[0].pose.position");
-  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), right), moved) << "after eyes that were refused";
+  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), {seenFrom(0).sources, {}}, right), moved);
+  EXPECT_EQ(
+      fieldOf(cache_.get(tracked, seenFrom(0), {seenFrom(0).sources, {}}, eyesAt(-1e200)).status()),
+      "eye_poses.eyes[0].pose.position");
+  EXPECT_EQ(*cache_.get(tracked, seenFrom(0), {seenFrom(0).sources, {}}, right), moved)
+      << "after eyes that were refused";
 }
 
 TEST_F(PictureCacheTest, followsWhatFramesShowOncePerFrameAndOnlyAsFarAsItShows) {
@@ -125,7 +139,7 @@ TEST_F(PictureCacheTest, followsWhatFramesShowOncePerFrameAndOnlyAsFarAsItShows)
   const auto show = [&](double time_s, double inv_z) {
     frame.built_at_ns = int64_t(time_s * 1e9);
     frame.depths = {{.inv_z_low = inv_z - 0.001, .inv_z_high = inv_z + 0.001, .count = 9}};
-    return *cache_.get(following, frame);
+    return *cache_.get(following, frame, {frame.sources, {}});
   };
   const PicturePtr first = show(10, 1.5);
   EXPECT_EQ(first->layout->focal_distance_m, 2);
@@ -141,9 +155,9 @@ TEST_F(PictureCacheTest, followsWhatFramesShowOncePerFrameAndOnlyAsFarAsItShows)
   EXPECT_EQ(show(70, 1.5), third);
   frame.built_at_ns += 10'000'000'000;
   frame.depths.clear();
-  EXPECT_EQ(*cache_.get(following, frame), third);
+  EXPECT_EQ(*cache_.get(following, frame, {frame.sources, {}}), third);
   // The display without stays.
-  EXPECT_EQ((*cache_.get(display_, frame))->layout->focal_distance_m, 2);
+  EXPECT_EQ((*cache_.get(display_, frame, {frame.sources, {}}))->layout->focal_distance_m, 2);
 }
 
 TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {

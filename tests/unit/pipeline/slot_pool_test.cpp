@@ -60,6 +60,21 @@ TEST_F(SlotPoolTest, keepsItsRoomWhenMakingASlotFails) {
   EXPECT_TRUE(first && second);
 }
 
+TEST_F(SlotPoolTest, holdsMoreOrFewerWhenItIsToldTo) {
+  pool_.setCountMax(3);
+  auto first = take(1), second = take(1);
+  const auto third = take(1);
+  EXPECT_TRUE(third);
+  pool_.setCountMax(1);
+  first.reset();
+  second.reset();
+  EXPECT_EQ(returned_count_, 2);
+  EXPECT_EQ(take(1), nullptr) << "the third is the one that may be";
+  pool_.setCountMax(2);
+  EXPECT_TRUE(take(1));
+  EXPECT_EQ(made_count_, 4) << "those too many were not kept";
+}
+
 TEST_F(SlotPoolTest, letsBorrowedSlotsOutliveIt) {
   int returned_count = 0;
   std::shared_ptr<Slot> slot;

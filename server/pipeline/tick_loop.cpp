@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/tick_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viewloom {
+namespace {
+
+// A display in the world sees the same whatever the camera does.
+ShownInstant shownTo(const DisplaySpec& spec, const CameraMotion& motion, int64_t due_ns) {
+  if (spec.world_pose) return {motion.captured_ns, Timing::kCaptured, motion.pose};
+  const int64_t bridge_ns = std::llround(1e9 * spec.temporal->bridge_s);
+  return spec.temporal->mode == TemporalMode::kInterpolate ? interpolated(motion, due_ns, bridge_ns)
+                                                           : predicted(motion, due_ns, bridge_ns);
+}
+
+}  // namespace
+
+TickLoop::TickLoop(const PipelineLinks& links, OfferTick offer_tick)
+    : links_(links), offer_tick_(std::move(offer_tick)), thread_([this](const auto& stop) {
+        try {
+          run(stop);
+        } catch (const std::exception& error) {
+          links_.on_failure(error);
+        }
+      }) {}
+
+void TickLoop::stop() {
+  thread_.request_stop();
+  wake_up_.ring();
+  if (thread_.joinable()) thread_.join();
+  std::map<std::string, Picture> dropped;  // let go after the lock: their tickets may report
+  std::lock_guard lock(mutex_);
+  dropped.swap(pictures_);
+}
+
+void TickLoop::offer(const std::string& stream, const StreamInstant& newest,
+                     const FrameTicketPtr& ticket) {
+  Tickets released;  // let go after the lock: they may report
+  {
+    std::lock_guard lock(mutex_);
+    noteDisplays(stream, released);
+    const auto known = streams_.find(stream);
+    if (known == streams_.end()) return;
+    // Two threads may overtake each other.
+    if (known->second.structure && known->second.structure->serial > newest.structure->serial) {
+      return;
+    }
+    known->second = newest;
+    for (auto& [key, picture] : pictures_) {
+      if (!ticket || picture.display->stream != stream) continue;
+      released.push_back(std::exchange(picture.ticket, ticket));
+    }
+  }
+  wake_up_.ring();
+}
+
+void TickLoop::noteDisplays(const std::string& stream, Tickets& released) {
+  const std::vector<ActiveDisplayPtr> displays = links_.broadcaster.displays(stream);
+  std::erase_if(pictures_, [&](const auto& entry) {
+    const Picture& picture = entry.second;
+    const bool is_gone = picture.display->stream == stream &&
+                         std::none_of(displays.begin(), displays.end(), [&](const auto& display) {
+                           return display->picture_key == entry.first;
+                         });
+    if (is_gone) released.push_back(picture.ticket);
+    return is_gone;
+  });
+  bool has_ticks = false;
+  for (const ActiveDisplayPtr& display : displays) {
+    if (!display->spec.temporal) continue;
+    has_ticks = true;
+    const OutputClock clock(display->spec.temporal->output_rate_hz, links_.clock.nowNs());
+    pictures_.try_emplace(display->picture_key, Picture{display, clock, nullptr});
+  }
+  if (has_ticks) {
+    streams_.try_emplace(stream);
+  } else {
+    streams_.erase(stream);
+  }
+}
+
+void TickLoop::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    if (const std::optional<int64_t> due_ns = offerDue()) {
+      wake_up_.waitFor(links_.clock.napUntil(*due_ns));
+    } else {
+      wake_up_.wait();
+    }
+  }
+}
+
+// When the next tick is due; empty while there are no displays that tick.
+std::optional<int64_t> TickLoop::offerDue() {
+  Tickets released;
+  std::lock_guard lock(mutex_);
+  std::optional<int64_t> soonest_ns;
+  for (auto& [key, picture] : pictures_) {
+    if (const auto tick = picture.clock.take(links_.clock.nowNs())) {
+      offerTick(key, picture, *tick, released);
+    }
+    soonest_ns = std::min(soonest_ns.value_or(INT64_MAX), picture.clock.dueNs());
+  }
+  return soonest_ns;
+}
+
+void TickLoop::offerTick(const std::string& key, Picture& picture, const OutputClock::Tick& tick,
+                         Tickets& released) const {
+  const StreamInstant& newest = streams_.at(picture.display->stream);
+  const DisplaySpec& spec = picture.display->spec;
+  const OutputTick output{.due_ns = tick.due_ns,
+                          .shown = shownTo(spec, newest.motion, tick.due_ns)};
+  const bool is_between = spec.temporal->mode == TemporalMode::kInterpolate;
+  const bool is_taken = offer_tick_({.picture_key = key,
+                                     .structure = newest.structure,
+                                     .ticket = picture.ticket,
+                                     .tick = output,
+                                     .before = is_between ? newest.before : nullptr},
+                                    spec);
+  if (is_taken) released.push_back(std::move(picture.ticket));
+  const uint64_t skipped_count = tick.missed_count + (is_taken ? 0 : 1);
+  if (skipped_count > 0) links_.metrics.output_ticks_skipped.add(double(skipped_count));
+}
+
+}  // namespace viewloom

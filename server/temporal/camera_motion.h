@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the camera of a stream moves, as its two newest frames tell, and where it is between frames.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "frame/camera.h"
+#include "frame/timing.h"
+
+namespace viewloom {
+
+// What a display that stands in a source's camera shows at one time.
+struct ShownInstant {
+  int64_t time_ns = 0;  // the publisher's clock
+  Timing timing = Timing::kCaptured;
+  Pose source_pose;  // of the first source's camera, then
+
+  // Neither shows anything that the other does not.
+  bool looksLike(const ShownInstant& other) const {
+    return timing == other.timing && source_pose == other.source_pose;
+  }
+};
+
+// Of the newest frame; a camera that nothing is known of stands still.
+struct CameraMotion {
+  Pose pose;
+  int64_t captured_ns = 0;     // the publisher's clock
+  int64_t least_delay_ns = 0;  // the server's clock less the publisher's
+  int64_t interval_ns = 0;     // since the frame before; 0 = not known
+  Pose before;                 // of that frame
+  // By how much a display that shows what lies between two frames is behind: an interval, and what
+  // frames take until they can be traced.
+  int64_t lag_ns = 0;
+  glm::dvec3 velocity_mps{0.0};
+  glm::dvec3 turn_rad_per_s{0.0};  // around its own place; the axis is the world's
+
+  bool isMoving() const { return velocity_mps != glm::dvec3(0) || turn_rad_per_s != glm::dvec3(0); }
+};
+
+// The camera at `server_ns` of the server's clock, carried on from the newest frame. For as long as
+// frames are apart it keeps its speed, which then falls evenly, to nothing when the frame is
+// `bridge_ns` old: from there on it is held.
+ShownInstant predicted(const CameraMotion& motion, int64_t server_ns, int64_t bridge_ns);
+
+// The camera `lag_ns` before that: between the two newest frames. Where the next one is late, it is
+// carried on and held as above.
+ShownInstant interpolated(const CameraMotion& motion, int64_t server_ns, int64_t bridge_ns);
+
+}  // namespace viewloom

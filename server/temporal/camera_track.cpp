@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "temporal/camera_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace viewloom {
+namespace {
+
+bool isTimed(const TrackedFrame& frame) {
+  return std::max(frame.captured_ns, -(frame.captured_ns + 1)) < kTrackedTimeMax_ns;
+}
+
+// The axis in the world, as long as the angle: 0..pi.
+glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) {
+  glm::dquat turn = to * glm::conjugate(from);
+  if (turn.w < 0) turn = -turn;
+  const glm::dvec3 axis(turn.x, turn.y, turn.z);
+  const double sine = glm::length(axis);
+  if (sine == 0) return glm::dvec3(0);
+  return 2 * std::atan2(sine, turn.w) / sine * axis;
+}
+
+}  // namespace
+
+const CameraMotion& CameraTrack::add(const TrackedFrame& frame) {
+  if (last_ && isTimed(frame) && isTimed(*last_) && frame.captured_ns > last_->captured_ns) {
+    measure(frame);
+  } else {
+    begin(frame);
+  }
+  last_ = frame;
+  return motion_;
+}
+
+void CameraTrack::begin(const TrackedFrame& frame) {
+  motion_ = {.pose = frame.pose, .captured_ns = frame.captured_ns};
+  if (isTimed(frame)) motion_.least_delay_ns = frame.arrived_ns - frame.captured_ns;
+}
+
+void CameraTrack::measure(const TrackedFrame& frame) {
+  const int64_t interval_ns = frame.captured_ns - last_->captured_ns;
+  const int64_t delay_ns = frame.arrived_ns - frame.captured_ns;
+  const int64_t passed_ns = std::max(frame.arrived_ns - last_->arrived_ns, int64_t{0});
+  const int64_t least_delay_ns =
+      std::min(delay_ns, motion_.least_delay_ns + int64_t(kClockDriftMax * double(passed_ns)));
+  const int64_t asked_lag_ns =
+      interval_ns + std::max(frame.built_ns - least_delay_ns - frame.captured_ns, int64_t{0});
+  const int64_t lag_ns = motion_.lag_ns == 0
+                             ? asked_lag_ns
+                             : motion_.lag_ns + (asked_lag_ns - motion_.lag_ns) / kLagStepsPerFrame;
+  motion_ = {.pose = frame.pose,
+             .captured_ns = frame.captured_ns,
+             .least_delay_ns = least_delay_ns,
+             .interval_ns = interval_ns,
+             .before = last_->pose,
+             .lag_ns = lag_ns};
+  if (interval_ns > kTrackedIntervalMax_ns) return;
+  const glm::dvec3 way_m = frame.pose.position_m - last_->pose.position_m;
+  const glm::dvec3 turn_rad = turnBetween(last_->pose.orientation, frame.pose.orientation);
+  const double nearest = std::max(frame.inv_z_near, last_->inv_z_near);
+  if (glm::length(way_m) * nearest > 1 || glm::length(turn_rad) > kCutTurn_rad) return;
+  const double interval_s = 1e-9 * double(interval_ns);
+  motion_.velocity_mps = way_m / interval_s;
+  motion_.turn_rad_per_s = turn_rad / interval_s;
+}
+
+}  // namespace viewloom
