@@ -8,6 +8,7 @@ const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
+  lens_focus_m: '--lens-focus', effort: '--effort',
 };
 const kRgbdOptions = {
   ...kEncodingOptions, preset: '--preset', rgbd: '--rgbd-form', near_m: '--depth-near',
@@ -26,7 +27,13 @@ function quoted(text) {
 function displayFile(parameters) {
   const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
   const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
-  return JSON.stringify({focusFollowingS: number('focus_follow_s'), quilt: {
+  const aperture_m = parameters.get('aperture_m');
+  const lens = aperture_m === null ? undefined : {
+    ...(aperture_m === 'auto' ? {automaticAperture: true} : {apertureRadiusM: Number(aperture_m)}),
+    focusDistanceM: number('lens_focus_m'),
+  };
+  const effects = lens && {lens};
+  return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
     viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),
@@ -52,6 +59,9 @@ function watchCommand(parameters, isRgbd) {
         `${parameters.get('width')}x${parameters.get('height')}`);
   }
   if (parameters.get('black_near') === '1') words.push('--black-near');
+  const aperture_m = parameters.get('aperture_m');
+  if (!isFile && aperture_m === 'auto') words.push('--auto-aperture');
+  else if (!isFile && aperture_m !== null) words.push('--aperture', aperture_m);
   if (parameters.get('chroma') === '444') words.push('--444');
   const watch = [...words, '--out', 'atlases'].map(quoted).join(' ');
   if (!isFile) return watch;

@@ -29,6 +29,9 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"focus_m", "quilt.focal_distance_m"},
     ParameterField{"focus_follow_s", "focus_following_s"},
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
+    ParameterField{"aperture_m", "effects.lens.aperture_radius_m"},
+    ParameterField{"lens_focus_m", "effects.lens.focus_distance_m"},
+    ParameterField{"effort", "quality"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
     ParameterField{"depth", "with_depth"},
@@ -123,6 +126,36 @@ absl::StatusOr<std::string> readStream(const QueryParameters& parameters,
                                  existing.empty() ? "there are none yet" : existing));
 }
 
+// A radius or "auto"; without one, everything is sharp.
+absl::Status readLens(const QueryParameters& parameters, DisplaySpec& display) {
+  const auto aperture = parameters.find("aperture_m");
+  LensSpec lens;
+  if (aperture != parameters.end() && aperture->second == "auto") {
+    lens.has_automatic_aperture = true;
+  } else {
+    VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "aperture_m", lens.aperture_radius_m));
+  }
+  double focus_m = 0;
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "lens_focus_m", focus_m));
+  if (parameters.contains("lens_focus_m")) lens.focus_distance_m = focus_m;
+  if (aperture != parameters.end()) display.lens = lens;
+  return absl::OkStatus();
+}
+
+absl::Status readEffort(const QueryParameters& parameters, DisplaySpec& display) {
+  const auto effort = parameters.find("effort");
+  if (effort == parameters.end() || effort->second == "balanced") return absl::OkStatus();
+  if (effort->second == "draft") {
+    display.quality = Quality::kDraft;
+  } else if (effort->second == "best") {
+    display.quality = Quality::kBest;
+  } else {
+    return invalidField("effort", absl::StrCat("got \"", effort->second,
+                                               "\", accepted are draft, balanced and best"));
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool is_rgbd) {
   DisplaySpec display;
   if (is_rgbd) {
@@ -135,6 +168,8 @@ absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool 
   VIEWLOOM_RETURN_IF_ERROR(quilt.status());
   display.kind = *std::move(quilt);
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
+  VIEWLOOM_RETURN_IF_ERROR(readLens(parameters, display));
+  VIEWLOOM_RETURN_IF_ERROR(readEffort(parameters, display));
   return display;
 }
 

@@ -126,6 +126,21 @@ class Choices(PageTest):
         self.browser.wait_for(f"!{WATCH}.includes('focusFollowing')")
         self.assertEqual(self.browser.messages, [])
 
+    def test_a_lens_is_put_before_the_views_by_its_list(self):
+        self.open()
+        before = self.browser.evaluate(DISPLAY_IDS)
+        self.browser.wait_for("!document.getElementById('lens').disabled")
+        self.browser.evaluate(
+            "(s => { s.value = '0.03'; s.dispatchEvent(new Event('change')); })"
+            "(document.getElementById('lens'))")
+        self.browser.wait_for("location.search.includes('aperture_m=0.03')")
+        self.browser.wait_for(f"{WATCH}.includes('\"apertureRadiusM\":0.03')")
+        self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
+                              f"ids[0] !== {before[0]})")
+        self.open(self.browser.evaluate("location.search"))
+        self.assertEqual(self.browser.evaluate("document.getElementById('lens').value"), "0.03")
+        self.assertEqual(self.browser.messages, [])
+
     def test_fingers_hit_the_fields_of_colour_with_depth_and_the_checkbox(self):
         self.browser.resize(360, 780, scale=2, mobile=True)
         self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)

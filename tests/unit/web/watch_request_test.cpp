@@ -55,6 +55,22 @@ TEST_F(WatchRequests, overrideThePreset) {
   EXPECT_EQ(request->encoding.chroma, Chroma::k444);
 }
 
+TEST_F(WatchRequests, seeThroughALensOfAnEffort) {
+  const auto lens = parse({{"aperture_m", "0.02"}, {"lens_focus_m", "3"}, {"effort", "best"}});
+  ASSERT_TRUE(lens.ok()) << lens.status();
+  EXPECT_EQ(lens->display.lens->aperture_radius_m, 0.02);
+  EXPECT_EQ(lens->display.lens->focus_distance_m, 3);
+  EXPECT_EQ(lens->display.lens->walked_count, 16u);
+  EXPECT_EQ(lens->display.tolerance_px, 0.0625);
+  const auto automatic = parse({{"aperture_m", "auto"}});
+  ASSERT_TRUE(automatic.ok()) << automatic.status();
+  EXPECT_TRUE(automatic->display.lens->has_automatic_aperture);
+  EXPECT_FALSE(parse({})->display.lens.has_value());
+  EXPECT_EQ(fieldOf(parse({{"aperture_m", "-1"}}).status()), "aperture_m");
+  EXPECT_EQ(fieldOf(parse({{"aperture_m", "1"}, {"lens_focus_m", "0"}}).status()), "lens_focus_m");
+  EXPECT_EQ(fieldOf(parse({{"effort", "all"}}).status()), "effort");
+}
+
 TEST_F(WatchRequests, areColorWithDepthByItsPresetOrByName) {
   const auto preset =
       parse({{"preset", "wowvx_declipse"}, {"width", "64"}, {"height", "48"}, {"screen_m", "2"}});
