@@ -59,6 +59,7 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->excludes(file);
+  addTemporalOptions(app, options.temporal, file);
   app.add_option("--quality", options.jpeg_quality, "JPEG quality")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
@@ -140,6 +141,7 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!options.file.empty()) return readDisplay(options.file);
   v1::Display display;
   display.mutable_filter()->set_sample_count(options.sample_count);
+  setTemporal(options.temporal, display);
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     return display;

@@ -8,6 +8,7 @@ const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
+  rate_hz: '--output-rate', between: '--between',
 };
 const kRadPerDeg = Math.PI / 180;
 
@@ -22,7 +23,11 @@ function quoted(text) {
 function displayFile(parameters) {
   const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
   const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
-  return JSON.stringify({focusFollowingS: number('focus_follow_s'), quilt: {
+  const mode = {predict: 'TEMPORAL_MODE_PREDICT', interpolate: 'TEMPORAL_MODE_INTERPOLATE'};
+  const temporal = parameters.has('rate_hz') ?
+    {outputRateHz: number('rate_hz'), mode: mode[parameters.get('between')]} : undefined;
+  const effects = temporal && {temporal};
+  return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
     viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),

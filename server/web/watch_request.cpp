@@ -33,6 +33,8 @@ constexpr std::array kParameters = {
     ParameterField{"focus_m", "quilt.focal_distance_m"},
     ParameterField{"focus_follow_s", "focus_following_s"},
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
+    ParameterField{"rate_hz", "effects.temporal.output_rate_hz"},
+    ParameterField{"between", "effects.temporal.mode"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
     ParameterField{"depth", "with_depth"},
@@ -106,6 +108,21 @@ absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
   return quilt;
 }
 
+// Without a rate, an atlas a frame.
+absl::Status readTemporal(const QueryParameters& parameters, DisplaySpec& display) {
+  TemporalSpec temporal;
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "rate_hz", temporal.output_rate_hz));
+  if (const auto between = parameters.find("between"); between != parameters.end()) {
+    if (between->second != "predict" && between->second != "interpolate") {
+      return invalidField("between", absl::StrCat("got \"", between->second,
+                                                  "\", accepted are predict and interpolate"));
+    }
+    if (between->second == "interpolate") temporal.mode = TemporalMode::kInterpolate;
+  }
+  if (parameters.contains("rate_hz")) display.temporal = temporal;
+  return absl::OkStatus();
+}
+
 absl::StatusOr<EncodingSpec> readEncoding(const QueryParameters& parameters) {
   EncodingSpec encoding;
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "quality", encoding.jpeg_quality));
@@ -152,6 +169,7 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
   DisplaySpec display;
   display.kind = *quilt;
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
+  VIEWLOOM_RETURN_IF_ERROR(readTemporal(parameters, display));
   absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(display);
   VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status()));
   const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters);
