@@ -60,6 +60,7 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->capture_default_str()
       ->excludes(file);
   addLensOptions(app, options.lens, file);
+  addTemporalOptions(app, options.temporal, file);
   app.add_option("--quality", options.jpeg_quality, "JPEG quality")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
@@ -142,6 +143,7 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   v1::Display display;
   display.mutable_filter()->set_sample_count(options.sample_count);
   setLens(options.lens, display);
+  setTemporal(options.temporal, display);
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     display.mutable_rgbd()->set_preset(options.preset);

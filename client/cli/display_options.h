@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "cli/lens_options.h"
 #include "cli/rgbd_options.h"
+#include "cli/temporal_options.h"
 #include "frame/size.h"
 #include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
@@ -28,6 +29,7 @@ struct DisplayOptions {
   bool is_native = false;        // the panel's own px
   std::string calibration_file;  // of the panel
   RgbdOptions rgbd;              // instead of all that
+  TemporalOptions temporal;
   uint32_t sample_count = 1;
   LensOptions lens;
   uint32_t jpeg_quality = 85;

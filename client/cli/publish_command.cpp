@@ -53,6 +53,10 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                "The synthetic scene as a cube map: six square faces as high as --size")
       ->excludes("--sources")
       ->group("What");
+  app.add_flag("--moving-camera", options.synthetic.has_moving_camera,
+               "The synthetic scene from a camera that sways")
+      ->excludes("--cube")
+      ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
       ->check(CLI::NonNegativeNumber)
@@ -104,9 +108,11 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions& options) {
-  if (options.layer_count || options.synthetic.source_count != 1 || options.synthetic.is_cube_map) {
+  if (options.layer_count || options.synthetic.source_count != 1 || options.synthetic.is_cube_map ||
+      options.synthetic.has_moving_camera) {
     return absl::InvalidArgumentError(
-        "--pattern has layers and a source of its own; leave out --layers, --sources and --cube");
+        "--pattern has layers and a source of its own; leave out --layers, --sources, --cube and "
+        "--moving-camera");
   }
   patterns::PatternOptions pattern = patternOptions(options.pattern);
   if (options.size_px.width > 0) pattern.size_px = options.size_px;

@@ -2,6 +2,8 @@
 #include "cli/synthetic_frames.h"
 
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "base/str_cat.h"
 #include "synthetic/synthetic_wire_frame.h"
@@ -19,12 +21,22 @@ namespace {
 // So far apart that each sees much of what the nearest surfaces, 1.8 m away, hide from the next.
 constexpr double kSourcesApart_m = 0.4;
 
-// The first stands where the scene is meant to be seen from; the others beside it, right and left
-// in turn.
-Camera cameraOf(uint32_t source, SizePx size_px) {
+// Where the scene is meant to be seen from, or in a hand that sways around there.
+Pose firstPose(bool is_moving, double time_s) {
+  if (!is_moving) return {};
+  const auto wave = [&](double rate_hz) {
+    return std::sin(2 * std::numbers::pi * rate_hz * time_s);
+  };
+  return {.position_m = {0.3 * wave(0.31), 0.08 * wave(0.43), 0.1 * wave(0.23)},
+          .orientation = glm::dquat(glm::dvec3(0.02 * wave(0.37), 0.06 * wave(0.29), 0))};
+}
+
+// The first stands at `first`; the others beside it, right and left in turn.
+Camera cameraOf(uint32_t source, const Pose& first, SizePx size_px) {
   Camera camera = syntheticCamera(size_px);
   const double side = source % 2 == 1 ? 1 : -1;
-  camera.pose.position_m.x = side * kSourcesApart_m * ((source + 1) / 2);
+  const double beside_m = side * kSourcesApart_m * ((source + 1) / 2);
+  camera.pose = compose(first, {.position_m = {source == 0 ? 0 : beside_m, 0, 0}});
   return camera;
 }
 
@@ -47,10 +59,12 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
                          .layer_count = options_.layer_count,
                          .time_s = elapsed_s,
                          .camera = {}};
+  const Pose first = firstPose(options_.has_moving_camera, elapsed_s);
   if (options_.is_cube_map) return cubeMapFrame(scene);
+  if (options_.has_moving_camera) scene.camera = cameraOf(0, first, options_.size_px);
   WireFrame frame = syntheticWireFrame(scene, captureTimeNs());
   for (uint32_t source = 1; source < options_.source_count; ++source) {
-    scene.camera = cameraOf(source, options_.size_px);
+    scene.camera = cameraOf(source, first, options_.size_px);
     addSyntheticSource(scene, frame);
   }
   return frame;

@@ -11,8 +11,9 @@ struct SyntheticFeedOptions {
   SizePx size_px{960, 540};
   uint32_t layer_count = 2;
   uint32_t source_count = 1;
-  bool is_cube_map = false;  // with faces as high as size_px; then one source
-  double duration_s = 0;     // 0 = without end
+  bool has_moving_camera = false;  // the first sways; the others stand beside it
+  bool is_cube_map = false;        // with faces as high as size_px; then one source
+  double duration_s = 0;           // 0 = without end
 };
 
 class SyntheticFrames final : public FrameFeed {

@@ -147,9 +147,16 @@ class WatchRun {
       const absl::Status written = writeAtlas(atlas, fileOptions(options_.stream));
       if (!written.ok()) setFailure(written);
     }
+    sayHeld(atlas.header);
     std::lock_guard lock(mutex_);
     newest_ = atlas.header;
     latency_s_ = static_cast<double>(captureTimeNs() - newest_.capture_time_ns()) * 1e-9;
+  }
+
+  // A display with a rate of its own waits for the publisher.
+  void sayHeld(const v1::AtlasHeader& header) {
+    if (header.timing() != v1::TIMING_HELD) return;
+    line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture is held"));
   }
 
   void setFailure(const absl::Status& status) {
@@ -221,6 +228,7 @@ RunCommand addWatchCommand(CLI::App& app) {
       "  viewloom watch --preset portrait --views --out v --count 1\n"
       "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts\n"
       "  viewloom watch --rgbd 960x540 --screen 2 --count 1 --out .   2D+Z, one picture\n"
+      "  viewloom watch --output-rate 60 --between interpolate   60 atlases/s of any stream\n"
       "  viewloom watch --from portrait.vlr --out quilts  from a recording\n"
       "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
   app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();

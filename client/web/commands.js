@@ -8,7 +8,7 @@ const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
-  lens_focus_m: '--lens-focus', effort: '--effort',
+  lens_focus_m: '--lens-focus', effort: '--effort', rate_hz: '--output-rate', between: '--between',
 };
 const kRgbdOptions = {
   ...kEncodingOptions, preset: '--preset', rgbd: '--rgbd-form', near_m: '--depth-near',
@@ -32,7 +32,10 @@ function displayFile(parameters) {
     ...(aperture_m === 'auto' ? {automaticAperture: true} : {apertureRadiusM: Number(aperture_m)}),
     focusDistanceM: number('lens_focus_m'),
   };
-  const effects = lens && {lens};
+  const mode = {predict: 'TEMPORAL_MODE_PREDICT', interpolate: 'TEMPORAL_MODE_INTERPOLATE'};
+  const temporal = parameters.has('rate_hz') ?
+    {outputRateHz: number('rate_hz'), mode: mode[parameters.get('between')]} : undefined;
+  const effects = lens || temporal ? {lens, temporal} : undefined;
   return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),

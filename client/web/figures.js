@@ -78,7 +78,8 @@ export class Figures {
       name.dataset.answer = part.dataset.answer = answer;
       this.#shares[answer] = {part, value: element('dd', {textContent: '–'}, byId('coverage'))};
     }
-    for (const fact of ['Sequence', 'Source frame', 'Views', 'Quilt', 'Tile', 'Size', 'Rate']) {
+    for (const fact of ['Sequence', 'Source frame', 'Time', 'Views', 'Quilt', 'Tile', 'Size',
+                        'Rate']) {
       element('dt', {textContent: fact}, byId('facts'));
       this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
     }
@@ -211,6 +212,7 @@ export class Figures {
     const facts = {
       'Sequence': header.sequence,
       'Source frame': header.frame_number,
+      'Time': header.timing,
       'Views': `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
       'Quilt': `${layout.size.width} × ${layout.size.height} px`,
       'Tile': `${layout.tile_size.width} × ${layout.tile_size.height} px`,

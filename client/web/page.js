@@ -3,6 +3,7 @@
 import {keepInAddress, pageParameters} from './address.js';
 import {AtlasStream} from './atlas_stream.js';
 import {AutoDetail} from './auto_detail.js';
+import {BetweenFrames} from './between_frames.js';
 import {Commands} from './commands.js';
 import {Decoder} from './decoder.js';
 import {DepthBudget} from './depth_budget.js';
@@ -41,6 +42,7 @@ const figures = new Figures();
 const commands = new Commands();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
 const lensSwitch = new LensSwitch((parameters) => stream.change(parameters));
+new BetweenFrames((parameters) => stream.change(parameters));
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(() => stream.change(display.size()));

@@ -30,6 +30,20 @@ json coverageJson(const Coverage& coverage) {
           {"empty", share(coverage.empty)}};
 }
 
+const char* timingText(Timing timing) {
+  switch (timing) {
+    case Timing::kCaptured:
+      return "captured";
+    case Timing::kPredicted:
+      return "predicted";
+    case Timing::kInterpolated:
+      return "interpolated";
+    case Timing::kHeld:
+      return "held";
+  }
+  return "";
+}
+
 std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
   std::vector<SharedBytes> bands;
   for (const EncodedBand& band : atlas.bands) {
@@ -65,6 +79,8 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   json header = {{"sequence", atlas.sequence},
                  {"frame_number", std::to_string(atlas.frame_number)},
                  {"capture_time_ns", std::to_string(atlas.capture_time_ns)},
+                 {"shown_time_ns", std::to_string(atlas.shown_time_ns)},
+                 {"timing", timingText(atlas.timing)},
                  {"present_at_ns", std::to_string(atlas.present_at_ns)},
                  {"layout", layoutJson(*atlas.layout)},
                  {"encoding", encodingJson(atlas.encoding)},

@@ -32,6 +32,8 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"aperture_m", "effects.lens.aperture_radius_m"},
     ParameterField{"lens_focus_m", "effects.lens.focus_distance_m"},
     ParameterField{"effort", "quality"},
+    ParameterField{"rate_hz", "effects.temporal.output_rate_hz"},
+    ParameterField{"between", "effects.temporal.mode"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
     ParameterField{"depth", "with_depth"},
@@ -86,6 +88,21 @@ absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
   quilt.view_cone_rad = cone_deg * kRadPerDeg;
   quilt.fov_y_rad = fov_deg * kRadPerDeg;
   return quilt;
+}
+
+// Without a rate, an atlas a frame.
+absl::Status readTemporal(const QueryParameters& parameters, DisplaySpec& display) {
+  TemporalSpec temporal;
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "rate_hz", temporal.output_rate_hz));
+  if (const auto between = parameters.find("between"); between != parameters.end()) {
+    if (between->second != "predict" && between->second != "interpolate") {
+      return invalidField("between", absl::StrCat("got \"", between->second,
+                                                  "\", accepted are predict and interpolate"));
+    }
+    if (between->second == "interpolate") temporal.mode = TemporalMode::kInterpolate;
+  }
+  if (parameters.contains("rate_hz")) display.temporal = temporal;
+  return absl::OkStatus();
 }
 
 // Colour next to the greys of a depth image shows in them where chroma is shared.
@@ -170,6 +187,7 @@ absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool 
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
   VIEWLOOM_RETURN_IF_ERROR(readLens(parameters, display));
   VIEWLOOM_RETURN_IF_ERROR(readEffort(parameters, display));
+  VIEWLOOM_RETURN_IF_ERROR(readTemporal(parameters, display));
   return display;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "bench/quality_lens.h"
+#include "bench/quality_time.h"
 #include "gpu/device.h"
 
 namespace viewloom::bench {
@@ -21,7 +22,7 @@ struct Section {
   Json (*score)(const Device& device);
 };
 
-constexpr Section kSections[] = {{"lens", qualityOfLens}};
+constexpr Section kSections[] = {{"lens", qualityOfLens}, {"time", qualityOfTime}};
 
 struct Arguments {
   std::string device;

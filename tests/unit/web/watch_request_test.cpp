@@ -116,6 +116,18 @@ TEST_F(WatchRequests, nameTheParameterOfColorWithDepthAtFault) {
   }
 }
 
+TEST_F(WatchRequests, askForAtlasesBetweenFramesByTheirRate) {
+  const auto request = parse({{"rate_hz", "60"}, {"between", "interpolate"}});
+  ASSERT_TRUE(request.ok()) << request.status();
+  ASSERT_TRUE(request->display.temporal.has_value());
+  EXPECT_EQ(request->display.temporal->output_rate_hz, 60);
+  EXPECT_EQ(request->display.temporal->mode, TemporalMode::kInterpolate);
+  EXPECT_FALSE(parse({{"between", "predict"}})->display.temporal.has_value());
+  EXPECT_EQ(fieldOf(parse({{"rate_hz", "0"}}).status()), "rate_hz");
+  EXPECT_EQ(fieldOf(parse({{"rate_hz", "241"}}).status()), "rate_hz");
+  EXPECT_EQ(fieldOf(parse({{"rate_hz", "60"}, {"between", "frames"}}).status()), "between");
+}
+
 TEST_F(WatchRequests, nameTheParameterAtFaultAndWhatIsAccepted) {
   const auto bad = parse({{"cone_deg", "400"}});
   EXPECT_EQ(fieldOf(bad.status()), "cone_deg");

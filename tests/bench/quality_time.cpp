@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/quality_time.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/moving_frames.h"
+#include "commands/offline_renderer.h"
+#include "support/truth/picture_frame.h"
+#include "temporal/camera_track.h"
+
+namespace viewloom::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr uint32_t kLayers = 2;
+constexpr uint32_t kFrameCount = 17;  // at kSequenceRate_hz
+constexpr int64_t kBridge_ns = 250'000'000;
+
+int64_t timeNs(uint32_t index) {
+  return std::llround(1e9 * index / kSequenceRate_hz);
+}
+
+// A sequence as it truly is, frame by frame.
+struct TrueSequence {
+  std::string name;
+  std::vector<truth::Picture> pictures;
+};
+
+TrueSequence takeAll(const Sequence& sequence) {
+  TrueSequence taken{.name = sequence.name, .pictures = {}};
+  for (uint32_t index = 0; index < kFrameCount; ++index) {
+    taken.pictures.push_back(pictureOf(sequence, index, kLayers));
+  }
+  return taken;
+}
+
+// What the frame says of its camera, at once.
+TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index) {
+  return {.pose = sequence.pictures[index].camera.pose,
+          .captured_ns = timeNs(index),
+          .arrived_ns = timeNs(index),
+          .inv_z_near = 0.5};
+}
+
+// One view, of the sequence's size, from a place in the world.
+ScoredImage viewFrom(OfflineRenderer& renderer, const Pose& pose) {
+  const CamerasSpec camera{
+      .cameras = {{Pose{}, sequenceIntrinsics()}}, .tile_size_px = kSequence_px, .columns = 1};
+  const auto spec = completeDisplaySpec({.kind = camera, .world_pose = pose});
+  if (!spec.ok()) throw std::runtime_error(std::string(spec.status().message()));
+  const auto atlas = renderer.render(*spec, {.linear = true}, [](uint32_t, uint32_t) {});
+  if (!atlas.ok()) throw std::runtime_error(std::string(atlas.status().message()));
+  ScoredImage image{.size_px = kSequence_px, .rgb = {}};
+  for (size_t px = 0; px < kSequence_px.area(); ++px) {
+    for (size_t c = 0; c < 3; ++c) image.rgb.push_back(atlas->linear[4 * px + c]);
+  }
+  return image;
+}
+
+// Sums of what every dropped frame scores.
+class Scores {
+ public:
+  void add(const ScoredImage& truth, const ScoredImage& repeated, const ScoredImage& warped,
+           const ScoredImage& got) {
+    sums_.repeated_db += psnrDb(repeated, truth);
+    sums_.warped_db += psnrDb(warped, truth);
+    sums_.got_db += psnrDb(got, truth);
+    ++count_;
+  }
+  TimeScore means(const TrueSequence& sequence, std::string mode, uint32_t kept_one_of) const {
+    return {.sequence = sequence.name,
+            .mode = std::move(mode),
+            .kept_one_of = kept_one_of,
+            .repeated_db = sums_.repeated_db / count_,
+            .warped_db = sums_.warped_db / count_,
+            .got_db = sums_.got_db / count_};
+  }
+
+ private:
+  TimeScore sums_;
+  uint32_t count_ = 0;
+};
+
+// Each dropped frame from the kept one before it, as the two before tell that the camera moves.
+TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
+                          uint32_t kept_one_of) {
+  Scores scores;
+  OfflineRenderer renderer(device);
+  CameraTrack track;
+  track.add(trackedFrame(sequence, 0));
+  for (uint32_t kept = kept_one_of; kept + kept_one_of < kFrameCount; kept += kept_one_of) {
+    const truth::Picture& picture = sequence.pictures[kept];
+    const CameraMotion motion = track.add(trackedFrame(sequence, kept));
+    renderer.build(*truth::frameOf(picture, kLayers));
+    for (uint32_t index = kept + 1; index < kept + kept_one_of; ++index) {
+      const Pose pose = predicted(motion, timeNs(index), kBridge_ns).source_pose;
+      scores.add(imageOf(sequence.pictures[index]), imageOf(picture), rowWarp(picture, pose),
+                 viewFrom(renderer, pose));
+    }
+  }
+  return scores.means(sequence, "predict", kept_one_of);
+}
+
+// Each dropped frame from the kept ones on both sides, as two sources.
+TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
+                             uint32_t kept_one_of) {
+  Scores scores;
+  OfflineRenderer renderer(device);
+  CameraTrack track;
+  track.add(trackedFrame(sequence, 0));
+  for (uint32_t kept = kept_one_of; kept < kFrameCount; kept += kept_one_of) {
+    const truth::Picture& picture = sequence.pictures[kept];
+    const truth::Picture& before = sequence.pictures[kept - kept_one_of];
+    const CameraMotion motion = track.add(trackedFrame(sequence, kept));
+    renderer.build(*truth::frameOf({picture, before}, kLayers));
+    for (uint32_t index = kept + 1 - kept_one_of; index < kept; ++index) {
+      const ShownInstant shown = interpolated(motion, timeNs(index) + motion.lag_ns, kBridge_ns);
+      const bool is_later_nearer = 2 * (kept - index) <= kept_one_of;
+      scores.add(imageOf(sequence.pictures[index]), imageOf(before),
+                 rowWarp(is_later_nearer ? picture : before, shown.source_pose),
+                 viewFrom(renderer, shown.source_pose));
+    }
+  }
+  return scores.means(sequence, "interpolate", kept_one_of);
+}
+
+}  // namespace
+
+std::vector<TimeScore> timeScores(const Device& device) {
+  const TrueSequence sequence = takeAll(movingCamera());
+  std::vector<TimeScore> scores;
+  for (const uint32_t kept_one_of : {2U, 4U}) {
+    scores.push_back(scorePrediction(device, sequence, kept_one_of));
+    scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
+  }
+  return scores;
+}
+
+Json qualityOfTime(const Device& device) {
+  Json rows = Json::array();
+  for (const TimeScore& score : timeScores(device)) {
+    rows.push_back({{"sequence", score.sequence},
+                    {"mode", score.mode},
+                    {"kept_one_of", score.kept_one_of},
+                    {"repeated_db", score.repeated_db},
+                    {"warped_db", score.warped_db},
+                    {"got_db", score.got_db}});
+  }
+  return rows;
+}
+
+}  // namespace viewloom::bench
