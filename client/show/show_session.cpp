@@ -266,6 +266,7 @@ absl::Status ShowSession::drawStatistics() {
       .dropped_count = link_->counts().atlases.gaps + arrivals_.queue.droppedCount(),
       .latency_s = latency_s_,
       .frame_number = shown_->header().frame_number(),
+      .server_clock = link_->serverClock(),
       .is_connected = arrivals_.is_connected};
   return overlay_->draw(describe(statistics, settings_, shown_->layout()), *stage_.painter);
 }

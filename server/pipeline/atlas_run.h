@@ -46,18 +46,18 @@ class AtlasRun {
   uint32_t firstRow(uint32_t strip) const;
   uint32_t rowCount(uint32_t strip) const;
   TraceSlotShape stripShape() const;
+  int64_t stripPx() const;  // the mean
 
   void noteTraced(const Coverage& strip_coverage, int64_t now_ns);
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
   AtlasJob job;
-  const PicturePtr picture;
-  EyePosesPtr eyes;  // that it is seen by, of a tracked display
+  PicturePtr picture;  // final once its first rays are submitted
+  EyePosesPtr eyes;    // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
-  // That some output wants; colour as all of them take it most directly, or kRgba. Settled once it
-  // is known how it is traced.
-  TraceOutputs planes;
+  ColorForm direct_color;  // as all outputs take it most directly, or kRgba
+  TraceOutputs planes;     // that some output wants; colour is settled once its rays are submitted
   TraceMethod method = TraceMethod::kWalk;
   uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;

@@ -21,6 +21,7 @@ struct AtlasJob {
   int64_t deadline_ns = 0;   // server's monotonic clock
   FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
   bool is_for_eyes = false;  // that have moved since the display was given this structure
+  bool is_tracked = false;   // of a tracked display
 };
 
 // Jobs that have not begun, at most one per picture. Thread-safety: none; the trace loop's.
@@ -33,6 +34,8 @@ class JobQueue {
 
   // The soonest deadline of a job that may begin; none while its picture is being traced.
   std::optional<int64_t> soonestDeadlineNs() const;
+  // Whether one of a tracked display may begin.
+  bool hasTracked() const;
   // Takes that job; no other of its picture may begin until finish().
   AtlasJob begin();
   void finish(const std::string& picture_key);

@@ -111,6 +111,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
   header.set_eye_poses_time_ns(atlas_->eye_poses_time_ns);
   header.set_predicted_display_time_ns(atlas_->predicted_display_time_ns);
+  header.set_eye_poses_latched_ns(atlas_->eye_poses_latched_ns);
+  header.set_eye_poses_age_ns(atlas_->eye_poses_age_ns);
   for (const ViewsOutside& views : viewsOutside(atlas_->outside_shares)) {
     *header.add_views_outside() = outsideToProto(views);
   }

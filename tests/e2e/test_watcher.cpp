@@ -68,6 +68,9 @@ std::optional<ReceivedAtlas> TestWatcher::readAtlas() {
         EXPECT_EQ(response.end().sequence(), atlas.header.sequence());
         EXPECT_EQ(atlas.color_bands.size(), atlas.header.band_count());
         return atlas;
+      case v1::StreamAtlasesResponse::kClockReply:
+        ADD_FAILURE() << "nobody asked what time it is";
+        break;
       case v1::StreamAtlasesResponse::MESSAGE_NOT_SET:
         ADD_FAILURE() << "an empty message";
     }
