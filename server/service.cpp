@@ -123,6 +123,9 @@ void Service::Parts::connect() {
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
   broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
+  broadcaster.onEyesServed([this](const std::string& stream) {
+    if (RpcServer* const server = open_rpc) server->demandChanged(stream);
+  });
   directory.onRoomNeeded([this](const std::string& stream) {
     if (broadcaster.subscriberCount(stream) > 0) return false;
     pipeline.forgetStream(stream);

@@ -5,20 +5,24 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "base/str_cat.h"
 #include "cli/atlas_files.h"
 #include "cli/display_options.h"
+#include "cli/eye_times.h"
 #include "cli/frame_feed.h"
 #include "cli/interrupt.h"
+#include "cli/motion_text.h"
 #include "cli/outside_text.h"
 #include "cli/recorded_atlases.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
 #include "eyes/eye_feed.h"
 #include "lib/channel.h"
+#include "lib/clock_follower.h"
 #include "lib/watcher.h"
 
 namespace viewloom::cli {
@@ -70,6 +74,7 @@ class WatchRun {
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    clock_ = std::make_unique<ClockFollower>(*watcher_);
     if (eyes_) eyes_->start(eyeCallbacks());
     while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok()) {
       if (line_.isDue()) line_.show(status());
@@ -120,7 +125,11 @@ class WatchRun {
   }
 
   EyeFeedCallbacks eyeCallbacks() {
-    return {.send = [this](const v1::EyePoses& poses) { watcher_->sendEyePoses(poses); },
+    return {.send =
+                [this](const v1::EyePoses& poses) {
+                  eye_times_.note(poses.time_ns(), steadyNowNs());
+                  watcher_->sendEyePoses(poses);
+                },
             .on_failure = [this](const absl::Status& problem) { setFailure(problem); }};
   }
 
@@ -148,7 +157,9 @@ class WatchRun {
       if (!written.ok()) setFailure(written);
     }
     sayHeld(atlas.header);
+    const std::optional<MotionLatency> motion = reportMotion(atlas.header);
     std::lock_guard lock(mutex_);
+    if (motion) motion_ = motion;
     newest_ = atlas.header;
     latency_s_ = static_cast<double>(captureTimeNs() - newest_.capture_time_ns()) * 1e-9;
   }
@@ -157,6 +168,20 @@ class WatchRun {
   void sayHeld(const v1::AtlasHeader& header) {
     if (header.timing() != v1::TIMING_HELD) return;
     line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture is held"));
+  }
+
+  // The picture is here, and counts as shown: by the clock of the poses, which may be another's.
+  std::optional<MotionLatency> reportMotion(const v1::AtlasHeader& header) {
+    const int64_t shown_ns = steadyNowNs();
+    const int64_t poses_time_ns = header.eye_poses_time_ns();
+    const std::optional<int64_t> measured_ns = eye_times_.hereNs(poses_time_ns);
+    if (!measured_ns) return std::nullopt;
+    // Any whole number may stand in a file: the sum may wrap.
+    const auto shown_there_ns = static_cast<int64_t>(static_cast<uint64_t>(poses_time_ns) +
+                                                     uint64_t(shown_ns - *measured_ns));
+    watcher_->reportPresented(header.sequence(), shown_there_ns);
+    const std::optional<ClockOffset> server = watcher_->serverClock();
+    return server ? motionLatency(header, *measured_ns, shown_ns, *server) : std::nullopt;
   }
 
   void setFailure(const absl::Status& status) {
@@ -174,6 +199,7 @@ class WatchRun {
     if (counts.atlases.whole == 0) return strCat("waiting for stream ", options_.stream);
     const double rate = atlas_rate_.perSecond(counts.atlases.whole);
     const double bytes_rate = bytes_rate_.perSecond(counts.received_bytes);
+    const std::optional<ClockOffset> server = watcher_->serverClock();
     std::lock_guard lock(mutex_);
     const bool is_latency = latency_s_ >= 0 && latency_s_ < kLatencyMax_s;
     const double server_ms = static_cast<double>(newest_.times().total_ns()) * 1e-6;
@@ -182,14 +208,17 @@ class WatchRun {
                   is_latency ? formatNumber(1e3 * latency_s_, 0) + " ms" : "unknown", " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
                   counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off",
+                  motion_ ? "; " + motionText(*motion_) : "",
+                  server ? "; " + clockText(*server) : "",
                   newest_.views_outside().empty()
                       ? ""
                       : "; past the source look " + outsideText(newest_.views_outside()));
   }
 
   int end() {
-    eyes_.reset();
     watcher_->stop();
+    clock_.reset();
+    eyes_.reset();
     while (!watcher_->waitEnded(kTick_ns)) {
     }
     if (watcher_->counts().atlases.whole > 0) line_.show(status());
@@ -211,10 +240,13 @@ class WatchRun {
   mutable std::mutex mutex_;
   v1::AtlasHeader newest_;
   double latency_s_ = 0;
+  std::optional<MotionLatency> motion_;
   absl::Status failure_;
-  std::string said_grid_;             // the watcher's thread's own
+  std::string said_grid_;  // the watcher's thread's own
+  EyeTimes eye_times_;
   std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
-  std::unique_ptr<EyeFeed> eyes_;     // last: it gives to the watcher
+  std::unique_ptr<ClockFollower> clock_;
+  std::unique_ptr<EyeFeed> eyes_;  // last: it gives to the watcher
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <utility>
 
+#include <google/protobuf/util/json_util.h>
 #include <nlohmann/json.hpp>
 
 #include "base/str_cat.h"
@@ -37,9 +38,18 @@ absl::Status readTime(const nlohmann::json& line, const char* key, int64_t& time
 
 absl::Status addEye(const nlohmann::json& line, const char* key, v1::EyePoses& poses) {
   const auto found = line.find(key);
+  if (found != line.end() && found->is_object()) {
+    const auto parsed =
+        google::protobuf::util::JsonStringToMessage(found->dump(), poses.add_eyes());
+    if (parsed.ok()) return absl::OkStatus();
+    return invalidField(key, strCat("is no Camera: ", std::string(parsed.message())));
+  }
   bool is_place = found != line.end() && found->is_array() && found->size() == 3;
   for (size_t i = 0; is_place && i < 3; ++i) is_place = (*found)[i].is_number();
-  if (!is_place) return invalidField(key, "missing or no place; accepted is [x, y, z] in metres");
+  if (!is_place)
+    return invalidField(key,
+                        "missing or no place; accepted is [x, y, z] in metres, "
+                        "or a Camera");
   v1::Vector3& position = *poses.add_eyes()->mutable_pose()->mutable_position();
   position.set_x((*found)[0].get<double>());
   position.set_y((*found)[1].get<double>());

@@ -15,8 +15,9 @@
 namespace viewloom {
 
 // {"time_ns": 8, "left": [-0.03, 0, 0.1], "right": [0.03, 0, 0.1]}: metres relative to the display,
-// in any clock. May have predicted_display_time_ns; what else it has is for others. Errors name the
-// key.
+// in any clock. An eye that is turned, or has a projection of its own, is a Camera of
+// geometry.proto. May have predicted_display_time_ns; what else it has is for others. Errors name
+// the key.
 absl::StatusOr<v1::EyePoses> parseEyePoses(const std::string& line);
 
 struct EyeFeedCallbacks {

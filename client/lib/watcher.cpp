@@ -46,6 +46,17 @@ void Watcher::sendEyePoses(const v1::EyePoses& poses) {
   write(request);
 }
 
+void Watcher::probeClock() {
+  v1::StreamAtlasesRequest request;
+  request.mutable_clock_probe()->set_client_time_ns(steadyNowNs());
+  write(request);
+}
+
+std::optional<ClockOffset> Watcher::serverClock() const {
+  std::lock_guard lock(mutex_);
+  return server_clock_.offset();
+}
+
 void Watcher::reportPresented(uint64_t sequence, int64_t presented_time_ns) {
   v1::StreamAtlasesRequest request;
   request.mutable_presented()->set_sequence(sequence);
@@ -90,6 +101,7 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
     {
       std::lock_guard lock(mutex_);
       was_connected_ = false;
+      server_clock_.restart();
       *request.mutable_open() = open_;
       eyes = eyes_;
     }
@@ -121,6 +133,12 @@ absl::Status Watcher::readAtlases(Call& call) {
 }
 
 absl::Status Watcher::deliver(v1::StreamAtlasesResponse message) {
+  if (message.has_clock_reply()) {
+    const int64_t received_ns = steadyNowNs();
+    std::lock_guard lock(mutex_);
+    server_clock_.add(message.clock_reply(), received_ns);
+    return absl::OkStatus();
+  }
   if (callbacks_.on_message) callbacks_.on_message(message);
   const bool is_layout = message.has_layout();
   const size_t size = message.ByteSizeLong();

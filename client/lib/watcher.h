@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "lib/atlas_assembler.h"
 #include "lib/retry_loop.h"
+#include "lib/server_clock.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
 namespace viewloom {
@@ -52,7 +53,11 @@ class Watcher {
   // connection, while the display stays tracked. The newest count: of poses that come faster than
   // atlases, the server drops those overtaken. One that the server refuses ends the call.
   void sendEyePoses(const v1::EyePoses& poses);
-  // Tells what was shown when, by this process's clock. Lost when there is no connection.
+  // Asks the server what time it is; lost when there is no connection. See ClockFollower.
+  void probeClock();
+  // What the answers of this connection say. None before the first.
+  std::optional<ClockOffset> serverClock() const;
+  // Tells what was shown when, by the clock of the eye poses. Lost when there is no connection.
   void reportPresented(uint64_t sequence, int64_t presented_time_ns);
   // Breaks off. Does not wait.
   void stop();
@@ -81,6 +86,7 @@ class Watcher {
   bool is_complete_ = false;    // the last atlas asked for has come
   bool was_connected_ = false;  // in this call
   WatcherCounts counts_;
+  ServerClock server_clock_;
   std::optional<absl::Status> ended_;
 
   std::mutex write_mutex_;  // gRPC takes one write at a time; held while one waits for the network

@@ -13,6 +13,7 @@ constexpr size_t kPresentedMax = 64;
 DisplayLink::DisplayLink(std::shared_ptr<grpc::Channel> channel, v1::OpenDisplay open,
                          WatcherCallbacks callbacks)
     : watcher_(std::move(channel), std::move(open), std::move(callbacks)),
+      clock_(watcher_),
       sender_([this](const std::stop_token& stop) { send(stop); }) {}
 
 DisplayLink::~DisplayLink() {

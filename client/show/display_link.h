@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "lib/clock_follower.h"
 #include "lib/watcher.h"
 
 namespace viewloom::show {
@@ -35,6 +36,7 @@ class DisplayLink {
   // As the watcher has them.
   std::optional<absl::Status> ended() const { return watcher_.ended(); }
   WatcherCounts counts() const { return watcher_.counts(); }
+  std::optional<ClockOffset> serverClock() const { return watcher_.serverClock(); }
 
  private:
   void send(const std::stop_token& stop);
@@ -51,6 +53,7 @@ class DisplayLink {
   std::deque<Presented> presented_;
 
   Watcher watcher_;
+  ClockFollower clock_;
   std::jthread sender_;  // last: joins before what it uses goes
 };
 

@@ -273,6 +273,7 @@ absl::Status ShowSession::drawStatistics() {
                                                    arrivals_.queue().droppedCount(),
                                   .latency_s = latency_s_,
                                   .frame_number = shown_->header().frame_number(),
+                                  .server_clock = link_ ? link_->serverClock() : std::nullopt,
                                   .is_connected = arrivals_.is_connected};
   return overlay_->draw(describe(statistics, settings_, shown_->layout()), *stage_.painter);
 }

@@ -65,6 +65,11 @@ std::string describe(const ShowStatistics& statistics, const ShowSettings& setti
   if (layout.view_cone_rad() > 0) {
     text += strCat(", cone ", fixed(layout.view_cone_rad() * kDegPerRad, 1), " deg");
   }
+  if (statistics.server_clock) {
+    text +=
+        strCat("\nserver's clock ", fixed(double(statistics.server_clock->ahead_ns) * 1e-9, 6),
+               " s ahead, to ", fixed(double(statistics.server_clock->error_ns) * 1e-6, 2), " ms");
+  }
   return text;
 }
 

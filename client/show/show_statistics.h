@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "lib/server_clock.h"
 #include "show/show_settings.h"
 
 namespace viewloom::show {
@@ -29,6 +30,7 @@ struct ShowStatistics {
   uint64_t dropped_count = 0;       // on the way, and here because a newer one was due
   std::optional<double> latency_s;  // capture to screen; none where the clocks differ
   uint64_t frame_number = 0;        // the publisher's
+  std::optional<ClockOffset> server_clock;
   bool is_connected = false;
 };
 

@@ -19,6 +19,10 @@ constexpr double kSecondsPerNs = 1e-9;
 const prometheus::Histogram::BucketBoundaries kStageBounds = {
     0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033, 0.066, 0.125, 0.25, 0.5, 1, 2, 4, 8};
 
+// Seconds; from what nobody notices to what makes nobody believe in a window.
+const prometheus::Histogram::BucketBoundaries kMotionBounds = {
+    0.001, 0.002, 0.004, 0.008, 0.012, 0.016, 0.02, 0.03, 0.04, 0.06, 0.1, 0.15, 0.25, 0.5, 1, 2};
+
 using LabelValues = std::vector<const char*>;
 const LabelValues kStages = {"receive", "decode", "upload", "build",
                              "wait",    "trace",  "encode", "total"};
@@ -34,6 +38,11 @@ Counter counter(prometheus::Registry& registry, const char* name, const char* he
 
 Gauge gauge(prometheus::Registry& registry, const char* name, const char* help) {
   return Gauge(prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({}));
+}
+
+Histogram motionHistogram(prometheus::Registry& registry, const char* name, const char* help) {
+  return Histogram(
+      prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, kMotionBounds));
 }
 
 template <typename Label, typename Handle, typename Family, typename... Options, size_t... kIndices>
@@ -136,6 +145,12 @@ Metrics::Metrics()
                                    "before was still on its way.")),
       atlases_presented(counter(store_->registry, "viewloom_atlases_presented_total",
                                 "Atlases that gRPC clients say they have shown.")),
+      motion_to_image(motionHistogram(store_->registry, "viewloom_motion_to_image_seconds",
+                                      "From when the eyes before a tracked display were measured "
+                                      "to when their picture was shown, as gRPC clients say.")),
+      eye_poses_age(motionHistogram(store_->registry, "viewloom_eye_poses_age_seconds",
+                                    "How long eye poses had been there when the first rays of "
+                                    "their atlas were submitted.")),
       http_responses(counters<HttpAnswer>(store_->registry, "viewloom_http_responses_total",
                                           "HTTP responses, by kind of status.", "answer",
                                           kHttpAnswers)),

@@ -112,6 +112,8 @@ class Metrics {
   Labelled<Transport, Counter> sent_bytes;    // {transport}
   Counter output_ticks_skipped;  // of displays with a rate: the last atlas was still on its way
   Counter atlases_presented;     // shown, as gRPC clients say
+  Histogram motion_to_image;     // of tracked displays; seconds
+  Histogram eye_poses_age;       // when their atlas begins; seconds
   Labelled<HttpAnswer, Counter> http_responses;  // {answer}
   Labelled<Transport, Gauge> subscribers;        // {transport}; now
   Gauge streams_live;                            // now

@@ -19,10 +19,11 @@ struct TrackedEye {
   std::optional<std::variant<Fov, Intrinsics>> projection;
 };
 
-// As proto viewloom.v1.EyePoses. Both times are the client's and mean nothing here.
+// As proto viewloom.v1.EyePoses. The client's times mean nothing here.
 struct EyePoses {
   int64_t time_ns = 0;
   int64_t predicted_display_time_ns = 0;
+  int64_t received_ns = 0;         // the server's monotonic clock
   std::array<TrackedEye, 2> eyes;  // left, right
 };
 

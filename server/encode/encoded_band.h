@@ -70,6 +70,8 @@ struct EncodedAtlas {
   Timing timing = Timing::kCaptured;
   int64_t eye_poses_time_ns = 0;  // of a tracked display, the client's clock; 0 = none came yet
   int64_t predicted_display_time_ns = 0;
+  int64_t eye_poses_latched_ns = 0;  // the server's monotonic clock
+  int64_t eye_poses_age_ns = 0;      // by then
   Camera source_camera;
   Pose display_pose;
   std::shared_ptr<const AtlasLayout> layout;

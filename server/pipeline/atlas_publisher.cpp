@@ -109,6 +109,9 @@ void AtlasPublisher::publish(AtlasRun& run) {
     if (run.eyes) {
       atlas->eye_poses_time_ns = run.eyes->time_ns;
       atlas->predicted_display_time_ns = run.eyes->predicted_display_time_ns;
+      atlas->eye_poses_latched_ns = run.begun_ns;
+      atlas->eye_poses_age_ns = run.begun_ns - run.eyes->received_ns;
+      links_.metrics.eye_poses_age.observe(double(atlas->eye_poses_age_ns) * 1e-9);
     }
     atlas->source_camera = run.job.structure->sources.front().camera;
     atlas->display_pose = run.display_pose;

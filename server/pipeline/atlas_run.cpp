@@ -28,9 +28,9 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
     : job(std::move(atlas_job)), picture(std::move(resolved)), display_pose(pose) {
   // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
   const bool is_one_image = picture->layout->image_count == 1;
-  planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
+  direct_color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
   for (ActiveDisplayPtr& display : displays) {
-    if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;
+    if (directForm(display->encoding) != direct_color) direct_color = ColorForm::kRgba;
     planes.depth |= display->encoding.with_depth || display->encoding.with_depth_codes;
     planes.mask |= display->encoding.with_mask;
     outputs.push_back(makeOutput(std::move(display), *picture->layout));
@@ -54,6 +54,10 @@ uint32_t AtlasRun::firstRow(uint32_t strip) const {
 
 uint32_t AtlasRun::rowCount(uint32_t strip) const {
   return std::min(strip_row_count, picture->layout->imageSize().height - rowInImage(strip));
+}
+
+int64_t AtlasRun::stripPx() const {
+  return int64_t(picture->layout->size_px.area() / stripCount());
 }
 
 TraceSlotShape AtlasRun::stripShape() const {

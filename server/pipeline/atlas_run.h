@@ -36,9 +36,10 @@ class AtlasRun {
   AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
            std::vector<ActiveDisplayPtr> displays);
 
+  bool isTracked() const { return outputs.front().display->eyes != nullptr; }
   // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
   // are then, and no other display waits for more than one of them. So do displays with a rate.
-  bool isWaitedFor() const { return outputs.front().display->eyes != nullptr || job.tick; }
+  bool isWaitedFor() const { return isTracked() || job.tick; }
 
   uint32_t stripCount() const;
   uint32_t imageOf(uint32_t strip) const { return strip / stripsPerImage(); }
@@ -47,19 +48,19 @@ class AtlasRun {
   uint32_t firstRow(uint32_t strip) const;
   uint32_t rowCount(uint32_t strip) const;
   TraceSlotShape stripShape() const;
+  int64_t stripPx() const;  // the mean
 
   void noteTraced(const Coverage& strip_coverage, int64_t now_ns);
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
   AtlasJob job;
-  const PicturePtr picture;
+  PicturePtr picture;       // final once its first rays are submitted
   const Pose display_pose;  // in the world
   EyePosesPtr eyes;         // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
-  // That some output wants; colour as all of them take it most directly, or kRgba. Settled once it
-  // is known how it is traced.
-  TraceOutputs planes;
+  ColorForm direct_color;  // as all outputs take it most directly, or kRgba
+  TraceOutputs planes;     // that some output wants; colour is settled once its rays are submitted
   TraceMethod method = TraceMethod::kWalk;
   uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;

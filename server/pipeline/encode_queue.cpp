@@ -18,7 +18,7 @@ void EncodeQueue::push(SweepRunPtr sweep) {
   std::lock_guard lock(mutex_);
   if (is_closed_) return;
   const auto later = std::find_if(sweeps_.begin(), sweeps_.end(), [&](const SweepRunPtr& other) {
-    return other->deadlineNs() > sweep->deadlineNs();
+    return goesFirst(*sweep->run(), *other->run());
   });
   sweeps_.insert(later, std::move(sweep));
   filled_.notify_all();
@@ -27,8 +27,7 @@ void EncodeQueue::push(SweepRunPtr sweep) {
 std::optional<EncodeTask> EncodeQueue::pop() {
   std::unique_lock lock(mutex_);
   while (true) {
-    SweepPart part = takePart();
-    if (part.sweep) return EncodeTask{{}, std::move(part)};
+    if (const SweepRunPtr sweep = nextSweep()) return EncodeTask{{}, takePart(sweep)};
     if (!strips_.empty()) {
       EncodeTask task{std::move(strips_.front()), {}};
       strips_.pop_front();
@@ -40,29 +39,44 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   }
 }
 
-// Of the soonest sweep that has any and is due before the strips; one that is being swept to its
-// end has none.
-SweepPart EncodeQueue::takePart() {
-  for (auto sweep = sweeps_.begin(); sweep != sweeps_.end(); ++sweep) {
-    if (!strips_.empty() && strips_.front().run->job.deadline_ns <= (*sweep)->deadlineNs()) break;
-    SweepPart part{.sweep = *sweep};
-    SweepRun& run = **sweep;
-    if (run.next_piece < run.pieceCount()) {
-      part.index = run.next_piece++;
-      return part;
-    }
-    if (run.swept_count < run.pieceCount()) continue;
-    part.is_strip = true;
-    part.index = run.next_strip++;
-    if (run.next_strip == run.run()->stripCount()) sweeps_.erase(sweep);
+// The sweep that the next part is of: the first that has one to hand out, or the first of others
+// if that is their turn. nullptr = a strip goes before it, or there is none.
+SweepRunPtr EncodeQueue::nextSweep() const {
+  SweepRunPtr first, other;
+  for (const SweepRunPtr& sweep : sweeps_) {
+    if (!sweep->hasPart()) continue;
+    if (!first) first = sweep;
+    if (sweep->run()->isTracked()) continue;
+    other = sweep;
+    break;
+  }
+  const AtlasRunPtr strip = strips_.empty() ? nullptr : strips_.front().run;
+  const bool is_sweep = first && (!strip || goesFirst(*first->run(), *strip));
+  const AtlasRunPtr next = is_sweep ? first->run() : strip;
+  if (other && next->isTracked() && turn_.isOver()) return other;
+  return is_sweep ? first : nullptr;
+}
+
+SweepPart EncodeQueue::takePart(const SweepRunPtr& sweep) {
+  SweepPart part{.sweep = sweep};
+  if (sweep->next_piece < sweep->pieceCount()) {
+    part.index = sweep->next_piece++;
     return part;
   }
-  return {};
+  part.is_strip = true;
+  part.index = sweep->next_strip++;
+  if (sweep->next_strip == sweep->run()->stripCount()) std::erase(sweeps_, sweep);
+  return part;
 }
 
 void EncodeQueue::noteSwept(SweepRun& sweep) {
   std::lock_guard lock(mutex_);
   if (++sweep.swept_count == sweep.pieceCount()) filled_.notify_all();
+}
+
+void EncodeQueue::noteServed(bool is_tracked, int64_t duration_ns) {
+  std::lock_guard lock(mutex_);
+  turn_.note(is_tracked, duration_ns);
 }
 
 void EncodeQueue::close() {

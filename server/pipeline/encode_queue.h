@@ -11,6 +11,7 @@
 
 #include "pipeline/strip_trace.h"
 #include "pipeline/sweep_run.h"
+#include "pipeline/turns.h"
 
 namespace viewloom {
 
@@ -35,8 +36,9 @@ struct EncodeTask {
   SweepPart part;  // without a sweep: the strip
 };
 
-// Of several atlases the one that is due soonest goes first, also between two parts of another; the
-// device's strips keep their order, and go before sweeps that are due no sooner.
+// Of several atlases the one that is due soonest goes first, of tracked displays before all others,
+// also between two parts of another; the device's strips keep their order, and go before sweeps
+// that are due no sooner.
 // Thread-safety: all methods may be called from any thread.
 class EncodeQueue {
  public:
@@ -49,20 +51,24 @@ class EncodeQueue {
   std::optional<EncodeTask> pop();
   // A piece that was popped is swept.
   void noteSwept(SweepRun& sweep);
+  // What was popped is done, and took that long: of a tracked display, or another.
+  void noteServed(bool is_tracked, int64_t duration_ns);
   // Nothing more comes in; what is inside is still handed out.
   void close();
   // Lets go of everything inside.
   void clear();
 
  private:
-  SweepPart takePart();
+  SweepRunPtr nextSweep() const;
+  SweepPart takePart(const SweepRunPtr& sweep);
 
   const size_t strip_count_max_;
   std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable filled_;
   std::deque<TracedStrip> strips_;
-  std::vector<SweepRunPtr> sweeps_;  // of which parts are left, soonest deadline first
+  std::vector<SweepRunPtr> sweeps_;  // of which parts are left, what goes first in front
+  EyesTurn turn_;                    // of those who pop, in ns
   bool is_closed_ = false;
 };
 

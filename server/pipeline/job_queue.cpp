@@ -48,6 +48,12 @@ std::optional<int64_t> JobQueue::soonestDeadlineNs() const {
   return job->deadline_ns;
 }
 
+bool JobQueue::hasTracked() const {
+  return std::any_of(waiting_.begin(), waiting_.end(), [&](const AtlasJob& job) {
+    return job.is_tracked && !begun_.contains(job.picture_key);
+  });
+}
+
 AtlasJob JobQueue::begin() {
   const auto job = soonest();
   VIEWLOOM_CHECK(job != waiting_.end());

@@ -28,6 +28,7 @@ struct AtlasJob {
   int64_t deadline_ns = 0;   // server's monotonic clock
   FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
   bool is_for_eyes = false;  // that have moved since the display was given this structure
+  bool is_tracked = false;   // of a tracked display
   std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
 };
@@ -45,6 +46,8 @@ class JobQueue {
 
   // The soonest deadline of a job that may begin; none while its picture is being traced.
   std::optional<int64_t> soonestDeadlineNs() const;
+  // Whether one of a tracked display may begin.
+  bool hasTracked() const;
   // Takes that job; no other of its picture may begin until finish().
   AtlasJob begin();
   void finish(const std::string& picture_key);

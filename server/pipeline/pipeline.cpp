@@ -13,6 +13,7 @@
 #include "pipeline/structure_loop.h"
 #include "pipeline/tick_loop.h"
 #include "pipeline/trace_loop.h"
+#include "pipeline/turns.h"
 
 namespace viewloom {
 namespace {
@@ -131,14 +132,16 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
     traces.offer({.picture_key = display->picture_key,
                   .structure = resident,
                   .deadline_ns = deadlineNs(display->spec),
-                  .ticket = ticket});
+                  .ticket = ticket,
+                  .is_tracked = isTracked(display->spec)});
   }
   ticks.offer(stream.name, newest, ticket);
   gpu_wake_up.ring();
 }
 
 int64_t Pipeline::Loops::deadlineNs(const DisplaySpec& spec) const {
-  return links.clock.nowNs() + kDueNsPerRay * rayCount(spec);
+  const int64_t due_ns = links.clock.nowNs() + kDueNsPerRay * rayCount(spec);
+  return isTracked(spec) ? due_ns - kEyesAhead_ns : due_ns;
 }
 
 Pipeline::Pipeline(PipelineLinks links, const PipelineOptions& options)
@@ -180,7 +183,8 @@ void Pipeline::serveEyes(const ActiveDisplay& display) {
   loops_->traces.offer({.picture_key = display.picture_key,
                         .structure = resident,
                         .deadline_ns = loops_->deadlineNs(display.spec),
-                        .is_for_eyes = true});
+                        .is_for_eyes = true,
+                        .is_tracked = true});
   loops_->gpu_wake_up.ring();
 }
 

@@ -17,7 +17,8 @@ class SweepRun {
   SweepRun(AtlasRunPtr run, SweepPlan plan, std::shared_ptr<SweptAtlas> atlas);
 
   uint32_t pieceCount() const { return piece_count_; }
-  int64_t deadlineNs() const { return run_->job.deadline_ns; }
+  // A piece to sweep or a strip to pack; while the last pieces are swept there is none.
+  bool hasPart() const { return next_piece < piece_count_ || swept_count == piece_count_; }
   const AtlasRunPtr& run() const { return run_; }
 
   // Each piece once.

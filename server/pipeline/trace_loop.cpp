@@ -56,7 +56,8 @@ TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
       publisher_(publisher),
       pictures_(pictures),
       tracer_(links.device),
-      swept_atlases_(slot_count, on_slot_return) {
+      swept_atlases_(slot_count, on_slot_return),
+      swept_eyes_(slot_count, on_slot_return) {
   for (const ColorForm color : {ColorForm::kRgba, ColorForm::kYcbcr444, ColorForm::kYcbcr420}) {
     for (const bool depth : {false, true}) {
       for (const bool mask : {false, true}) {
@@ -92,7 +93,15 @@ bool TraceLoop::submitStrip(bool may_begin) {
   if (may_begin) beginDueJobs();
   const AtlasRunPtr run = soonestRun();
   if (!run) return false;
+  const AtlasRunPtr other = run->isTracked() ? soonestOther() : nullptr;
+  if (other && turn_.isOver() && submitStripOf(other)) return true;
+  return submitStripOf(run);
+}
+
+bool TraceLoop::submitStripOf(const AtlasRunPtr& run) {
+  if (run->next_strip == 0) latchEyes(*run);
   if (run->method == TraceMethod::kSweep) return submitSweep(run);
+  run->planes.color = tracer_.colorForm(run->direct_color);
   std::shared_ptr<StripTrace> trace = takeSlot(*run);
   if (!trace) return false;
   submit(run, std::move(trace));
@@ -109,7 +118,8 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }
 
-// Begins jobs as long as one is due before everything that has begun.
+// Begins jobs as long as one is due before everything that has begun, or eyes wait and nobody's
+// are served.
 void TraceLoop::beginDueJobs() {
   while (true) {
     std::optional<AtlasJob> job;
@@ -117,7 +127,9 @@ void TraceLoop::beginDueJobs() {
       std::lock_guard lock(mutex_);
       const std::optional<int64_t> due_ns = jobs_.soonestDeadlineNs();
       const AtlasRunPtr run = soonestRun();
-      if (!due_ns || (run && run->job.deadline_ns <= *due_ns)) return;
+      const bool is_due = due_ns && (!run || *due_ns < run->job.deadline_ns);
+      const bool eyes_wait = run && !run->isTracked() && jobs_.hasTracked();
+      if (!is_due && !eyes_wait) return;
       job = jobs_.begin();
     }
     if (!begin(*job)) {
@@ -177,13 +189,31 @@ bool TraceLoop::begin(AtlasJob& job) {
       std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, std::move(displays));
   run->eyes = std::move(eyes);
   run->method = *method;
-  if (*method == TraceMethod::kWalk) {
-    run->planes.color = tracer_.colorForm(run->planes.color);
-  }
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);
   begun_.push_back(std::move(run));
   return true;
+}
+
+// The eyes as they are when its first rays go, which may have waited for room. Those that cannot be
+// served have a job of their own, in which they are refused.
+void TraceLoop::latchEyes(AtlasRun& run) {
+  if (!run.isTracked()) return;
+  const ActiveDisplayPtr& display = run.outputs.front().display;
+  EyePosesPtr newest = display->eyes->newest();
+  if (newest != run.eyes) {
+    const auto picture =
+        pictures_.get(*display, *run.job.structure, aimOf(*display, run.job), newest);
+    if (!picture.ok()) return;
+    const auto method = prepareMethod(**picture, run.job);
+    if (!method.ok()) return;
+    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
+    run.picture = *picture;
+    run.method = *method;
+    served_[display->id].eyes = newest;
+    run.eyes = std::move(newest);
+  }
+  run.begun_ns = links_.clock.nowNs();
 }
 
 void TraceLoop::refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) {
@@ -211,11 +241,19 @@ absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture, co
 }
 
 AtlasRunPtr TraceLoop::soonestRun() const {
-  const auto soonest = std::min_element(begun_.begin(), begun_.end(),
-                                        [](const AtlasRunPtr& a, const AtlasRunPtr& b) {
-                                          return a->job.deadline_ns < b->job.deadline_ns;
-                                        });
+  const auto soonest = std::min_element(
+      begun_.begin(), begun_.end(),
+      [](const AtlasRunPtr& a, const AtlasRunPtr& b) { return goesFirst(*a, *b); });
   return soonest == begun_.end() ? nullptr : *soonest;
+}
+
+// Of a display that is not tracked.
+AtlasRunPtr TraceLoop::soonestOther() const {
+  AtlasRunPtr soonest;
+  for (const AtlasRunPtr& run : begun_) {
+    if (!run->isTracked() && (!soonest || goesFirst(*run, *soonest))) soonest = run;
+  }
+  return soonest;
 }
 
 // A structure that nobody has walked so far: the device has no newer work to do. The stream's next
@@ -230,11 +268,12 @@ void TraceLoop::buildForWalk(StructureBuild& build) {
 
 // The whole atlas at once: its rows lie all over it. False when every atlas is lent.
 bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
-  std::shared_ptr<SweptAtlas> atlas = swept_atlases_.take(
-      [](const SweptAtlas&) { return true; }, [] { return std::make_unique<SweptAtlas>(); });
+  SlotPool<SweptAtlas>& pool = run->isTracked() ? swept_eyes_ : swept_atlases_;
+  std::shared_ptr<SweptAtlas> atlas = pool.take([](const SweptAtlas&) { return true; },
+                                                [] { return std::make_unique<SweptAtlas>(); });
   if (!atlas) return false;
   auto plan = SweepPlan::make(*run->picture, run->job.structure->stats.inv_z_max);
-  run->planes.color = plan->colorForm(run->planes.color);
+  run->planes.color = plan->colorForm(run->direct_color);
   encoders_.push(std::make_shared<SweepRun>(run, *std::move(plan), std::move(atlas)));
   finish(run);
   return true;
@@ -242,6 +281,7 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
 
 void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
   const uint32_t strip = run->next_strip++;
+  turn_.note(run->isTracked(), run->stripPx());
   tracer_.recordBand(trace->recorder.begin(), partsOf(run->job), *run->picture,
                      {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
   const uint64_t value = trace->recorder.submit(timeline_);

@@ -14,6 +14,7 @@
 #include "pipeline/picture_cache.h"
 #include "pipeline/slot_pool.h"
 #include "pipeline/strip_trace.h"
+#include "pipeline/turns.h"
 #include "structure/structure_builder.h"
 #include "trace/view_tracer.h"
 
@@ -41,7 +42,8 @@ class TraceLoop {
   void dropAll();
 
   // Records and submits the strip that is due soonest. Between two strips an atlas with a sooner
-  // deadline may begin, if may_begin. False when there is nothing to do or no free slot.
+  // deadline, or of a tracked display, may begin, if may_begin. False when there is nothing to do
+  // or no free slot.
   bool submitStrip(bool may_begin);
   bool hasBegun() const { return !begun_.empty(); }
 
@@ -69,6 +71,9 @@ class TraceLoop {
   bool begin(AtlasJob& job);
   Unserved takeUnserved(const AtlasJob& job);
   AtlasRunPtr soonestRun() const;
+  AtlasRunPtr soonestOther() const;
+  bool submitStripOf(const AtlasRunPtr& run);
+  void latchEyes(AtlasRun& run);
   bool submitSweep(const AtlasRunPtr& run);
   void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
   absl::StatusOr<TraceMethod> prepareMethod(const TraceJob& picture, const AtlasJob& job);
@@ -85,7 +90,9 @@ class TraceLoop {
   ViewTracer tracer_;
   std::vector<SlotRing> rings_;  // one for each set of planes, see ringOf
   SlotPool<SweptAtlas> swept_atlases_;
+  SlotPool<SweptAtlas> swept_eyes_;  // of tracked displays: no quilt's end is waited for
   std::vector<AtlasRunPtr> begun_;
+  EyesTurn turn_;                      // at the device, in px
   std::map<uint64_t, Served> served_;  // by display, as last begun
 
   std::mutex mutex_;

@@ -29,6 +29,7 @@ struct Broadcaster::State {
   const BroadcasterLimits limits;
   std::function<void(const std::string&)> on_demand_change;
   std::function<void(const ActiveDisplay&)> on_eyes_move;
+  std::function<void(const std::string&)> on_eyes_served;
 
   mutable std::mutex mutex;  // guards what follows; never held while a subscriber is called
   bool is_draining = false;
@@ -159,6 +160,10 @@ void Broadcaster::onEyesMove(std::function<void(const ActiveDisplay& display)> c
   state_->on_eyes_move = std::move(callback);
 }
 
+void Broadcaster::onEyesServed(std::function<void(const std::string& stream)> callback) {
+  state_->on_eyes_served = std::move(callback);
+}
+
 void Broadcaster::announceEyes(uint64_t display_id) const {
   ActiveDisplayPtr display;
   {
@@ -199,6 +204,7 @@ std::shared_ptr<const AtlasLayout> Broadcaster::layout(uint64_t display_id) cons
 
 void Broadcaster::publish(const AtlasPtr& atlas) {
   std::vector<MemberPtr> members;
+  std::string stream;
   AtlasPtr previous;  // freed after the lock
   {
     std::lock_guard lock(state_->mutex);
@@ -209,8 +215,11 @@ void Broadcaster::publish(const AtlasPtr& atlas) {
     previous = std::exchange(display.newest, atlas);
     ++display.atlas_count;
     members = display.members;
+    stream = display.active->stream;
   }
   for (const MemberPtr& member : members) member->offer(atlas);
+  const bool is_by_eyes = atlas->eye_poses_latched_ns != 0;
+  if (is_by_eyes && state_->on_eyes_served) state_->on_eyes_served(stream);
 }
 
 void Broadcaster::refuse(uint64_t display_id, const absl::Status& status) {

@@ -63,6 +63,10 @@ class Broadcaster {
   // There are newer poses in the display's track.
   void announceEyes(uint64_t display_id) const;
 
+  // Called by publish() for an atlas that was seen by eyes, on its thread: other sources may serve
+  // them better from now on. Set once, before anybody subscribes.
+  void onEyesServed(std::function<void(const std::string& stream)> callback);
+
   // One snapshot of the displays of a stream; all of them with an empty name. Sorted by id.
   std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;
   uint32_t subscriberCount(const std::string& stream) const;

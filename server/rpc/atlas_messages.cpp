@@ -126,6 +126,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);
   header.set_eye_poses_time_ns(atlas_->eye_poses_time_ns);
   header.set_predicted_display_time_ns(atlas_->predicted_display_time_ns);
+  header.set_eye_poses_latched_ns(atlas_->eye_poses_latched_ns);
+  header.set_eye_poses_age_ns(atlas_->eye_poses_age_ns);
   header.set_shown_time_ns(atlas_->shown_time_ns);
   header.set_timing(timingToProto(atlas_->timing));
   for (const ViewsOutside& views : viewsOutside(atlas_->outside_shares)) {

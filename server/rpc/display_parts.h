@@ -2,6 +2,7 @@
 // What watching a stream touches. All of it outlives the calls.
 #pragma once
 
+#include "base/clock.h"
 #include "base/metrics.h"
 #include "display/atlas_layout.h"
 #include "publish/broadcaster.h"
@@ -12,6 +13,7 @@ namespace viewloom {
 struct DisplayParts {
   StreamDirectory& directory;
   Broadcaster& broadcaster;
+  const Clock& clock;
   const Metrics& metrics;
   AtlasLimits limits;
 };

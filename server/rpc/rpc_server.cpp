@@ -69,6 +69,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                .limits = description.frame_limits}),
       display_({.directory = parts.directory,
                 .broadcaster = parts.broadcaster,
+                .clock = parts.clock,
                 .metrics = parts.metrics,
                 .limits = description.atlas_limits}),
       catalog_(parts.directory, parts.broadcaster, description) {

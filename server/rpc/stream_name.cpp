@@ -6,6 +6,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 
 namespace viewloom {
 namespace {
@@ -24,6 +25,17 @@ absl::Status validateStreamName(const std::string& name, std::string_view field)
   return invalidField(field,
                       absl::StrCat("got \"", absl::CEscape(name.substr(0, kNameLengthMax)),
                                    "\"; accepted: 1..", kNameLengthMax, " of A-Z a-z 0-9 . _ -"));
+}
+
+absl::Status noSuchStream(const std::string& name, std::string_view field,
+                          const StreamDirectory& directory) {
+  const std::vector<StreamEntry> entries = directory.list();
+  const auto append_name = [](std::string* out, const StreamEntry& entry) {
+    out->append(entry.name);
+  };
+  const std::string existing = entries.empty() ? "none" : absl::StrJoin(entries, ", ", append_name);
+  return fieldError(absl::StatusCode::kNotFound, field,
+                    absl::StrCat("there is no \"", name, "\"; there are: ", existing));
 }
 
 }  // namespace viewloom

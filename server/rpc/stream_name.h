@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream may be called.
+// What a stream may be called, and what is said where there is none.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "base/status.h"
+#include "publish/stream_directory.h"
 
 namespace viewloom {
 
 // [A-Za-z0-9._-]{1,64}
 absl::Status validateStreamName(const std::string& name, std::string_view field);
+
+// NOT_FOUND, with the names that there are.
+absl::Status noSuchStream(const std::string& name, std::string_view field,
+                          const StreamDirectory& directory);
 
 }  // namespace viewloom

@@ -18,12 +18,35 @@ Pose sourceFromDisplay(const EncodedAtlas& atlas) {
   return compose(inverse(atlas.source_camera.pose), atlas.display_pose);
 }
 
+// Relative to the source. Where every display follows eyes, one between them all serves them best.
+Pose wantedPose(std::span<const AtlasPtr> atlases) {
+  Pose mean{.position_m = glm::dvec3(0.0), .orientation = {0, 0, 0, 0}};
+  double eye_count = 0;
+  for (const AtlasPtr& atlas : atlases) {
+    if (atlas->eye_poses_latched_ns == 0) return {};
+    const Pose source_from_display = sourceFromDisplay(*atlas);
+    for (const View& view : atlas->layout->views) {
+      const Pose eye = compose(source_from_display, view.camera.pose);
+      mean.position_m += eye.position_m;
+      // Both signs are the same turn.
+      const bool is_alike = glm::dot(mean.orientation, eye.orientation) >= 0;
+      mean.orientation = mean.orientation + (is_alike ? eye.orientation : -eye.orientation);
+      ++eye_count;
+    }
+  }
+  if (eye_count == 0) return {};
+  return {.position_m = mean.position_m / eye_count,
+          .orientation = glm::normalize(mean.orientation)};
+}
+
 }  // namespace
 
 v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, uint32_t display_count) {
   SourceDemand demand(kFarAway);
+  const Pose pose = wantedPose(atlases);
   for (const AtlasPtr& atlas : atlases) {
-    demand.include(outermostViews(*atlas->layout), sourceFromDisplay(*atlas));
+    demand.include(outermostViews(*atlas->layout),
+                   compose(inverse(pose), sourceFromDisplay(*atlas)));
   }
   v1::Wanted proto;
   proto.set_display_count(display_count);
@@ -31,7 +54,7 @@ v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, uint32_t display_cou
   *proto.mutable_size() = sizeToProto(demand.sizePx());
   *proto.mutable_fov() = fovToProto(demand.fov());
   proto.set_layer_count(demand.hasParallax() ? kLayersForParallax : 1);
-  *proto.mutable_pose() = poseToProto({});
+  *proto.mutable_pose() = poseToProto(pose);
   return proto;
 }
 

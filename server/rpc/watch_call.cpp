@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "publish/subscriber.h"
 #include "rpc/display_from_proto.h"
 #include "rpc/encoding_from_proto.h"
@@ -13,19 +12,6 @@
 #include "rpc/wire_message.h"
 
 namespace viewloom {
-namespace {
-
-absl::Status noSuchStream(const std::string& stream, const StreamDirectory& directory) {
-  const std::vector<StreamEntry> entries = directory.list();
-  const auto append_name = [](std::string* out, const StreamEntry& entry) {
-    out->append(entry.name);
-  };
-  const std::string existing = entries.empty() ? "none" : absl::StrJoin(entries, ", ", append_name);
-  return fieldError(absl::StatusCode::kNotFound, "open.stream",
-                    absl::StrCat("there is no \"", stream, "\"; there are: ", existing));
-}
-
-}  // namespace
 
 class WatchCall::Seat final : public Subscriber {
  public:
@@ -51,6 +37,7 @@ class WatchCall::Seat final : public Subscriber {
 };
 
 absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
+  const int64_t received_ns = parts_.clock.nowNs();
   v1::StreamAtlasesRequest request;
   VIEWLOOM_RETURN_IF_ERROR(mergeMessage(bytes, request));
   const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
@@ -63,16 +50,19 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
     case v1::StreamAtlasesRequest::kChange:
       return handleChange(request.change());
     case v1::StreamAtlasesRequest::kEyePoses:
-      return handleEyePoses(request.eye_poses());
+      return handleEyePoses(request.eye_poses(), received_ns);
     case v1::StreamAtlasesRequest::kPresented:
-      parts_.metrics.atlases_presented.add();
+      notePresented(request.presented());
       return absl::OkStatus();
     case v1::StreamAtlasesRequest::kClockProbe:
-      return fieldError(absl::StatusCode::kUnimplemented, "clock_probe", "is not served yet");
+      noteProbe(request.clock_probe(), received_ns);
+      return absl::OkStatus();
     case v1::StreamAtlasesRequest::MESSAGE_NOT_SET:
       break;
   }
-  return invalidField("message", "got none; accepted: change, eye_poses or presented");
+  return invalidField("message",
+                      "got none; accepted: change, eye_poses, presented or "
+                      "clock_probe");
 }
 
 absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
@@ -81,7 +71,7 @@ absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   encoding_proto_ = request.encoding();
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "open"));
   if (!request.wait_for_stream() && !parts_.directory.exists(request.stream())) {
-    return noSuchStream(request.stream(), parts_.directory);
+    return noSuchStream(request.stream(), "open.stream", parts_.directory);
   }
   stream_ = request.stream();
   {
@@ -102,7 +92,7 @@ absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
 }
 
 // Poses that are overtaken by newer ones are dropped: one slot holds what is served next.
-absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request) {
+absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request, int64_t received_ns) {
   if (eyes_ == nullptr) {
     return fieldError(absl::StatusCode::kFailedPrecondition, "eye_poses",
                       "came for a display that is not tracked; accepted for a StereoDisplay that "
@@ -110,6 +100,7 @@ absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request) {
   }
   absl::StatusOr<EyePoses> poses = eyePosesFromProto(request);
   VIEWLOOM_RETURN_IF_ERROR(poses.status());
+  poses->received_ns = received_ns;
   uint64_t display_id = 0;
   {
     std::lock_guard lock(mutex_);
@@ -122,6 +113,20 @@ absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request) {
   eyes_->put(*std::move(poses));
   parts_.broadcaster.announceEyes(display_id);
   return absl::OkStatus();
+}
+
+void WatchCall::notePresented(const v1::Presented& presented) {
+  parts_.metrics.atlases_presented.add();
+  std::lock_guard lock(mutex_);
+  const std::optional<double> latency_s =
+      sent_poses_.latencySeconds(presented.sequence(), presented.presented_time_ns());
+  if (latency_s) parts_.metrics.motion_to_image.observe(*latency_s);
+}
+
+void WatchCall::noteProbe(const v1::ClockProbe& probe, int64_t received_ns) {
+  std::lock_guard lock(mutex_);
+  clock_replies_.note(probe.client_time_ns(), received_ns);
+  advance();
 }
 
 // Where the stream has to give it, it is not known before the first frame: the trace checks again.
@@ -156,7 +161,8 @@ absl::Status WatchCall::takeSeat(const std::string& field) {
     seat_number = ++seat_number_;
     left = std::move(subscription_);
     pending_ = nullptr;
-    layout_message_.clear();
+    announcements_.restart();
+    sent_poses_.clear();
   }
   leave(std::move(left));  // before the new one, so that a change never needs a second place
   if (!isTracked(spec_))
@@ -209,7 +215,7 @@ void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
   if (seat_number != seat_number_ || ending()) return;
   replaced = std::exchange(pending_, std::move(atlas));
   if (replaced != nullptr) {
-    ++skipped_count_;
+    announcements_.noteSkipped();
     parts_.metrics.replaced[HandOver::kGrpc].add();
   }
   advance();
@@ -240,11 +246,30 @@ bool WatchCall::mayStartAtlas() const {
   return count_ == 0 || sent_count_ < count_;
 }
 
+// What time it is goes before atlases, but no more often than every other message: whoever floods
+// the call with probes still gets them.
 std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
   std::optional<grpc::ByteBuffer> message;
+  if (!std::exchange(replied_last_, false)) message = takeReply();
+  if (!message.has_value()) message = takeAtlasMessage();
+  return message.has_value() ? std::move(message) : takeReply();
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeReply() {
+  if (ending()) return std::nullopt;
+  std::optional<grpc::ByteBuffer> reply = clock_replies_.take(parts_.clock.nowNs());
+  replied_last_ = reply.has_value();
+  return reply;
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeAtlasMessage() {
+  std::optional<grpc::ByteBuffer> message;
   if (!sending_.has_value() && mayStartAtlas()) {
-    message = takeAnnouncement();
-    if (!message.has_value()) sending_.emplace(std::move(pending_));
+    message = announcements_.take(*pending_);
+    if (!message.has_value()) {
+      sent_poses_.note(pending_->sequence, pending_->eye_poses_time_ns);
+      sending_.emplace(std::move(pending_));
+    }
   }
   if (sending_.has_value()) {
     message = sending_->next();
@@ -258,21 +283,6 @@ std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
     parts_.metrics.sent_bytes[Transport::kGrpc].add(static_cast<double>(message->Length()));
   }
   return message;
-}
-
-// What must be said before the pending atlas: a new layout, or atlases that were skipped.
-std::optional<grpc::ByteBuffer> WatchCall::takeAnnouncement() {
-  if (layout_message_.empty() || layout_ != pending_->layout) {
-    std::string message = layoutMessage(*pending_);
-    layout_ = pending_->layout;
-    if (message != layout_message_) {
-      layout_message_ = std::move(message);
-      const grpc::Slice slice(layout_message_);
-      return grpc::ByteBuffer(&slice, 1);
-    }
-  }
-  if (skipped_count_ > 0) return skippedMessage(std::exchange(skipped_count_, 0));
-  return std::nullopt;
 }
 
 }  // namespace viewloom

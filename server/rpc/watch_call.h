@@ -8,8 +8,11 @@
 #include <string>
 
 #include "display/display_spec.h"
+#include "publish/sent_poses.h"
+#include "rpc/atlas_announcements.h"
 #include "rpc/atlas_messages.h"
 #include "rpc/bidi_call.h"
+#include "rpc/clock_replies.h"
 #include "rpc/display_parts.h"
 #include "viewloom/v1/display_service.pb.h"
 
@@ -37,7 +40,9 @@ class WatchCall final : public BidiCall {
 
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);
-  absl::Status handleEyePoses(const v1::EyePoses& request);
+  absl::Status handleEyePoses(const v1::EyePoses& request, int64_t received_ns);
+  void notePresented(const v1::Presented& presented);
+  void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
   std::optional<double> focalDistance(uint64_t display_id) const;
   absl::Status setDisplay(const v1::Display& proto);
   absl::Status settleEncoding();
@@ -47,7 +52,8 @@ class WatchCall final : public BidiCall {
   void offer(uint64_t seat_number, AtlasPtr atlas);
   void endSeat(uint64_t seat_number, const absl::Status& status);
   bool mayStartAtlas() const;
-  std::optional<grpc::ByteBuffer> takeAnnouncement();
+  std::optional<grpc::ByteBuffer> takeReply();
+  std::optional<grpc::ByteBuffer> takeAtlasMessage();
 
   const DisplayParts parts_;
 
@@ -61,14 +67,15 @@ class WatchCall final : public BidiCall {
   // Under mutex_.
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   uint64_t seat_number_ = 0;
-  bool draining_ = false;       // what is pending is still written
-  uint32_t count_ = 0;          // atlases asked for; 0 = no end
-  uint64_t sent_count_ = 0;     // atlases written, or being written, whole
-  AtlasPtr pending_;            // newest complete one
-  uint64_t skipped_count_ = 0;  // replaced in pending_ since the last Skipped message
+  bool draining_ = false;    // what is pending is still written
+  uint32_t count_ = 0;       // atlases asked for; 0 = no end
+  uint64_t sent_count_ = 0;  // atlases written, or being written, whole
+  AtlasPtr pending_;         // newest complete one
+  AtlasAnnouncements announcements_;
   std::optional<AtlasMessages> sending_;
-  std::shared_ptr<const AtlasLayout> layout_;  // the one announced last
-  std::string layout_message_;                 // and how; empty = to be announced anew
+  SentPoses sent_poses_;
+  ClockReplies clock_replies_;
+  bool replied_last_ = false;  // the last message written is one of them
 };
 
 }  // namespace viewloom

@@ -48,10 +48,12 @@ class ReportLog {
 class PipelineFixture : public GpuTest {
  protected:
   struct Server {
-    explicit Server(const Device& device, PipelineOptions options = {})
+    // By its own clock, or another.
+    explicit Server(const Device& device, PipelineOptions options = {},
+                    const Clock* other_clock = nullptr)
         : pipeline(
               {.device = device,
-               .clock = clock,
+               .clock = other_clock != nullptr ? *other_clock : clock,
                .metrics = metrics,
                .broadcaster = broadcaster,
                .directory = directory,

@@ -37,6 +37,13 @@ TEST(StreamAtlases, refusesMessagesThatDoNotFollowOn) {
          w.send(request);
        },
        {kInvalid, "message"}},
+      {"asking for the time first",
+       [](auto& w) {
+         v1::StreamAtlasesRequest request;
+         request.mutable_clock_probe();
+         w.send(request);
+       },
+       {kInvalid, "message"}},
       {"open twice",
        [](auto& w) {
          w.send(opening());

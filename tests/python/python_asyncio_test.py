@@ -80,6 +80,15 @@ class Asyncio(unittest.IsolatedAsyncioTestCase):
                     break
             self.assertEqual(atlas.layout.views[1].pose.position.x, 0.2)
 
+    async def test_the_servers_clock_is_this_machines(self):
+        async with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", scene.own_place()) as watcher:
+            await publisher.send(flat_source(90))
+            atlas = await anext(watcher)
+            clock = await watcher.measure_clock(probes=3, timeout_s=viewloomd.PATIENCE_S)
+            self.assertLessEqual(abs(clock.ahead_ns), clock.error_ns)
+            await watcher.report_presented(atlas, 5)
+
     async def test_two_streams_at_once_on_one_connection(self):
         async def still_of(name, seed):
             color = scene.noise_color(seed)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples of the package do what they say, and the README's first picture is one of them."""
 
+import json
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.request
 
 import viewloomd  # takes its argument
 
@@ -51,6 +53,32 @@ class Examples(unittest.TestCase):
         shown = re.findall(r"```python\n(.*?)```", (PACKAGE / "README.md").read_text(
             encoding="utf-8"), re.DOTALL)
         self.assertIn(code.replace("*sys.argv[1:]", ""), "\n".join(shown))
+
+    def test_a_head_is_replayed_pose_by_pose(self):
+        """A head at rest sees the same twice; one that moves, or turns, sees something else."""
+        turned = {"pose": {"position": {"x": 0.05}, "orientation": {"y": 0.1, "w": 0.99499}},
+                  "fov": {"angleLeftRad": -0.5, "angleRightRad": 0.5, "angleDownRad": -0.4,
+                          "angleUpRad": 0.4}}
+        places = [([-0.03, 0, 0], [0.03, 0, 0]), ([-0.03, 0, 0], [0.03, 0, 0]),
+                  ([-0.2, 0.1, 0.1], [-0.14, 0.1, 0.1]), (turned, turned)]
+        track = self.folder / "head.jsonl"
+        track.write_text("\n".join(json.dumps({"time_ns": 9, "left": left, "right": right})
+                                   for left, right in places) + "\n", encoding="utf-8")
+        with viewloom.connect(self.daemon.address) as server, \
+                server.publish("demo") as publisher:
+            publisher.send(scene.source(scene.noise_color(), scene.step_depth()))
+            said = self.run_example("replay_head.py", str(track), "--server", self.daemon.address,
+                                    "--width", "64", "--height", "48", "--focal-distance", "2")
+        self.assertEqual(re.findall(r"^pose (\d+): frame 1, ", said, re.MULTILINE),
+                         ["0", "1", "2", "3"])
+        seen = [(self.folder / "seen" / f"{number:05d}.jpg").read_bytes() for number in range(4)]
+        self.assertEqual(Image.open(self.folder / "seen" / "00000.jpg").size, (128, 48))
+        self.assertEqual(seen[0], seen[1])
+        self.assertEqual(len(set(seen)), 3)
+        with urllib.request.urlopen(self.daemon.url + "metrics") as metrics:
+            counted = re.search(r"viewloom_motion_to_image_seconds_count (\d+)",
+                                metrics.read().decode())
+        self.assertGreaterEqual(int(counted[1]), 3)  # the last word may be lost with the call
 
     def test_views_are_watched_with_asyncio(self):
         with viewloom.connect(self.daemon.address) as server, \

@@ -3,6 +3,7 @@
 
 import json
 import math
+import time
 import unittest
 import urllib.request
 from concurrent import futures
@@ -157,6 +158,22 @@ class Watching(unittest.TestCase):
             watcher.send_eye_poses((0, 0, 0), (0, 0, -scene.FAR_M))
             self.refused(lambda: watcher.receive(viewloomd.PATIENCE_S), "INVALID_ARGUMENT",
                          "eye_poses.eyes[1].pose.position.z", "focal plane")
+
+    def test_the_servers_clock_is_this_machines(self):
+        """Both count the same nanoseconds here, so the offset is 0 to within its error."""
+        with self.server.publish("scene") as publisher, \
+                self.server.watch("scene", scene.own_place()) as watcher:
+            publisher.send(flat_source(90))
+            atlas = next(watcher)
+            before_ns = time.monotonic_ns()
+            clock = watcher.measure_clock(timeout_s=viewloomd.PATIENCE_S)
+            took_ns = time.monotonic_ns() - before_ns
+            self.assertGreater(clock.error_ns, 0)
+            self.assertLess(clock.error_ns, took_ns)
+            self.assertLessEqual(abs(clock.ahead_ns), clock.error_ns)
+            watcher.report_presented(atlas, time.monotonic_ns())
+        with self.assertRaisesRegex(viewloom.ViewloomError, "over"):
+            watcher.measure_clock()
 
     def test_a_source_is_advised(self):
         # Two eyes of a focal plane 2 m away where all of the scene is, framed 30 degrees high.

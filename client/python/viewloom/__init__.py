@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from viewloom import aio
     from viewloom.atlas import Atlas, view_window
+    from viewloom.clock import ClockOffset
     from viewloom.display import encoding
     from viewloom.errors import BadInput, ViewloomError
     from viewloom.publisher import Publisher
@@ -21,8 +22,9 @@ if TYPE_CHECKING:
     from viewloom.source import Source
     from viewloom.watcher import Watcher
 else:
-    _MODULES = {"Atlas": "atlas", "BadInput": "errors", "Publisher": "publisher",
-                "Server": "server", "Source": "source", "ViewloomError": "errors",
+    _MODULES = {"Atlas": "atlas", "BadInput": "errors", "ClockOffset": "clock",
+                "Publisher": "publisher", "Server": "server", "Source": "source",
+                "ViewloomError": "errors",
                 "Watcher": "watcher", "connect": "server", "encoding": "display",
                 "view_window": "atlas"}
 
@@ -34,5 +36,5 @@ else:
             raise AttributeError(f"module 'viewloom' has no attribute '{name}'")
         return getattr(importlib.import_module(f"viewloom.{_MODULES[name]}"), name)
 
-__all__ = ["Atlas", "BadInput", "Publisher", "Server", "Source", "ViewloomError", "Watcher", "aio",
-           "connect", "encoding", "view_window"]
+__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "ViewloomError",
+           "Watcher", "aio", "connect", "encoding", "view_window"]

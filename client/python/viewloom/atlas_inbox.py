@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Optional
 
+import grpc
+
 from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
 from viewloom.v1 import display_service_pb2
@@ -26,7 +28,7 @@ class AtlasInbox:
         self._bytes = 0
         self._newest: Optional[Atlas] = None
         self._skipped = 0  # since the newest one that was taken
-        self._is_ended = False
+        self.is_ended = False
         self._error: Optional[ViewloomError] = None
 
     def add(self, response: StreamAtlasesResponse) -> None:
@@ -71,11 +73,16 @@ class AtlasInbox:
 
     def end(self, error: Optional[ViewloomError]) -> None:
         """The call is over: with an error, or, with None, in order."""
-        self._is_ended, self._error = True, error
+        self.is_ended, self._error = True, error
 
     def is_ready(self) -> bool:
         """Whether take() has something to give or to say."""
-        return self._newest is not None or self._is_ended
+        return self._newest is not None or self.is_ended
+
+    def raise_if_ended(self) -> None:
+        """What the call ended with; CANCELLED where it ended in order."""
+        if self.is_ended:
+            raise self._error or ViewloomError(grpc.StatusCode.CANCELLED, "", "the call is over")
 
     def take(self) -> Optional[Atlas]:
         """The newest atlas; after the last one None, or what the call ended with is raised."""

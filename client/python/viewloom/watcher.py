@@ -12,6 +12,7 @@ import grpc
 
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
+from viewloom.clock import ClockOffset, ServerClock, presented_request, probe_request
 from viewloom.display import (DisplayLike, EncodingLike, EyeLike, change_request,
                               eyes_request)
 from viewloom.errors import ViewloomError, error_from_rpc
@@ -32,6 +33,7 @@ class Watcher(Iterator[Atlas]):
         self._requests.put(opening)
         self._changed = threading.Condition()
         self._inbox = AtlasInbox()
+        self._clock = ServerClock()
         self._is_closed = False
         self._call = DisplayServiceStub(channel).StreamAtlases(iter(self._requests.get, None))
         self._reader = threading.Thread(target=self._read, name="viewloom-watcher", daemon=True)
@@ -42,7 +44,10 @@ class Watcher(Iterator[Atlas]):
         try:
             for response in self._call:
                 with self._changed:
-                    self._inbox.add(response)
+                    if response.HasField("clock_reply"):
+                        self._clock.add(response.clock_reply)
+                    else:
+                        self._inbox.add(response)
                     self._changed.notify_all()
         except grpc.RpcError as problem:
             error = None if self._is_closed else error_from_rpc(problem)
@@ -89,6 +94,28 @@ class Watcher(Iterator[Atlas]):
         Poses overtaken by newer ones are dropped; one that the server refuses ends the call.
         """
         self._requests.put(eyes_request(left, right, time_ns, predicted_display_time_ns))
+
+    def report_presented(self, atlas: Atlas, presented_time_ns: int) -> None:
+        """When it was shown, by the clock of the eye poses: what motion to picture takes."""
+        self._requests.put(presented_request(atlas.header.sequence, presented_time_ns))
+
+    def measure_clock(self, probes: int = 8, timeout_s: Optional[float] = None) -> ClockOffset:
+        """How far the server's clock, of eye_poses_latched_ns, is ahead of time.monotonic_ns().
+
+        probes: so often it is asked, one after the other; the quickest answer counts.
+        Raises ViewloomError: what the call ended with, or DEADLINE_EXCEEDED after timeout_s for
+        one of them.
+        """
+        with self._changed:
+            self._clock = ServerClock()
+            for count in range(1, probes + 1):
+                self._requests.put(probe_request())
+                if not self._changed.wait_for(
+                        lambda: self._clock.count >= count or self._inbox.is_ended, timeout_s):
+                    raise ViewloomError(grpc.StatusCode.DEADLINE_EXCEEDED, "",
+                                        f"no answer came within {timeout_s} s")
+                self._inbox.raise_if_ended()
+            return self._clock.offset()
 
     def close(self) -> None:
         """Breaks off; who waits in receive() gets None."""

@@ -99,6 +99,20 @@ TEST(JobQueue, finishesABegunPictureBeforeANewerOneOfItBegins) {
   EXPECT_EQ(queue.begin().structure, newer);
 }
 
+TEST(JobQueue, tellsWhetherEyesWait) {
+  JobQueue queue;
+  queue.push({"quilt", someStructure(), 10, nullptr});
+  EXPECT_FALSE(queue.hasTracked());
+  const ResidentPtr structure = someStructure();
+  queue.push({"eyes", structure, 5, nullptr, true, true});
+  EXPECT_TRUE(queue.hasTracked());
+  ASSERT_EQ(queue.begin().picture_key, "eyes");
+  queue.push({"eyes", structure, 5, nullptr, true, true});
+  EXPECT_FALSE(queue.hasTracked()) << "they wait for their own last atlas";
+  queue.finish("eyes");
+  EXPECT_TRUE(queue.hasTracked());
+}
+
 TEST(JobQueue, handsBackWhatHasNotBegun) {
   JobQueue queue;
   queue.push({"begun", someStructure(), 10, nullptr});

@@ -145,6 +145,49 @@ TEST(WantedToProto, takesTheEyesOfAPanelForThoseOfItsView) {
               1e-9);
 }
 
+// Eyes that stand so, of a display in the place of its source.
+AtlasPtr atlasOfEyes(const Pose& left, const Pose& right) {
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->tile_size_px = {10, 10};
+  layout->size_px = {20, 10};
+  for (const Pose& pose : {left, right}) {
+    layout->views.push_back(
+        {.camera = {.pose = pose, .intrinsics = {.focal_px = {5, 5}, .principal_px = {5, 5}}}});
+  }
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->layout = std::move(layout);
+  atlas->source_camera.pose.position_m = {7, 8, 9};
+  atlas->display_pose = atlas->source_camera.pose;
+  atlas->eye_poses_latched_ns = 1;
+  return atlas;
+}
+
+TEST(WantedToProto, standsBetweenTheEyesWhereEveryDisplayFollowsThem) {
+  const glm::dquat turn = glm::angleAxis(0.4, glm::dvec3(0, 1, 0));
+  // The same turn, written with both signs.
+  const AtlasPtr one = atlasOfEyes({.position_m = {1, 0.5, -2}, .orientation = turn},
+                                   {.position_m = {1.25, 0.5, -2}, .orientation = -turn});
+  const v1::Wanted wanted = wantedToProto(std::vector<AtlasPtr>{one}, 1);
+  EXPECT_NEAR(wanted.pose().position().x(), 1.125, 1e-12);
+  EXPECT_NEAR(wanted.pose().position().y(), 0.5, 1e-12);
+  EXPECT_NEAR(wanted.pose().position().z(), -2, 1e-12);
+  EXPECT_NEAR(std::abs(wanted.pose().orientation().y()), std::sin(0.2), 1e-12);
+  EXPECT_NEAR(wanted.fov().angle_right_rad(), M_PI / 4, 1e-9) << "it looks where they look";
+  EXPECT_NEAR(wanted.fov().angle_left_rad(), -M_PI / 4, 1e-9);
+  EXPECT_EQ(wanted.layer_count(), 2u) << "each eye sees behind what the other does";
+
+  const AtlasPtr other = atlasOfEyes({.position_m = {-1, 0, 0}}, {.position_m = {-0.75, 0, 0}});
+  const v1::Wanted of_both = wantedToProto(std::vector<AtlasPtr>{one, other}, 2);
+  EXPECT_NEAR(of_both.pose().position().x(), 0.125, 1e-12);
+  EXPECT_GT(of_both.fov().angle_right_rad(), M_PI / 4);
+
+  auto fixed = std::make_shared<EncodedAtlas>(*other);
+  fixed->eye_poses_latched_ns = 0;
+  const v1::Wanted beside = wantedToProto(std::vector<AtlasPtr>{one, fixed}, 2);
+  EXPECT_EQ(beside.pose().position().x(), 0) << "a display that stands needs the source that is";
+  EXPECT_EQ(beside.pose().orientation().w(), 1);
+}
+
 std::shared_ptr<EncodedAtlas> atlasOutside(uint64_t display_id,
                                            const std::shared_ptr<const AtlasLayout>& layout,
                                            std::vector<double> shares) {

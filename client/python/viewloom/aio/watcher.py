@@ -12,6 +12,7 @@ import grpc
 from viewloom.aio.call import read_until_cancelled, until
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
+from viewloom.clock import ClockOffset, ServerClock, presented_request, probe_request
 from viewloom.display import (DisplayLike, EncodingLike, EyeLike, change_request,
                               eyes_request)
 from viewloom.errors import ViewloomError
@@ -26,6 +27,7 @@ class Watcher(AsyncIterator[Atlas]):
         self._channel = channel
         self._opening = opening
         self._inbox = AtlasInbox()
+        self._clock = ServerClock()
 
     async def __aenter__(self) -> Watcher:
         self._changed = asyncio.Event()
@@ -36,7 +38,10 @@ class Watcher(AsyncIterator[Atlas]):
 
     async def _read(self) -> None:
         def take(response: Any) -> None:
-            self._inbox.add(response)
+            if response.HasField("clock_reply"):
+                self._clock.add(response.clock_reply)
+            else:
+                self._inbox.add(response)
             self._changed.set()
 
         self._inbox.end(await read_until_cancelled(self._call, take))
@@ -72,6 +77,26 @@ class Watcher(AsyncIterator[Atlas]):
                              predicted_display_time_ns: int = 0) -> None:
         """As the blocking Watcher.send_eye_poses."""
         await self._write(eyes_request(left, right, time_ns, predicted_display_time_ns))
+
+    async def report_presented(self, atlas: Atlas, presented_time_ns: int) -> None:
+        """As the blocking Watcher.report_presented."""
+        await self._write(presented_request(atlas.header.sequence, presented_time_ns))
+
+    async def measure_clock(self, probes: int = 8,
+                            timeout_s: Optional[float] = None) -> ClockOffset:
+        """As the blocking Watcher.measure_clock."""
+        self._clock = ServerClock()
+        for count in range(1, probes + 1):
+            await self._write(probe_request())
+            try:
+                await asyncio.wait_for(
+                    until(self._changed,
+                          lambda: self._clock.count >= count or self._inbox.is_ended), timeout_s)
+            except asyncio.TimeoutError:
+                raise ViewloomError(grpc.StatusCode.DEADLINE_EXCEEDED, "",
+                                    f"no answer came within {timeout_s} s") from None
+            self._inbox.raise_if_ended()
+        return self._clock.offset()
 
     async def close(self) -> None:
         """Breaks off."""

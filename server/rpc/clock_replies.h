@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What time it is, for a client that asks: one slot, in which a newer probe replaces one before.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <grpcpp/support/byte_buffer.h>
+
+namespace viewloom {
+
+// All times in nanoseconds: the client's of its own clock, the server's of its monotonic one.
+// Thread-safety: none.
+class ClockReplies {
+ public:
+  void note(int64_t client_time_ns, int64_t received_ns) {
+    waiting_ = Probe{.client_time_ns = client_time_ns, .received_ns = received_ns};
+  }
+  // A StreamAtlasesResponse; none when nobody asks.
+  std::optional<grpc::ByteBuffer> take(int64_t now_ns);
+
+ private:
+  struct Probe {
+    int64_t client_time_ns = 0;
+    int64_t received_ns = 0;
+  };
+
+  std::optional<Probe> waiting_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A clock turned by hand at which one thread can be held up: it waits where it next asks.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "base/clock.h"
+
+namespace viewloom::test {
+
+// Thread-safety: all methods may be called from any thread.
+class GateClock final : public Clock {
+ public:
+  int64_t nowNs() const override {
+    std::unique_lock lock(mutex_);
+    if (held_ == std::this_thread::get_id()) {
+      is_waiting_ = true;
+      changed_.notify_all();
+      changed_.wait(lock, [this] { return held_ != std::this_thread::get_id(); });
+      is_waiting_ = false;
+    }
+    return now_ns_;
+  }
+
+  void advance(int64_t by_ns) {
+    std::lock_guard lock(mutex_);
+    now_ns_ += by_ns;
+  }
+  void hold(std::thread::id thread) {
+    std::lock_guard lock(mutex_);
+    held_ = thread;
+  }
+  // Until the thread that is held asks for the time.
+  void waitUntilHeld() const {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_waiting_; });
+  }
+  void letGo() {
+    std::lock_guard lock(mutex_);
+    held_ = {};
+    changed_.notify_all();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  mutable bool is_waiting_ = false;
+  std::thread::id held_;
+  int64_t now_ns_ = 1;
+};
+
+}  // namespace viewloom::test

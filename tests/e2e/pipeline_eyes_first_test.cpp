@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What eyes that move have before all others: the newest of them, and at once.
+#include <future>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "e2e/gate_clock.h"
+#include "e2e/pipeline_fixture.h"
+
+namespace viewloom::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+constexpr int64_t kHour_ns = 3600'000'000'000;
+
+DisplaySpec trackedEyes() {
+  return *completeDisplaySpec(
+      {.kind = StereoSpec{.eye_size_px = {64, 48}, .focal_distance_m = 4, .is_tracked = true}});
+}
+
+EyePoses eyesAt(double x_m, int64_t received_ns) {
+  EyePoses poses;
+  poses.received_ns = received_ns;
+  poses.eyes[0].pose.position_m.x = x_m;
+  poses.eyes[1].pose.position_m.x = x_m + 0.06;
+  return poses;
+}
+
+// Says when its first atlas comes, and on which thread. One thread packs all.
+class FirstAtlas final : public Subscriber {
+ public:
+  FirstAtlas(std::string name, std::vector<std::string>& log) : name_(std::move(name)), log_(log) {}
+
+  void offer(AtlasPtr atlas) override {
+    if (atlas->sequence != 1) return;
+    log_.push_back(name_);
+    came_.set_value(std::this_thread::get_id());
+  }
+  void end(const absl::Status& status) override { ADD_FAILURE() << status; }
+
+  std::thread::id wait() { return came_.get_future().get(); }
+
+ private:
+  const std::string name_;
+  std::vector<std::string>& log_;
+  std::promise<std::thread::id> came_;
+};
+
+class PipelineEyesFirstTest : public PipelineFixture {
+ protected:
+  // The one thread that packs is held up within the first atlas of this display.
+  void holdWithin(const DisplaySpec& spec, EyeTrackPtr eyes, uint32_t slot_count) {
+    server_ = std::make_unique<Server>(
+        device(), PipelineOptions{.encode_thread_count = 1, .trace_slot_count = slot_count},
+        &clock_);
+    server_->offer(syntheticFrame(1));
+    const auto first = std::make_shared<FirstAtlas>("first", log_);
+    subscribe(smallQuilt({64, 40}), first);
+    clock_.hold(first->wait());
+    subscribe(spec, held_, std::move(eyes));
+    clock_.waitUntilHeld();
+  }
+
+  // Returns when its first atlas has begun.
+  uint64_t subscribe(const DisplaySpec& spec, const std::shared_ptr<Subscriber>& subscriber,
+                     EyeTrackPtr eyes = nullptr) {
+    auto subscription =
+        server_->broadcaster.subscribe("scene", spec, {}, subscriber, std::move(eyes));
+    subscriptions_.push_back(*std::move(subscription));
+    const uint64_t id = subscriptions_.back()->displayId();
+    while (server_->broadcaster.layout(id) == nullptr) std::this_thread::yield();
+    return id;
+  }
+
+  GateClock clock_;
+  std::vector<std::string> log_;
+  const std::shared_ptr<FirstAtlas> held_ = std::make_shared<FirstAtlas>("held", log_);
+  std::unique_ptr<Server> server_;
+  std::vector<std::unique_ptr<Broadcaster::Subscription>> subscriptions_;
+};
+
+TEST_F(PipelineEyesFirstTest, takesTheEyesAsTheyAreWhenThereIsRoomForTheirRays) {
+  holdWithin(trackedEyes(), std::make_shared<EyeTrack>(), 1);  // in the room that there is
+  const auto eyes = std::make_shared<EyeTrack>();
+  const auto subscriber = std::make_shared<CollectingSubscriber>();
+  eyes->put(eyesAt(0.1, clock_.nowNs()));
+  const uint64_t tracked_id = subscribe(trackedEyes(), subscriber, eyes);
+  clock_.advance(7);
+  eyes->put(eyesAt(0.2, clock_.nowNs()));
+  server_->broadcaster.announceEyes(tracked_id);
+  clock_.advance(30);
+  clock_.letGo();
+  const auto atlases = subscriber->waitForAtlases(1);
+  ASSERT_THAT(atlases, SizeIs(1));
+  EXPECT_EQ(atlases[0]->layout->views[0].camera.pose.position_m.x, 0.2);
+  EXPECT_EQ(atlases[0]->eye_poses_latched_ns, clock_.nowNs());
+  EXPECT_EQ(atlases[0]->eye_poses_age_ns, 30);
+  server_->pipeline.drain();
+  EXPECT_EQ(server_->broadcaster.atlasCount(tracked_id), 1u) << "nothing is left to show";
+}
+
+// One slot is the quilt's; eyes have their own.
+TEST_F(PipelineEyesFirstTest, servesEyesBeforeTheRestOfAQuiltThatIsLongOverdue) {
+  holdWithin(smallQuilt({320, 1200}), nullptr, 1);
+  clock_.advance(kHour_ns);
+  const auto eyes = std::make_shared<FirstAtlas>("eyes", log_);
+  subscribe(trackedEyes(), eyes, std::make_shared<EyeTrack>());
+  clock_.letGo();
+  eyes->wait();
+  held_->wait();
+  EXPECT_THAT(log_, ElementsAre("first", "eyes", "held"));
+}
+
+}  // namespace
+}  // namespace viewloom::test
