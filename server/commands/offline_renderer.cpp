@@ -23,6 +23,7 @@ void append(const TraceSlot& slot, const TraceOutputs& outputs, RenderedAtlas& a
     for (const abi::RayRecord& record : slot.records()) atlas.visits.push_back(record.visits);
   }
   atlas.coverage.add(slot.coverage());
+  atlas.reflections.add(slot.reflections());
 }
 
 void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {
@@ -79,7 +80,8 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
                            .tile_count_max = atlas.layout->columns * atlas.layout->rows,
                            .walk_count = job.walk_count,
                            .sample_count = job.sample_count,
-                           .outputs = outputs});
+                           .outputs = outputs,
+                           .reflects = job.reflects()});
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {
     const uint32_t row_count = std::min(kBandRows, size_px.height - row);
     traceBand(job, {.first_row = row, .row_count = row_count}, slot);

@@ -99,6 +99,13 @@ class KeyText {
     add(rgbd.fov_y_rad);
     add(rgbd.depth_bits);
   }
+  void add(const ReflectionSpec& reflection) {
+    text_ += "reflection ";
+    add(reflection.bounce_count);
+    add(reflection.sample_count);
+    add(reflection.environment_rgb);
+    add(static_cast<uint32_t>(reflection.is_filtered));
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -140,6 +147,7 @@ std::string displayKey(const DisplaySpec& spec) {
   key.add(spec.focus_following_s);
   key.add(spec.filter.sample_count);
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
+  if (spec.reflection) key.add(*spec.reflection);
   return key.take();
 }
 

@@ -61,6 +61,9 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
       checkCount(spec.filter.sample_count, kFilterSampleCountMax, "filter.sample_count"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.filter.width, 0, kFilterWidthMax, "filter.width"));
   VIEWLOOM_RETURN_IF_ERROR(checkFocusFollowing(spec));
+  if (spec.reflection) {
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(complete(*spec.reflection), "effects.reflection"));
+  }
   if (spec.world_pose) VIEWLOOM_RETURN_IF_ERROR(validatePose(*spec.world_pose, "world_pose"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
   if (spec.tolerance_px == 0) spec.tolerance_px = kDefaultTolerance_px;

@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "display/display_kinds.h"
 #include "display/ray_samples.h"
+#include "display/reflection.h"
 #include "frame/camera.h"
 
 namespace viewloom {
@@ -21,7 +22,8 @@ struct DisplaySpec {
   std::optional<Pose> world_pose;  // none = stands in the source's camera
   double tolerance_px = 0;         // output px; 0 = 0.25
   OutsideFill outside_fill = OutsideFill::kBorder;
-  uint32_t background_rgb = 0;   // 0xRRGGBB, sRGB
+  uint32_t background_rgb = 0;  // 0xRRGGBB, sRGB
+  std::optional<ReflectionSpec> reflection = std::nullopt;
   double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
 };
 

@@ -61,18 +61,26 @@ TraceSlotShape AtlasRun::stripShape() const {
           .tile_count_max = static_cast<uint32_t>(picture->tileCount()),
           .walk_count = picture->walk_count,
           .sample_count = picture->sample_count,
-          .outputs = planes};
+          .outputs = planes,
+          .reflects = picture->reflects()};
 }
 
-void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns) {
+void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns,
+                          const ReflectionCounts& strip_reflections) {
   std::lock_guard lock(mutex_);
   coverage_.add(strip_coverage);
+  reflections_.add(strip_reflections);
   traced_ns_ = std::max(traced_ns_, now_ns);
 }
 
 Coverage AtlasRun::coverage() const {
   std::lock_guard lock(mutex_);
   return coverage_;
+}
+
+ReflectionCounts AtlasRun::reflections() const {
+  std::lock_guard lock(mutex_);
+  return reflections_;
 }
 
 int64_t AtlasRun::tracedNs() const {

@@ -30,7 +30,8 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   // Who stands in the place of the only source sees the same wherever that is.
   const bool stands_in_only =
       !display.spec.world_pose && source.sources.size() == 1 && entry.sources.size() == 1;
-  const bool is_aimed = stands_in_only || entry.sources == source.sources;
+  const bool keeps_mirrors = haveMirrors(entry.sources) == haveMirrors(source.sources);
+  const bool is_aimed = (stands_in_only && keeps_mirrors) || entry.sources == source.sources;
   bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
   if (is_new) {
     VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));

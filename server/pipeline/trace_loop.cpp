@@ -66,6 +66,7 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
   ring.largest.tile_count_max = std::max(ring.largest.tile_count_max, shape.tile_count_max);
   ring.largest.walk_count = std::max(ring.largest.walk_count, shape.walk_count);
   ring.largest.sample_count = std::max(ring.largest.sample_count, shape.sample_count);
+  ring.largest.reflects |= shape.reflects;
   return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }

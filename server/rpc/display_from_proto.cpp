@@ -203,8 +203,14 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
 absl::Status refuseEffects(const v1::Effects& effects) {
   if (effects.has_lens()) return notServedYet("effects.lens");
   if (effects.has_temporal()) return notServedYet("effects.temporal");
-  if (effects.has_reflection()) return notServedYet("effects.reflection");
   return absl::OkStatus();
+}
+
+ReflectionSpec reflectionFromProto(const v1::ReflectionEffect& proto) {
+  return {.bounce_count = proto.bounces(),
+          .sample_count = proto.samples(),
+          .environment_rgb = proto.environment_rgb(),
+          .is_filtered = !proto.unfiltered()};
 }
 
 }  // namespace
@@ -213,6 +219,9 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   DisplaySpec spec;
   VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
   VIEWLOOM_RETURN_IF_ERROR(refuseEffects(proto.effects()));
+  if (proto.effects().has_reflection()) {
+    spec.reflection = reflectionFromProto(proto.effects().reflection());
+  }
   if (proto.quality() != v1::QUALITY_UNSPECIFIED) return notServedYet("quality");
   spec.focus_following_s = proto.focus_following_s();
   if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();

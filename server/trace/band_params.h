@@ -13,6 +13,13 @@ inline uint32_t wantedFlags(const TraceOutputs& outputs) {
          (outputs.linear ? abi::kWantLinear : 0) | (outputs.records ? abi::kWantRecords : 0);
 }
 
+// Of the first of several samples of a px; the others leave their colour alone, and what is needed
+// on the way.
+inline uint32_t wantedOf(const TraceJob& job, uint32_t sample, const TraceOutputs& outputs) {
+  if (job.walk_count > 1) return 0;
+  return (sample > 0 ? 0 : wantedFlags(outputs)) | (job.reflects() ? abi::kWantRecords : 0);
+}
+
 // Sides of up to 16384 px, and counts of tiles, in 16 bits each.
 inline uint32_t packSize(SizePx size) {
   return size.width | size.height << 16;

@@ -136,21 +136,37 @@ std::vector<SeenWalk> seenWalks(std::span<const SeenSource> sources) {
 
 }  // namespace
 
+bool haveMirrors(std::span<const SeenSource> sources) {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const SeenSource& source) { return source.mirrors; });
+}
+
 SeenSource seenSource(const SourceFormat& source) {
   const SizePx plane_px = source.layers.front().depth.size_px;
   return {.camera = source.camera,
           .size_px = source.is_cube_map ? cubeFaceSize(plane_px) : plane_px,
-          .is_cube_map = source.is_cube_map};
+          .is_cube_map = source.is_cube_map,
+          .mirrors = source.mirrors(),
+          .is_see_through = std::any_of(
+              source.layers.begin(), source.layers.end(),
+              [](const auto& layer) { return layer.color.alpha != AlphaMode::kOpaque; })};
 }
 
 absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources) {
-  if (!hasLayerBehind(spec)) return absl::OkStatus();
-  if (sources.size() == 1 && !sources.front().is_cube_map) return absl::OkStatus();
+  const bool is_one = sources.size() == 1 && !sources.front().is_cube_map;
   const std::string stream =
       sources.size() == 1 ? "a cube map" : strCat(sources.size(), " sources");
-  return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
-                    strCat("got TWO_LAYERS for a stream of ", stream,
-                           ", accepted is one source that is no cube map"));
+  if (hasLayerBehind(spec) && !is_one) {
+    return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
+                      strCat("got TWO_LAYERS for a stream of ", stream,
+                             ", accepted is one source that is no cube map"));
+  }
+  if (!spec.reflection || !haveMirrors(sources)) return absl::OkStatus();
+  if (is_one && !sources.front().is_see_through) return absl::OkStatus();
+  return fieldError(
+      absl::StatusCode::kFailedPrecondition, "effects.reflection",
+      strCat("came for a stream with mirrors of ", is_one ? "colour that is seen through" : stream,
+             ", accepted is one source of opaque colour that is no cube map"));
 }
 
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
@@ -209,6 +225,7 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
   job.tolerance_px = spec.tolerance_px;
   job.outside_fill = spec.outside_fill;
   job.background_rgb = spec.background_rgb;
+  job.reflection = spec.reflection;
   aimTraceJob(job, display_pose, sources);
   return job;
 }
@@ -222,6 +239,7 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
 void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSource> sources) {
   job.sources.clear();
   job.walk_count = 0;
+  job.has_mirrors = haveMirrors(sources);
   for (const SeenSource& source : sources) {
     const uint32_t walk_count = source.is_cube_map ? kCubeFaceCount : 1;
     job.sources.push_back({.first_walk = job.walk_count, .walk_count = walk_count});

@@ -77,7 +77,7 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 }  // namespace
 
 ViewTracer::ViewTracer(const Device& device)
-    : device_(&device), averager_(device), packer_(device), blender_(device) {}
+    : device_(&device), averager_(device), packer_(device), blender_(device), reflector_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -120,7 +120,7 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .depth = addressOf(slot.depth_),
       .mask = addressOf(slot.mask_),
       .linear = addressOf(slot.linear_),
-      .records = addressOf(slot.records_),
+      .records = addressWords(slot.recordsAddress()),
       .counters = addressOf(slot.counters_),
       .color_size_px = {},
       .color_stride = structure.colorStride(),
@@ -204,19 +204,19 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
       (eyes_in_plane || !rays.are_bounds) && raysArePlain(rays.tiles, rays.tile_px, inv_z_max);
   const ColorAverager::Color color =
       averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));
-  const ComputePass& walk_views = pass(
-      {.reads_by_address = structure.readsByAddress(),
-       .wanted = is_one_of_several || walk.sample > 0 ? 0 : wantedFlags(walk.slot.shape_.outputs),
-       .color_format = color.format,
-       .pixels_per_invocation = pixels,
-       .lanes_are_views = lanes_are_views,
-       .color_is_scaled = structure.shape().colorIsScaled(),
-       .rays_are_plain = rays_are_plain,
-       .eyes_in_plane = eyes_in_plane,
-       .is_one_of_several = is_one_of_several,
-       .is_cube_face = structure.shape().is_cube_face,
-       .rays = raySourceOf(layout),
-       .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job)});
+  const ComputePass& walk_views =
+      pass({.reads_by_address = structure.readsByAddress(),
+            .wanted = wantedOf(walk.job, walk.sample, walk.slot.shape_.outputs),
+            .color_format = color.format,
+            .pixels_per_invocation = pixels,
+            .lanes_are_views = lanes_are_views,
+            .color_is_scaled = structure.shape().colorIsScaled(),
+            .rays_are_plain = rays_are_plain,
+            .eyes_in_plane = eyes_in_plane,
+            .is_one_of_several = is_one_of_several,
+            .is_cube_face = structure.shape().is_cube_face,
+            .rays = raySourceOf(layout),
+            .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job)});
   std::vector<Descriptor> descriptors =
       describeParams(walk.job, walk.index, walk.sample, walk.slot);
   for (const Descriptor& descriptor :
@@ -230,6 +230,7 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   walk_views.record(commands, describeBand(walk, color.texels, rows),
                     groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
                     rows.row_count);
+  if (walk.job.reflects()) recordReflections(commands, walk, rows);
 }
 
 void ViewTracer::recordSamples(vk::CommandBuffer commands,
@@ -259,12 +260,12 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
   VIEWLOOM_CHECK(
       slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
       slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
-      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count);
+      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count &&
+      (slot.shape_.reflects || !job.reflects()));
   VIEWLOOM_CHECK(structures.size() == job.walk_count);
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   const uint64_t area_px = slot.band_px_.area();
   fillParams(structures, job, slot);
-
   const uint32_t part_count = job.sample_count * job.walk_count;
   if (timer) timer->recordBegin(commands, "trace");
   commands.copyBuffer(

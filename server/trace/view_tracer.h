@@ -14,6 +14,7 @@
 #include "structure/structure_slot.h"
 #include "trace/band_packer.h"
 #include "trace/color_averager.h"
+#include "trace/reflector.h"
 #include "trace/sample_blender.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
@@ -78,6 +79,7 @@ class ViewTracer {
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
+  void recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, uint32_t sample, TraceSlot& slot);
   void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
@@ -97,6 +99,7 @@ class ViewTracer {
   ColorAverager averager_;
   BandPacker packer_;
   SampleBlender blender_;
+  Reflector reflector_;
   // By abi::kWant... flags and abi::kRaysOf...
   std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ComputePass>> merge_passes_;
   std::unique_ptr<ComputePass> join_pass_;

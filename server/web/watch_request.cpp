@@ -33,6 +33,7 @@ constexpr std::array kParameters = {
     ParameterField{"focus_m", "quilt.focal_distance_m"},
     ParameterField{"focus_follow_s", "focus_following_s"},
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
+    ParameterField{"reflections", "effects.reflection.bounces"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
     ParameterField{"depth", "with_depth"},
@@ -152,6 +153,11 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
   DisplaySpec display;
   display.kind = *quilt;
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
+  if (parameters.contains("reflections")) {
+    display.reflection.emplace();
+    VIEWLOOM_RETURN_IF_ERROR(
+        readNumber(parameters, "reflections", display.reflection->bounce_count));
+  }
   absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(display);
   VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status()));
   const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters);

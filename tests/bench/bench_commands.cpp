@@ -21,6 +21,7 @@
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
+#include "bench/quality.h"
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
 #include "bench/side_by_side.h"
@@ -156,6 +157,7 @@ int runBench(int argc, char** argv) {
   addCommand(app, "build", "Build structures alone", Work::kBuild);
   addDisplaysCommand(app);
   addUplinkCommand(app);
+  addQualityCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }
