@@ -59,6 +59,10 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->excludes(file);
+  app.add_option("--reflections", options.bounce_count,
+                 "Show what surfaces with SPECULAR planes mirror, over so many bounces")
+      ->check(CLI::Range(1, 4))
+      ->excludes(file);
   app.add_option("--quality", options.jpeg_quality, "JPEG quality")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
@@ -140,6 +144,9 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!options.file.empty()) return readDisplay(options.file);
   v1::Display display;
   display.mutable_filter()->set_sample_count(options.sample_count);
+  if (options.bounce_count > 0) {
+    display.mutable_effects()->mutable_reflection()->set_bounces(options.bounce_count);
+  }
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     return display;

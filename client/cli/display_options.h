@@ -28,6 +28,7 @@ struct DisplayOptions {
   std::string calibration_file;  // of the panel
   RgbdOptions rgbd;              // instead of all that
   uint32_t sample_count = 1;
+  uint32_t bounce_count = 0;  // of reflections; 0 = none
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
   bool is_lossless = false;

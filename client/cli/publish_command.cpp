@@ -53,6 +53,11 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
                "The synthetic scene as a cube map: six square faces as high as --size")
       ->excludes("--sources")
       ->group("What");
+  app.add_flag("--mirrors", options.synthetic.has_mirrors,
+               "The synthetic scene with a lake and things of metal, for displays with reflections")
+      ->excludes("--sources")
+      ->excludes("--cube")
+      ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
       ->check(CLI::NonNegativeNumber)
@@ -104,9 +109,12 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions& options) {
-  if (options.layer_count || options.synthetic.source_count != 1 || options.synthetic.is_cube_map) {
+  const SyntheticFeedOptions& synthetic = options.synthetic;
+  if (options.layer_count || synthetic.source_count != 1 || synthetic.is_cube_map ||
+      synthetic.has_mirrors) {
     return absl::InvalidArgumentError(
-        "--pattern has layers and a source of its own; leave out --layers, --sources and --cube");
+        "--pattern has layers and a source of its own; leave out --layers, --sources, --cube and "
+        "--mirrors");
   }
   patterns::PatternOptions pattern = patternOptions(options.pattern);
   if (options.size_px.width > 0) pattern.size_px = options.size_px;

@@ -8,6 +8,7 @@ const kEncodingOptions = {quality: '--quality'};
 const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
+  reflections: '--reflections',
 };
 const kRadPerDeg = Math.PI / 180;
 
@@ -22,7 +23,9 @@ function quoted(text) {
 function displayFile(parameters) {
   const number = (name) => parameters.has(name) ? Number(parameters.get(name)) : undefined;
   const angle = (name) => parameters.has(name) ? number(name) * kRadPerDeg : undefined;
-  return JSON.stringify({focusFollowingS: number('focus_follow_s'), quilt: {
+  const reflection = parameters.has('reflections') ? {bounces: number('reflections')} : undefined;
+  const effects = reflection && {reflection};
+  return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
     viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),

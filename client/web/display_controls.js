@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sliders that change the display while it is watched: focal distance and view cone.
+// What changes the display while it is watched: focal distance, view cone, reflections.
+import {keepInAddress, pageParameters} from './address.js';
 
 const kThrottle_ms = 120;
 const kDegPerRad = 180 / Math.PI;
+const kBounces = '2';  // what mirrors show of other mirrors, too
 
 const byId = (id) => document.getElementById(id);
 
@@ -11,7 +13,7 @@ export class DisplayControls {
   #pending = null;
   #timer = 0;
 
-  // onChange({focus_m, cone_deg}): parameters of /ws; null = the default
+  // onChange({focus_m, cone_deg, reflections}): parameters of /ws; null = the default
   constructor(onChange) {
     this.onChange = onChange;
     byId('focus').addEventListener('input', ({target}) => {
@@ -26,6 +28,12 @@ export class DisplayControls {
     byId('reset').addEventListener('click', () => {
       this.forget();
       this.#change({focus_m: null, cone_deg: null});
+    });
+    byId('reflections').checked = pageParameters().has('reflections');
+    byId('reflections').addEventListener('change', ({target}) => {
+      const reflections = target.checked ? kBounces : null;
+      keepInAddress({reflections});
+      this.#change({reflections});
     });
   }
 
