@@ -16,6 +16,8 @@ set(VIEWLOOM_SHADERS
   trace/walk_views.comp
   trace/join_faces.comp
   trace/merge_sources.comp
+  trace/reflect.comp
+  trace/add_reflections.comp
   trace/blend_samples.comp
   trace/list_met.comp
   trace/gather_lens.comp

@@ -61,6 +61,10 @@ void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
       ->excludes(file);
   addLensOptions(app, options.lens, file);
   addTemporalOptions(app, options.temporal, file);
+  app.add_option("--reflections", options.bounce_count,
+                 "Show what surfaces with SPECULAR planes mirror, over so many bounces")
+      ->check(CLI::Range(1, 4))
+      ->excludes(file);
   app.add_option("--quality", options.jpeg_quality, "JPEG quality")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
@@ -144,6 +148,9 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   display.mutable_filter()->set_sample_count(options.sample_count);
   setLens(options.lens, display);
   setTemporal(options.temporal, display);
+  if (options.bounce_count > 0) {
+    display.mutable_effects()->mutable_reflection()->set_bounces(options.bounce_count);
+  }
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     display.mutable_rgbd()->set_preset(options.preset);

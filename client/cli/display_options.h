@@ -32,6 +32,7 @@ struct DisplayOptions {
   TemporalOptions temporal;
   uint32_t sample_count = 1;
   LensOptions lens;
+  uint32_t bounce_count = 0;  // of reflections; 0 = none
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
   bool is_lossless = false;

@@ -55,6 +55,10 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
       ->group("What");
   app.add_flag("--moving-camera", options.synthetic.has_moving_camera,
                "The synthetic scene from a camera that sways")
+      ->group("What");
+  app.add_flag("--mirrors", options.synthetic.has_mirrors,
+               "The synthetic scene with a lake and things of metal, for displays with reflections")
+      ->excludes("--sources")
       ->excludes("--cube")
       ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
@@ -108,11 +112,12 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions& options) {
-  if (options.layer_count || options.synthetic.source_count != 1 || options.synthetic.is_cube_map ||
-      options.synthetic.has_moving_camera) {
+  const SyntheticFeedOptions& synthetic = options.synthetic;
+  if (options.layer_count || synthetic.source_count != 1 || synthetic.is_cube_map ||
+      synthetic.has_moving_camera || synthetic.has_mirrors) {
     return absl::InvalidArgumentError(
-        "--pattern has layers and a source of its own; leave out --layers, --sources, --cube and "
-        "--moving-camera");
+        "--pattern has layers and a source of its own; leave out --layers, --sources, --cube, "
+        "--moving-camera and --mirrors");
   }
   patterns::PatternOptions pattern = patternOptions(options.pattern);
   if (options.size_px.width > 0) pattern.size_px = options.size_px;

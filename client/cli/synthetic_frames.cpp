@@ -58,7 +58,8 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
   SyntheticOptions scene{.size_px = options_.size_px,
                          .layer_count = options_.layer_count,
                          .time_s = elapsed_s,
-                         .camera = {}};
+                         .camera = {},
+                         .has_mirrors = options_.has_mirrors};
   const Pose first = firstPose(options_.has_moving_camera, elapsed_s);
   if (options_.is_cube_map) return cubeMapFrame(scene);
   if (options_.has_moving_camera) scene.camera = cameraOf(0, first, options_.size_px);
@@ -73,9 +74,9 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
 std::string SyntheticFrames::description() const {
   const uint32_t side_px = options_.size_px.height;
   const SizePx size_px = options_.is_cube_map ? SizePx{side_px, side_px} : options_.size_px;
-  return strCat("synthetic scene, ", options_.is_cube_map ? "cube map of " : "", size_px.width, "x",
-                size_px.height, ", ", options_.layer_count,
-                options_.layer_count == 1 ? " layer" : " layers",
+  return strCat("synthetic scene", options_.has_mirrors ? " with mirrors, " : ", ",
+                options_.is_cube_map ? "cube map of " : "", size_px.width, "x", size_px.height,
+                ", ", options_.layer_count, options_.layer_count == 1 ? " layer" : " layers",
                 options_.source_count == 1 ? "" : strCat(", ", options_.source_count, " sources"));
 }
 

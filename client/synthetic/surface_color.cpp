@@ -130,4 +130,9 @@ vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
   return glm::mix(material.color * (ambient + kSunLight * sun), kHorizon, haze);
 }
 
+vec3 surfaceNormal(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
+                   const glm::dvec3& direction) {
+  return materialAt(scene, hit, point_m, direction, 1.0F).normal;
+}
+
 }  // namespace viewloom::synthetic

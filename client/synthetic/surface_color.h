@@ -15,4 +15,8 @@ namespace viewloom::synthetic {
 glm::vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
                        const glm::dvec3& point_m, const glm::dvec3& direction, float edge_m);
 
+// Where it faces in the world, towards who looks; unit length. Not for the sky.
+glm::vec3 surfaceNormal(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
+                        const glm::dvec3& direction);
+
 }  // namespace viewloom::synthetic

@@ -13,6 +13,7 @@
 #include "base/check.h"
 #include "synthetic/cast_row.h"
 #include "synthetic/surface_color.h"
+#include "synthetic/surface_gloss.h"
 
 namespace viewloom {
 namespace {
@@ -49,6 +50,7 @@ class FrameRenderer {
       : scene_(synthetic::makeScene(options.time_s)),
         size_px_(options.size_px),
         camera_(options.camera.value_or(syntheticCamera(options.size_px))),
+        has_mirrors_(options.has_mirrors),
         layers_(layers) {
     const glm::dvec3 right = camera_.pose.orientation * glm::dvec3(1.0, 0.0, 0.0);
     step_ = right / camera_.intrinsics.focal_px.x;
@@ -88,18 +90,33 @@ class FrameRenderer {
       const glm::dvec3 direction = rays.direction(x);
       const glm::dvec3 point_m = rays.eye_m + hit.depth_m * direction;
       const auto edge_m = static_cast<float>(0.5 * hit.depth_m / camera_.intrinsics.focal_px.x);
+      const synthetic::Gloss gloss = has_mirrors_ ? synthetic::glossOf(hit) : synthetic::Gloss{};
       const glm::vec3 linear =
+          gloss.own_share *
           synthetic::surfaceColor(scene_, shadows_, hit, point_m, direction, edge_m);
       depth_m[x] = static_cast<float>(hit.depth_m);
       for (int channel = 0; channel < 3; ++channel) color[channel] = srgb.encode(linear[channel]);
       color[3] = 255;
+      if (has_mirrors_ && hit.kind != synthetic::SurfaceKind::kSky) {
+        const glm::vec3 normal = synthetic::surfaceNormal(scene_, hit, point_m, direction);
+        writeGloss(gloss, normal, row + x, layers_[layer]);
+      }
     }
+  }
+
+  static void writeGloss(const synthetic::Gloss& gloss, const glm::vec3& normal, size_t px,
+                         SyntheticLayer& layer) {
+    const auto code = [](float value) { return static_cast<uint8_t>(std::lround(255 * value)); };
+    layer.normal[px] = synthetic::octahedron(normal);
+    layer.roughness[px] = code(gloss.roughness);
+    for (int i = 0; i < 3; ++i) layer.specular[3 * px + i] = code(gloss.light[i]);
   }
 
   const synthetic::Scene scene_;
   const synthetic::SunShadows shadows_{scene_};
   const SizePx size_px_;
   const Camera camera_;
+  const bool has_mirrors_;
   glm::dvec3 step_{0.0};
   std::vector<SyntheticLayer>& layers_;
   std::atomic<uint32_t> next_row_{0};
@@ -120,6 +137,11 @@ void renderSyntheticFrame(const SyntheticOptions& options, std::vector<Synthetic
   for (SyntheticLayer& layer : layers) {
     layer.color.resize(4 * options.size_px.area());
     layer.depth_m.resize(options.size_px.area());
+    // Mirrors nothing, whatever a frame before had there.
+    const size_t mirrored_px = options.has_mirrors ? options.size_px.area() : 0;
+    layer.normal.assign(mirrored_px, 0);
+    layer.roughness.assign(mirrored_px, 0);
+    layer.specular.assign(3 * mirrored_px, 0);
   }
   FrameRenderer renderer(options, layers);
   const uint32_t core_count = std::max(1U, std::thread::hardware_concurrency());

@@ -17,6 +17,7 @@ struct SyntheticOptions {
   double time_s = 0;             // the same time gives the same bytes
   std::optional<Camera> camera;  // default: syntheticCamera(size_px)
   uint32_t thread_count = 0;     // 0 = one per core
+  bool has_mirrors = false;      // some surfaces mirror; their own colour is then darker
 };
 
 // Layer k holds, per pixel, the k-th camera-facing surface along the ray through the pixel's
@@ -24,6 +25,10 @@ struct SyntheticOptions {
 struct SyntheticLayer {
   std::vector<uint8_t> color;  // uint8_t[h][w][4], sRGB, opaque, top row first
   std::vector<float> depth_m;  // float[h][w], planar; +inf = sky; 0 = no such surface
+  // With mirrors alone; else empty. As PLANE_ENCODING_OCT16, along the world's axes, R8 and RGB8.
+  std::vector<uint32_t> normal;    // uint32_t[h][w]
+  std::vector<uint8_t> roughness;  // uint8_t[h][w]
+  std::vector<uint8_t> specular;   // uint8_t[h][w][3]
 };
 
 // Where the scene is meant to be seen from: the origin, looking along -z, 36 degrees high. Surfaces

@@ -20,8 +20,10 @@ void addPlane(v1::PlaneKind kind, v1::PlaneEncoding encoding, SizePx size_px,
   plane.set_bytes_count(bytes.size());
   if (kind == v1::PLANE_KIND_DEPTH) {
     plane.mutable_depth()->set_meaning(v1::DEPTH_MEANING_PLANAR);
-  } else {
+  } else if (kind == v1::PLANE_KIND_COLOR) {
     plane.set_transfer(v1::COLOR_TRANSFER_SRGB);
+  } else if (kind == v1::PLANE_KIND_NORMAL) {
+    plane.set_normal_space(v1::NORMAL_SPACE_WORLD);
   }
   frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(std::move(bytes)));
 }
@@ -57,6 +59,15 @@ void addLayers(SizePx size_px, std::vector<SyntheticLayer> layers, v1::Source& s
     addPlane(v1::PLANE_KIND_COLOR, v1::PLANE_ENCODING_RGBA8, size_px, std::move(from.color), layer,
              frame);
     addPlane(v1::PLANE_KIND_DEPTH, v1::PLANE_ENCODING_DEPTH_F32, size_px, std::move(depth_bytes),
+             layer, frame);
+    if (from.specular.empty()) continue;
+    std::vector<uint8_t> normal_bytes(from.normal.size() * sizeof(uint32_t));
+    std::memcpy(normal_bytes.data(), from.normal.data(), normal_bytes.size());
+    addPlane(v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_OCT16, size_px, std::move(normal_bytes),
+             layer, frame);
+    addPlane(v1::PLANE_KIND_ROUGHNESS, v1::PLANE_ENCODING_R8, size_px, std::move(from.roughness),
+             layer, frame);
+    addPlane(v1::PLANE_KIND_SPECULAR, v1::PLANE_ENCODING_RGB8, size_px, std::move(from.specular),
              layer, frame);
   }
 }

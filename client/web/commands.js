@@ -9,6 +9,7 @@ const kOptions = {
   ...kEncodingOptions, preset: '--preset', columns: '--columns', rows: '--rows', cone_deg: '--cone',
   focus_m: '--focal-distance', focus_follow_s: '--focus-follow', fov_deg: '--fov',
   lens_focus_m: '--lens-focus', effort: '--effort', rate_hz: '--output-rate', between: '--between',
+  reflections: '--reflections',
 };
 const kRgbdOptions = {
   ...kEncodingOptions, preset: '--preset', rgbd: '--rgbd-form', near_m: '--depth-near',
@@ -35,7 +36,8 @@ function displayFile(parameters) {
   const mode = {predict: 'TEMPORAL_MODE_PREDICT', interpolate: 'TEMPORAL_MODE_INTERPOLATE'};
   const temporal = parameters.has('rate_hz') ?
     {outputRateHz: number('rate_hz'), mode: mode[parameters.get('between')]} : undefined;
-  const effects = lens || temporal ? {lens, temporal} : undefined;
+  const reflection = parameters.has('reflections') ? {bounces: number('reflections')} : undefined;
+  const effects = lens || temporal || reflection ? {lens, temporal, reflection} : undefined;
   return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),

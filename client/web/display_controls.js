@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sliders and a switch that change the display while it is watched: focal distance, whether it
-// follows the content, and view cone.
+// What changes the display while it is watched: focal distance, whether it follows the content,
+// view cone, reflections.
 import {keepInAddress, pageParameters} from './address.js';
 
 const kThrottle_ms = 120;
 const kFollow_s = '1';
 const kDegPerRad = 180 / Math.PI;
+const kBounces = '2';  // what mirrors show of other mirrors, too
 
 const byId = (id) => document.getElementById(id);
 
@@ -14,7 +15,8 @@ export class DisplayControls {
   #pending = null;
   #timer = 0;
 
-  // onChange({focus_m, focus_follow_s, cone_deg}): parameters of /ws; null = the default
+  // onChange({focus_m, focus_follow_s, cone_deg, reflections}): parameters of /ws; null = the
+  // default
   constructor(onChange) {
     this.onChange = onChange;
     byId('focus').addEventListener('input', ({target}) => {
@@ -34,6 +36,12 @@ export class DisplayControls {
     byId('reset').addEventListener('click', () => {
       this.forget();
       this.#change({focus_m: null, cone_deg: null});
+    });
+    byId('reflections').checked = pageParameters().has('reflections');
+    byId('reflections').addEventListener('change', ({target}) => {
+      const reflections = target.checked ? kBounces : null;
+      keepInAddress({reflections});
+      this.#change({reflections});
     });
   }
 

@@ -23,6 +23,7 @@ void append(const TraceSlot& slot, const TraceOutputs& outputs, RenderedAtlas& a
     for (const abi::RayRecord& record : slot.records()) atlas.visits.push_back(record.visits);
   }
   atlas.coverage.add(slot.coverage());
+  atlas.reflections.add(slot.reflections());
 }
 
 void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {

@@ -24,6 +24,7 @@ struct RenderedAtlas {
   std::vector<uint8_t> mask;     // uint8_t[height][width], RayClass
   std::vector<uint32_t> visits;  // uint32_t[height][width]: nodes and facets each ray looked at
   Coverage coverage;
+  ReflectionCounts reflections;
 };
 
 // The device must outlive it. Throws vk::SystemError when the device fails or has no room.

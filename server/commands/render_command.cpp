@@ -51,6 +51,20 @@ Json coverageJson(const Coverage& coverage) {
   return json;
 }
 
+Json reflectionsJson(const ReflectionCounts& counts) {
+  const auto share = [&](uint64_t count) {
+    return static_cast<double>(count) / static_cast<double>(counts.rayCount());
+  };
+  Json json;
+  json["hit"] = share(counts.hit);
+  json["assumed"] = share(counts.assumed);
+  json["back"] = share(counts.back);
+  json["cube"] = share(counts.cube);
+  json["environment"] = share(counts.environment);
+  json["bent"] = share(counts.bent);
+  return json;
+}
+
 Json sourceJson(const SourceStats& stats) {
   Json json;
   json["depth_step"] = stats.depth_step;
@@ -112,6 +126,9 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   json["device"] = device.info().name;
   json["files"] = *names;
   json["coverage"] = coverageJson(atlas->coverage);
+  if (atlas->reflections.rayCount() > 0) {
+    json["reflections"] = reflectionsJson(atlas->reflections);
+  }
   const std::vector<SourceStats> stats = renderer.stats();
   json["source"] = sourceJson(stats.front());
   for (size_t i = 1; i < stats.size(); ++i) json["more_sources"].push_back(sourceJson(stats[i]));

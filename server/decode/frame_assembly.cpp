@@ -14,6 +14,7 @@ std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format) {
     for (const LayerFormat& layer : source.layers) {
       planes.push_back(layer.depth_first ? &layer.depth : &layer.color);
       planes.push_back(layer.depth_first ? &layer.color : &layer.depth);
+      for (const PlaneFormat& other : layer.others) planes.push_back(&other);
     }
   }
   return planes;

@@ -18,17 +18,19 @@ using DecodedPlanes = std::vector<absl::StatusOr<SharedBytes>>;
 
 // The frame of these planes, or the first error among them, which then names the plane
 // ("header.sources[0].layers[1].planes[0]").
-absl::StatusOr<std::unique_ptr<Frame>> joinPlanes(FrameFormat format, DecodedPlanes planes);
+absl::StatusOr<std::unique_ptr<Frame>> joinPlanes(FrameFormat format, DecodedPlanes planes,
+                                                  BytePool& pool);
 
 // Decodes one plane after the other. Thread-safety: none; one per thread.
 class FrameDecoder {
  public:
-  explicit FrameDecoder(BytePool& pool) : planes_(pool) {}
+  explicit FrameDecoder(BytePool& pool) : pool_(pool), planes_(pool) {}
 
   // Expects a format that validateFrame accepts. Errors as joinPlanes.
   absl::StatusOr<std::unique_ptr<Frame>> decode(CollectedFrame collected);
 
  private:
+  BytePool& pool_;
   PlaneDecoder planes_;
 };
 

@@ -106,7 +106,7 @@ struct FrameIntake::State {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
     absl::StatusOr<std::unique_ptr<Frame>> frame =
-        joinPlanes(std::move(waiting.collected.format), std::move(open.decoded));
+        joinPlanes(std::move(waiting.collected.format), std::move(open.decoded), pool);
     if (!frame.ok()) {
       waiting.report({.number = number,
                       .outcome = FrameOutcome::kRefused,

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "frame/limits.h"
+#include "frame/plane_encoding.h"
 
 namespace viewloom {
 namespace {

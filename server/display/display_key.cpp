@@ -117,6 +117,13 @@ class KeyText {
     add(static_cast<uint32_t>(temporal.mode));
     add(temporal.bridge_s);
   }
+  void add(const ReflectionSpec& reflection) {
+    text_ += "reflection ";
+    add(reflection.bounce_count);
+    add(reflection.sample_count);
+    add(reflection.environment_rgb);
+    add(static_cast<uint32_t>(reflection.is_filtered));
+  }
   std::string take() { return std::move(text_); }
 
  private:
@@ -160,6 +167,7 @@ std::string displayKey(const DisplaySpec& spec) {
   if (spec.filter.sample_count > 1) key.add(spec.filter.width);
   if (spec.lens) key.add(*spec.lens);
   if (spec.temporal) key.add(*spec.temporal);
+  if (spec.reflection) key.add(*spec.reflection);
   return key.take();
 }
 

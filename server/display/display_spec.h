@@ -10,6 +10,7 @@
 #include "display/display_kinds.h"
 #include "display/lens.h"
 #include "display/ray_samples.h"
+#include "display/reflection.h"
 #include "display/temporal_spec.h"
 #include "frame/camera.h"
 
@@ -23,7 +24,8 @@ struct DisplaySpec {
   std::optional<Pose> world_pose;  // none = stands in the source's camera
   double tolerance_px = 0;         // output px; 0 = of the quality
   OutsideFill outside_fill = OutsideFill::kBorder;
-  uint32_t background_rgb = 0;   // 0xRRGGBB, sRGB
+  uint32_t background_rgb = 0;  // 0xRRGGBB, sRGB
+  std::optional<ReflectionSpec> reflection = std::nullopt;
   double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
   std::optional<LensSpec> lens;  // none = everything is sharp
   Quality quality = Quality::kBalanced;
@@ -33,7 +35,7 @@ struct DisplaySpec {
 // Ranges of proto Display.
 inline constexpr double kTolerancePxMax = 16;
 inline constexpr double kDefaultTolerance_px = 0.25;  // of balanced quality
-inline constexpr uint32_t kJpegSidePxMax = 65500;  // libjpeg's JPEG_MAX_DIMENSION
+inline constexpr uint32_t kJpegSidePxMax = 65500;     // libjpeg's JPEG_MAX_DIMENSION
 inline constexpr double kFocusFollowingMin_s = 0.01;
 inline constexpr double kFocusFollowingMax_s = 60;
 

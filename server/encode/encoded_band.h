@@ -78,6 +78,7 @@ struct EncodedAtlas {
   EncodingSpec encoding;
   StageTimes times;
   Coverage coverage;
+  ReflectionCounts reflections;  // of displays with reflections
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
   std::optional<DepthBudget> depth_budget;  // where views are neighbours

@@ -2,6 +2,7 @@
 // The immutable frame: one input instant, decoded, as it travels from ingest to upload.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace viewloom {
 
-enum class PlaneKind : uint8_t { kColor, kDepth };
+enum class PlaneKind : uint8_t { kColor, kDepth, kNormal, kRoughness, kSpecular };
 enum class PlaneEncoding : uint8_t {
   kRgba8,
   kRgb8,
@@ -22,12 +23,17 @@ enum class PlaneEncoding : uint8_t {
   kJpeg,
   kDepthF32,
   kDepthF16,
-  kDepthU16
+  kDepthU16,
+  kXyz16f,
+  kXyz8,
+  kOct16,
+  kR8
 };
 enum class PlaneCompression : uint8_t { kNone, kZstd, kPredictedZstd };
 enum class ColorTransfer : uint8_t { kSrgb, kLinear };
 enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
 enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };
+enum class NormalSpace : uint8_t { kCamera, kWorld };
 // How light brighter than white is shown, of planes of linear colour (proto ToneMap).
 enum class ToneMap : uint8_t { kClip, kFilmic, kAgx };
 enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity };
@@ -56,13 +62,27 @@ struct PlaneFormat {
   ColorPrimaries primaries = ColorPrimaries::kBt709;
   AlphaMode alpha = AlphaMode::kOpaque;
   DepthFormat depth;
+  NormalSpace normal_space = NormalSpace::kCamera;
   uint64_t wire_bytes = 0;  // as declared
 };
 
 struct LayerFormat {
   PlaneFormat color;
   PlaneFormat depth;
-  bool depth_first = false;  // the order in which the planes came on the wire
+  bool depth_first = false;  // the order in which these two came on the wire
+  // After those two, in the order in which they came: of other kinds, one each at most.
+  std::vector<PlaneFormat> others = {};
+  bool color_has_reflections = false;
+
+  // Of `others`; nullptr = there is none.
+  const PlaneFormat* find(PlaneKind kind) const {
+    for (const PlaneFormat& plane : others) {
+      if (plane.kind == kind) return &plane;
+    }
+    return nullptr;
+  }
+  // Whether reflections are added to its colour where a display asks for them.
+  bool mirrors() const { return find(PlaneKind::kSpecular) != nullptr && !color_has_reflections; }
 };
 
 struct SourceFormat {
@@ -71,6 +91,11 @@ struct SourceFormat {
   double connection_tolerance = 0;  // 1/m; 0 = measured
   // Every plane holds six faces, one below the other (frame/cube_map.h).
   bool is_cube_map = false;
+
+  bool mirrors() const {
+    return std::any_of(layers.begin(), layers.end(),
+                       [](const LayerFormat& layer) { return layer.mirrors(); });
+  }
 };
 
 // A frame without its bytes: what a header declares and validateFrame accepts.
@@ -83,11 +108,14 @@ struct FrameFormat {
 };
 
 // Decoded, packed planes. color: uint8_t[h][w][4] for kRgba8 (kRgb8 and kJpeg decode to it), or
-// binary16[h][w][4] for kRgba16f. depth: samples as declared, packed. Top row first.
+// binary16[h][w][4] for kRgba16f. depth: samples as declared, packed. surface: how a layer that
+// mirrors does, abi::SurfaceTexel[h][w]; else null. Top row first.
 struct LayerPlanes {
   SharedBytes color;
   PlaneEncoding color_encoding = PlaneEncoding::kRgba8;  // kRgba8 or kRgba16f
   SharedBytes depth;
+  SharedBytes surface = nullptr;
+  uint64_t bad_normals_count = 0;  // without a length: there the surface's own slope counts
 };
 
 // When what happened to a frame, on the server's monotonic clock.

@@ -8,6 +8,7 @@
 #include "base/str_cat.h"
 #include "frame/cube_map.h"
 #include "frame/depth.h"
+#include "frame/plane_encoding.h"
 
 namespace viewloom {
 namespace {
@@ -22,11 +23,6 @@ constexpr uint64_t zstdBytesMax(uint64_t content_bytes) {
 
 absl::Status overLimit(std::string_view field, std::string_view problem) {
   return fieldError(absl::StatusCode::kResourceExhausted, field, problem);
-}
-
-bool isColorEncoding(PlaneEncoding encoding) {
-  return encoding == PlaneEncoding::kRgba8 || encoding == PlaneEncoding::kRgb8 ||
-         encoding == PlaneEncoding::kRgba16f || encoding == PlaneEncoding::kJpeg;
 }
 
 std::string sizeText(SizePx size_px) {
@@ -101,10 +97,8 @@ absl::Status validateWireBytes(const PlaneFormat& plane) {
 
 absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cube_map,
                            const FrameLimits& limits) {
-  if (plane.kind != kind || isColorEncoding(plane.encoding) != (kind == PlaneKind::kColor)) {
-    return invalidField("encoding", kind == PlaneKind::kColor
-                                        ? "is not one of RGBA8, RGB8, RGBA16F, JPEG"
-                                        : "is not one of DEPTH_F32, DEPTH_F16, DEPTH_U16");
+  if (plane.kind != kind || !isEncodingOf(kind, plane.encoding)) {
+    return invalidField("encoding", strCat("is not one of ", encodingsOf(kind)));
   }
   VIEWLOOM_RETURN_IF_ERROR(is_cube_map ? validateCubeSize(plane.size_px, limits.plane_side_px_max)
                                        : validateSize(plane.size_px, limits.plane_side_px_max));
@@ -116,12 +110,29 @@ absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cub
     return fieldError(absl::StatusCode::kUnimplemented, "alpha",
                       "is not OPAQUE, which is not served yet for cube maps");
   }
+  if (kind != PlaneKind::kDepth) return absl::OkStatus();
   return validateDepthFormat(plane.depth, plane.encoding, "depth");
 }
 
 std::string planePath(size_t layer, const LayerFormat& format, PlaneKind kind) {
   const bool second = (kind == PlaneKind::kColor) == format.depth_first;
   return strCat("layers[", layer, "].planes[", second ? 1 : 0, "]");
+}
+
+// Beside colour and depth; they lie on the facets, too.
+absl::Status validateOthers(const LayerFormat& layer, bool is_cube_map, const FrameLimits& limits) {
+  for (size_t i = 0; i < layer.others.size(); ++i) {
+    const PlaneFormat& plane = layer.others[i];
+    const std::string path = strCat("planes[", i + 2, "]");
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(validatePlane(plane, plane.kind, is_cube_map, limits), path));
+    if (plane.size_px != layer.depth.size_px) {
+      return invalidField(path + ".size",
+                          strCat("is ", sizeText(plane.size_px), ", must be that of the depth, ",
+                                 sizeText(layer.depth.size_px)));
+    }
+  }
+  return absl::OkStatus();
 }
 
 // Planes of one source must fit each other: they become one structure.
@@ -164,6 +175,8 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
           validatePlane(plane, kind, source.is_cube_map, limits), planePath(layer, format, kind)));
     }
     VIEWLOOM_RETURN_IF_ERROR(validateAgreement(source, layer));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateOthers(format, source.is_cube_map, limits),
+                                             strCat("layers[", layer, "]")));
   }
   const double tolerance = source.connection_tolerance;
   if (!(tolerance >= 0 && tolerance <= double{kInvZMax})) {
@@ -177,30 +190,18 @@ uint64_t heldBytes(const PlaneFormat& plane) {
   return std::max(decodedBytes(plane), plane.wire_bytes);
 }
 
+uint64_t heldBytes(const LayerFormat& layer) {
+  uint64_t held_bytes = heldBytes(layer.color) + heldBytes(layer.depth);
+  for (const PlaneFormat& plane : layer.others) held_bytes += heldBytes(plane);
+  return held_bytes + (layer.mirrors() ? layer.depth.size_px.area() * kSurfaceTexelBytes : 0);
+}
+
 }  // namespace
 
 uint64_t jpegBytesMax(uint64_t area_px) {
   // Three channels of 8x8 blocks whose 64 coefficients take at most 27 bits each, doubled by byte
   // stuffing; 1 MiB for metadata segments.
   return area_px * 3 * 27 * 2 / 8 + (1 << 20);
-}
-
-uint32_t wirePixelBytes(PlaneEncoding encoding) {
-  switch (encoding) {
-    case PlaneEncoding::kRgba8:
-    case PlaneEncoding::kDepthF32:
-      return 4;
-    case PlaneEncoding::kRgb8:
-      return 3;
-    case PlaneEncoding::kRgba16f:
-      return 8;
-    case PlaneEncoding::kDepthF16:
-    case PlaneEncoding::kDepthU16:
-      return 2;
-    case PlaneEncoding::kJpeg:
-      return 0;
-  }
-  return 0;
 }
 
 uint64_t wireRowBytes(const PlaneFormat& plane) {
@@ -235,7 +236,7 @@ absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits)
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateSource(format.sources[i], limits),
                                              strCat("header.sources[", i, "]")));
     for (const LayerFormat& layer : format.sources[i].layers) {
-      held_bytes += heldBytes(layer.color) + heldBytes(layer.depth);
+      held_bytes += heldBytes(layer);
     }
   }
   if (held_bytes > limits.frame_bytes_max) {

@@ -21,13 +21,13 @@ inline constexpr uint64_t kPlaneWireBytesMax = uint64_t{512} << 20;
 
 // More than a baseline JPEG of so many pixels can have.
 uint64_t jpegBytesMax(uint64_t area_px);
-// Bytes of one pixel in memory as sent; 0 for JPEG, which has none.
-uint32_t wirePixelBytes(PlaneEncoding encoding);
 // Bytes from row to row of an uncompressed plane as sent: the declared stride, else packed.
 uint64_t wireRowBytes(const PlaneFormat& plane);
 // Bytes of the plane before compression, with stride; 0 for JPEG.
 uint64_t uncompressedBytes(const PlaneFormat& plane);
-// Bytes of the plane in a Frame: packed, RGB8 and JPEG as RGBA8.
+// Of how a layer mirrors, in a Frame (LayerPlanes::surface).
+inline constexpr uint32_t kSurfaceTexelBytes = 8;
+// Bytes of the plane once it is decoded: packed, RGB8 and JPEG as RGBA8.
 uint64_t decodedBytes(const PlaneFormat& plane);
 
 // The whole header. Errors name the field as in proto

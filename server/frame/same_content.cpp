@@ -24,14 +24,16 @@ PlaneEncoding decodedEncoding(PlaneEncoding encoding) {
 
 auto contentOf(const PlaneFormat& format) {
   const auto& [kind, encoding, size_px, stride_bytes, compression, transfer, primaries, alpha,
-               depth, wire_bytes] = format;
+               depth, normal_space, wire_bytes] = format;
   return std::tuple(kind, decodedEncoding(encoding), size_px, transfer, primaries, alpha,
-                    contentOf(depth));
+                    contentOf(depth), normal_space);
 }
 
 bool haveSameContent(const LayerFormat& one, const LayerFormat& other) {
-  const auto& [color, depth, depth_first] = one;
-  return contentOf(color) == contentOf(other.color) && contentOf(depth) == contentOf(other.depth);
+  const auto& [color, depth, depth_first, others, color_has_reflections] = one;
+  // What others hold is in LayerPlanes::surface.
+  return contentOf(color) == contentOf(other.color) && contentOf(depth) == contentOf(other.depth) &&
+         one.mirrors() == other.mirrors();
 }
 
 bool haveSameContent(const SourceFormat& one, const SourceFormat& other) {
@@ -53,8 +55,10 @@ bool haveSameContent(const FrameFormat& one, const FrameFormat& other) {
 }
 
 bool haveSameContent(const LayerPlanes& one, const LayerPlanes& other) {
-  const auto& [color, color_encoding, depth] = one;
-  return color_encoding == other.color_encoding && *depth == *other.depth && *color == *other.color;
+  const auto& [color, color_encoding, depth, surface, bad_normals_count] = one;
+  const bool same_surface = surface == nullptr || *surface == *other.surface;
+  return color_encoding == other.color_encoding && *depth == *other.depth &&
+         *color == *other.color && same_surface;
 }
 
 }  // namespace

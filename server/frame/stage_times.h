@@ -25,6 +25,27 @@ struct Coverage {
   bool operator==(const Coverage&) const = default;
 };
 
+// Where the reflected rays of an atlas ended, as counts (proto ReflectionShares).
+struct ReflectionCounts {
+  uint64_t hit = 0;
+  uint64_t assumed = 0;
+  uint64_t back = 0;
+  uint64_t cube = 0;
+  uint64_t environment = 0;
+  uint64_t bent = 0;  // of them all, those that their own surface's slope stood in the way of
+
+  uint64_t rayCount() const { return hit + assumed + back + cube + environment; }
+  void add(const ReflectionCounts& other) {
+    hit += other.hit;
+    assumed += other.assumed;
+    back += other.back;
+    cube += other.cube;
+    environment += other.environment;
+    bent += other.bent;
+  }
+  bool operator==(const ReflectionCounts&) const = default;
+};
+
 // Nanoseconds; the stages of proto viewloom.v1.StageTimes.
 struct StageTimes {
   int64_t receive_ns = 0;
@@ -44,6 +65,7 @@ struct SourceStats {
   double connection_tolerance = 0;
   uint64_t bad_samples_count = 0;
   uint64_t unsorted_columns_count = 0;
+  uint64_t bad_normals_count = 0;
   double inv_z_min = 0;
   double inv_z_max = 0;
   double inv_z_near = 0;       // 98th percentile of 1/Z

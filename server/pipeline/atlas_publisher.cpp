@@ -119,6 +119,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->encoding = output.display->encoding;
     atlas->times = times;
     atlas->coverage = coverage;
+    atlas->reflections = run.reflections();
     atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
     atlas->depth_budget = budget;

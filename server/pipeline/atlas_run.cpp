@@ -64,15 +64,22 @@ TraceSlotShape AtlasRun::stripShape() const {
   return slotShape(*picture, strip_row_count, planes);
 }
 
-void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns) {
+void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns,
+                          const ReflectionCounts& strip_reflections) {
   std::lock_guard lock(mutex_);
   coverage_.add(strip_coverage);
+  reflections_.add(strip_reflections);
   traced_ns_ = std::max(traced_ns_, now_ns);
 }
 
 Coverage AtlasRun::coverage() const {
   std::lock_guard lock(mutex_);
   return coverage_;
+}
+
+ReflectionCounts AtlasRun::reflections() const {
+  std::lock_guard lock(mutex_);
+  return reflections_;
 }
 
 int64_t AtlasRun::tracedNs() const {

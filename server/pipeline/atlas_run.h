@@ -50,7 +50,8 @@ class AtlasRun {
   TraceSlotShape stripShape() const;
   int64_t stripPx() const;  // the mean
 
-  void noteTraced(const Coverage& strip_coverage, int64_t now_ns);
+  void noteTraced(const Coverage& strip_coverage, int64_t now_ns,
+                  const ReflectionCounts& strip_reflections = {});
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
@@ -67,6 +68,7 @@ class AtlasRun {
   uint32_t next_strip = 0;
 
   Coverage coverage() const;
+  ReflectionCounts reflections() const;
   int64_t tracedNs() const;
 
  private:
@@ -75,6 +77,7 @@ class AtlasRun {
   std::atomic<uint32_t> strips_left_;
   mutable std::mutex mutex_;
   Coverage coverage_;
+  ReflectionCounts reflections_;
   int64_t traced_ns_ = 0;  // when the last strip was seen done
 };
 

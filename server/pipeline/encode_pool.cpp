@@ -87,7 +87,7 @@ void EncodePool::serve(TracedStrip strip, Worker& worker) {
   timeline_.wait(strip.timeline_value);
   AtlasRun& run = *strip.run;
   const TraceSlot& slot = strip.trace->slot;
-  run.noteTraced(slot.coverage(), links_.clock.nowNs());
+  run.noteTraced(slot.coverage(), links_.clock.nowNs(), slot.reflections());
   const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};
   BandPixels color = colorPixels(slot.color(), slot.ycbcr(), size_px, run.planes.color);
   color.first_row = run.rowInImage(strip.strip);

@@ -27,7 +27,9 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                                              const EyePosesPtr& eyes) {
   VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(display.spec, aim.sources));
   Entry& entry = entries_[display.picture_key];
-  const bool is_aimed = (aim.standsInOnly() && entry.aim.standsInOnly()) || aim == entry.aim;
+  const bool keeps_mirrors = haveMirrors(entry.aim.sources) == haveMirrors(aim.sources);
+  const bool is_aimed =
+      (aim.standsInOnly() && entry.aim.standsInOnly() && keeps_mirrors) || aim == entry.aim;
   bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
   if (is_new) {
     VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));

@@ -151,6 +151,9 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
 
   structure->stats =
       slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.stats().front();
+  for (const LayerPlanes& layer : offered.frame->sources.front()) {
+    structure->stats.bad_normals_count += layer.bad_normals_count;
+  }
   structure->depths =
       slot->is_swept ? slot->swept.measured().depths : slot->walked->structure.depthSpread();
   structure->stream_is_walked = stream.is_walked;

@@ -7,9 +7,9 @@
 #include "base/log.h"
 #include "base/str_cat.h"
 #include "display/rgbd.h"
+#include "pipeline/job_aim.h"
 
 namespace viewloom {
-
 namespace {
 
 // Of what a display was shown of the same structure.
@@ -17,20 +17,9 @@ bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
   return job.tick && shown && !job.tick->shown.looksLike(*shown);
 }
 
-// A display without a place of its own stands where the camera is at the time shown.
-Aim aimOf(const ActiveDisplay& display, const AtlasJob& job) {
-  Camera camera = job.structure->sources.front().camera;
-  if (job.tick) camera.pose = job.tick->shown.source_pose;
-  Aim aim{.sources = job.structure->sources, .display_pose = displayPose(display.spec, camera)};
-  if (!job.before) return aim;
-  const std::vector<SeenSource>& before = job.before->sources;
-  aim.sources.insert(aim.sources.end(), before.begin(), before.end());
-  return aim;
-}
-
 // The structure before the newest is asked, too, where one more of its kind can be.
 bool canAskBoth(const ActiveDisplay& display, const AtlasJob& job) {
-  return !hasLayerBehind(display.spec) &&
+  return !hasLayerBehind(display.spec) && !display.spec.reflection &&
          job.structure->sources.size() + job.before->sources.size() <= kMergedSourcesMax;
 }
 

@@ -121,6 +121,9 @@ grpc::ByteBuffer AtlasMessages::header() const {
   *header.mutable_times() = timesToProto(atlas_->times);
   *header.mutable_coverage() = coverageToProto(atlas_->coverage);
   header.set_band_count(static_cast<uint32_t>(atlas_->bands.size()));
+  if (atlas_->reflections.rayCount() > 0) {
+    *header.mutable_reflections() = reflectionsToProto(atlas_->reflections);
+  }
   *header.mutable_stats() = statsToProto(atlas_->stats);
   header.set_method(methodToProto(atlas_->method));
   if (atlas_->depth_budget) *header.mutable_depth_budget() = budgetToProto(*atlas_->depth_budget);

@@ -59,10 +59,6 @@ constexpr EnumRow<v1::OutsideFill, OutsideFill> kOutsideFills[] = {
     {v1::OUTSIDE_FILL_BORDER, OutsideFill::kBorder},
     {v1::OUTSIDE_FILL_BACKGROUND, OutsideFill::kBackground}};
 
-absl::Status notServedYet(std::string_view field) {
-  return fieldError(absl::StatusCode::kUnimplemented, field, "is not served yet");
-}
-
 absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
     const google::protobuf::RepeatedPtrField<v1::Camera>& protos, const char* field) {
   std::vector<ViewCamera> cameras;
@@ -203,8 +199,22 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
                       "got none; accepted: quilt, stereo, cameras, lenticular, integral or rgbd");
 }
 
-absl::Status refuseEffects(const v1::Effects& effects) {
-  if (effects.has_reflection()) return notServedYet("effects.reflection");
+absl::Status effectsFromProto(const v1::Display& proto, DisplaySpec& spec) {
+  const v1::Effects& effects = proto.effects();
+  if (effects.has_lens()) {
+    const auto lens = lensFromProto(effects.lens());
+    VIEWLOOM_RETURN_IF_ERROR(lens.status());
+    spec.lens = *lens;
+  }
+  if (effects.has_temporal()) {
+    const auto temporal = temporalFromProto(effects.temporal());
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(temporal.status(), "effects.temporal"));
+    spec.temporal = *temporal;
+  }
+  if (effects.has_reflection()) spec.reflection = reflectionFromProto(effects.reflection());
+  const auto quality = qualityFromProto(proto.quality());
+  VIEWLOOM_RETURN_IF_ERROR(quality.status());
+  spec.quality = *quality;
   return absl::OkStatus();
 }
 
@@ -213,20 +223,7 @@ absl::Status refuseEffects(const v1::Effects& effects) {
 absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   DisplaySpec spec;
   VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
-  VIEWLOOM_RETURN_IF_ERROR(refuseEffects(proto.effects()));
-  if (proto.effects().has_lens()) {
-    auto lens = lensFromProto(proto.effects().lens());
-    VIEWLOOM_RETURN_IF_ERROR(lens.status());
-    spec.lens = *lens;
-  }
-  const auto quality = qualityFromProto(proto.quality());
-  VIEWLOOM_RETURN_IF_ERROR(quality.status());
-  spec.quality = *quality;
-  if (proto.effects().has_temporal()) {
-    const auto temporal = temporalFromProto(proto.effects().temporal());
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(temporal.status(), "effects.temporal"));
-    spec.temporal = *temporal;
-  }
+  VIEWLOOM_RETURN_IF_ERROR(effectsFromProto(proto, spec));
   spec.focus_following_s = proto.focus_following_s();
   if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();
   if (proto.filter().width() != 0) spec.filter.width = proto.filter().width();

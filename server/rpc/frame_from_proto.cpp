@@ -13,8 +13,12 @@
 namespace viewloom {
 namespace {
 
-constexpr EnumRow<v1::PlaneKind, PlaneKind> kKinds[] = {{v1::PLANE_KIND_COLOR, PlaneKind::kColor},
-                                                        {v1::PLANE_KIND_DEPTH, PlaneKind::kDepth}};
+constexpr EnumRow<v1::PlaneKind, PlaneKind> kKinds[] = {
+    {v1::PLANE_KIND_COLOR, PlaneKind::kColor},
+    {v1::PLANE_KIND_DEPTH, PlaneKind::kDepth},
+    {v1::PLANE_KIND_NORMAL, PlaneKind::kNormal},
+    {v1::PLANE_KIND_ROUGHNESS, PlaneKind::kRoughness},
+    {v1::PLANE_KIND_SPECULAR, PlaneKind::kSpecular}};
 
 constexpr EnumRow<v1::PlaneEncoding, PlaneEncoding> kEncodings[] = {
     {v1::PLANE_ENCODING_RGBA8, PlaneEncoding::kRgba8},
@@ -23,7 +27,11 @@ constexpr EnumRow<v1::PlaneEncoding, PlaneEncoding> kEncodings[] = {
     {v1::PLANE_ENCODING_JPEG, PlaneEncoding::kJpeg},
     {v1::PLANE_ENCODING_DEPTH_F32, PlaneEncoding::kDepthF32},
     {v1::PLANE_ENCODING_DEPTH_F16, PlaneEncoding::kDepthF16},
-    {v1::PLANE_ENCODING_DEPTH_U16, PlaneEncoding::kDepthU16}};
+    {v1::PLANE_ENCODING_DEPTH_U16, PlaneEncoding::kDepthU16},
+    {v1::PLANE_ENCODING_XYZ16F, PlaneEncoding::kXyz16f},
+    {v1::PLANE_ENCODING_XYZ8, PlaneEncoding::kXyz8},
+    {v1::PLANE_ENCODING_OCT16, PlaneEncoding::kOct16},
+    {v1::PLANE_ENCODING_R8, PlaneEncoding::kR8}};
 
 constexpr EnumRow<v1::PlaneCompression, PlaneCompression> kCompressions[] = {
     {v1::PLANE_COMPRESSION_UNSPECIFIED, PlaneCompression::kNone},
@@ -46,6 +54,11 @@ constexpr EnumRow<v1::AlphaMode, AlphaMode> kAlphas[] = {
     {v1::ALPHA_MODE_OPAQUE, AlphaMode::kOpaque},
     {v1::ALPHA_MODE_PREMULTIPLIED, AlphaMode::kPremultiplied},
     {v1::ALPHA_MODE_STRAIGHT, AlphaMode::kStraight}};
+
+constexpr EnumRow<v1::NormalSpace, NormalSpace> kNormalSpaces[] = {
+    {v1::NORMAL_SPACE_UNSPECIFIED, NormalSpace::kCamera},
+    {v1::NORMAL_SPACE_CAMERA, NormalSpace::kCamera},
+    {v1::NORMAL_SPACE_WORLD, NormalSpace::kWorld}};
 
 // The only one that is served, and nothing has to be done for it.
 constexpr EnumRow<v1::ToneMap, ToneMap> kToneMaps[] = {{v1::TONE_MAP_UNSPECIFIED, ToneMap::kClip},
@@ -87,7 +100,11 @@ absl::StatusOr<PlaneFormat> planeFromProto(const v1::Plane& proto) {
   plane.wire_bytes = proto.bytes_count();
   if (plane.kind == PlaneKind::kColor) {
     VIEWLOOM_RETURN_IF_ERROR(colorFromProto(proto, plane));
-  } else {
+  } else if (plane.kind == PlaneKind::kNormal) {
+    const auto space = enumFromProto(proto.normal_space(), "normal_space", kNormalSpaces);
+    VIEWLOOM_RETURN_IF_ERROR(space.status());
+    plane.normal_space = *space;
+  } else if (plane.kind == PlaneKind::kDepth) {
     const auto depth = depthFormatFromProto(proto.depth());
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(depth.status(), "depth"));
     plane.depth = *depth;
@@ -95,26 +112,45 @@ absl::StatusOr<PlaneFormat> planeFromProto(const v1::Plane& proto) {
   return plane;
 }
 
+absl::Status addPlane(const PlaneFormat& plane, std::optional<PlaneFormat>& color,
+                      std::optional<PlaneFormat>& depth, LayerFormat& layer) {
+  const bool is_known = plane.kind == PlaneKind::kColor   ? color.has_value()
+                        : plane.kind == PlaneKind::kDepth ? depth.has_value()
+                                                          : layer.find(plane.kind) != nullptr;
+  if (is_known) {
+    return invalidField("kind", "got a second plane of this kind; accepted: one of each");
+  }
+  if (plane.kind == PlaneKind::kColor) {
+    color = plane;
+    layer.depth_first = depth.has_value();
+  } else if (plane.kind == PlaneKind::kDepth) {
+    depth = plane;
+  } else if (!color || !depth) {
+    return invalidField("kind", "comes before COLOR and DEPTH; accepted: those two first");
+  } else {
+    layer.others.push_back(plane);
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
+  LayerFormat layer;
   std::optional<PlaneFormat> color;
   std::optional<PlaneFormat> depth;
-  bool depth_first = false;
   for (int i = 0; i < proto.planes_size(); ++i) {
     const std::string path = absl::StrCat("planes[", i, "]");
     const auto plane = planeFromProto(proto.planes(i));
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(plane.status(), path));
-    auto& place = plane->kind == PlaneKind::kColor ? color : depth;
-    if (place.has_value()) {
-      return invalidField(path + ".kind", "got a second plane of this kind; accepted: one of each");
-    }
-    place = *plane;
-    if (!color.has_value()) depth_first = true;
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(addPlane(*plane, color, depth, layer), path));
   }
-  if (!color.has_value() || !depth.has_value()) {
+  if (!color || !depth) {
     return invalidField("planes", absl::StrCat("got ", proto.planes_size(),
                                                "; accepted: one COLOR and one DEPTH plane"));
   }
-  return LayerFormat{.color = *color, .depth = *depth, .depth_first = depth_first};
+  layer.color = *color;
+  layer.depth = *depth;
+  layer.color_has_reflections = proto.color_has_reflections();
+  return layer;
 }
 
 absl::Status projectionOfCubeMap(const v1::Camera& proto, SizePx plane_px, Camera& camera) {

@@ -37,6 +37,19 @@ v1::Coverage coverageToProto(const Coverage& coverage) {
   return proto;
 }
 
+v1::ReflectionShares reflectionsToProto(const ReflectionCounts& counts) {
+  v1::ReflectionShares proto;
+  const auto all = static_cast<double>(counts.rayCount());
+  if (all == 0) return proto;
+  proto.set_hit(static_cast<double>(counts.hit) / all);
+  proto.set_assumed(static_cast<double>(counts.assumed) / all);
+  proto.set_back(static_cast<double>(counts.back) / all);
+  proto.set_cube(static_cast<double>(counts.cube) / all);
+  proto.set_environment(static_cast<double>(counts.environment) / all);
+  proto.set_bent(static_cast<double>(counts.bent) / all);
+  return proto;
+}
+
 v1::StageTimes timesToProto(const StageTimes& times) {
   v1::StageTimes proto;
   proto.set_receive_ns(times.receive_ns);
@@ -75,6 +88,7 @@ v1::SourceStats statsToProto(const SourceStats& stats) {
   proto.set_connection_tolerance(stats.connection_tolerance);
   proto.set_bad_samples_count(stats.bad_samples_count);
   proto.set_unsorted_columns_count(stats.unsorted_columns_count);
+  proto.set_bad_normals_count(stats.bad_normals_count);
   proto.set_inv_z_min(stats.inv_z_min);
   proto.set_inv_z_max(stats.inv_z_max);
   return proto;

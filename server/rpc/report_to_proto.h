@@ -14,6 +14,7 @@ namespace viewloom {
 
 // Shares of all rays; all zero when there were none.
 v1::Coverage coverageToProto(const Coverage& coverage);
+v1::ReflectionShares reflectionsToProto(const ReflectionCounts& counts);
 v1::StageTimes timesToProto(const StageTimes& times);
 v1::DepthBudget budgetToProto(const DepthBudget& budget);
 v1::ViewsOutside outsideToProto(const ViewsOutside& views);

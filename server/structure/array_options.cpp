@@ -68,6 +68,15 @@ LayeredBufferOptions meanColorOptions(const Device& device, const FrameShape& sh
                          device, shape);
 }
 
+LayeredBufferOptions surfaceOptions(const Device& device, const FrameShape& shape) {
+  return dividedAsNeeded({.layer_bytes = surfaceBytes(shape.depth_px),
+                          .layer_count = shape.layerCount(),
+                          .texel_format = vk::Format::eR32G32Uint,
+                          .texel_bytes = sizeof(abi::SurfaceTexel),
+                          .debug_name = "surface"},
+                         device, shape);
+}
+
 LayeredBufferOptions invZOptions(const Device& device, const FrameShape& shape) {
   return dividedAsNeeded(undividedInvZ(shape), device, shape);
 }

@@ -12,6 +12,7 @@ bool writesColorInPlace(const Device& device, const FrameShape& shape);
 
 LayeredBufferOptions colorOptions(const Device& device, const FrameShape& shape);
 LayeredBufferOptions meanColorOptions(const Device& device, const FrameShape& shape);
+LayeredBufferOptions surfaceOptions(const Device& device, const FrameShape& shape);
 LayeredBufferOptions invZOptions(const Device& device, const FrameShape& shape);
 LayeredBufferOptions structureOptions(const Device& device, const FrameShape& shape);
 

@@ -10,10 +10,11 @@ namespace viewloom {
 BuildMemory::BuildMemory(const Device& device, const FrameShape& shape)
     : device_(device),
       shape_(shape),
-      staging_(device, {.size_bytes = writesColorInPlace(device, shape) ? shape.staged_depth_bytes
-                                                                        : shape.staged_bytes,
-                        .intent = MemoryIntent::kUpload,
-                        .debug_name = "staged planes"}),
+      staging_(device,
+               {.size_bytes = writesColorInPlace(device, shape) ? shape.staged_before_color_bytes
+                                                                : shape.staged_bytes,
+                .intent = MemoryIntent::kUpload,
+                .debug_name = "staged planes"}),
       staging_texels_(mustDivide(device, shape)
                           ? TexelView()
                           : TexelView(device, staging_, vk::Format::eR32Uint)),

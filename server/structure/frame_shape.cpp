@@ -66,7 +66,8 @@ FrameShape shapeOf(const Frame& frame, const SourcePart& part) {
                         : all_opaque ? ColorStorage::kRgb16Root
                                      : ColorStorage::kRgba16fLinear;
   const std::vector<StagedLayer> staged = stagedLayers(frame, part);
-  shape.staged_depth_bytes = alignedEnd(staged.back().depth.offset, staged.back().depth.size_bytes);
+  shape.mirrors = source.mirrors() && !source.is_cube_map;
+  shape.staged_before_color_bytes = staged.front().color.offset;
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
   return shape;
 }
@@ -95,6 +96,9 @@ std::vector<StagedLayer> stagedLayers(const Frame& frame, const SourcePart& part
   for (size_t i = 0; i < layers.size(); ++i) {
     stage(staged[i].depth, layers[i].depth->size() / (part.face ? kCubeFaceCount : 1));
   }
+  for (size_t i = 0; i < layers.size() && !part.face; ++i) {
+    if (layers[i].surface) stage(staged[i].surface, layers[i].surface->size());
+  }
   for (size_t i = 0; i < layers.size(); ++i) {
     const SizePx plane_px = frame.format.sources[part.source].layers[i].color.size_px;
     const uint64_t texel_bytes = layers[i].color->size() / plane_px.area();
@@ -114,6 +118,7 @@ uint64_t structureBytes(const FrameShape& shape) {
     total_bytes += color_bytes;
     if (shape.canAverageColor()) total_bytes += MeanColor::kReachesMax * meanBytes(shape);
     total_bytes += layout.layerBytes();
+    if (shape.mirrors) total_bytes += surfaceBytes(shape.depth_px);
   }
   return total_bytes;
 }

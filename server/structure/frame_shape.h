@@ -35,10 +35,11 @@ struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
   bool is_cube_face = false;
+  bool mirrors = false;  // layers say how they do (LayerPlanes::surface); never of a cube map
   ColorStorage color_storage = ColorStorage::kRgba8Srgb;
-  // Decoded planes of all layers in the upload, each aligned: depth, and colour after it, which of
-  // a face has room for the apron.
-  uint64_t staged_depth_bytes = 0;
+  // Decoded planes of all layers in the upload, each aligned: depth, how layers mirror, and colour
+  // after it, which of a face has room for the apron. First without and then with colour.
+  uint64_t staged_before_color_bytes = 0;
   uint64_t staged_bytes = 0;
 
   // Some plane is not of depth's size.
@@ -77,6 +78,7 @@ struct StagedPlane {
 
 struct StagedLayer {
   StagedPlane depth;
+  StagedPlane surface;  // empty where the layer mirrors nothing
   StagedPlane color;
 };
 

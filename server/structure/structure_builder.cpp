@@ -57,6 +57,24 @@ std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
           slot.stagingDescriptor()};
 }
 
+// How layers mirror; those that do not, mirror nothing.
+void recordSurface(vk::CommandBuffer commands, const StructureSlot& slot) {
+  const LayeredBuffer* const surface = slot.surface();
+  if (surface == nullptr) return;
+  for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
+    const StagedPlane& staged = slot.staged()[i].surface;
+    if (staged.size_bytes == 0) {
+      commands.fillBuffer(surface->buffer(i).handle(), surface->offsetBytes(i),
+                          surface->layerBytes(), 0);
+    } else {
+      commands.copyBuffer(slot.staging().handle(), surface->buffer(i).handle(),
+                          vk::BufferCopy{.srcOffset = staged.offset,
+                                         .dstOffset = surface->offsetBytes(i),
+                                         .size = staged.size_bytes});
+    }
+  }
+}
+
 StructureVariant variantOf(const StructureSlot& slot) {
   return {.reads_by_address = slot.readsByAddress(),
           .writes_by_address = slot.writesByAddress(),
@@ -195,6 +213,7 @@ void StructureBuilder::recordColumns(vk::CommandBuffer commands, const Structure
   recordStage(commands, timer, "color", [&] {
     recordClear(commands, slot.measured());
     recordColor(commands, slot);
+    recordSurface(commands, slot);
     recordTransferToCompute(commands);
   });
   recordStage(commands, timer, "columns", [&] { recording.prepare(); });

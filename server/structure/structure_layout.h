@@ -6,6 +6,7 @@
 
 #include "frame/size.h"
 #include "shared/structure_abi.h"
+#include "shared/surface_abi.h"
 #include "structure/frame_shape.h"
 
 namespace viewloom {
@@ -50,6 +51,10 @@ inline uint32_t colorFormat(ColorStorage storage) {
 
 inline uint32_t texelBytes(ColorStorage storage) {
   return storage == ColorStorage::kRgba8Srgb ? 4 : 8;
+}
+
+inline uint64_t surfaceBytes(SizePx depth_px) {
+  return depth_px.area() * sizeof(abi::SurfaceTexel);
 }
 
 inline uint64_t colorBytes(ColorStorage storage, SizePx color_px) {

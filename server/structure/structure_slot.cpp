@@ -47,6 +47,9 @@ StructureSlot::StructureSlot(const Device& device, BuildMemoryPtr build_memory)
                                   .debug_name = "measured readback"}),
       color_(device, colorOptions(device, shape_)),
       mean_color_(std::make_unique<MeanColor>(device, meanColorOptions(device, shape_))),
+      surface_(shape_.mirrors
+                   ? std::make_unique<LayeredBuffer>(device, surfaceOptions(device, shape_))
+                   : nullptr),
       structure_(device, structureOptions(device, shape_)),
       writes_by_address_(!invZ().fitsStorage(device) || !structure_.fitsStorage(device)) {
   staged_.reserve(shape_.layerCount());
@@ -99,6 +102,10 @@ void StructureSlot::upload(const Frame& frame, const SourcePart& part) {
     const uint32_t face = part.face.value_or(0);
     std::memcpy(upload + staged_[i].depth.offset, planes.depth->data() + face * depth_bytes,
                 depth_bytes);
+    if (staged_[i].surface.size_bytes > 0) {
+      std::memcpy(upload + staged_[i].surface.offset, planes.surface->data(),
+                  staged_[i].surface.size_bytes);
+    }
     if (part.face) {
       copyWithinApron(*planes.color, face, shape_.color_px[i], color);
     } else {

@@ -53,6 +53,8 @@ class StructureSlot {
   const std::vector<StagedLayer>& staged() const { return staged_; }
   const LayeredBuffer& color() const { return color_; }  // texels
   uint32_t colorStride() const;                          // texels from layer to layer
+  // abi::SurfaceTexel per px, of a source that mirrors; else nullptr.
+  const LayeredBuffer* surface() const { return surface_.get(); }
   MeanColor& meanColor() const { return *mean_color_; }  // of the uploaded source
   const LayeredBuffer& meansAlongY() const { return build_memory_->meansAlongY(); }
   const LayeredBuffer& invZ() const { return build_memory_->invZ(); }
@@ -82,6 +84,7 @@ class StructureSlot {
   Buffer measured_readback_;
   LayeredBuffer color_;
   std::unique_ptr<MeanColor> mean_color_;
+  std::unique_ptr<LayeredBuffer> surface_;
   LayeredBuffer structure_;
   bool writes_by_address_;
   std::vector<StagedLayer> staged_;

@@ -49,7 +49,7 @@ SweepView sweepView(const abi::ViewParams& tile) {
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
-  if (job.walk_count != 1 || job.hasLens()) return std::nullopt;
+  if (job.walk_count != 1 || job.hasLens() || job.reflects()) return std::nullopt;
   std::optional<LensPieces> lens_pieces = LensPieces::make(job, inv_z_max);
   if (job.hasEyesBeside() && !(lens_pieces && staysInRows(job, *lens_pieces, inv_z_max))) {
     return std::nullopt;

@@ -48,7 +48,8 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
     const uint32_t of_first = sample == 0 && !has_middle_apart ? wanted : 0;
     const Rays rays{.sample = sample,
                     .through_lens = job.hasLens(),
-                    .wanted = of_first | (gathered ? abi::kWantMet : 0)};
+                    .wanted = of_first | (gathered ? abi::kWantMet : 0) |
+                              (job.reflects() ? abi::kWantRecords : 0)};
     recordRays(commands, structures, job, rows, rays, slot);
     if (job.sumsLight()) blender_.record(commands, blended, job.layout->samples, sample);
   }

@@ -11,6 +11,7 @@
 #include "display/ray_extent.h"
 #include "display/rgbd.h"
 #include "frame/cube_map.h"
+#include "trace/lens_bounds.h"
 
 namespace viewloom {
 namespace {
@@ -62,43 +63,6 @@ struct SeenWalk {
   SizePx size_px;
 };
 
-constexpr glm::dvec2 kLensCorners[] = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
-
-// A camera as seen from a corner of the square around the lens before it.
-Camera fromLensCorner(const Camera& camera, const AtlasLayout& layout, glm::dvec2 corner) {
-  const double focus_m = layout.distanceOf(layout.lens->focus_m, {camera});
-  return sampledCamera(camera, {.eye_m = corner * layout.lens->radius_m}, focus_m);
-}
-
-// The tolerance is that of the outermost rays.
-void addLens(TraceJob& job, const Pose& display_pose, const SeenWalk& seen, const View& view,
-             abi::ViewParams& tile) {
-  const AtlasLayout& layout = *job.layout;
-  tile.lens_px_m = abi::vec2(layout.lens->radius_m * view.camera.intrinsics.focal_px);
-  tile.lens_inv_focus = float(1 / layout.distanceOf(layout.lens->focus_m, view));
-  for (const glm::dvec2 corner : kLensCorners) {
-    const abi::ViewParams seen_from =
-        makeViewParams({fromLensCorner(view.camera, layout, corner)}, display_pose, seen.camera,
-                       seen.size_px, job.tolerance_px);
-    tile.inv_z_tolerance = std::min(tile.inv_z_tolerance, seen_from.inv_z_tolerance);
-  }
-}
-
-// Of the views as they are without a filter.
-void addLensBounds(TraceJob& job, const Pose& display_pose, const SeenWalk& seen) {
-  const AtlasLayout& layout = *job.layout;
-  for (uint32_t tile = 0; tile < layout.columns * layout.rows; ++tile) {
-    const uint32_t index = layout.viewAt(tile % layout.columns, tile / layout.columns);
-    for (const glm::dvec2 corner : kLensCorners) {
-      job.lens_bounds.push_back(
-          index < layout.views.size()
-              ? makeViewParams({fromLensCorner(layout.views[index].camera, layout, corner)},
-                               display_pose, seen.camera, seen.size_px, job.tolerance_px)
-              : abi::ViewParams{});
-    }
-  }
-}
-
 // What all views see of it, each px from where the sample has it.
 void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
               const RaySample& sample) {
@@ -118,7 +82,7 @@ void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
       job.tiles.push_back(
           makeViewParams(sampled, display_pose, seen.camera, seen.size_px, job.tolerance_px));
       if (job.hasLens() && !sampled.shows_depth) {
-        addLens(job, display_pose, seen, sampled, job.tiles.back());
+        addLens(job, display_pose, seen.camera, seen.size_px, sampled, job.tiles.back());
       }
       // An error that moves nothing would still be seen in the codes.
       if (layout.depth_codes) job.tiles.back().inv_z_tolerance = 0;
@@ -183,21 +147,37 @@ std::vector<SeenWalk> seenWalks(std::span<const SeenSource> sources) {
 
 }  // namespace
 
+bool haveMirrors(std::span<const SeenSource> sources) {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const SeenSource& source) { return source.mirrors; });
+}
+
 SeenSource seenSource(const SourceFormat& source) {
   const SizePx plane_px = source.layers.front().depth.size_px;
   return {.camera = source.camera,
           .size_px = source.is_cube_map ? cubeFaceSize(plane_px) : plane_px,
-          .is_cube_map = source.is_cube_map};
+          .is_cube_map = source.is_cube_map,
+          .mirrors = source.mirrors(),
+          .is_see_through = std::any_of(
+              source.layers.begin(), source.layers.end(),
+              [](const auto& layer) { return layer.color.alpha != AlphaMode::kOpaque; })};
 }
 
 absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources) {
-  if (!hasLayerBehind(spec)) return absl::OkStatus();
-  if (sources.size() == 1 && !sources.front().is_cube_map) return absl::OkStatus();
+  const bool is_one = sources.size() == 1 && !sources.front().is_cube_map;
   const std::string stream =
       sources.size() == 1 ? "a cube map" : strCat(sources.size(), " sources");
-  return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
-                    strCat("got TWO_LAYERS for a stream of ", stream,
-                           ", accepted is one source that is no cube map"));
+  if (hasLayerBehind(spec) && !is_one) {
+    return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
+                      strCat("got TWO_LAYERS for a stream of ", stream,
+                             ", accepted is one source that is no cube map"));
+  }
+  if (!spec.reflection || !haveMirrors(sources)) return absl::OkStatus();
+  if (is_one && !sources.front().is_see_through) return absl::OkStatus();
+  return fieldError(
+      absl::StatusCode::kFailedPrecondition, "effects.reflection",
+      strCat("came for a stream with mirrors of ", is_one ? "colour that is seen through" : stream,
+             ", accepted is one source of opaque colour that is no cube map"));
 }
 
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
@@ -261,6 +241,7 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
   job.tolerance_px = spec.tolerance_px;
   job.outside_fill = spec.outside_fill;
   job.background_rgb = spec.background_rgb;
+  job.reflection = spec.reflection;
   aimTraceJob(job, display_pose, sources);
   return job;
 }
@@ -274,6 +255,7 @@ TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySp
 void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSource> sources) {
   job.sources.clear();
   job.walk_count = 0;
+  job.has_mirrors = haveMirrors(sources);
   for (const SeenSource& source : sources) {
     const uint32_t walk_count = source.is_cube_map ? kCubeFaceCount : 1;
     job.sources.push_back({.first_walk = job.walk_count, .walk_count = walk_count});
@@ -291,7 +273,9 @@ void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSo
   job.lens_bounds.clear();
   if (std::holds_alternative<PinholeRays>(layout.rays)) {
     if (!job.hasLens()) return;
-    for (const SeenWalk& walk : walks) addLensBounds(job, display_pose, walk);
+    for (const SeenWalk& walk : walks) {
+      addLensBounds(job, display_pose, walk.camera, walk.size_px);
+    }
     return;
   }
   for (const SeenWalk& walk : walks) addBounds(job, display_pose, walk);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,11 +39,15 @@ struct SeenSource {
   Camera camera;   // intrinsics in px of the depth planes
   SizePx size_px;  // of the depth planes
   bool is_cube_map = false;
+  bool mirrors = false;         // SourceFormat::mirrors
+  bool is_see_through = false;  // its colour may have alpha
 
   bool operator==(const SeenSource&) const = default;
 };
 
 SeenSource seenSource(const SourceFormat& source);
+// Whether some of them mirrors.
+bool haveMirrors(std::span<const SeenSource> sources);
 
 // As many can be asked by one job.
 inline constexpr size_t kMergedSourcesMax = 8;
@@ -79,7 +84,11 @@ struct TraceJob {
   std::vector<JobSource> sources;
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
+  std::optional<ReflectionSpec> reflection = std::nullopt;  // as the display asks
+  bool has_mirrors = false;                                 // some source mirrors
 
+  // Whether reflected rays are to be traced.
+  bool reflects() const { return reflection.has_value() && has_mirrors && walk_count == 1; }
   std::span<const abi::ViewParams> tilesOf(uint32_t walk, uint32_t sample = 0) const {
     const size_t count = tileCount();
     return {tiles.data() + (size_t{sample} * walk_count + walk) * count, count};
@@ -104,8 +113,8 @@ struct TileRays {
 };
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample);
 
-// What lies behind the first surface of a ray is known of one structure alone: FAILED_PRECONDITION
-// where a display asks for it of more.
+// What lies behind the first surface of a ray is known of one structure alone, and so is what
+// surfaces mirror: FAILED_PRECONDITION where a display asks for it of more.
 absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources);
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,

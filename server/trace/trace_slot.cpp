@@ -2,9 +2,9 @@
 #include "trace/trace_slot.h"
 
 #include <algorithm>
-#include <array>
 
 #include "gpu/barrier.h"
+#include "shared/reflection_abi.h"
 #include "trace/met_blocks.h"
 
 namespace viewloom {
@@ -46,7 +46,8 @@ bool TraceSlotShape::holds(const TraceSlotShape& other) const {
          tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
          sample_count >= other.sample_count && lens_point_count >= other.lens_point_count &&
          sums_light >= other.sums_light && met_count >= other.met_count &&
-         met_lists_bytes >= other.met_lists_bytes && outputs == other.outputs;
+         met_lists_bytes >= other.met_lists_bytes && outputs == other.outputs &&
+         (reflects || !other.reflects);
 }
 
 void TraceSlotShape::include(const TraceSlotShape& other) {
@@ -59,6 +60,7 @@ void TraceSlotShape::include(const TraceSlotShape& other) {
   sums_light = sums_light || other.sums_light;
   met_count = std::max(met_count, other.met_count);
   met_lists_bytes = std::max(met_lists_bytes, other.met_lists_bytes);
+  reflects = reflects || other.reflects;
 }
 
 TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs) {
@@ -72,7 +74,8 @@ TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const Trac
           .sums_light = job.sumsLight(),
           .met_count = job.mayGather() ? job.sample_count : 0,
           .met_lists_bytes = job.mayGather() ? metListsBytes(layout, row_count_max) : 0,
-          .outputs = outputs};
+          .outputs = outputs,
+          .reflects = job.reflects()};
 }
 
 AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
@@ -151,6 +154,23 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
     met_lists_ =
         Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
   }
+  if (shape.reflects) addReflections(device, area_px);
+}
+
+vk::DeviceAddress TraceSlot::recordsAddress() const {
+  if (hits_.sizeBytes() > 0) return hits_.address();
+  return records_.isEmpty() ? 0 : records_.target().address();
+}
+
+void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
+  if (!shape_.outputs.records) {
+    hits_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::RayRecord), .debug_name = "hits"});
+  }
+  reflection_settings_ = Buffer(device, {.size_bytes = sizeof(abi::ReflectionSettings),
+                                         .intent = MemoryIntent::kUpload,
+                                         .debug_name = "reflection settings"});
+  reflected_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::ReflectedLight),
+                               .debug_name = "reflected light"});
 }
 
 uint64_t TraceSlot::sizeBytes() const {
@@ -159,7 +179,8 @@ uint64_t TraceSlot::sizeBytes() const {
     total_bytes += plane->bytes().size();
   }
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
-         sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes();
+         sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
+         hits_.sizeBytes() + reflected_.sizeBytes() + reflection_settings_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {
@@ -190,17 +211,28 @@ std::span<const abi::RayRecord> TraceSlot::records() const {
   return readAs<abi::RayRecord>(records_, band_px_.area());
 }
 
-Coverage TraceSlot::coverage() const {
+uint32_t TraceSlot::counted(uint32_t place) const {
   const auto sets = readAs<uint32_t>(counters_, kCounterCount);
-  std::array<uint32_t, abi::kClassCount> counts{};
-  for (size_t i = 0; i < sets.size(); i += abi::kCounterStride) {
-    for (size_t k = 0; k < counts.size(); ++k) counts[k] += sets[i + k];
-  }
-  return {.hit = counts[abi::kClassHit],
-          .hit_assumed = counts[abi::kClassHitAssumed],
-          .hidden = counts[abi::kClassHidden],
-          .outside = counts[abi::kClassOutside],
-          .empty = counts[abi::kClassEmpty]};
+  uint32_t count = 0;
+  for (size_t i = place; i < sets.size(); i += abi::kCounterStride) count += sets[i];
+  return count;
+}
+
+Coverage TraceSlot::coverage() const {
+  return {.hit = counted(abi::kClassHit),
+          .hit_assumed = counted(abi::kClassHitAssumed),
+          .hidden = counted(abi::kClassHidden),
+          .outside = counted(abi::kClassOutside),
+          .empty = counted(abi::kClassEmpty)};
+}
+
+ReflectionCounts TraceSlot::reflections() const {
+  return {.hit = counted(abi::kReflectionHit),
+          .assumed = counted(abi::kReflectionAssumed),
+          .back = counted(abi::kReflectionBack),
+          .cube = counted(abi::kReflectionCube),
+          .environment = counted(abi::kReflectionEnvironment),
+          .bent = counted(abi::kReflectionBent)};
 }
 
 }  // namespace viewloom

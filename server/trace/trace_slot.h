@@ -24,6 +24,7 @@ struct TraceSlotShape {
   uint32_t met_count = 0;        // rays a px of which it is kept what they met
   uint64_t met_lists_bytes = 0;  // 0 = no second stage of a lens
   TraceOutputs outputs;
+  bool reflects = false;  // TraceJob::reflects
 
   // Whether a slot of this shape can hold a band of that one.
   bool holds(const TraceSlotShape& other) const;
@@ -87,11 +88,17 @@ class TraceSlot {
   std::span<const float> linear() const;    // float[rows][width][4], sRGB-encoded
   std::span<const abi::RayRecord> records() const;
   Coverage coverage() const;
+  ReflectionCounts reflections() const;
 
  private:
   friend class ViewTracer;
 
+  // Of abi::RayRecord per px; 0 = not wanted.
+  vk::DeviceAddress recordsAddress() const;
+  void addReflections(const Device& device, uint64_t area_px);
   uint64_t colorBytes() const;
+  // How often it stands at this place in the sets of counters.
+  uint32_t counted(uint32_t place) const;
   // Where the walk stores colour.
   const Buffer& rgba() const {
     return shape_.outputs.color == ColorForm::kRgba ? color_.target() : unpacked_;
@@ -129,6 +136,9 @@ class TraceSlot {
   Buffer sums_;     // light of those before it
   Buffer met_;      // what rays through a lens met
   Buffer met_lists_;
+  Buffer hits_;  // abi::RayRecord, where reflections begin; empty where records_ has them
+  Buffer reflection_settings_;
+  Buffer reflected_;  // abi::ReflectedLight
 };
 
 }  // namespace viewloom

@@ -77,7 +77,12 @@ void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_
 }  // namespace
 
 ViewTracer::ViewTracer(const Device& device)
-    : device_(&device), averager_(device), packer_(device), blender_(device), gatherer_(device) {}
+    : device_(&device),
+      averager_(device),
+      packer_(device),
+      blender_(device),
+      gatherer_(device),
+      reflector_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -121,7 +126,7 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .depth = addressOf(slot.depth_),
       .mask = addressOf(slot.mask_),
       .linear = addressOf(slot.linear_),
-      .records = addressOf(slot.records_),
+      .records = addressWords(slot.recordsAddress()),
       .counters = addressOf(slot.counters_),
       .color_size_px = {},
       .color_stride = structure.colorStride(),
@@ -237,6 +242,7 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   walk_views.record(commands, describeBand(walk, color.texels, rows),
                     groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
                     rows.row_count);
+  if (walk.job.reflects()) recordReflections(commands, walk, rows);
 }
 
 void ViewTracer::recordBand(vk::CommandBuffer commands,
@@ -247,7 +253,8 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
       slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
       slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
       slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count &&
-      slot.shape_.lens_point_count >= layout.lens_points.size());
+      slot.shape_.lens_point_count >= layout.lens_points.size() &&
+      (slot.shape_.reflects || !job.reflects()));
   VIEWLOOM_CHECK(structures.size() == job.walk_count);
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   const uint64_t area_px = slot.band_px_.area();

@@ -15,6 +15,7 @@
 #include "trace/band_packer.h"
 #include "trace/color_averager.h"
 #include "trace/lens_gatherer.h"
+#include "trace/reflector.h"
 #include "trace/sample_blender.h"
 #include "trace/trace_job.h"
 #include "trace/trace_slot.h"
@@ -87,6 +88,7 @@ class ViewTracer {
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
+  void recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
   void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
@@ -109,6 +111,7 @@ class ViewTracer {
   BandPacker packer_;
   SampleBlender blender_;
   LensGatherer gatherer_;
+  Reflector reflector_;
   // By abi::kWant... flags and abi::kRaysOf...
   std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ComputePass>> merge_passes_;
   std::unique_ptr<ComputePass> join_pass_;

@@ -34,6 +34,7 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"effort", "quality"},
     ParameterField{"rate_hz", "effects.temporal.output_rate_hz"},
     ParameterField{"between", "effects.temporal.mode"},
+    ParameterField{"reflections", "effects.reflection.bounces"},
     ParameterField{"quality", "jpeg_quality"},
     ParameterField{"chroma", "chroma"},
     ParameterField{"depth", "with_depth"},
@@ -188,6 +189,11 @@ absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool 
   VIEWLOOM_RETURN_IF_ERROR(readLens(parameters, display));
   VIEWLOOM_RETURN_IF_ERROR(readEffort(parameters, display));
   VIEWLOOM_RETURN_IF_ERROR(readTemporal(parameters, display));
+  if (parameters.contains("reflections")) {
+    display.reflection.emplace();
+    VIEWLOOM_RETURN_IF_ERROR(
+        readNumber(parameters, "reflections", display.reflection->bounce_count));
+  }
   return display;
 }
 

@@ -63,13 +63,20 @@ float shareOfOther(AxisTaps taps, uint other_links, uint low_edge, float offset,
   return is_deep ? (taps.is_inner ? plain : plain * (1.0 - clean)) : taps.share;
 }
 
-// Colour planes of the depth's size: one texel a facet. Bilinear over the up to four facets around
-// the point that are linked. A tap that takes no part loads the facet's own texel with weight 0: a
-// branch would cost as much. `links`: of the facet. `clean`, by axis: how far the samples on the
-// far side of deep silhouettes give way to those one px further in, 0..1.
-vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
-                          Extent extent, uint color_format, uint layer, ivec2 cell, uint links,
-                          vec2 point, vec2 clean) {
+// The samples that what is seen at a place of a surface is blended of: the own one, that beside it
+// along x, along y, and the fourth. Those that take no part are the own one, with weight 0.
+struct SurfaceTaps {
+  uvec4 layers;
+  ivec4 px;  // y * width + x
+  vec4 weights;
+};
+
+// Bilinear over the up to four facets around the point that are linked. A tap that takes no part
+// loads the facet's own texel with weight 0: a branch would cost as much. `links`: of the facet.
+// `clean`, by axis: how far the samples on the far side of deep silhouettes give way to those one
+// px further in, 0..1.
+SurfaceTaps surfaceTaps(Address layers[kLayerCountMax], Extent extent, uint layer, ivec2 cell,
+                        uint links, vec2 point, vec2 clean) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * kSubtexelSteps) / kSubtexelSteps;
   const AxisTaps taps_x = tapsAlong(links, kEdgeLeft, offset.x, clean.x);
   const AxisTaps taps_y = tapsAlong(links, kEdgeTop, offset.y, clean.y);
@@ -93,21 +100,31 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   const vec2 other = 1.0 - share;
   const int own = cell.y * extent.size_px.x + cell.x;
   const int down = taps_y.toward * extent.size_px.x;
-  vec4 weights =
+  SurfaceTaps taps;
+  taps.weights =
       vec4(other.x * other.y, link_x > 0u ? share.x * other.y : 0.0,
            link_y > 0u ? other.x * share.y : 0.0, link_xy > 0u ? share.x * share.y : 0.0);
   // Samples further in stand for the own one along both axes, and nothing leads to the fourth.
-  if (weights.x + weights.y + weights.z + weights.w <= 0.0) weights.y = 1.0;
-  const uvec4 tap_layers = uvec4(layer, layer_x, layer_y, link_xy > 0u ? link_xy - 1u : layer);
-  const ivec4 taps = ivec4(own, link_x > 0u ? own + taps_x.toward : own,
-                           link_y > 0u ? own + down : own,
-                           link_xy > 0u ? own + taps_x.toward + down : own);
+  const float sum = taps.weights.x + taps.weights.y + taps.weights.z + taps.weights.w;
+  if (sum <= 0.0) taps.weights.y = 1.0;
+  taps.layers = uvec4(layer, layer_x, layer_y, link_xy > 0u ? link_xy - 1u : layer);
+  taps.px = ivec4(own, link_x > 0u ? own + taps_x.toward : own, link_y > 0u ? own + down : own,
+                  link_xy > 0u ? own + taps_x.toward + down : own);
+  return taps;
+}
+
+// Colour planes of the depth's size: one texel a facet. Arguments as of surfaceTaps.
+vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCountMax],
+                          Extent extent, uint color_format, uint layer, ivec2 cell, uint links,
+                          vec2 point, vec2 clean) {
+  const SurfaceTaps taps = surfaceTaps(layers, extent, layer, cell, links, point, clean);
   const uint count = uint(extent.size_px.x * extent.size_px.y);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
-    sum += weights[i] * loadTexel(color, tap_layers[i], count, color_format, uint(taps[i]));
+    sum += taps.weights[i] *
+           loadTexel(color, taps.layers[i], count, color_format, uint(taps.px[i]));
   }
-  return sum * (1.0 / (weights.x + weights.y + weights.z + weights.w));
+  return sum * (1.0 / (taps.weights.x + taps.weights.y + taps.weights.z + taps.weights.w));
 }
 
 // The layer of a column that continues a facet there: the surface nearest to the facet's plane, if

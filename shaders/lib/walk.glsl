@@ -12,7 +12,9 @@
 //
 // Two loops: the inner one steps from cell to cell, one load a visit and no branch; what is rare
 // (an edge that may be linked, the end of a layer) stops it and is dealt with by the outer one.
-// The includer has kSeesThrough: whether walks begin at surfaces that were seen through.
+// The includer has kSeesThrough: whether walks begin at surfaces that were seen through; and
+// kMeetsBacks: whether who comes out through a surface from behind it has met what it hides, and
+// ends there.
 #ifndef VIEWLOOM_LIB_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_GLSL_
 
@@ -21,44 +23,12 @@
 #include "lib/ray.glsl"
 #include "lib/structure_access.glsl"
 #include "lib/walk_edges.glsl"
-
-// A walk begins in the state of its first column (kStateUnknown), or behind the layers <
-// behind_count and in front of the others, at a surface that was seen through.
-const uint kStateUnknown = 0xffu;
+#include "lib/walk_state.glsl"
 
 // Of the distance to a facet, as a share of the ray's own inv_z (the largest in the source may be
 // raised by the error of a plane): 16 ulp, the rounding of positions along a ray and of a few sums.
 const float kRounding = 16.0 / 8388608.0;
 const uvec4 kLayers = uvec4(0u, 1u, 2u, 3u);
-
-struct WalkStart {
-  float t;
-  ivec2 cell;
-  uint behind_count;
-};
-
-struct Walk {
-  bool is_hit;
-  bool is_assumed;    // was behind known surface before the hit
-  bool ends_behind;   // no hit, and behind known surface at the end
-  bool leaves;        // the ray's end is not at inv_z = 0
-  float t;            // of the hit; the ray's end without
-  ivec2 cell;         // of the hit; the last column without
-  uint layer;         // of the hit
-  uint level;         // of the plane hit; kLevelFacets: of one facet, or an edge
-  float passed_t;     // where it first passed behind known surface; 2 = never
-  // Passed behind a silhouette: the column before the last one, and the layer there, whose surface
-  // the ray was in front of. Behind that layer from the beginning: the first column.
-  bool has_far_side;
-  ivec2 far_cell;
-  uint far_layer;
-  // Where the ray passed it, across which axis, and how far up the step from the far side to the
-  // near one, 0..1; 0 where the silhouette is deep.
-  float far_t;
-  uint far_axis;
-  float far_share;
-  uint visits;
-};
 
 Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
   const bvec2 goes_back = lessThan(ray.extent.xy, vec2(0.0));
@@ -83,6 +53,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   result.far_t = 0.0;
   result.far_axis = kAxisNone;
   result.far_share = 0.0;
+  result.is_back = false;
   result.visits = 0u;
 
   uint layer = 0u;
@@ -187,6 +158,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
                 front_from * far_to + front_at_end * from_far <= 0.0;
       const bool hits =
           passes && !met_far && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
+      const bool comes_out = kMeetsBacks && passes && !met_far && !in_front && !still_behind &&
+                             (front_from > 0.0 || front_to > 0.0);
       // Who comes out by less than rounding might meet the next facet as a step up.
       const float least_front = front_from > 0.0 ? 0.0 : kRounding * max(from_inv_z, to_inv_z);
       in_front = passes && !met_far ? front_to > least_front : in_front;
@@ -195,10 +168,11 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const ivec2 inside = clamp(ivec2(floor(to)), at.cell, end_cell);
       const ivec2 next = mix(inside, end_cell + 1, bvec2(cross_x, !cross_x));
       const bool ends = is_last || met_far || any(greaterThan(next, last_cell));
-      const bool steps = passes && !hits && !ends;
+      const bool steps = passes && !hits && !ends && !comes_out;
       const bool leads_forward =
           is_facet && is_plane && in_front && (bits.x & kForwardLinkFlag) != 0u;
       event = meets_edge      ? kMeetsEdge
+              : comes_out     ? kComesOut
               : hits          ? kHits
               : !passes       ? kStepOn
               : ends          ? kEnds
@@ -244,14 +218,25 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       in_front = false;
       far_inv_z = crossing.far_inv_z;
     }
+    // Out from behind a surface; between two facets of it, or past its end.
+    const bool leaves_surface = kMeetsBacks && event == kComesOut;
+    const bool passes_end = leaves_surface && front_from > 0.0 &&
+                            !goesOnBefore(scene, layer, Place(at.t, at.cell ^ flip, at.axis),
+                                          direction);
+    const bool meets_back = leaves_surface && !passes_end;
+    in_front = in_front || passes_end;
+    goes_on = goes_on || passes_end;
     // Where in the last block the ray hits, or ends.
-    const float share = front_from > 0.0 ? front_from / (front_from - front_to) : 1.0;
+    const bool crosses_inside = (front_from > 0.0) != (front_to > 0.0);
+    const float inside_share = crosses_inside ? front_from / (front_from - front_to) : 0.0;
+    const float share = event == kHits && front_from <= 0.0 ? 1.0 : inside_share;
     const float last_t = event == kEnds ? end_t : at.t + (end_t - at.t) * share;
     const ivec2 block_end = at.cell | int((1u << own_level) - 1u);
     const ivec2 cell = ivec2(floor(start_px + last_t * extent_px));
     const ivec2 inside = clamp(cell, at.cell, min(block_end, last_cell)) ^ flip;
-    if (event == kHits || hits_edge) {
+    if (event == kHits || hits_edge || meets_back) {
       result.is_hit = true;
+      result.is_back = meets_back;
       result.t = hits_edge ? at.t : last_t;
       result.cell = hits_edge ? at.cell ^ flip : inside;
       result.layer = hits_edge ? crossing.hit_layer : layer;
@@ -269,6 +254,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     if (reachesAsFar(scene, meets, far_inv_z, mirrored)) {
       result.ends_behind = true;
       result.is_hit = false;
+      result.is_back = false;
       result.t = ray.t_end;
       const bvec4 ends_here = lessThanEqual(kLayers, uvec4(layer));
       over_t = mix(over_t, min(over_t, vec4(met_t)), ends_here);

@@ -40,6 +40,7 @@ const uint kMeetsEdge = 1u;  // from in front to behind across an edge that may 
 const uint kComesForward = 2u;
 const uint kHits = 3u;  // inside a node
 const uint kEnds = 4u;  // the ray, or the stretch of it that is still of interest
+const uint kComesOut = 5u;  // from behind a surface, to before it
 
 ivec2 stepOfAxis(uint axis, ivec2 direction) {
   return axis == kAxisX ? ivec2(direction.x, 0) : axis == kAxisY ? ivec2(0, direction.y) : ivec2(0);
@@ -111,6 +112,14 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
     if (!leaving || result.hit_layer != kNoLayer || from == scene.layer_count) break;
   }
   return result;
+}
+
+// Whether the surface of a layer goes on from the column before a place: who was behind it there,
+// and is not any more, has come through it.
+bool goesOnBefore(Scene scene, uint layer, Place at, ivec2 direction) {
+  const uint links = loadLinks(scene.layers, layer, scene.extent, at.cell);
+  const uint edge = edgeOfAxis(at.axis, direction, false);
+  return at.axis != kAxisNone && linkOfEdge(links, edge) == layer + 1u;
 }
 
 // Whether a far side that a ray has `met` is taken to go on as far as that: at the place mirrored

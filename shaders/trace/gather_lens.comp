@@ -15,6 +15,7 @@ layout(constant_id = kOwnConstants + 2u) const bool kColorIsScaled = false;
 layout(constant_id = kOwnConstants + 3u) const bool kIsExact = false;
 const bool kIsLayered = false;
 const bool kSeesThrough = false;
+const bool kMeetsBacks = false;
 const bool kRaysArePlain = false;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;

@@ -34,6 +34,7 @@ const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens;
 const bool kIsLayered = kColorFormat == kColorRgba16f;
 const bool kLooksBehind = (kShownBeside & kShowsBehind) != 0u;
 const bool kSeesThrough = kIsLayered || kLooksBehind;
+const bool kMeetsBacks = false;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -74,12 +75,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 
 uvec2 unpackSize(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
-}
-
-// A ray that never sees the image continues the border next to where it goes.
-Walk walkBeside(WalkStart start) {
-  return Walk(false, false, false, true, 1.0, start.cell, 0u, kLevelFacets, 2.0, false,
-              start.cell, 0u, 0.0, kAxisNone, 0.0, 0u);
 }
 
 Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "bench/quality_lens.h"
+#include "bench/quality_reflections.h"
 #include "bench/quality_time.h"
 #include "gpu/device.h"
 
@@ -22,7 +23,8 @@ struct Section {
   Json (*score)(const Device& device);
 };
 
-constexpr Section kSections[] = {{"lens", qualityOfLens}, {"time", qualityOfTime}};
+constexpr Section kSections[] = {
+    {"lens", qualityOfLens}, {"time", qualityOfTime}, {"reflections", qualityOfReflections}};
 
 struct Arguments {
   std::string device;

@@ -224,11 +224,12 @@ const std::vector<BadDisplay> kCommon = {
 };
 
 const std::vector<BadDisplay> kServedLater = {
-    {"temporal",
-     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_temporal(); },
-     {kLater, "open.display.effects.temporal"}},
-    {"reflection",
-     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_reflection(); },
+    {"mirrors through a lens",
+     [](auto& o) {
+       v1::Effects& effects = *o.mutable_display()->mutable_effects();
+       effects.mutable_lens()->set_aperture_radius_m(0.01);
+       effects.mutable_reflection()->set_bounces(1);
+     },
      {kLater, "open.display.effects.reflection"}},
 };
 

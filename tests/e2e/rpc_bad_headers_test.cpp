@@ -22,10 +22,21 @@ void setLayers(v1::FrameHeader& header, int count) {
   for (int i = 0; i < count; ++i) *header.mutable_sources(0)->add_layers() = layer;
 }
 
-void addPlane(v1::FrameHeader& header, int kind) {
+v1::Plane& addPlane(v1::FrameHeader& header, int kind) {
   v1::Plane& plane = *layerOf(header).add_planes();
   plane = color(header);
   plane.set_kind(static_cast<v1::PlaneKind>(kind));
+  return plane;
+}
+
+// One that is as it should be.
+v1::Plane& addSurface(v1::FrameHeader& header, v1::PlaneKind kind, v1::PlaneEncoding encoding,
+                      uint32_t px_bytes) {
+  v1::Plane& plane = addPlane(header, kind);
+  plane.set_encoding(encoding);
+  *plane.mutable_size() = depth(header).size();
+  plane.set_bytes_count(uint64_t{px_bytes} * plane.size().width() * plane.size().height());
+  return plane;
 }
 
 // 3 GiB, each plane within its own limits.
@@ -106,12 +117,6 @@ const std::vector<BadHeader> kCounts = {
 const std::vector<BadHeader> kEnums = {
     {"motion", [](auto& h) { addPlane(h, v1::PLANE_KIND_MOTION); }, kLater,
      kSourcePath + "layers[0].planes[2].kind"},
-    {"normal", [](auto& h) { addPlane(h, v1::PLANE_KIND_NORMAL); }, kLater,
-     kSourcePath + "layers[0].planes[2].kind"},
-    {"roughness", [](auto& h) { addPlane(h, v1::PLANE_KIND_ROUGHNESS); }, kLater,
-     kSourcePath + "layers[0].planes[2].kind"},
-    {"specular", [](auto& h) { addPlane(h, v1::PLANE_KIND_SPECULAR); }, kLater,
-     kSourcePath + "layers[0].planes[2].kind"},
     {"no kind", [](auto& h) { addPlane(h, 0); }, kInvalid,
      kSourcePath + "layers[0].planes[2].kind"},
     {"kind 99", [](auto& h) { addPlane(h, 99); }, kInvalid,
@@ -134,6 +139,57 @@ const std::vector<BadHeader> kEnums = {
     {"meaning 99",
      [](auto& h) { depth(h).mutable_depth()->set_meaning(static_cast<v1::DepthMeaning>(99)); },
      kInvalid, kDepthPath + "depth.meaning"},
+};
+
+const std::string kThirdPath = kSourcePath + "layers[0].planes[2].";
+
+const std::vector<BadHeader> kSurfaces = {
+    {"normals as colour",
+     [](auto& h) { addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_RGB8, 3); }, kInvalid,
+     kThirdPath + "encoding"},
+    {"roughness beyond 0..1",
+     [](auto& h) { addSurface(h, v1::PLANE_KIND_ROUGHNESS, v1::PLANE_ENCODING_DEPTH_F32, 4); },
+     kInvalid, kThirdPath + "encoding"},
+    {"specular JPEG",
+     [](auto& h) { addSurface(h, v1::PLANE_KIND_SPECULAR, v1::PLANE_ENCODING_JPEG, 1); }, kInvalid,
+     kThirdPath + "encoding"},
+    {"normals of another size",
+     [](auto& h) {
+       v1::Plane& plane = addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_OCT16, 4);
+       setSize(plane, 1, 1);
+       plane.set_bytes_count(4);
+     },
+     kInvalid, kThirdPath + "size"},
+    {"normals a byte short",
+     [](auto& h) {
+       v1::Plane& plane = addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_XYZ16F, 6);
+       plane.set_bytes_count(plane.bytes_count() - 1);
+     },
+     kInvalid, kThirdPath + "bytes_count"},
+    {"normals of no known space",
+     [](auto& h) {
+       addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_XYZ8, 3)
+           .set_normal_space(static_cast<v1::NormalSpace>(9));
+     },
+     kInvalid, kThirdPath + "normal_space"},
+    {"predicted roughness",
+     [](auto& h) {
+       addSurface(h, v1::PLANE_KIND_ROUGHNESS, v1::PLANE_ENCODING_R8, 1)
+           .set_compression(v1::PLANE_COMPRESSION_PREDICTED_ZSTD);
+     },
+     kInvalid, kThirdPath + "compression"},
+    {"two planes of normals",
+     [](auto& h) {
+       addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_XYZ8, 3);
+       addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_XYZ8, 3);
+     },
+     kInvalid, kSourcePath + "layers[0].planes[3].kind"},
+    {"normals before depth",
+     [](auto& h) {
+       addSurface(h, v1::PLANE_KIND_NORMAL, v1::PLANE_ENCODING_XYZ8, 3);
+       layerOf(h).mutable_planes()->SwapElements(1, 2);
+     },
+     kInvalid, kSourcePath + "layers[0].planes[1].kind"},
 };
 
 const std::vector<BadHeader> kCameras = {
@@ -194,6 +250,9 @@ TEST(PublishFrames, refusesWrongCounts) {
 }
 TEST(PublishFrames, refusesWhatItDoesNotKnowOrDoesNotServeYet) {
   expectRefused(kEnums);
+}
+TEST(PublishFrames, refusesPlanesThatDoNotSayHowASurfaceMirrors) {
+  expectRefused(kSurfaces);
 }
 TEST(PublishFrames, refusesCamerasThatCannotBe) {
   expectRefused(kCameras);

@@ -33,11 +33,13 @@ Value valueOrThrow(absl::StatusOr<Value> value) {
 }  // namespace
 
 RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
-                            const std::vector<Camera>& views, SizePx view_px, size_t fineness) {
+                            const std::vector<Camera>& views, SizePx view_px, size_t fineness,
+                            const std::optional<ReflectionSpec>& reflection) {
   OfflineRenderer renderer(device);
   renderer.build(frame);
-  const DisplaySpec display =
-      valueOrThrow(completeDisplaySpec(displayOf(views, view_px, uint32_t(fineness))));
+  DisplaySpec wanted = displayOf(views, view_px, uint32_t(fineness));
+  wanted.reflection = reflection;
+  const DisplaySpec display = valueOrThrow(completeDisplaySpec(wanted));
   return valueOrThrow(
       renderer.render(display, {.mask = true, .linear = true}, [](uint32_t, uint32_t) {}));
 }

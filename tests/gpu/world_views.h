@@ -2,6 +2,7 @@
 // Cameras in the world as one display of a frame.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "commands/offline_renderer.h"
@@ -10,6 +11,7 @@ namespace viewloom {
 
 // Views of this size, traced so many times finer: colour before it is rounded, and classes.
 RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
-                            const std::vector<Camera>& views, SizePx view_px, size_t fineness);
+                            const std::vector<Camera>& views, SizePx view_px, size_t fineness,
+                            const std::optional<ReflectionSpec>& reflection = std::nullopt);
 
 }  // namespace viewloom

@@ -69,6 +69,18 @@ class Refusals(unittest.TestCase):
         self.refused("depth[1]", "is 6x3 px, must be that of layer 0, 6x4", color=[COLOR, COLOR],
                      depth=[DEPTH, DEPTH[1:]])
 
+    def test_surfaces_that_cannot_be(self):
+        self.refused("normal", "samples of int32", normal=np.ones((4, 6, 3), np.int32))
+        self.refused("normal", "has the shape 4x6,", normal=DEPTH)
+        self.refused("normal_space", "camera, world", normal=np.ones((4, 6, 3)),
+                     normal_space="eye")
+        self.refused("roughness", "holds 1.5, must lie in 0..1", roughness=DEPTH * 1.5)
+        self.refused("roughness", "holds nan", roughness=DEPTH * math.nan)
+        self.refused("specular[1]", "holds -1.0", color=[COLOR] * 2, depth=[DEPTH] * 2,
+                     specular=[DEPTH, -DEPTH])
+        self.refused("specular", "has 1 layers, must have as many as depth, 2",
+                     color=[COLOR] * 2, depth=[DEPTH] * 2, specular=DEPTH)
+
     def test_words_that_mean_nothing(self):
         self.refused("transfer", "srgb, linear", transfer="gamma")
         self.refused("primaries", "bt709, display_p3, bt2020", primaries="adobe")

@@ -20,7 +20,7 @@ LAYERS = {
     "server/frame": (["base"], ["absl", "glm"]),
     "server/calibration": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "nlohmann"]),
     "server/config": (["base"], ["absl", "toml++"]),
-    "server/decode": (["base", "jpeg", "frame"], ["absl", "jpeg", "zstd"]),
+    "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
     "server/display": (["base", "frame", "calibration", SHADERS_SHARED],
                        ["absl", "glm", "nlohmann"]),
     "server/gpu": (["base"], ["absl", "vulkan"]),

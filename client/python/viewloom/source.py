@@ -12,6 +12,7 @@ from viewloom.camera import PoseLike, make_camera
 from viewloom.errors import BadInput
 from viewloom.planes import (ColorMeaning, DepthFormatLike, WirePlane, color_plane, depth_format,
                              depth_plane)
+from viewloom.surface import normal_plane, roughness_plane, specular_plane
 from viewloom.v1 import frame_pb2, geometry_pb2
 
 ArrayOrLayers = Union[NDArray[Any], Sequence[NDArray[Any]]]
@@ -40,6 +41,15 @@ class Source:
     alpha:       what a fourth channel says: "opaque" (ignored), "straight" or "premultiplied".
     depth_format: what a depth sample measures: a DepthFormat, or a mapping of its fields.
     connection_tolerance: 1/m, as in proto Source; 0 = measured.
+    specular:    share of the light that is mirrored head on (F0): uint8 (v / 255) or float 0..1,
+                 [height_px][width_px] or [..][3] of depth's size, as the next two; None = nothing
+                 mirrors. Displays show it with effects.reflection.
+    roughness:   0 = a mirror, 1 = rough: uint8 (v / 255) or float 0..1. None: all is a mirror.
+    normal:      where surfaces face, of any length but 0: float or uint8 (2 v / 255 - 1)
+                 [height_px][width_px][3], or uint16 [..][2], an octahedron as in proto. None: as
+                 depth slopes.
+    normal_space: "camera" (+x right, +y up, +z towards it) or "world".
+    color_has_reflections: nothing is added to the colour, whatever specular says.
     cube_map:    six square faces below each other: +x, -x, +y, -y, +z, -z, as in proto Source.
     """
 
@@ -55,6 +65,11 @@ class Source:
     depth_format: DepthFormatLike = None
     connection_tolerance: float = 0.0
     cube_map: bool = False
+    specular: Optional[ArrayOrLayers] = None
+    roughness: Optional[ArrayOrLayers] = None
+    normal: Optional[ArrayOrLayers] = None
+    normal_space: str = "camera"
+    color_has_reflections: bool = False
 
     def camera(self, size_px: tuple[int, int]) -> geometry_pb2.Camera:
         """Of depth planes of (width, height) px."""
@@ -70,8 +85,29 @@ def _layers(value: ArrayOrLayers, field: str) -> list[tuple[str, Any]]:
     return [(field, value)]
 
 
+def _surface_planes(source: Source, layer: int, layer_count: int) -> list[WirePlane]:
+    """Of one layer, what says how it mirrors."""
+    planes = []
+    given = {"normal": source.normal, "roughness": source.roughness, "specular": source.specular}
+    for name, value in given.items():
+        if value is None:
+            continue
+        layers = _layers(value, name)
+        if len(layers) != layer_count:
+            raise BadInput(name, f"has {len(layers)} layers, must have as many as depth, "
+                           f"{layer_count}")
+        field, array = layers[layer]
+        if name == "normal":
+            planes.append(normal_plane(array, field, source.normal_space))
+        elif name == "roughness":
+            planes.append(roughness_plane(array, field))
+        else:
+            planes.append(specular_plane(array, field))
+    return planes
+
+
 def wire_planes(source: Source) -> list[WirePlane]:
-    """Colour and depth of each layer in turn. Raises BadInput."""
+    """Colour, depth and what else is given of each layer in turn. Raises BadInput."""
     colors, depths = _layers(source.color, "color"), _layers(source.depth, "depth")
     if len(colors) != len(depths):
         raise BadInput("color", f"has {len(colors)} layers, must have as many as depth, "
@@ -81,21 +117,25 @@ def wire_planes(source: Source) -> list[WirePlane]:
     meaning = ColorMeaning(source.transfer, source.primaries, source.alpha)
     format_given = depth_format(source.depth_format)
     planes = []
-    for (color_field, color), (depth_field, depth) in zip(colors, depths):
+    for layer, ((color_field, color), (depth_field, depth)) in enumerate(zip(colors, depths)):
         planes.append(color_plane(color, color_field, meaning))
         planes.append(depth_plane(depth, depth_field, format_given))
         first, this = planes[1].samples.shape, planes[-1].samples.shape
         if this != first:
             raise BadInput(depth_field, f"is {this[1]}x{this[0]} px, must be that of layer 0, "
                            f"{first[1]}x{first[0]}")
+        planes += _surface_planes(source, layer, len(colors))
     return planes
 
 
 def source_header(source: Source, planes: Sequence[frame_pb2.Plane]) -> frame_pb2.Source:
-    """The declaration of a source whose planes are these, colour and depth in turn."""
+    """The declaration of a source whose planes are these; layers begin with their colour."""
     size_px = planes[1].size.width, planes[1].size.height
-    layers = [frame_pb2.Layer(planes=planes[first:first + 2])
-              for first in range(0, len(planes), 2)]
+    layers: list[frame_pb2.Layer] = []
+    for plane in planes:
+        if plane.kind == frame_pb2.PLANE_KIND_COLOR:
+            layers.append(frame_pb2.Layer(color_has_reflections=source.color_has_reflections))
+        layers[-1].planes.append(plane)
     return frame_pb2.Source(camera=source.camera(size_px), layers=layers,
                             connection_tolerance=source.connection_tolerance,
                             cube_map=source.cube_map)

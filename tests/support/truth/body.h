@@ -44,10 +44,20 @@ struct Paint {
   glm::vec3 colorAt(const glm::dvec3& point_m, float contrast) const;
 };
 
+// What a surface mirrors: its share of the light head on, and how much it spreads it (the square
+// root of the width of GGX).
+struct Gloss {
+  glm::vec3 light{0.0F};
+  float roughness = 0;
+
+  bool mirrors() const { return light != glm::vec3(0.0F); }
+};
+
 struct Body {
   Shape shape;
   Pose pose;  // at time 0
   Paint paint;
+  Gloss gloss = {};
   glm::dvec3 velocity_mps{0.0};    // of its centre, in the world
   glm::dvec3 spin_rad_per_s{0.0};  // around its centre; the axis is the world's
 

@@ -29,25 +29,25 @@ uint8_t layerOf(const Instant& instant, const Ray& from_source, const Hit& seen)
 
 }  // namespace
 
+uint8_t knownAlong(const Instant& instant, const Camera& source, SizePx source_px, const Ray& ray) {
+  const HitColumn column = instant.peel(ray, 1);
+  if (column.count == 0) return kEmpty;
+  const Hit& seen = column.hits.front();
+  const glm::dvec3& eye_m = source.pose.position_m;
+  const glm::dvec3 direction =
+      seen.body == kSky ? ray.direction : ray.origin_m + seen.depth * ray.direction - eye_m;
+  if (!isInImage(source, source_px, direction)) return kOutside;
+  return layerOf(instant, {eye_m, direction}, seen);
+}
+
 std::vector<uint8_t> knownFrom(const Instant& instant, const Camera& source, SizePx source_px,
                                const Camera& view, SizePx view_px) {
   std::vector<uint8_t> known;
   known.reserve(view_px.area());
-  const glm::dvec3& eye_m = source.pose.position_m;
   for (uint32_t y = 0; y < view_px.height; ++y) {
     for (uint32_t x = 0; x < view_px.width; ++x) {
       const Ray ray = rayThrough(view, {x + 0.5, y + 0.5});
-      const HitColumn column = instant.peel(ray, 1);
-      if (column.count == 0) {
-        known.push_back(kEmpty);
-        continue;
-      }
-      const Hit& seen = column.hits.front();
-      const glm::dvec3 direction =
-          seen.body == kSky ? ray.direction : ray.origin_m + seen.depth * ray.direction - eye_m;
-      known.push_back(isInImage(source, source_px, direction)
-                          ? layerOf(instant, {eye_m, direction}, seen)
-                          : uint8_t{kOutside});
+      known.push_back(knownAlong(instant, source, source_px, ray));
     }
   }
   return known;

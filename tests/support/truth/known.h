@@ -18,6 +18,9 @@ enum Known : uint8_t {
   kKnownCount
 };
 
+// Of what any ray meets.
+uint8_t knownAlong(const Instant& instant, const Camera& source, SizePx source_px, const Ray& ray);
+
 // Of what the ray through each px's centre sees: [height][width], top row first.
 std::vector<uint8_t> knownFrom(const Instant& instant, const Camera& source, SizePx source_px,
                                const Camera& view, SizePx view_px);

@@ -33,6 +33,7 @@ class PixelEye {
       planes.normal[px] = hit.normal;
       planes.motion_mps[px] = instant_.motion_mps(ray, hit);
       planes.body[px] = hit.body;
+      planes.gloss[px] = instant_.gloss(hit);
     }
     if (options_.color == ColorOver::kArea) averageColors({x, y}, px, column.count);
   }
@@ -83,6 +84,7 @@ Picture takePicture(const Instant& instant, const Camera& camera, const PictureO
     layer.depth_m.resize(area_px);
     layer.normal.resize(area_px);
     layer.motion_mps.resize(area_px);
+    layer.gloss.resize(area_px);
     layer.body.resize(area_px, kNoBody);
     layer.is_mixed.resize(area_px);
   }

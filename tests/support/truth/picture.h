@@ -40,8 +40,9 @@ struct PictureLayer {
   std::vector<float> depth_m;         // planar; +inf = sky, 0 = no such surface
   std::vector<glm::vec3> normal;      // world, unit length; 0 = sky or no surface
   std::vector<glm::vec3> motion_mps;  // world
-  std::vector<uint32_t> body;         // index in the scene, kSky or kNoBody
-  std::vector<uint8_t> is_mixed;      // 1 where the light is not of this body alone
+  std::vector<Gloss> gloss;
+  std::vector<uint32_t> body;     // index in the scene, kSky or kNoBody
+  std::vector<uint8_t> is_mixed;  // 1 where the light is not of this body alone
 };
 
 struct Picture {

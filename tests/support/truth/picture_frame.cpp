@@ -6,7 +6,10 @@
 #include <memory>
 #include <utility>
 
+#include <glm/gtc/packing.hpp>
+
 #include "base/check.h"
+#include "decode/pack_surface.h"
 #include "frame/cube_map.h"
 #include "frame/limits.h"
 #include "support/srgb_transfer.h"
@@ -30,6 +33,61 @@ SharedBytes floatBytes(const std::vector<float>& samples) {
   std::vector<uint8_t> bytes(samples.size() * sizeof(float));
   std::memcpy(bytes.data(), samples.data(), bytes.size());
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+// Of three binary16 each.
+SharedBytes halfBytes(const std::vector<glm::vec3>& vectors) {
+  std::vector<uint8_t> bytes;
+  for (const glm::vec3& vector : vectors) {
+    for (int i = 0; i < 3; ++i) {
+      const uint16_t half = glm::packHalf1x16(vector[i]);
+      bytes.push_back(static_cast<uint8_t>(half));
+      bytes.push_back(static_cast<uint8_t>(half >> 8));
+    }
+  }
+  return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+uint8_t codeOf(float value) {
+  return static_cast<uint8_t>(std::lround(255 * value));
+}
+
+// How a layer mirrors, if it does, as a publisher would say it.
+void addSurface(const std::vector<Picture>& stacked, uint32_t index, const Camera& camera,
+                LayerFormat& layer, LayerPlanes& planes) {
+  std::vector<glm::vec3> normal;
+  std::vector<uint8_t> roughness, specular;
+  bool mirrors = false;
+  for (const Picture& picture : stacked) {
+    const PictureLayer& from = picture.layers[index];
+    normal.insert(normal.end(), from.normal.begin(), from.normal.end());
+    for (const Gloss& gloss : from.gloss) {
+      roughness.push_back(codeOf(gloss.roughness));
+      for (int c = 0; c < 3; ++c) specular.push_back(codeOf(gloss.light[c]));
+      specular.push_back(255);
+      mirrors = mirrors || gloss.mirrors();
+    }
+  }
+  if (!mirrors) return;
+  const SizePx size_px = layer.depth.size_px;
+  layer.others = {{.kind = PlaneKind::kNormal,
+                   .encoding = PlaneEncoding::kXyz16f,
+                   .size_px = size_px,
+                   .depth = {},
+                   .normal_space = NormalSpace::kWorld},
+                  {.kind = PlaneKind::kRoughness,
+                   .encoding = PlaneEncoding::kR8,
+                   .size_px = size_px,
+                   .depth = {}},
+                  {.kind = PlaneKind::kSpecular, .size_px = size_px, .depth = {}}};
+  const auto shared = [](std::vector<uint8_t>& bytes) {
+    return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+  };
+  BytePool pool(0);
+  viewloom::addSurface(
+      layer,
+      {.normal = halfBytes(normal), .roughness = shared(roughness), .specular = shared(specular)},
+      camera.pose.orientation, pool, planes);
 }
 
 // The first layers of pictures of one size, one below the other.
@@ -60,6 +118,7 @@ void addSource(const std::vector<Picture>& stacked, const Camera& camera, uint32
     planes.push_back({.color = srgbBytes(color),
                       .color_encoding = PlaneEncoding::kRgba8,
                       .depth = floatBytes(depth_m)});
+    addSurface(stacked, i, camera, layer, planes.back());
   }
 }
 

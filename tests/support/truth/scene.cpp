@@ -105,6 +105,10 @@ glm::vec3 Instant::color(const Ray& ray, const Hit& hit) const {
          (kAmbient + kSun * facing);
 }
 
+Gloss Instant::gloss(const Hit& hit) const {
+  return hit.body == kSky ? Gloss{} : bodies_[hit.body].body.gloss;
+}
+
 glm::dvec3 Instant::motion_mps(const Ray& ray, const Hit& hit) const {
   if (hit.body == kSky) return glm::dvec3(0.0);
   const PosedBody& posed = bodies_[hit.body];

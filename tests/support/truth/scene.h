@@ -47,6 +47,8 @@ class Instant {
 
   // Of what the ray met. Linear light, 0..1; the same from wherever it is seen.
   glm::vec3 color(const Ray& ray, const Hit& hit) const;
+  // How what the ray met mirrors.
+  Gloss gloss(const Hit& hit) const;
   // How fast the material there moves, m/s in the world.
   glm::dvec3 motion_mps(const Ray& ray, const Hit& hit) const;
 

@@ -20,7 +20,8 @@ SharedBytes bytes(uint8_t first) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(samples));
 }
 
-// Two sources of two layers. Planes of two such frames are equal and lie apart.
+// Two sources of two layers, of which the last mirrors. Planes of two such frames are equal and lie
+// apart.
 Frame frame() {
   Frame made;
   for (uint8_t s = 0; s < 2; ++s) {
@@ -34,6 +35,8 @@ Frame frame() {
       planes.push_back({.color = bytes(static_cast<uint8_t>(10 * s + l)),
                         .depth = bytes(static_cast<uint8_t>(100 + 10 * s + l))});
     }
+    source.layers.back().others = {{.kind = PlaneKind::kSpecular, .size_px = kSizePx, .depth = {}}};
+    planes.back().surface = bytes(static_cast<uint8_t>(200 + s));
   }
   return made;
 }
@@ -109,6 +112,13 @@ TEST(SameContent, endsWithAnyDifference) {
        [](Frame& f) { f.sources[1][1].color = withLastByteChanged(f.sources[1][1].color); }},
       {"depth",
        [](Frame& f) { f.sources[1][1].depth = withLastByteChanged(f.sources[1][1].depth); }},
+      {"how it mirrors",
+       [](Frame& f) { f.sources[1][1].surface = withLastByteChanged(f.sources[1][1].surface); }},
+      {"a mirror less",
+       [](Frame& f) {
+         f.format.sources[1].layers[1].color_has_reflections = true;
+         f.sources[1][1].surface = nullptr;
+       }},
   };
   const Frame standing = frame();
   for (const auto& [what, change] : changes) {

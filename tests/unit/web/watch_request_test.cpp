@@ -41,6 +41,7 @@ TEST_F(WatchRequests, overrideThePreset) {
                               {"fov_deg", "20"},
                               {"focus_m", "1.25"},
                               {"focus_follow_s", "0.5"},
+                              {"reflections", "3"},
                               {"quality", "60"},
                               {"chroma", "444"}});
   ASSERT_TRUE(request.ok()) << request.status();
@@ -51,6 +52,7 @@ TEST_F(WatchRequests, overrideThePreset) {
   EXPECT_DOUBLE_EQ(quilt.fov_y_rad, std::numbers::pi / 9);
   EXPECT_EQ(quilt.focal_distance_m, 1.25);
   EXPECT_EQ(request->display.focus_following_s, 0.5);
+  EXPECT_EQ(request->display.reflection.value().bounce_count, 3u);
   EXPECT_EQ(request->encoding.jpeg_quality, 60u);
   EXPECT_EQ(request->encoding.chroma, Chroma::k444);
 }
@@ -133,6 +135,7 @@ TEST_F(WatchRequests, nameTheParameterAtFaultAndWhatIsAccepted) {
   EXPECT_EQ(fieldOf(bad.status()), "cone_deg");
   EXPECT_NE(bad.status().message().find("radians"), absl::string_view::npos);
   EXPECT_EQ(fieldOf(parse({{"focus_follow_s", "61"}}).status()), "focus_follow_s");
+  EXPECT_EQ(fieldOf(parse({{"reflections", "0"}}).status()), "reflections");
   const auto unknown = parse({{"color", "red"}});
   EXPECT_EQ(fieldOf(unknown.status()), "color");
   EXPECT_NE(unknown.status().message().find("cone_deg"), absl::string_view::npos);

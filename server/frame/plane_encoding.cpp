@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/plane_encoding.h"
+
+namespace viewloom {
+
+bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding) {
+  switch (encoding) {
+    case PlaneEncoding::kRgba8:
+    case PlaneEncoding::kRgb8:
+      return kind == PlaneKind::kColor || kind == PlaneKind::kSpecular;
+    case PlaneEncoding::kRgba16f:
+    case PlaneEncoding::kJpeg:
+      return kind == PlaneKind::kColor;
+    case PlaneEncoding::kDepthF32:
+    case PlaneEncoding::kDepthF16:
+    case PlaneEncoding::kDepthU16:
+      return kind == PlaneKind::kDepth;
+    case PlaneEncoding::kXyz16f:
+    case PlaneEncoding::kXyz8:
+    case PlaneEncoding::kOct16:
+      return kind == PlaneKind::kNormal;
+    case PlaneEncoding::kR8:
+      return kind == PlaneKind::kRoughness || kind == PlaneKind::kSpecular;
+  }
+  return false;
+}
+
+const char* encodingsOf(PlaneKind kind) {
+  switch (kind) {
+    case PlaneKind::kColor:
+      return "RGBA8, RGB8, RGBA16F, JPEG";
+    case PlaneKind::kDepth:
+      return "DEPTH_F32, DEPTH_F16, DEPTH_U16";
+    case PlaneKind::kNormal:
+      return "OCT16, XYZ16F, XYZ8";
+    case PlaneKind::kRoughness:
+      return "R8";
+    case PlaneKind::kSpecular:
+      return "RGB8, RGBA8, R8";
+  }
+  return "";
+}
+
+uint32_t wirePixelBytes(PlaneEncoding encoding) {
+  switch (encoding) {
+    case PlaneEncoding::kRgba8:
+    case PlaneEncoding::kDepthF32:
+    case PlaneEncoding::kOct16:
+      return 4;
+    case PlaneEncoding::kXyz16f:
+      return 6;
+    case PlaneEncoding::kRgb8:
+    case PlaneEncoding::kXyz8:
+      return 3;
+    case PlaneEncoding::kRgba16f:
+      return 8;
+    case PlaneEncoding::kDepthF16:
+    case PlaneEncoding::kDepthU16:
+      return 2;
+    case PlaneEncoding::kR8:
+      return 1;
+    case PlaneEncoding::kJpeg:
+      return 0;
+  }
+  return 0;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records what comes to the px of a band by way of surfaces that mirror.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "gpu/compute_pass.h"
+#include "structure/structure_slot.h"
+#include "trace/trace_job.h"
+
+namespace viewloom {
+
+// One band of which each px is known: what it shows, and where its ray ended.
+struct ReflectedBand {
+  const StructureSlot& structure;  // whose shape mirrors
+  const TraceJob& job;             // that reflects
+  BandRows rows;
+  abi::TracePush push;                 // of the walk, but for its colour
+  std::span<const Descriptor> params;  // of the walk: its tiles, its extras with the records
+  const Buffer& settings;              // abi::ReflectionSettings; mapped, the band's own
+  const Buffer& reflected;             // abi::ReflectedLight per px, written
+  const Buffer& rgba;                  // changed
+  uint64_t linear_address = 0;         // of TraceExtras::linear, changed too; 0 = not wanted
+};
+
+// The device must outlive it. Thread-safety: all methods may be called from any thread.
+class Reflector {
+ public:
+  explicit Reflector(const Device& device) : device_(&device) {}
+
+  // Waits for the compute work before it; what follows may read the band.
+  void record(vk::CommandBuffer commands, const ReflectedBand& band);
+
+ private:
+  struct Variant {
+    uint32_t reads_by_address;
+    uint32_t color_format;
+    uint32_t color_is_scaled;
+    uint32_t rays;  // abi::kRaysOf...
+
+    auto operator<=>(const Variant&) const = default;
+  };
+
+  const ComputePass& reflectPass(const Variant& variant);
+  const ComputePass& addPass();
+
+  const Device* device_;
+  std::mutex mutex_;  // guards what follows
+  std::map<Variant, std::unique_ptr<ComputePass>> reflect_passes_;
+  std::unique_ptr<ComputePass> add_pass_;
+};
+
+}  // namespace viewloom

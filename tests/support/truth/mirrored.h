@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is truly seen of a scene whose surfaces mirror each other, and whether a source can know it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "support/truth/known.h"
+#include "support/truth/picture.h"
+
+namespace viewloom::truth {
+
+struct MirrorOptions {
+  uint32_t bounce_count = 1;
+  uint32_t sample_count = 1;    // rays of a rough surface at each bounce
+  glm::vec3 environment{0.0F};  // linear light, where nothing is met
+};
+
+// Schlick's approximation: what a surface mirrors of light that comes to it at this cosine.
+glm::vec3 fresnel(const glm::vec3& head_on, double cosine);
+
+// Linear light along a ray: the surface's own, and what that mirrors.
+glm::vec3 lightAlong(const Instant& instant, const Ray& ray, const MirrorOptions& options);
+
+// Linear light through the middle of each px: [height][width], top row first.
+std::vector<glm::vec3> takeMirrored(const Instant& instant, const Camera& view, SizePx view_px,
+                                    const MirrorOptions& options);
+
+inline constexpr uint8_t kNoMirror = kKnownCount;
+
+// Of each px that shows a mirror, which layer of a source holds what that mirrors, or why none does
+// (truth::Known); kNoMirror elsewhere, and where the source does not see the mirror.
+std::vector<uint8_t> mirroredKnownFrom(const Instant& instant, const Camera& source,
+                                       SizePx source_px, const Camera& view, SizePx view_px);
+
+}  // namespace viewloom::truth
