@@ -21,9 +21,11 @@
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
+#include "bench/quality.h"
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
 #include "bench/side_by_side.h"
+#include "bench/stereo_bench.h"
 #include "bench/targets.h"
 #include "bench/uplink.h"
 #include "bench/viewloom_contestant.h"
@@ -156,6 +158,8 @@ int runBench(int argc, char** argv) {
   addCommand(app, "build", "Build structures alone", Work::kBuild);
   addDisplaysCommand(app);
   addUplinkCommand(app);
+  addStereoCommand(app);
+  addQualityCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }
