@@ -25,6 +25,7 @@
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
 #include "bench/side_by_side.h"
+#include "bench/stereo_bench.h"
 #include "bench/targets.h"
 #include "bench/uplink.h"
 #include "bench/viewloom_contestant.h"
@@ -157,6 +158,7 @@ int runBench(int argc, char** argv) {
   addCommand(app, "build", "Build structures alone", Work::kBuild);
   addDisplaysCommand(app);
   addUplinkCommand(app);
+  addStereoCommand(app);
   addQualityCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of viewloom-bench: `trace`, `build` and `uplink`.
+// The commands of viewloom-bench: `trace`, `build`, `displays`, `uplink`, `stereo` and
+// `quality`.
 #pragma once
 
 namespace viewloom::bench {

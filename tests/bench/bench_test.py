@@ -71,6 +71,20 @@ class BenchTest(unittest.TestCase):
             for name in {"viewloom", "dda", "hiz"}:
                 self.assertGreater(load["psnr_db"][name], PSNR_MIN_DB, f"{views}: {name}")
 
+    def test_eyes_are_answered(self):
+        report = run("stereo", "--json", "--seconds", "0.5", "--miniature", "8", "--only",
+                     "1 at 90 Hz")
+        self.assertEqual([load["name"] for load in report["loads"]],
+                         [f"{head}, 1 at 90 Hz{beside}" for head in ("aside", "free")
+                          for beside in ("", " beside a quilt")])
+        for load in report["loads"]:
+            self.assertEqual(load["eye_px"], [120, 67])
+            self.assertGreater(load["answers"], 0)
+            for figures in ("answered_ms", "waited_ms", "made_ms"):
+                self.assertGreaterEqual(load[figures]["p99"], load[figures]["p50"])
+            self.assertGreaterEqual(load["answered_ms"]["p50"], load["made_ms"]["p50"])
+            self.assertEqual("quilt_px" in load, load["name"].endswith("quilt"))
+
     def test_recorded_sets_that_are_not_there(self):
         report = run("trace", "--json", "--data", "/nowhere", "--only", "antinous")
         self.assertEqual(report["loads"], [])

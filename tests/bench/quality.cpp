@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "bench/quality_lens.h"
 #include "bench/quality_reflections.h"
+#include "bench/quality_stereo.h"
 #include "bench/quality_time.h"
 #include "gpu/device.h"
 
@@ -23,8 +24,10 @@ struct Section {
   Json (*score)(const Device& device);
 };
 
-constexpr Section kSections[] = {
-    {"lens", qualityOfLens}, {"time", qualityOfTime}, {"reflections", qualityOfReflections}};
+constexpr Section kSections[] = {{"lens", qualityOfLens},
+                                 {"stereo", qualityOfStereo},
+                                 {"time", qualityOfTime},
+                                 {"reflections", qualityOfReflections}};
 
 struct Arguments {
   std::string device;

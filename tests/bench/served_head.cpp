@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/served_head.h"
+
+#include <cstdlib>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/log.h"
+
+namespace viewloom::bench {
+namespace {
+
+constexpr char kStream[] = "head";
+
+// A thread of the pipeline cannot go on: nothing can be seen.
+void stop(const std::exception& error) {
+  log(LogLevel::kError, error.what());
+  std::quick_exit(1);
+}
+
+}  // namespace
+
+ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_px)
+    : pipeline_({.device = device,
+                 .clock = clock_,
+                 .metrics = metrics_,
+                 .broadcaster = broadcaster_,
+                 .directory = directory_,
+                 .on_failure = stop},
+                {}) {
+  broadcaster_.onDemandChange(
+      [this](const std::string& stream) { pipeline_.serveDisplays(stream); });
+  broadcaster_.onEyesMove([this](const ActiveDisplay& display) { pipeline_.serveEyes(display); });
+  const DisplaySpec spec =
+      completeDisplaySpec({.kind = StereoSpec{.eye_size_px = eye_px, .is_tracked = true}}).value();
+  const EncodingSpec encoding{.color = BandEncoding::kRaw,
+                              .with_depth = true,
+                              .with_mask = true,
+                              .planes = BandEncoding::kRaw};
+  auto subscription = broadcaster_.subscribe(kStream, spec, encoding, subscriber_, eyes_);
+  if (!subscription.ok()) throw std::runtime_error(std::string(subscription.status().message()));
+  subscription_ = *std::move(subscription);
+  pipeline_.offerFrame(kStream, frame, [](const FrameReport&) {});
+  newest_ = next();
+}
+
+AtlasPtr ServedHead::seenBy(EyePoses poses) {
+  poses.received_ns = clock_.nowNs();
+  eyes_->put(std::move(poses));
+  broadcaster_.announceEyes(subscription_->displayId());
+  return newest_ = next();
+}
+
+AtlasPtr ServedHead::next() {
+  const std::vector<AtlasPtr> atlases = subscriber_->waitForAtlases(++atlas_count_);
+  if (atlases.size() < atlas_count_) throw std::runtime_error("eyes were not answered");
+  return atlases.back();
+}
+
+}  // namespace viewloom::bench
