@@ -199,6 +199,13 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
                       "got none; accepted: quilt, stereo, cameras, lenticular, integral or rgbd");
 }
 
+ReflectionSpec reflectionFromProto(const v1::ReflectionEffect& proto) {
+  return {.bounce_count = proto.bounces(),
+          .sample_count = proto.samples(),
+          .environment_rgb = proto.environment_rgb(),
+          .is_filtered = !proto.unfiltered()};
+}
+
 absl::Status effectsFromProto(const v1::Display& proto, DisplaySpec& spec) {
   const v1::Effects& effects = proto.effects();
   if (effects.has_lens()) {
