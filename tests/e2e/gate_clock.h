@@ -2,6 +2,7 @@
 // A clock turned by hand at which one thread can be held up: it waits where it next asks.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -23,6 +24,9 @@ class GateClock final : public Clock {
     }
     return now_ns_;
   }
+
+  // It may be turned at any time, and wakes nobody.
+  std::chrono::nanoseconds napUntil(int64_t) const override { return std::chrono::milliseconds(1); }
 
   void advance(int64_t by_ns) {
     std::lock_guard lock(mutex_);
