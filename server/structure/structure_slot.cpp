@@ -154,21 +154,15 @@ SourceStats StructureSlot::stats() const {
   abi::MeasuredHead measured;
   std::memcpy(&measured, measured_readback_.mapped().data(), sizeof measured);
   const bool has_surface = measured.inv_z_min_bits <= measured.inv_z_max_bits;
-  const auto inv_z_min = std::bit_cast<float>(measured.inv_z_min_bits);
-  const auto inv_z_max = std::bit_cast<float>(measured.inv_z_max_bits);
-  // Within a bin, 2 % wide, a percentile may lie where nothing is: a flat source has one depth.
-  const auto within = [&](float inv_z) {
-    return has_surface ? std::clamp(inv_z, inv_z_min, inv_z_max) : inv_z;
-  };
   return {.depth_step = measured.depth_step,
           .noise_sigma = measured.noise_sigma,
           .connection_tolerance = measured.kappa_abs,
           .bad_samples_count = measured.bad_samples_count,
           .unsorted_columns_count = measured.unsorted_columns_count,
-          .inv_z_min = has_surface ? inv_z_min : 0.0F,
-          .inv_z_max = has_surface ? inv_z_max : 0.0F,
-          .inv_z_near = within(measured.inv_z_near),
-          .inv_z_far = within(measured.inv_z_far),
+          .inv_z_min = has_surface ? std::bit_cast<float>(measured.inv_z_min_bits) : 0.0F,
+          .inv_z_max = has_surface ? std::bit_cast<float>(measured.inv_z_max_bits) : 0.0F,
+          .inv_z_near = measured.inv_z_near,
+          .inv_z_far = measured.inv_z_far,
           .smoothing_reach = measured.smoothing_reach};
 }
 

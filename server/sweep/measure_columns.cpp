@@ -83,11 +83,8 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCo
   const float step = noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile);
   const float surface_count =
       float(std::accumulate(histograms.depth.begin(), histograms.depth.end(), uint64_t{0}));
-  const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
-  // Within a bin, 2 % wide, a percentile may lie where nothing is: a flat source has one depth.
   const auto quantile = [&](float share) {
-    const float inv_z = depthQuantile(histograms.depth, surface_count, share);
-    return has_surface ? std::clamp(inv_z, counts.inv_z_min, counts.inv_z_max) : inv_z;
+    return depthQuantile(histograms.depth, surface_count, share);
   };
   const float inv_z_near = quantile(abi::kNearQuantile);
   const float surface_sigma = surfaceSigma(histograms);
@@ -103,6 +100,7 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCo
       .absolute =
           is_given ? given_kappa : std::max(abi::kKappaSteps * step, abi::kKappaSigmas * sigma),
       .relative = is_given ? 0 : abi::kKappaRelative};
+  const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
   return {.stats = {.depth_step = step,
                     .noise_sigma = sigma,
                     .connection_tolerance = kappa.absolute,

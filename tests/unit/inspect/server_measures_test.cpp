@@ -75,15 +75,5 @@ TEST(ServerMeasures, areThoseOfNoise) {
                 PlaneEncoding::kDepthF32, 1);
 }
 
-TEST(ServerMeasures, putNearAndFarOfAFlatSourceWhereItIs) {
-  for (const float inv_z : {0.26F, 0.5F, 0.77F, 1.9F}) {
-    const DepthPlane flat = depthPlane<float>(kWidth, kHeight, v1::DEPTH_MEANING_DISPARITY,
-                                              [&](uint32_t, uint32_t) { return inv_z; });
-    const SourceStats stats = serverStats(flat, PlaneEncoding::kDepthF32, 1);
-    EXPECT_EQ(stats.inv_z_near, inv_z);
-    EXPECT_EQ(stats.inv_z_far, inv_z);
-  }
-}
-
 }  // namespace
 }  // namespace viewloom::inspect
