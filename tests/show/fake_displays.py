@@ -106,6 +106,8 @@ class FakeDisplays(watching_grpc.DisplayServiceServicer):
                 if request.HasField("presented"):
                     self.presented.put(request.presented)
                     continue
+                if request.HasField("clock_probe"):
+                    continue
                 if request.HasField("eye_poses"):
                     wanted.put(request.eye_poses)
                     continue
