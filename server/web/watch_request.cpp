@@ -31,7 +31,7 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
     ParameterField{"aperture_m", "effects.lens.aperture_radius_m"},
     ParameterField{"lens_focus_m", "effects.lens.focus_distance_m"},
-    ParameterField{"effort", "quality"},
+    ParameterField{"effort", "effort"},
     ParameterField{"rate_hz", "effects.temporal.output_rate_hz"},
     ParameterField{"between", "effects.temporal.mode"},
     ParameterField{"reflections", "effects.reflection.bounces"},
