@@ -8,16 +8,12 @@
 """
 
 import argparse
-import json
-import pathlib
-import re
-import signal
-import subprocess
 import tempfile
 
 from PIL import Image, ImageDraw, ImageFont
 
-PATIENCE_S = 300
+from studio import Studio
+
 GAP_PX = 12
 SCENE = ["--synthetic", "--size", "1440x1080", "--layers", "4"]
 QUILT = {"quilt": {"columns": 4, "rows": 2, "size": {"width": 1440, "height": 1080}}}
@@ -27,8 +23,6 @@ GRID = {"cameras": {"tile_size": {"width": 360, "height": 270},
 NEAR_EYE = {"integral": {"preset": "near_eye_2013"}}
 RGBD = {"rgbd": {"view_size": {"width": 720, "height": 540}}}
 TWO_LAYERS = {"rgbd": {"view_size": {"width": 480, "height": 360}, "form": "RGBD_FORM_TWO_LAYERS"}}
-
-
 PANEL = ["--preset", "portrait", "--native"]
 NUMBERS = {"quilt": {"columns": 3, "rows": 2, "size": {"width": 1260, "height": 1120},
                      "view_cone_rad": 0.698131700797732}}
@@ -46,44 +40,6 @@ ROWS = [
 ]
 ROW_HEIGHT_PX = 330
 WIDTH_PX = 1200
-
-
-class Studio:
-    """A server, and a stream for the scene and for the pattern."""
-
-    def __init__(self, arguments, folder):
-        self.client, self.folder = arguments.viewloom, pathlib.Path(folder)
-        self.server = subprocess.Popen(
-            [arguments.viewloomd, "serve", "--http.address", "127.0.0.1:0", "--grpc.address",
-             "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.address = re.search(r"grpc=(\S+)", self.server.stdout.readline()).group(1)
-        self.publishers = [self.publish("scene", *SCENE, "--seconds", "0.05", "--hold"),
-                           self.publish("pattern", "--pattern", "view-numbers", "--views", "6")]
-
-    def publish(self, stream, *what):
-        return subprocess.Popen([self.client, "--server", self.address, "publish", "--stream",
-                                 stream, *what, "--quiet"], stdout=subprocess.DEVNULL)
-
-    def still(self, stream, watched):
-        options = watched
-        if isinstance(watched, dict):
-            message = self.folder / "display.json"
-            message.write_text(json.dumps(watched))
-            options = ["--display", message]
-        stills = self.folder / "stills"
-        subprocess.run([self.client, "--server", self.address, "watch", stream, "--count", "1",
-                        "--out", stills, "--format", "png", "--quiet", *options],
-                       check=True, timeout=PATIENCE_S, stdout=subprocess.DEVNULL)
-        (path,) = stills.iterdir()
-        with Image.open(path) as image:
-            still = image.convert("RGB")
-        path.unlink()
-        return still
-
-    def close(self):
-        for process in [*self.publishers, self.server]:
-            process.send_signal(signal.SIGINT)
-            process.wait(PATIENCE_S)
 
 
 def tile(studio, caption, stream, watched, box, times):
@@ -124,6 +80,8 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         studio = Studio(arguments, folder)
+        studio.publish("scene", *SCENE, "--seconds", "0.05", "--hold")
+        studio.publish("pattern", "--pattern", "view-numbers", "--views", "6")
         try:
             rows = [row_of([tile(studio, *each) for each in row]) for row in ROWS]
         finally:

@@ -8,16 +8,12 @@ mirrors from beside its source, without and with them, as `viewloom watch` write
 """
 
 import argparse
-import json
-import pathlib
-import re
-import signal
-import subprocess
 import tempfile
 
 from PIL import Image
 
-PATIENCE_S = 300
+from studio import Studio
+
 SIZE_PX = (600, 450)
 SHIFT_M = 0.1
 
@@ -31,37 +27,6 @@ def display(effects):
             "principal_y_px": height_px / 2}}]}, "effects": effects}
 
 
-class Studio:
-    def __init__(self, arguments, folder):
-        self.client, self.folder = arguments.viewloom, pathlib.Path(folder)
-        self.server = subprocess.Popen(
-            [arguments.viewloomd, "serve", "--http.address", "127.0.0.1:0", "--grpc.address",
-             "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.address = re.search(r"grpc=(\S+)", self.server.stdout.readline()).group(1)
-        self.publisher = subprocess.Popen(
-            [self.client, "--server", self.address, "publish", "--stream", "lake", "--synthetic",
-             "--mirrors", "--size", "1440x1080", "--layers", "3", "--seconds", "0.05", "--hold",
-             "--quiet"], stdout=subprocess.DEVNULL)
-
-    def still(self, effects):
-        message = self.folder / "display.json"
-        message.write_text(json.dumps(display(effects)))
-        stills = self.folder / "stills"
-        subprocess.run([self.client, "--server", self.address, "watch", "lake", "--count", "1",
-                        "--out", stills, "--format", "png", "--quiet", "--display", message],
-                       check=True, timeout=PATIENCE_S, stdout=subprocess.DEVNULL)
-        (path,) = stills.iterdir()
-        with Image.open(path) as image:
-            still = image.convert("RGB")
-        path.unlink()
-        return still
-
-    def close(self):
-        for process in (self.publisher, self.server):
-            process.send_signal(signal.SIGINT)
-            process.wait(PATIENCE_S)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -70,9 +35,11 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         studio = Studio(arguments, folder)
+        studio.publish("lake", "--synthetic", "--mirrors", "--size", "1440x1080", "--layers", "3",
+                       "--seconds", "0.05", "--hold")
         try:
-            stills = [studio.still({}), studio.still(
-                {"reflection": {"bounces": 2, "environment_rgb": 0x8FA0B8}})]
+            stills = [studio.still("lake", display(effects)) for effects in
+                      ({}, {"reflection": {"bounces": 2, "environment_rgb": 0x8FA0B8}})]
         finally:
             studio.close()
     picture = Image.new("RGB", (2 * SIZE_PX[0], SIZE_PX[1]))
