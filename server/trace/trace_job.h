@@ -34,6 +34,12 @@ struct TraceOutputs {
   bool operator==(const TraceOutputs&) const = default;
 };
 
+// Rows of a band at most: 8 rows of MCUs of 16 px.
+inline constexpr uint32_t kBandRowsMax = 128;
+// What the walked rays of a lens met in a band takes no more than this: half of what the smallest
+// devices bind at once. More than that, and there is no second stage.
+inline constexpr uint64_t kMetBytesMax = uint64_t{64} << 20;
+
 // A source as views see it; of a cube map, its front face.
 struct SeenSource {
   Camera camera;   // intrinsics in px of the depth planes
@@ -96,10 +102,12 @@ struct TraceJob {
   size_t tileCount() const { return tiles.size() / (size_t{sample_count} * walk_count); }
   bool hasEyesBeside() const { return !bounds.empty(); }
   bool hasLens() const { return layout->lens.has_value(); }
-  // Whether there may be a second stage of the lens: one structure, each px with one eye.
+  // Whether there may be a second stage of the lens: one structure, each px with one eye, and room.
   bool mayGather() const {
+    const uint64_t met_bytes =
+        uint64_t{layout->size_px.width} * kBandRowsMax * sample_count * sizeof(uint32_t);
     return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
-           !layout->depth_codes;
+           !layout->depth_codes && met_bytes <= kMetBytesMax;
   }
   // Px are made of several rays' light.
   bool sumsLight() const { return sample_count > 1 || mayGather(); }

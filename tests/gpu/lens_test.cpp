@@ -112,6 +112,29 @@ TEST_F(Lens, showsTheMeanOfItsRaysWhereAViewIsTurned) {
   EXPECT_LE(differingOf(spec, 0), kTiedShareMax);
 }
 
+// Half of what the smallest devices bind at once: a wider atlas, or more samples, would not fit.
+TEST_F(Lens, keepsNoMoreOfWhatRaysMetThanABufferHolds) {
+  const auto metCountOf = [](uint32_t width_px, uint32_t walked_count) {
+    DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {width_px, 64}}};
+    spec.lens = walkedLens();
+    spec.lens->walked_count = walked_count;
+    spec.lens->gathered_count = 32;
+    const auto completed = completeDisplaySpec(spec);
+    EXPECT_TRUE(completed.ok()) << completed.status();
+    const Camera camera{.pose = {},
+                        .intrinsics = {.focal_px = {300, 300}, .principal_px = {160, 90}}};
+    auto layout = makeAtlasLayout(
+        *completed, {.source_intrinsics = camera.intrinsics, .source_size_px = kSource_px});
+    EXPECT_TRUE(layout.ok()) << layout.status();
+    const TraceJob job = makeTraceJob(std::make_shared<AtlasLayout>(*std::move(layout)), *completed,
+                                      Pose{}, camera, kSource_px);
+    return slotShape(job, kBandRowsMax, {}).met_count;
+  };
+  EXPECT_EQ(metCountOf(480, 64), 64u);
+  EXPECT_EQ(metCountOf(16384, 8), 8u);  // 64 MiB
+  EXPECT_EQ(metCountOf(16384, 9), 0u);
+}
+
 TEST_F(Lens, leavesDepthAndMaskToTheRayThroughItsMiddle) {
   DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {320, 90}}};
   const RenderedAtlas sharp = render(spec);
