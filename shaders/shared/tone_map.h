@@ -8,8 +8,13 @@
 //
 // kToneMapAgx follows the plan of T. Sobotka's AgX (2022), not its numbers: the curve acts on
 // primaries that are drawn in towards white, as a share of each channel goes to both others, and
-// the same is taken back afterwards. So a bright primary brings its neighbours along and ends in
-// white.
+// afterwards as much is taken back as leaves no channel below 0. So a bright primary brings its
+// neighbours along, smoothly from black on, and ends in white.
+//
+// A primary's channels go into the curve as 1 - 2 s to s, s = kToneInset. The curve is steepest,
+// and they lie furthest apart behind it, in the dark: q = (s / (1 - 2 s))^n of the brightest is
+// left of the others. Taking a share t of the differences to both others back leaves them
+// (1 + t) q - t: none below 0 for t = q / (1 - q), which is kToneOutset.
 #ifndef VIEWLOOM_SHADERS_SHARED_TONE_MAP_H_
 #define VIEWLOOM_SHADERS_SHARED_TONE_MAP_H_
 
@@ -26,6 +31,7 @@ VIEWLOOM_ABI_CONST float kToneWhite = 16.0f;                    // 6.5 stops abo
 VIEWLOOM_ABI_CONST float kToneHalf = 0.5452092f;                // k
 VIEWLOOM_ABI_CONST float kToneGain = 1.0f + kToneHalf / 32.0f;  // 32 = white^n
 VIEWLOOM_ABI_CONST float kToneInset = 0.15f;  // of each channel, to each of the others
+VIEWLOOM_ABI_CONST float kToneOutset = 0.170674f;               // of the same, taken back
 
 // 0 or more to 0..1.
 VIEWLOOM_ABI_FUNCTION float toneCurve(float light) {
@@ -55,9 +61,7 @@ VIEWLOOM_ABI_FUNCTION vec3 toneMapped(vec3 light, uint tone_map) {
   vec3 mapped = light;
   if (tone_map == kToneMapFilmic) mapped = toneCurves(light);
   if (tone_map == kToneMapAgx) {
-    // Sharing out what the shares were taken from: mixing by -s / (1 - 3 s) undoes mixing by s.
-    const float undo = -kToneInset / (1.0f - 3.0f * kToneInset);
-    mapped = mixChannels(toneCurves(mixChannels(light, kToneInset)), undo);
+    mapped = mixChannels(toneCurves(mixChannels(light, kToneInset)), -kToneOutset);
   }
   return vec3(clipLight(mapped.x), clipLight(mapped.y), clipLight(mapped.z));
 }

@@ -89,6 +89,18 @@ TEST(ToneMap, leadsBrightPrimariesToWhiteOnlyLikeAgx) {
   }
 }
 
+TEST(ToneMap, bendsNoPrimaryOfAgxAtZero) {
+  for (const vec3 color : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(1, 1, 0), vec3(1, 0, 1)}) {
+    float before = 0;
+    for (double stop = -10; stop < 5; stop += 0.1) {
+      const vec3 shown = abi::toneMapped(color * stops(stop), abi::kToneMapAgx);
+      const float least = std::min({shown.x, shown.y, shown.z});
+      EXPECT_GT(least, before) << "a channel that stays at 0 leaves it with a kink, at " << stop;
+      before = least;
+    }
+  }
+}
+
 class ToneMapTest : public GpuTest {
  protected:
   ToneMapTest() : walk_(device()) {
