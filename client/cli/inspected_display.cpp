@@ -59,8 +59,8 @@ absl::StatusOr<DisplayNeed> displayNeed(const v1::Display& display, const v1::So
   if (!layout.ok()) return layout.status();
   const Pose from_display =
       spec->world_pose ? compose(inverse(camera->pose), *spec->world_pose) : Pose{};
-  SourceDemand demand(range);
-  demand.include(outermostViews(*layout), from_display);
+  SourceDemand demand;
+  demand.include(outermostViews(*layout), from_display, range);
   return DisplayNeed{.outside = viewsOutside(
                          outsideShares(*layout, from_display, camera->intrinsics, size_px, range)),
                      .wanted_fov = demand.fov()};

@@ -78,8 +78,8 @@ Pose middleEye(const OutermostViews& views, const View& middle_view) {
 }
 
 SourceDemand demandAt(const OutermostViews& views, const Pose& pose, const InvZRange& range) {
-  SourceDemand demand(range);
-  demand.include(views, inverse(pose));
+  SourceDemand demand;
+  demand.include(views, inverse(pose), range);
   return demand;
 }
 

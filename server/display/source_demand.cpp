@@ -58,19 +58,20 @@ OutermostViews outermostViews(const AtlasLayout& layout) {
   return views;
 }
 
-void SourceDemand::include(const OutermostViews& views, const Pose& source_from_display) {
+void SourceDemand::include(const OutermostViews& views, const Pose& source_from_display,
+                           const InvZRange& range) {
   for (const Camera& view : views.cameras) {
     include({.pose = compose(source_from_display, view.pose), .intrinsics = view.intrinsics},
-            views.size_px);
+            views.size_px, range);
   }
 }
 
-void SourceDemand::include(const Camera& view, SizePx size_px) {
+void SourceDemand::include(const Camera& view, SizePx size_px, const InvZRange& range) {
   const Fov fov = fovFromIntrinsics(view.intrinsics, size_px);
   // What a view sees between two planes is convex: its corners bound its picture.
   for (const double x : {std::tan(fov.left_rad), std::tan(fov.right_rad)}) {
     for (const double y : {std::tan(fov.down_rad), std::tan(fov.up_rad)}) {
-      for (const double inv_z : {range_.far, range_.near}) includeCorner(view, {x, y}, inv_z);
+      for (const double inv_z : {range.far, range.near}) includeCorner(view, {x, y}, inv_z);
     }
   }
   has_parallax_ = has_parallax_ || view.pose.position_m != glm::dvec3(0.0);

@@ -31,11 +31,10 @@ OutermostViews outermostViews(const AtlasLayout& layout);
 // 1.3 rad to its sides: a view of more asks for that much.
 class SourceDemand {
  public:
-  explicit SourceDemand(const InvZRange& range) : range_(range) {}
-
-  // `view` is relative to the source.
-  void include(const Camera& view, SizePx size_px);
-  void include(const OutermostViews& views, const Pose& source_from_display);
+  // What the views see between the depths of `range`. `view` is relative to the source.
+  void include(const Camera& view, SizePx size_px, const InvZRange& range);
+  void include(const OutermostViews& views, const Pose& source_from_display,
+               const InvZRange& range);
 
   // Something that a view sees can be served; the others expect it, but for hasParallax().
   bool isServable() const { return left_ < right_ && down_ < up_; }
@@ -50,7 +49,6 @@ class SourceDemand {
   void includeCorner(const Camera& view, glm::dvec2 tangents, double inv_z);
   void includeTangents(glm::dvec2 tangents);
 
-  InvZRange range_;
   // Tangents; the union is empty while nothing is included.
   double left_ = std::numeric_limits<double>::infinity();
   double right_ = -std::numeric_limits<double>::infinity();

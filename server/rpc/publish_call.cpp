@@ -9,7 +9,6 @@
 #include "rpc/limits_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/stream_name.h"
-#include "rpc/wanted_to_proto.h"
 #include "rpc/wire_message.h"
 
 namespace viewloom {
@@ -193,9 +192,8 @@ void PublishCall::refreshWanted() {
       atlases.push_back(std::move(atlas));
   }
   v1::PublishFramesResponse response;
-  *response.mutable_wanted() = wantedToProto(atlases, static_cast<uint32_t>(displays.size()));
   std::lock_guard lock(mutex_);
-  outside_.addTo(atlases, *response.mutable_wanted());
+  *response.mutable_wanted() = wants_.wanted(atlases, static_cast<uint32_t>(displays.size()));
   std::string serialised = response.SerializeAsString();
   if (ending() || serialised == last_wanted_) return;
   last_wanted_ = std::move(serialised);

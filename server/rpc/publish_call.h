@@ -9,7 +9,7 @@
 
 #include "rpc/bidi_call.h"
 #include "rpc/ingest_parts.h"
-#include "rpc/outside_views.h"
+#include "rpc/source_wants.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
@@ -55,7 +55,7 @@ class PublishCall final : public BidiCall {
   size_t unreported_count_ = 0;             // frames taken whose report has not come
   std::optional<grpc::ByteBuffer> wanted_;  // newest only
   std::string last_wanted_;                 // serialised
-  OutsideViews outside_;
+  SourceWants wants_;
 };
 
 }  // namespace viewloom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/wanted_to_proto.h"
 
-#include "display/source_demand.h"
+#include "base/check.h"
 #include "rpc/geometry_to_proto.h"
 
 namespace viewloom {
@@ -9,8 +9,6 @@ namespace {
 
 // One surface for what is seen, one for what the nearest hides; 1 when no view leaves the source.
 constexpr uint32_t kLayersForParallax = 2;
-// A display's atlas says nothing of how near things come: views are seen as from far away.
-constexpr InvZRange kFarAway;
 
 // Exact where a display stands in its source: rounding must not look like a step aside.
 Pose sourceFromDisplay(const EncodedAtlas& atlas) {
@@ -41,12 +39,14 @@ Pose wantedPose(std::span<const AtlasPtr> atlases) {
 
 }  // namespace
 
-v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, uint32_t display_count) {
-  SourceDemand demand(kFarAway);
+v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, std::span<const InvZRange> depths,
+                         uint32_t display_count) {
+  VIEWLOOM_CHECK(depths.size() == atlases.size());
+  SourceDemand demand;
   const Pose pose = wantedPose(atlases);
-  for (const AtlasPtr& atlas : atlases) {
-    demand.include(outermostViews(*atlas->layout),
-                   compose(inverse(pose), sourceFromDisplay(*atlas)));
+  for (size_t i = 0; i < atlases.size(); ++i) {
+    demand.include(outermostViews(*atlases[i]->layout),
+                   compose(inverse(pose), sourceFromDisplay(*atlases[i])), depths[i]);
   }
   v1::Wanted proto;
   proto.set_display_count(display_count);

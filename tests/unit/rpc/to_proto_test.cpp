@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "rpc/geometry_from_proto.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
-#include "rpc/outside_views.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/stream_name.h"
 #include "rpc/wanted_to_proto.h"
@@ -100,6 +98,11 @@ TEST(LayoutToProto, namesEverything) {
   EXPECT_EQ(proto.views_size(), 2);
 }
 
+// As seen from far away.
+v1::Wanted wantedAfar(const std::vector<AtlasPtr>& atlases, uint32_t display_count) {
+  return wantedToProto(atlases, std::vector<InvZRange>(atlases.size()), display_count);
+}
+
 // Two views of 90 degrees, 10 px wide, turned 20 degrees to the left and to the right.
 TEST(WantedToProto, isTheUnionOfWhatViewsSee) {
   const double turn_rad = M_PI / 9;
@@ -114,7 +117,7 @@ TEST(WantedToProto, isTheUnionOfWhatViewsSee) {
   auto atlas = std::make_shared<EncodedAtlas>();
   atlas->layout = layout;
   const std::vector<AtlasPtr> atlases{atlas};
-  const v1::Wanted wanted = wantedToProto(atlases, 1);
+  const v1::Wanted wanted = wantedAfar(atlases, 1);
   EXPECT_NEAR(wanted.fov().angle_left_rad(), -(M_PI / 4 + turn_rad), 1e-12);
   EXPECT_NEAR(wanted.fov().angle_right_rad(), M_PI / 4 + turn_rad, 1e-12);
   EXPECT_EQ(wanted.layer_count(), 1u) << "no view leaves the source's place";
@@ -127,6 +130,21 @@ TEST(WantedToProto, isTheUnionOfWhatViewsSee) {
   EXPECT_EQ(wanted.size().width(), std::ceil(focal_px * 2 * std::tan(M_PI / 4 + turn_rad)));
 }
 
+// A view beside the source that looks along its axis sees the more to that side the nearer.
+TEST(WantedToProto, isOfWhatIsSeenBetweenDepths) {
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->tile_size_px = {10, 10};
+  layout->views.resize(1);
+  layout->views[0].camera = {.pose = {.position_m = {0.5, 0, 0}},
+                             .intrinsics = {.focal_px = {5, 5}, .principal_px = {5, 5}}};
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->layout = layout;
+  const v1::Wanted wanted = wantedToProto(std::vector<AtlasPtr>{atlas},
+                                          std::vector<InvZRange>{{.far = 0.25, .near = 2}}, 1);
+  EXPECT_NEAR(std::tan(wanted.fov().angle_right_rad()), 1 + 0.5 * 2, 1e-12);
+  EXPECT_NEAR(std::tan(wanted.fov().angle_left_rad()), -1 + 0.5 * 0.25, 1e-12);
+}
+
 TEST(WantedToProto, takesTheEyesOfAPanelForThoseOfItsView) {
   auto layout = std::make_shared<AtlasLayout>();
   layout->tile_size_px = layout->size_px = {10, 10};
@@ -136,12 +154,12 @@ TEST(WantedToProto, takesTheEyesOfAPanelForThoseOfItsView) {
   auto atlas = std::make_shared<EncodedAtlas>();
   atlas->layout = layout;
   const std::vector<AtlasPtr> atlases{atlas};
-  EXPECT_EQ(wantedToProto(atlases, 1).layer_count(), 1u);
+  EXPECT_EQ(wantedAfar(atlases, 1).layer_count(), 1u);
   layout->rays = LenticularRays{.view_cone_rad = 0.6, .distance_m = 2};
-  EXPECT_EQ(wantedToProto(atlases, 1).layer_count(), 2u);
+  EXPECT_EQ(wantedAfar(atlases, 1).layer_count(), 2u);
   // From half the cone to the left, the panel's right edge lies that much further to the right;
   // samples may lie half a px beyond it.
-  EXPECT_NEAR(std::tan(wantedToProto(atlases, 1).fov().angle_right_rad()), 5.5 / 5 + std::tan(0.3),
+  EXPECT_NEAR(std::tan(wantedAfar(atlases, 1).fov().angle_right_rad()), 5.5 / 5 + std::tan(0.3),
               1e-9);
 }
 
@@ -167,7 +185,7 @@ TEST(WantedToProto, standsBetweenTheEyesWhereEveryDisplayFollowsThem) {
   // The same turn, written with both signs.
   const AtlasPtr one = atlasOfEyes({.position_m = {1, 0.5, -2}, .orientation = turn},
                                    {.position_m = {1.25, 0.5, -2}, .orientation = -turn});
-  const v1::Wanted wanted = wantedToProto(std::vector<AtlasPtr>{one}, 1);
+  const v1::Wanted wanted = wantedAfar({one}, 1);
   EXPECT_NEAR(wanted.pose().position().x(), 1.125, 1e-12);
   EXPECT_NEAR(wanted.pose().position().y(), 0.5, 1e-12);
   EXPECT_NEAR(wanted.pose().position().z(), -2, 1e-12);
@@ -177,71 +195,15 @@ TEST(WantedToProto, standsBetweenTheEyesWhereEveryDisplayFollowsThem) {
   EXPECT_EQ(wanted.layer_count(), 2u) << "each eye sees behind what the other does";
 
   const AtlasPtr other = atlasOfEyes({.position_m = {-1, 0, 0}}, {.position_m = {-0.75, 0, 0}});
-  const v1::Wanted of_both = wantedToProto(std::vector<AtlasPtr>{one, other}, 2);
+  const v1::Wanted of_both = wantedAfar({one, other}, 2);
   EXPECT_NEAR(of_both.pose().position().x(), 0.125, 1e-12);
   EXPECT_GT(of_both.fov().angle_right_rad(), M_PI / 4);
 
   auto fixed = std::make_shared<EncodedAtlas>(*other);
   fixed->eye_poses_latched_ns = 0;
-  const v1::Wanted beside = wantedToProto(std::vector<AtlasPtr>{one, fixed}, 2);
+  const v1::Wanted beside = wantedAfar({one, fixed}, 2);
   EXPECT_EQ(beside.pose().position().x(), 0) << "a display that stands needs the source that is";
   EXPECT_EQ(beside.pose().orientation().w(), 1);
-}
-
-std::shared_ptr<EncodedAtlas> atlasOutside(uint64_t display_id,
-                                           const std::shared_ptr<const AtlasLayout>& layout,
-                                           std::vector<double> shares) {
-  auto atlas = std::make_shared<EncodedAtlas>();
-  atlas->display_id = display_id;
-  atlas->layout = layout;
-  atlas->outside_shares = std::move(shares);
-  return atlas;
-}
-
-TEST(OutsideViews, areToldByDisplay) {
-  const auto layout = std::make_shared<AtlasLayout>();
-  const std::vector<AtlasPtr> atlases{atlasOutside(4, layout, {0.031, -0.1, 0.2}),
-                                      atlasOutside(7, layout, {-0.1, 0})};
-  OutsideViews outside;
-  v1::Wanted wanted;
-  outside.addTo(atlases, wanted);
-  ASSERT_EQ(wanted.outside_size(), 1) << "the other sees enough";
-  EXPECT_EQ(wanted.outside(0).display_id(), 4U);
-  ASSERT_EQ(wanted.outside(0).views_size(), 2);
-  EXPECT_EQ(wanted.outside(0).views(0).last_view(), 0U);
-  EXPECT_DOUBLE_EQ(wanted.outside(0).views(0).share(), 0.04);
-  EXPECT_EQ(wanted.outside(0).views(1).first_view(), 2U);
-}
-
-TEST(OutsideViews, areToldSeldomWhileDepthTrembles) {
-  std::mt19937 random(11);
-  std::normal_distribution<double> tremble(0, 0.001);
-  const auto layout = std::make_shared<AtlasLayout>();
-  OutsideViews outside;
-  std::string before;
-  size_t messages = 0;
-  for (int frame = 0; frame < 1000; ++frame) {
-    std::vector<double> shares{0.04, 0.03, 0.01, 0.0, -0.01};
-    for (double& share : shares) share += tremble(random);
-    v1::Wanted wanted;
-    outside.addTo(std::vector<AtlasPtr>{atlasOutside(1, layout, shares)}, wanted);
-    messages += wanted.SerializeAsString() != before;
-    before = wanted.SerializeAsString();
-  }
-  EXPECT_LE(messages, 6U);
-}
-
-TEST(OutsideViews, areSettledAnewForAnotherLayout) {
-  const auto layout = std::make_shared<AtlasLayout>(), other = std::make_shared<AtlasLayout>();
-  OutsideViews outside;
-  const auto shareOf = [&](const std::shared_ptr<const AtlasLayout>& seen, double share) {
-    v1::Wanted wanted;
-    outside.addTo(std::vector<AtlasPtr>{atlasOutside(1, seen, {share})}, wanted);
-    return wanted.outside(0).views(0).share();
-  };
-  EXPECT_DOUBLE_EQ(shareOf(layout, 0.031), 0.04);
-  EXPECT_DOUBLE_EQ(shareOf(layout, 0.029), 0.04);
-  EXPECT_DOUBLE_EQ(shareOf(other, 0.029), 0.03);
 }
 
 TEST(StreamName, isOfLettersDigitsAndThreeSigns) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a publisher is told that its stream's displays want, and keeps being told while depth merely
+// trembles.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "display/settled_range.h"
+#include "display/views_outside.h"
+#include "encode/encoded_band.h"
+#include "viewloom/v1/ingest_service.pb.h"
+
+namespace viewloom {
+
+// Thread-safety: none; one owner.
+class SourceWants {
+ public:
+  // From the newest atlas of each display; those without one are forgotten, and add nothing but to
+  // the count.
+  v1::Wanted wanted(std::span<const AtlasPtr> atlases, uint32_t display_count);
+
+ private:
+  // What shares and depths hang on beside the scene: with another of these they are settled anew.
+  struct Display {
+    std::shared_ptr<const AtlasLayout> layout;
+    Camera source_camera;
+    Pose display_pose;
+    SettledShares shares;
+    SettledRange depths;
+  };
+
+  void keepDisplays(std::span<const AtlasPtr> atlases);
+
+  std::map<uint64_t, Display> displays_;  // by id
+};
+
+}  // namespace viewloom
