@@ -12,6 +12,10 @@
 namespace viewloom {
 namespace {
 
+// Of tracked displays one is swept at a time, by all threads: the eyes of those that wait behind it
+// are taken when it is their turn.
+constexpr size_t kSweptEyesCount = 1;
+
 // Of what a display was shown of the same structure.
 bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
   return job.tick && shown && !job.tick->shown.looksLike(*shown);
@@ -46,7 +50,7 @@ TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
       pictures_(pictures),
       tracer_(links.device),
       swept_atlases_(slot_count, on_slot_return),
-      swept_eyes_(slot_count, on_slot_return) {
+      swept_eyes_(kSweptEyesCount, on_slot_return) {
   for (const ColorForm color : {ColorForm::kRgba, ColorForm::kYcbcr444, ColorForm::kYcbcr420}) {
     for (const bool depth : {false, true}) {
       for (const bool mask : {false, true}) {
