@@ -10,7 +10,8 @@ export class AtlasStream {
   #timer = 0;
   #failures = 0;
 
-  // Handlers: onAtlas(atlas), onLive(), onWaiting({message, retry_ms}), onRefused(error)
+  // Handlers: onAtlas(atlas), onLive(), onAsked() for another picture, onWaiting({message,
+  // retry_ms}), onRefused(error)
   constructor(handlers) {
     this.handlers = handlers;
   }
@@ -41,11 +42,13 @@ export class AtlasStream {
       if (value === null) this.parameters.delete(name);
       else this.parameters.set(name, value);
     }
-    this.#send({change: parameters});
+    if (this.#send({change: parameters})) this.handlers.onAsked();
   }
 
   #send(message) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
+    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    this.#socket.send(JSON.stringify(message));
+    return true;
   }
 
   #connect() {
@@ -60,6 +63,7 @@ export class AtlasStream {
       opened = true;
       this.#failures = 0;
       this.handlers.onLive();
+      this.handlers.onAsked();
     };
     socket.onmessage = ({data}) => {
       if (this.#socket !== socket) return;

@@ -37,8 +37,10 @@ function displayFile(parameters) {
   const temporal = parameters.has('rate_hz') ?
     {outputRateHz: number('rate_hz'), mode: mode[parameters.get('between')]} : undefined;
   const reflection = parameters.has('reflections') ? {bounces: number('reflections')} : undefined;
+  const quality = parameters.has('effort') ?
+    `QUALITY_${parameters.get('effort').toUpperCase()}` : undefined;
   const effects = lens || temporal || reflection ? {lens, temporal, reflection} : undefined;
-  return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quilt: {
+  return JSON.stringify({focusFollowingS: number('focus_follow_s'), effects, quality, quilt: {
     columns: number('columns'), rows: number('rows'),
     size: {width: number('width'), height: number('height')}, aspect: number('aspect'),
     viewConeRad: angle('cone_deg'), focalDistanceM: number('focus_m'), fovYRad: angle('fov_deg'),

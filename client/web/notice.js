@@ -14,6 +14,11 @@ export function notice(text, kind = '', time_ms = kNoticeTime_ms) {
   if (text && time_ms !== Infinity) timer = setTimeout(() => notice(''), time_ms);
 }
 
+// If that is what stands there.
+export function takeBack(text) {
+  if (byId('notice').textContent === text) notice('');
+}
+
 // For those who do not see the picture.
 export function say(text) {
   if (byId('said').textContent !== text) byId('said').textContent = text;

@@ -3,20 +3,20 @@
 import {keepInAddress, pageParameters} from './address.js';
 import {AtlasStream} from './atlas_stream.js';
 import {AutoDetail} from './auto_detail.js';
-import {BetweenFrames} from './between_frames.js';
 import {Commands} from './commands.js';
 import {Decoder} from './decoder.js';
 import {DepthBudget} from './depth_budget.js';
 import {watchDeviceSize} from './device_size.js';
 import {DisplayChoice} from './display_choice.js';
 import {DisplayControls} from './display_controls.js';
+import {DisplayLists} from './display_lists.js';
 import {EyeMode} from './eye_mode.js';
 import {Figures} from './figures.js';
-import {LensSwitch} from './lens_switch.js';
 import {Look} from './look.js';
 import {Modes} from './modes.js';
 import {notice, say} from './notice.js';
 import {PanelMode} from './panel_mode.js';
+import {Patience} from './patience.js';
 import {RgbdMode} from './rgbd_mode.js';
 import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
@@ -40,9 +40,9 @@ let hiddenTimer = 0;
 
 const figures = new Figures();
 const commands = new Commands();
+const patience = new Patience();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
-const lensSwitch = new LensSwitch((parameters) => stream.change(parameters));
-new BetweenFrames((parameters) => stream.change(parameters));
+const lists = new DisplayLists((parameters) => stream.change(parameters));
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(() => stream.change(display.size()));
@@ -68,7 +68,7 @@ const decoder = new Decoder(
       stage.show(atlas);
       single.layoutChanged(layout.view_count);
       controls.show(layout);
-      lensSwitch.show(layout);
+      lists.show(layout);
       budget.show(atlas.header.depth_budget);
       outside.show(atlas.header.views_outside, layout.view_count);
       commands.show(stream.parameters, layout);
@@ -81,6 +81,7 @@ const decoder = new Decoder(
 
 const stream = new AtlasStream({
   onAtlas(atlas) {
+    patience.end();
     figures.noteArrived();
     decoder.decode(atlas);
   },
@@ -88,7 +89,9 @@ const stream = new AtlasStream({
     autoDetail.restart();
     notice('');
   },
+  onAsked() { patience.begin(); },
   onWaiting({message, retry_ms}) {
+    patience.end();
     setState('reconnecting');
     notice(`${message} Trying again in ${Math.ceil(retry_ms / 1000)} s.`, 'bad', Infinity);
   },
@@ -163,6 +166,7 @@ function setState(state) {
 
 function watch(name) {
   watching = name;
+  patience.end();
   streams.restart();
   figures.clear();
   controls.forget();
@@ -240,6 +244,7 @@ document.addEventListener('visibilitychange', () => {
   if (document.hidden) {
     hiddenTimer = setTimeout(() => {
       stream.close();
+      patience.end();
       setState('hidden');
     }, kHiddenGrace_ms);
   } else if (root.dataset.state === 'hidden' && watching) {

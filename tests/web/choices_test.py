@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from modes_test import NAMELESS, SMALL_TARGETS
-from page_test import SMALL, PageTest, keep
+from page_test import LIVE, SMALL, PageTest, keep
 from web_client import Server, decode_code
 
 OPEN_MODES = """[...document.querySelectorAll('#modes input')]
@@ -140,6 +140,40 @@ class Choices(PageTest):
         self.open(self.browser.evaluate("location.search"))
         self.assertEqual(self.browser.evaluate("document.getElementById('lens').value"), "0.03")
         self.assertEqual(self.browser.messages, [])
+
+    def test_atlases_between_frames_and_quality_are_chosen_by_their_lists(self):
+        self.open()
+        for name, value, address, command in (
+                ("between", "interpolate", "rate_hz=60&between=interpolate",
+                 '"temporal":{"outputRateHz":60,"mode":"TEMPORAL_MODE_INTERPOLATE"}'),
+                ("effort", "draft", "effort=draft", '"quality":"QUALITY_DRAFT"')):
+            before = self.browser.evaluate(DISPLAY_IDS)
+            for chosen in (value, ""):
+                self.browser.evaluate(
+                    f"(s => {{ s.value = '{chosen}'; s.dispatchEvent(new Event('change')); }})"
+                    f"(document.getElementById('{name}'))")
+                if not chosen:
+                    self.browser.wait_for(f"!location.search.includes('{name}')")
+                    self.browser.wait_for(f"!{WATCH}.includes('{command}')")
+                    continue
+                self.browser.wait_for(f"location.search.includes('{address}')")
+                self.browser.wait_for(f"{WATCH}.includes('{command}')")
+                # Another display to the server, as it is another picture.
+                self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
+                                      f"ids[0] !== {before[0]})")
+                self.open(self.browser.evaluate("location.search"))
+                self.assertEqual(
+                    self.browser.evaluate(f"document.getElementById('{name}').value"), value)
+        self.assertEqual(self.browser.messages, [])
+
+    def test_a_picture_that_is_long_in_coming_is_said_to_be(self):
+        notice = "document.getElementById('notice').textContent"
+        self.browser.open(self.server.url + "?stream=silent")
+        self.browser.wait_for(f"{notice}.includes('No picture so far')")
+        self.browser.evaluate(
+            "(s => { s.value = 'painted'; s.dispatchEvent(new Event('change')); })"
+            "(document.getElementById('stream'))")
+        self.browser.wait_for(f"{LIVE} && {notice} === ''")
 
     def test_fingers_hit_the_fields_of_colour_with_depth_and_the_checkbox(self):
         self.browser.resize(360, 780, scale=2, mobile=True)
