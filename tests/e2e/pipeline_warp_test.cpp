@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A head moves for a second before a frame that stands: what it sees, and what that takes.
 #include <cmath>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -19,6 +20,16 @@ constexpr double kFocal_px = 280;
 constexpr uint32_t kLayerCount = 3;
 constexpr SizePx kEye_px{120, 90};
 constexpr int64_t kPoses_hz = 90;
+constexpr int64_t kAtlases_hz = 60;
+constexpr int64_t kSteps_hz = 180;  // each pose and each atlas is due at one of these
+constexpr int64_t kSecond_ns = 1'000'000'000;
+
+// Never before what is due at this step, which is rounded.
+constexpr int64_t sinceStartNs(int64_t step) {
+  return (step * kSecond_ns + kSteps_hz - 1) / kSteps_hz;
+}
+
+constexpr glm::dvec3 kSpeed_mps{0.1, 0.04, -0.08};  // of the camera of the source
 constexpr double kHalfEyeDistance_m = 0.0315;
 
 // To the sides, up and down, a step forward and back, and turning about every axis.
@@ -45,11 +56,38 @@ DisplaySpec trackedEyes() {
       {.kind = StereoSpec{.eye_size_px = kEye_px, .focal_distance_m = 3, .is_tracked = true}});
 }
 
+constexpr EncodingSpec kExact{.color = BandEncoding::kRaw,
+                              .with_depth = true,
+                              .with_mask = true,
+                              .planes = BandEncoding::kRaw};
+
+// As wide as the source, from where its camera is by now.
+DisplaySpec atlasesBetweenFrames() {
+  return *completeDisplaySpec(
+      {.kind = CamerasSpec{.cameras = {{Pose{},
+                                        intrinsicsFromFov(fovOf(kSource_px, kFocal_px), kEye_px)}},
+                           .tile_size_px = kEye_px,
+                           .columns = 1},
+       .temporal = TemporalSpec{.output_rate_hz = kAtlases_hz, .bridge_s = 2}});
+}
+
 class PipelineWarpTest : public PipelineFixture {
  protected:
   PipelineWarpTest() : truth_(truth::clutteredRoom(), kSource_px, kFocal_px, kLayerCount) {}
 
-  // The atlas after so many, by the eyes that it names.
+  // Two measurements before the answer begins: the newer, of half a tick later, counts.
+  static EyePoses move(Server& server, EyeTrack& eyes, int64_t tick) {
+    EyePoses poses;
+    for (const bool is_newest : {false, true}) {
+      poses = eyesOf(headAt(double(2 * tick - !is_newest) / double(2 * kPoses_hz)));
+      poses.time_ns = 2 * tick - !is_newest;
+      poses.received_ns = server.clock.nowNs();
+      eyes.put(poses);
+    }
+    return poses;
+  }
+
+  // By the eyes that it names.
   std::array<EyeScore, 2> scoresOf(const EncodedAtlas& atlas, const EyePoses& poses) const {
     std::array<EyeScore, 2> scores;
     for (size_t eye = 0; eye < 2; ++eye) {
@@ -61,6 +99,13 @@ class PipelineWarpTest : public PipelineFixture {
     return scores;
   }
 
+  static void expectAsTheWorldIs(const EyeScore& score) {
+    EXPECT_GT(score.inside_db, 30);
+    EXPECT_GT(score.known_db, 20);
+    EXPECT_LT(score.depth_off_share, 0.02);
+    EXPECT_LT(score.outside_differs_share, 0.01);
+  }
+
   const HeadTruth truth_;
 };
 
@@ -68,25 +113,15 @@ TEST_F(PipelineWarpTest, answersEveryPoseFromOneBuildAndAsTheWorldIs) {
   Server server(device());
   const auto eyes = std::make_shared<EyeTrack>();
   const auto subscriber = std::make_shared<CollectingSubscriber>();
-  const EncodingSpec encoding{.color = BandEncoding::kRaw,
-                              .with_depth = true,
-                              .with_mask = true,
-                              .planes = BandEncoding::kRaw};
   const auto subscription =
-      *server.broadcaster.subscribe("scene", trackedEyes(), encoding, subscriber, eyes);
+      *server.broadcaster.subscribe("scene", trackedEyes(), kExact, subscriber, eyes);
   server.offer(truth_.frame());
   ASSERT_THAT(subscriber->waitForAtlases(1), SizeIs(1)) << "by eyes that stand in";
 
   for (int64_t tick = 1; tick <= kPoses_hz; ++tick) {
     SCOPED_TRACE(tick);
-    server.clock.advance(1'000'000'000 / kPoses_hz);
-    // Two measurements come before the answer is begun: the newer counts.
-    for (const bool is_newest : {false, true}) {
-      EyePoses poses = eyesOf(headAt(double(2 * tick - !is_newest) / double(2 * kPoses_hz)));
-      poses.time_ns = 2 * tick - !is_newest;
-      poses.received_ns = server.clock.nowNs();
-      eyes->put(std::move(poses));
-    }
+    server.clock.advance(kSecond_ns / kPoses_hz);
+    const EyePoses poses = move(server, *eyes, tick);
     server.broadcaster.announceEyes(subscription->displayId());
     const auto atlases = subscriber->waitForAtlases(size_t(tick) + 1);
     ASSERT_THAT(atlases, SizeIs(tick + 1));
@@ -95,13 +130,7 @@ TEST_F(PipelineWarpTest, answersEveryPoseFromOneBuildAndAsTheWorldIs) {
     EXPECT_EQ(answer.eye_poses_time_ns, 2 * tick);
     EXPECT_EQ(answer.eye_poses_latched_ns, server.clock.nowNs());
     EXPECT_EQ(answer.eye_poses_age_ns, 0);
-    for (const EyeScore& score :
-         scoresOf(answer, eyesOf(headAt(double(tick) / double(kPoses_hz))))) {
-      EXPECT_GT(score.inside_db, 30);
-      EXPECT_GT(score.known_db, 20);
-      EXPECT_LT(score.depth_off_share, 0.02);
-      EXPECT_LT(score.outside_differs_share, 0.01);
-    }
+    for (const EyeScore& score : scoresOf(answer, poses)) expectAsTheWorldIs(score);
   }
   server.pipeline.drain();
   EXPECT_EQ(server.broadcaster.atlasCount(subscription->displayId()), uint64_t{kPoses_hz} + 1);
@@ -112,6 +141,69 @@ TEST_F(PipelineWarpTest, answersEveryPoseFromOneBuildAndAsTheWorldIs) {
                                    "\"} 1\n"));
   }
   EXPECT_THAT(metrics, HasSubstr("viewloom_eye_poses_age_seconds_count 90\n"));
+}
+
+// One frame, then nothing for a second, in which poses come at 90 Hz and another display of the
+// stream has a rate of 60 Hz: the camera moves on.
+TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
+  Server server(device());
+  const auto eyes = std::make_shared<EyeTrack>();
+  const Viewer between = watch(server, atlasesBetweenFrames(), kExact);
+  const auto subscriber = std::make_shared<CollectingSubscriber>();
+  const auto subscription =
+      *server.broadcaster.subscribe("scene", trackedEyes(), kExact, subscriber, eyes);
+  const auto offer = [&](uint64_t number, const glm::dvec3& place_m) {
+    auto frame = std::make_shared<Frame>(*truth_.frame());
+    frame->format.number = number;
+    frame->format.capture_time_ns = server.clock.nowNs();
+    frame->format.sources[0].camera.pose.position_m = place_m;
+    frame->times = {server.clock.nowNs(), server.clock.nowNs(), server.clock.nowNs()};
+    server.offer(std::move(frame));
+  };
+  offer(1, -kSpeed_mps);
+  ASSERT_THAT(subscriber->waitForAtlases(1), SizeIs(1));
+  ASSERT_THAT(between.subscriber->waitForAtlases(1), SizeIs(1));
+  // The tick that is due then is taken before the frame comes.
+  const double skipped_count = server.metrics.output_ticks_skipped.value();
+  server.clock.advance(kSecond_ns);
+  while (server.metrics.output_ticks_skipped.value() < skipped_count + double(kAtlases_hz - 1)) {
+    std::this_thread::yield();
+  }
+  offer(2, {});
+  ASSERT_THAT(subscriber->waitForAtlases(2), SizeIs(2));
+
+  for (int64_t step = 1; step <= kSteps_hz; ++step) {
+    SCOPED_TRACE(step);
+    server.clock.advance(sinceStartNs(step) - sinceStartNs(step - 1));
+    if (step % (kSteps_hz / kAtlases_hz) == 0) {
+      const size_t count = 1 + size_t(step / (kSteps_hz / kAtlases_hz));
+      const auto atlases = between.subscriber->waitForAtlases(count);
+      ASSERT_EQ(atlases.size(), count);
+      const EncodedAtlas& atlas = *atlases.back();
+      EXPECT_EQ(atlas.frame_number, 2u);
+      const double since_s = 1e-9 * double(atlas.shown_time_ns - atlas.capture_time_ns);
+      EXPECT_NEAR(since_s, double(step) / kSteps_hz, 1e-8);
+      const Camera seen_from{
+          .pose = {.position_m = since_s * kSpeed_mps},
+          .intrinsics = intrinsicsFromFov(fovOf(kSource_px, kFocal_px), kEye_px)};
+      expectAsTheWorldIs(truth_.seenBy(seen_from, kEye_px).score(atlas, 0));
+    }
+    if (step % (kSteps_hz / kPoses_hz) == 0) {
+      const int64_t tick = step / (kSteps_hz / kPoses_hz);
+      const EyePoses poses = move(server, *eyes, tick);
+      server.broadcaster.announceEyes(subscription->displayId());
+      const auto answers = subscriber->waitForAtlases(2 + size_t(tick));
+      ASSERT_EQ(answers.size(), 2 + size_t(tick));
+      EXPECT_EQ(answers.back()->eye_poses_time_ns, 2 * tick);
+      EXPECT_EQ(answers.back()->frame_number, 2u);
+      for (const EyeScore& score : scoresOf(*answers.back(), poses)) expectAsTheWorldIs(score);
+    }
+  }
+  server.pipeline.drain();
+  EXPECT_EQ(server.broadcaster.atlasCount(subscription->displayId()), uint64_t{kPoses_hz} + 2);
+  EXPECT_EQ(server.broadcaster.atlasCount(between.subscription->displayId()),
+            uint64_t{kAtlases_hz} + 1);
+  EXPECT_EQ(server.metrics.structures_built.value(), 2) << "one a frame";
 }
 
 }  // namespace
