@@ -19,6 +19,7 @@
 #include "bench/cpu/cpu_rivals.h"
 #include "bench/display_bench.h"
 #include "bench/gpu/gpu_rivals.h"
+#include "bench/knob.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
 #include "bench/quality.h"
@@ -159,6 +160,7 @@ int runBench(int argc, char** argv) {
   addDisplaysCommand(app);
   addUplinkCommand(app);
   addStereoCommand(app);
+  addKnobCommand(app);
   addQualityCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;

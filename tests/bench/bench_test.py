@@ -85,6 +85,20 @@ class BenchTest(unittest.TestCase):
             self.assertGreaterEqual(load["answered_ms"]["p50"], load["made_ms"]["p50"])
             self.assertEqual("quilt_px" in load, load["name"].endswith("quilt"))
 
+    def test_what_quality_buys(self):
+        report = run("knob", "--json", "--rounds", "1", "--miniature", "4")
+        points = {}
+        for point in report["points"]:
+            points.setdefault(point["application"], {})[point["quality"]] = point
+        self.assertEqual(list(points), ["views", "stereo", "time", "reflections"])
+        for name, by_quality in points.items():
+            self.assertEqual(list(by_quality), ["draft", "balanced", "best"])
+            worse, better = (by_quality[quality]["psnr_db"] for quality in ("draft", "best"))
+            # Of a room of flat walls a coarse tolerance loses next to nothing.
+            self.assertGreater(better, worse - 0.01, name)
+            self.assertGreater(better, PSNR_MIN_DB, name)
+            self.assertTrue(all(point["trace_ms"] > 0 for point in by_quality.values()))
+
     def test_recorded_sets_that_are_not_there(self):
         report = run("trace", "--json", "--data", "/nowhere", "--only", "antinous")
         self.assertEqual(report["loads"], [])
