@@ -116,25 +116,21 @@ v1::AlphaMode alphaOf(const PlaneImage& image, const std::filesystem::path& path
 
 }  // namespace
 
-absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
-                                           const std::filesystem::path& folder) {
-  const std::filesystem::path path = resolve(file, folder);
-  absl::StatusOr<PlaneImage> image = readColor(file, path);
-  if (!image.ok()) return image.status();
-  const bool linear = image->encoding == v1::PLANE_ENCODING_RGBA16F;
-  if (linear && file.transfer() == v1::COLOR_TRANSFER_SRGB && extensionOf(path) != ".png") {
+absl::StatusOr<LoadedPlane> makeColorPlane(const v1::PlaneFile& file, PlaneImage image) {
+  const bool linear = image.encoding == v1::PLANE_ENCODING_RGBA16F;
+  if (linear && file.transfer() == v1::COLOR_TRANSFER_SRGB && extensionOf(file.file()) != ".png") {
     return invalidField("transfer", absl::StrCat("is SRGB for ", file.file(),
                                                  "; accepted for EXR and PFM is LINEAR"));
   }
   const v1::AlphaMode alpha =
-      file.alpha() == v1::ALPHA_MODE_UNSPECIFIED ? alphaOf(*image, path) : file.alpha();
+      file.alpha() == v1::ALPHA_MODE_UNSPECIFIED ? alphaOf(image, file.file()) : file.alpha();
   v1::ColorPrimaries primaries = file.primaries();
   if (primaries == v1::COLOR_PRIMARIES_UNSPECIFIED) {
-    const absl::StatusOr<v1::ColorPrimaries> settled = settlePrimaries(file.file(), *image);
+    const absl::StatusOr<v1::ColorPrimaries> settled = settlePrimaries(file.file(), image);
     if (!settled.ok()) return settled.status();
     primaries = *settled;
   }
-  LoadedPlane loaded = withBytes(*std::move(image), v1::PLANE_KIND_COLOR);
+  LoadedPlane loaded = withBytes(std::move(image), v1::PLANE_KIND_COLOR);
   loaded.plane.set_transfer(linear ? v1::COLOR_TRANSFER_LINEAR
                             : file.transfer() == v1::COLOR_TRANSFER_UNSPECIFIED
                                 ? v1::COLOR_TRANSFER_SRGB
@@ -144,13 +140,24 @@ absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
   return loaded;
 }
 
+LoadedPlane makeDepthPlane(const v1::PlaneFile& file, PlaneImage image) {
+  LoadedPlane loaded = withBytes(std::move(image), v1::PLANE_KIND_DEPTH);
+  *loaded.plane.mutable_depth() = file.depth();
+  return loaded;
+}
+
+absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
+                                           const std::filesystem::path& folder) {
+  absl::StatusOr<PlaneImage> image = readColor(file, resolve(file, folder));
+  if (!image.ok()) return image.status();
+  return makeColorPlane(file, *std::move(image));
+}
+
 absl::StatusOr<LoadedPlane> loadDepthPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder) {
   absl::StatusOr<PlaneImage> image = readDepth(file, resolve(file, folder));
   if (!image.ok()) return image.status();
-  LoadedPlane loaded = withBytes(*std::move(image), v1::PLANE_KIND_DEPTH);
-  *loaded.plane.mutable_depth() = file.depth();
-  return loaded;
+  return makeDepthPlane(file, *std::move(image));
 }
 
 }  // namespace viewloom::files

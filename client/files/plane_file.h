@@ -6,6 +6,7 @@
 
 #include "base/byte_pool.h"
 #include "base/status.h"
+#include "files/plane_image.h"
 #include "viewloom/v1/manifest.pb.h"
 
 namespace viewloom::files {
@@ -24,5 +25,9 @@ absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
 // 8-bit PNG and JPEG samples count 0..255, or, as WINDOW depth, 0..1.
 absl::StatusOr<LoadedPlane> loadDepthPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder);
+
+// The same planes from what a file gave that is read elsewhere.
+absl::StatusOr<LoadedPlane> makeColorPlane(const v1::PlaneFile& file, PlaneImage image);
+LoadedPlane makeDepthPlane(const v1::PlaneFile& file, PlaneImage image);
 
 }  // namespace viewloom::files
