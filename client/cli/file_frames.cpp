@@ -6,6 +6,7 @@
 
 #include "base/str_cat.h"
 #include "cli/status_line.h"
+#include "photos/photo.h"
 
 namespace viewloom::cli {
 namespace {
@@ -21,11 +22,11 @@ absl::Status validateColors(const FileFeedOptions& options) {
   const InputKind kind = options.loader.input.kind;
   if (kind == InputKind::kRgbd || kind == InputKind::k2dPlusZ) return absl::OkStatus();
   for (const std::string& file : options.colors) {
-    if (options.depths.empty() && !isExr(file)) {
-      return absl::InvalidArgumentError(
-          strCat(file,
-                 ": holds no depth; accepted is an EXR file with Z, --depth FILE beside it, or a "
-                 "picture that is half depth with --input rgbd or 2d+z"));
+    if (options.depths.empty() && !isExr(file) && !photos::isPhoto(file)) {
+      return absl::InvalidArgumentError(strCat(
+          file,
+          ": holds no depth; accepted is an EXR file with Z, a portrait photo (.heic), --depth "
+          "FILE beside it, or a picture that is half depth with --input rgbd or 2d+z"));
     }
   }
   return absl::OkStatus();

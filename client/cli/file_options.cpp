@@ -5,8 +5,10 @@ namespace viewloom::cli {
 
 void addFileOptions(CLI::App& app, FileFeedOptions& options) {
   const char* const group = "What";
-  app.add_option("colour", options.colors,
-                 "Colour files, one a frame: .exr (with depth in Z), .png, .jpg, .pfm, .yuv")
+  app.add_option(
+         "colour", options.colors,
+         "Colour files, one a frame: .exr (with depth in Z), .heic (portrait photos), .png, "
+         ".jpg, .pfm, .yuv")
       ->group(group);
   app.add_option("--depth", options.depths,
                  "Depth files, one a frame: .exr, .png, .jpg, .pfm, .yuv")

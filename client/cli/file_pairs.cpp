@@ -8,13 +8,15 @@
 
 #include "files/exr_description.h"
 #include "files/exr_image.h"
+#include "photos/photo.h"
 
 namespace viewloom::cli {
 namespace {
 
 using inputs::InputKind;
 
-constexpr std::array<const char*, 6> kPictures{".exr", ".png", ".jpg", ".jpeg", ".pfm", ".yuv"};
+constexpr std::array<const char*, 9> kPictures{".exr", ".png",  ".jpg",  ".jpeg", ".pfm",
+                                               ".yuv", ".heic", ".heif", ".hif"};
 constexpr std::array<const char*, 3> kDepthWords{"disparity", "depth", "disp"};
 constexpr std::array<const char*, 5> kColorWords{"colour", "color", "image", "beauty", "rgb"};
 
@@ -53,9 +55,18 @@ PairKey pairKey(const std::string& file_name) {
   return found;
 }
 
+// What a kind of input says of depth files makes photos one half of a pair.
+absl::StatusOr<bool> FilePairs::isWholePhoto(const std::string& file) const {
+  if (settings_.kind != InputKind::kAuto && settings_.kind != InputKind::kIphone) return false;
+  const auto photo = photos::Photo::open(file);
+  if (!photo.ok()) return photo.status();
+  return photo->description().depth.has_value();
+}
+
 // Whether the file has colour and depth.
 absl::StatusOr<bool> FilePairs::isWhole(const std::string& file) const {
   if (settings_.kind == InputKind::kRgbd || settings_.kind == InputKind::k2dPlusZ) return true;
+  if (photos::isPhoto(file)) return isWholePhoto(file);
   if (!isExr(file)) return false;
   const auto how = inputs::interpret(settings_, {.color = file, .view = view_});
   if (!how.ok()) return how.status();

@@ -41,6 +41,7 @@ class FilePairs {
 
  private:
   absl::StatusOr<bool> isWhole(const std::string& file) const;
+  absl::StatusOr<bool> isWholePhoto(const std::string& file) const;
   std::optional<FrameFiles> pairUp(const std::string& file_name);
 
   const std::filesystem::path folder_;

@@ -11,6 +11,7 @@
 #include "cli/file_frames.h"
 #include "cli/status_line.h"
 #include "files/exr_description.h"
+#include "photos/photo.h"
 
 namespace viewloom::cli {
 namespace {
@@ -188,9 +189,23 @@ std::string kindOf(const InspectedFile& inspected) {
   return inspected.loaded.frame.deep.empty() ? "manifest" : "deep";
 }
 
+absl::StatusOr<std::string> describePhoto(const std::string& file) {
+  const absl::StatusOr<photos::Photo> photo = photos::Photo::open(file);
+  if (!photo.ok()) return photo.status();
+  const photos::PhotoDescription& its = photo->description();
+  std::string text = strCat("HEIC, ", its.width_px, "x", its.height_px, " px");
+  if (its.depth) {
+    text = strCat(text, "; depth ", its.depth->width_px, "x", its.depth->height_px,
+                  " px: ", its.depth->type);
+  }
+  for (const std::string& type : its.other_types) text = strCat(text, "; ", type);
+  return text;
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> describeFormat(const std::string& file) {
+  if (photos::isPhoto(file)) return describePhoto(file);
   const std::string extension = std::filesystem::path(file).extension().string();
   if (!isExr(file)) {
     return extension == ".json" ? "FrameManifest" : extension.empty() ? "" : extension.substr(1);

@@ -50,7 +50,7 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
   const char* const group = "Input";
   addWord(app, "--input", settings.kind, inputKinds(),
           "What wrote the files; every option below overrides what it brings [auto: EXR by its "
-          "header, else plain]\n"
+          "header, .heic as iphone, else plain]\n"
           "blender   multilayer EXR: Combined and Depth\n"
           "unreal    Movie Render Queue EXR: FinalImage and WorldDepth in cm, with its camera\n"
           "rgbd      one picture, half colour, half depth; --depth-near and --depth-far\n"
@@ -58,7 +58,7 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
           "sensor    --depth in whole millimetres, 0 = nothing measured\n"
           "openxr    --depth between --depth-near and --depth-far\n"
           "tmiv      --depth of normalised disparity (.png, .yuv), --camera JSON\n"
-          "iphone    --depth of disparity in 1/m (.exr, .pfm), or codes as relative\n"
+          "iphone    portrait photo (.heic); or --depth in 1/m (.exr, .pfm), or codes as relative\n"
           "relative  --depth of an estimating network; --depth-near and --depth-far")
       ->group(group);
   addWord(app, "--depth-side", settings.depth_side, kSides,
@@ -147,7 +147,7 @@ void addPlaneOptions(CLI::App& app, InputSettings& settings) {
           "How colour is stored: srgb or linear [by the file]")
       ->group("Colour");
   addWord(app, "--primaries", settings.primaries, kPrimaries,
-          "What its primaries are: bt709, p3 or bt2020 [by an EXR's chromaticities, else bt709]")
+          "What its primaries are: bt709, p3 or bt2020 [by an EXR or a photo, else bt709]")
       ->group("Colour");
   addWord(app, "--alpha", settings.alpha, kAlphas,
           "What alpha says: opaque, premultiplied or straight [by the file]")

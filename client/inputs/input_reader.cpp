@@ -12,6 +12,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
+#include "inputs/photo_frame.h"
+#include "photos/photo.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -43,7 +45,9 @@ SampleRange rangeOfFloats(const v1::Plane& plane, const std::vector<uint8_t>& by
 }  // namespace
 
 absl::Status InputReader::settleDepth(const Interpretation& how, files::LoadedFrame& frame) {
-  if (how.range == DepthRange::kStated) return absl::OkStatus();
+  if (how.range == DepthRange::kStated || how.range == DepthRange::kBetween) {
+    return absl::OkStatus();
+  }
   v1::Plane& plane = *frame.wire.header.mutable_sources(0)->mutable_layers(0)->mutable_planes(1);
   SampleRange range{.black = 0, .white = double(frame.code_max.front())};
   if (frame.code_max.front() == 0) {
@@ -75,7 +79,8 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   if (!how.ok()) return how.status();
   v1::FrameManifest manifest;
   *manifest.add_sources() = how->source;
-  absl::StatusOr<files::LoadedFrame> frame = files::loadFrame(manifest, "");
+  absl::StatusOr<files::LoadedFrame> frame =
+      photos::isPhoto(files.color) ? loadPhotoFrame(how->source) : files::loadFrame(manifest, "");
   if (!frame.ok()) return frame.status();
   VIEWLOOM_RETURN_IF_ERROR(settleDepth(*how, *frame));
   v1::Source& source = *frame->wire.header.mutable_sources(0);

@@ -9,7 +9,9 @@
 #include "files/yuv_image.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpret_exr.h"
+#include "inputs/interpret_photo.h"
 #include "inputs/tmiv_camera.h"
+#include "photos/photo.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -138,7 +140,8 @@ absl::Status refuseUnused(const InputSettings& settings, const Interpretation& r
   const bool has_window = settings.min_depth || settings.max_depth;
   const v1::DepthMeaning meaning = result.source.layers(0).depth().depth().meaning();
   const bool is_window = result.range == DepthRange::kStated && meaning == v1::DEPTH_MEANING_WINDOW;
-  const bool takes_planes = is_window || result.range == DepthRange::kNormalised;
+  const bool takes_planes =
+      is_window || result.range == DepthRange::kNormalised || result.range == DepthRange::kBetween;
   if ((has_planes && !takes_planes) || (has_window && !is_window)) {
     return absl::InvalidArgumentError(absl::StrCat(
         has_planes && !takes_planes ? "--depth-near and --depth-far"
@@ -156,6 +159,10 @@ bool isExr(const std::string& file) {
 
 absl::Status readByKind(const InputSettings& settings, const InputFiles& files,
                         Interpretation& result) {
+  if (photos::isPhoto(files.color)) {
+    VIEWLOOM_RETURN_IF_ERROR(interpretPhoto(settings, files, result));
+    if (files.depth.empty()) return absl::OkStatus();
+  }
   switch (result.kind) {
     case InputKind::kRgbd:
     case InputKind::k2dPlusZ:

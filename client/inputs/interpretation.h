@@ -14,6 +14,7 @@ namespace viewloom::inputs {
 // What is left to settle once the depth is there.
 enum class DepthRange {
   kStated,      // nothing: the format is complete
+  kBetween,     // nothing: it is complete by the near and far of the settings
   kNormalised,  // the format follows from the range of the samples (normalisedFormat)
   k2dPlusZ,     // ... by twoDPlusZFormat
 };

@@ -15,6 +15,7 @@
 #include "support/deep_exr_writer.h"
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
+#include "unit/photos/written_photo.h"
 
 namespace viewloom::test {
 namespace {
@@ -167,6 +168,29 @@ TEST_F(InspectCommand, takesEveryKindOfInputByName) {
   EXPECT_EQ(range(pair + " --depth-meaning disparity --depth-scale 1e-5"), "1526..7630");
   EXPECT_EQ(inspect(pair + " --input tmiv").exit_code, 2) << "without a camera";
   EXPECT_EQ(inspect(pair + " --input sonar").exit_code, 2);
+}
+
+TEST_F(InspectCommand, knowsPortraitPhotos) {
+  WrittenPhoto photo = portrait();
+  writePhoto(file("IMG_1.HEIC"), photo);
+  const Finished run = inspect(file("IMG_1.HEIC"));
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(run.output,
+              HasSubstr("HEIC, 192x144 px; depth 96x72 px: urn:mpeg:hevc:2015:auxid:2"));
+  EXPECT_THAT(run.output, HasSubstr("read as   iphone"));
+  EXPECT_THAT(run.output, HasSubstr("0.25 .. 1.525 1/m by its XMP"));
+  EXPECT_THAT(run.output, HasSubstr("focal length 26 mm of Exif"));
+  // Twice atan(18 / 26); codes up to 255 of 0.005 each.
+  EXPECT_THAT(run.output, HasSubstr("69.4 x 54.9 degrees"));
+  EXPECT_THAT(run.output, HasSubstr("rgb8, srgb, display_p3, alpha opaque"));
+  EXPECT_THAT(run.output, HasSubstr("1/Z in 1/m = sample x 0.005 + 0.25"));
+  EXPECT_THAT(run.output, testing::Not(HasSubstr("assumed")));
+  photo.has_second = false;
+  writePhoto(file("IMG_2.HEIC"), photo);
+  const Finished refused = inspect(file("IMG_2.HEIC"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("IMG_2.HEIC: has no depth"));
+  EXPECT_THAT(refused.errors, HasSubstr("take it in portrait mode, or give --depth FILE"));
 }
 
 TEST_F(InspectCommand, drawsColourBesideDepth) {

@@ -6,6 +6,7 @@
 
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
+#include "unit/photos/written_photo.h"
 
 namespace viewloom::cli {
 namespace {
@@ -87,6 +88,21 @@ TEST_F(FilePairsTest, takeFilesWithColourAndDepthAlone) {
   EXPECT_EQ(add(exr, "Depth1.exr"), "Image1.exr + Depth1.exr");
   FilePairs rgbd = pairs({.kind = inputs::InputKind::kRgbd});
   EXPECT_EQ(add(rgbd, "a.png"), "a.png + ");
+}
+
+TEST_F(FilePairsTest, leavePhotosWithDepthAlone) {
+  test::WrittenPhoto photo = test::portrait();
+  test::writePhoto(file("IMG_1.HEIC"), photo);
+  photo.has_second = false;
+  test::writePhoto(file("IMG_2.HEIC"), photo);
+  FilePairs photos = pairs();
+  EXPECT_EQ(add(photos, "IMG_1.HEIC"), "IMG_1.HEIC + ");
+  EXPECT_EQ(add(photos, "IMG_2.HEIC"), "-");
+  EXPECT_EQ(add(photos, "IMG_2_depth.png"), "IMG_2.HEIC + IMG_2_depth.png");
+  FilePairs sensor = pairs({.kind = inputs::InputKind::kSensor});
+  EXPECT_EQ(add(sensor, "IMG_1.HEIC"), "-") << "its depth comes from elsewhere";
+  folder_.write("cut.heic", "ftyp");
+  EXPECT_THAT(add(photos, "cut.heic"), HasSubstr("cut.heic: is no HEIC that can be read"));
 }
 
 TEST_F(FilePairsTest, sayWhichFileIsBroken) {
