@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/str_cat.h"
+#include "decode/keep_motion.h"
 #include "decode/pack_surface.h"
 
 namespace viewloom {
@@ -18,6 +19,10 @@ absl::StatusOr<LayerPlanes> joinLayer(const LayerFormat& layer, const glm::dquat
   for (size_t p = 0; p < 2 + layer.others.size(); ++p) {
     absl::StatusOr<SharedBytes>& plane = *next++;
     if (!plane.ok()) return withFieldPrefix(plane.status(), strCat("planes[", p, "]"));
+    if (p >= 2 && layer.others[p - 2].kind == PlaneKind::kMotion) {
+      keepMotion(*std::move(plane), pool, joined);
+      continue;
+    }
     if (p >= 2) {
       surface.of(layer.others[p - 2].kind) = *std::move(plane);
       continue;

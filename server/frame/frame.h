@@ -15,7 +15,7 @@
 
 namespace viewloom {
 
-enum class PlaneKind : uint8_t { kColor, kDepth, kNormal, kRoughness, kSpecular };
+enum class PlaneKind : uint8_t { kColor, kDepth, kMotion, kNormal, kRoughness, kSpecular };
 enum class PlaneEncoding : uint8_t {
   kRgba8,
   kRgb8,
@@ -116,6 +116,10 @@ struct LayerPlanes {
   SharedBytes depth;
   SharedBytes surface = nullptr;
   uint64_t bad_normals_count = 0;  // without a length: there the surface's own slope counts
+  // How it moves by itself, m/s along the world's axes, binary16[h][w][3], finite; null where
+  // nothing does.
+  SharedBytes motion = nullptr;
+  uint64_t bad_motions_count = 0;  // that were not finite: there it stands
 };
 
 // When what happened to a frame, on the server's monotonic clock.

@@ -119,6 +119,29 @@ std::string planePath(size_t layer, const LayerFormat& format, PlaneKind kind) {
   return strCat("layers[", layer, "].planes[", second ? 1 : 0, "]");
 }
 
+// What things that move by themselves need to be drawn anew elsewhere.
+absl::Status validateMotion(const SourceFormat& source, size_t layer) {
+  const LayerFormat& format = source.layers[layer];
+  const PlaneFormat& first = source.layers.front().color;
+  const auto is_like_first = [&](const LayerFormat& other) {
+    return other.color.size_px == other.depth.size_px && other.color.transfer == first.transfer &&
+           other.color.primaries == first.primaries && other.color.alpha == first.alpha;
+  };
+  const auto motion =
+      std::find_if(format.others.begin(), format.others.end(),
+                   [](const PlaneFormat& plane) { return plane.kind == PlaneKind::kMotion; });
+  if (motion == format.others.end()) return absl::OkStatus();
+  const bool is_served =
+      !source.is_cube_map && std::all_of(source.layers.begin(), source.layers.end(), is_like_first);
+  if (is_served) return absl::OkStatus();
+  return fieldError(
+      absl::StatusCode::kUnimplemented,
+      strCat("layers[", layer, "].planes[", 2 + (motion - format.others.begin()), "].kind"),
+      source.is_cube_map ? "is MOTION, which is not served yet for cube maps"
+                         : "is MOTION, which is not served yet for colour of another size than "
+                           "depth, or of several transfers, primaries or alphas in one source");
+}
+
 // Beside colour and depth; they lie on the facets, too.
 absl::Status validateOthers(const LayerFormat& layer, bool is_cube_map, const FrameLimits& limits) {
   for (size_t i = 0; i < layer.others.size(); ++i) {
@@ -177,6 +200,7 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
     VIEWLOOM_RETURN_IF_ERROR(validateAgreement(source, layer));
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateOthers(format, source.is_cube_map, limits),
                                              strCat("layers[", layer, "]")));
+    VIEWLOOM_RETURN_IF_ERROR(validateMotion(source, layer));
   }
   const double tolerance = source.connection_tolerance;
   if (!(tolerance >= 0 && tolerance <= double{kInvZMax})) {

@@ -16,6 +16,7 @@ bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding) {
     case PlaneEncoding::kDepthU16:
       return kind == PlaneKind::kDepth;
     case PlaneEncoding::kXyz16f:
+      return kind == PlaneKind::kNormal || kind == PlaneKind::kMotion;
     case PlaneEncoding::kXyz8:
     case PlaneEncoding::kOct16:
       return kind == PlaneKind::kNormal;
@@ -31,6 +32,8 @@ const char* encodingsOf(PlaneKind kind) {
       return "RGBA8, RGB8, RGBA16F, JPEG";
     case PlaneKind::kDepth:
       return "DEPTH_F32, DEPTH_F16, DEPTH_U16";
+    case PlaneKind::kMotion:
+      return "XYZ16F";
     case PlaneKind::kNormal:
       return "OCT16, XYZ16F, XYZ8";
     case PlaneKind::kRoughness:

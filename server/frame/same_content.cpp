@@ -31,7 +31,7 @@ auto contentOf(const PlaneFormat& format) {
 
 bool haveSameContent(const LayerFormat& one, const LayerFormat& other) {
   const auto& [color, depth, depth_first, others, color_has_reflections] = one;
-  // What others hold is in LayerPlanes::surface.
+  // What others hold is in LayerPlanes::surface and motion.
   return contentOf(color) == contentOf(other.color) && contentOf(depth) == contentOf(other.depth) &&
          one.mirrors() == other.mirrors();
 }
@@ -55,10 +55,13 @@ bool haveSameContent(const FrameFormat& one, const FrameFormat& other) {
 }
 
 bool haveSameContent(const LayerPlanes& one, const LayerPlanes& other) {
-  const auto& [color, color_encoding, depth, surface, bad_normals_count] = one;
+  const auto& [color, color_encoding, depth, surface, bad_normals_count, motion,
+               bad_motions_count] = one;
   const bool same_surface = surface == nullptr || *surface == *other.surface;
+  const bool both_move = motion != nullptr && other.motion != nullptr;
+  const bool same_motion = both_move ? *motion == *other.motion : motion == other.motion;
   return color_encoding == other.color_encoding && *depth == *other.depth &&
-         *color == *other.color && same_surface;
+         *color == *other.color && same_surface && same_motion;
 }
 
 }  // namespace

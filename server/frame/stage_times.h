@@ -66,6 +66,7 @@ struct SourceStats {
   uint64_t bad_samples_count = 0;
   uint64_t unsorted_columns_count = 0;
   uint64_t bad_normals_count = 0;
+  uint64_t bad_motions_count = 0;
   double inv_z_min = 0;
   double inv_z_max = 0;
   double inv_z_near = 0;       // 98th percentile of 1/Z

@@ -16,6 +16,7 @@ namespace {
 constexpr EnumRow<v1::PlaneKind, PlaneKind> kKinds[] = {
     {v1::PLANE_KIND_COLOR, PlaneKind::kColor},
     {v1::PLANE_KIND_DEPTH, PlaneKind::kDepth},
+    {v1::PLANE_KIND_MOTION, PlaneKind::kMotion},
     {v1::PLANE_KIND_NORMAL, PlaneKind::kNormal},
     {v1::PLANE_KIND_ROUGHNESS, PlaneKind::kRoughness},
     {v1::PLANE_KIND_SPECULAR, PlaneKind::kSpecular}};

@@ -89,6 +89,7 @@ v1::SourceStats statsToProto(const SourceStats& stats) {
   proto.set_bad_samples_count(stats.bad_samples_count);
   proto.set_unsorted_columns_count(stats.unsorted_columns_count);
   proto.set_bad_normals_count(stats.bad_normals_count);
+  proto.set_bad_motions_count(stats.bad_motions_count);
   proto.set_inv_z_min(stats.inv_z_min);
   proto.set_inv_z_max(stats.inv_z_max);
   return proto;

@@ -115,8 +115,6 @@ const std::vector<BadHeader> kCounts = {
 };
 
 const std::vector<BadHeader> kEnums = {
-    {"motion", [](auto& h) { addPlane(h, v1::PLANE_KIND_MOTION); }, kLater,
-     kSourcePath + "layers[0].planes[2].kind"},
     {"no kind", [](auto& h) { addPlane(h, 0); }, kInvalid,
      kSourcePath + "layers[0].planes[2].kind"},
     {"kind 99", [](auto& h) { addPlane(h, 99); }, kInvalid,

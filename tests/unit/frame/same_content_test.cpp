@@ -37,6 +37,7 @@ Frame frame() {
     }
     source.layers.back().others = {{.kind = PlaneKind::kSpecular, .size_px = kSizePx, .depth = {}}};
     planes.back().surface = bytes(static_cast<uint8_t>(200 + s));
+    planes.back().motion = bytes(static_cast<uint8_t>(50 + s));
   }
   return made;
 }
@@ -114,6 +115,9 @@ TEST(SameContent, endsWithAnyDifference) {
        [](Frame& f) { f.sources[1][1].depth = withLastByteChanged(f.sources[1][1].depth); }},
       {"how it mirrors",
        [](Frame& f) { f.sources[1][1].surface = withLastByteChanged(f.sources[1][1].surface); }},
+      {"how it moves",
+       [](Frame& f) { f.sources[1][1].motion = withLastByteChanged(f.sources[1][1].motion); }},
+      {"a motion less", [](Frame& f) { f.sources[0][1].motion = nullptr; }},
       {"a mirror less",
        [](Frame& f) {
          f.format.sources[1].layers[1].color_has_reflections = true;
