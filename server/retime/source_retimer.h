@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One source of a frame as it looks some time later.
+#pragma once
+
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "base/worker_pool.h"
+#include "frame/frame.h"
+#include "retime/fresh_grid.h"
+#include "retime/moved_surfaces.h"
+
+namespace viewloom {
+
+// Keeps its memory from frame to frame. Thread-safety: none; it shares its work among threads.
+class SourceRetimer {
+ public:
+  // Of the first source of the frame, in which something moves.
+  void prepare(FramePtr frame, WorkerPool& workers) {
+    surfaces_.prepare(std::move(frame), workers);
+  }
+
+  // Its layers so many seconds later (earlier, if negative): depth is DISPARITY in binary32, and
+  // where there is no surface abi::kNoSurface; colour as it was encoded. Every column is sorted.
+  // What comes into view that no layer holds takes the farther side of its row.
+  std::vector<LayerPlanes> retime(double seconds, BytePool& pool, WorkerPool& workers);
+
+ private:
+  // What is written of a layer.
+  struct Written {
+    float* inv_z = nullptr;
+    uint8_t* color = nullptr;
+    uint8_t* surface = nullptr;  // nullptr: nothing mirrors
+  };
+
+  LayerPlanes takeLayer(BytePool& pool, Written& to) const;
+  void writePx(uint32_t px, const Written& to) const;
+  void fillRow(uint32_t y, const Written& to) const;
+
+  MovedSurfaces surfaces_;
+  FreshGrid grid_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "retime/frame_retimer.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+
+#include "unit/retime/moved_frames.h"
+
+namespace viewloom::test {
+namespace {
+
+// Whatever is further apart than that is two things.
+constexpr double kTolerance = 0.05;
+constexpr float kNear = 0.5F;  // 1/m: what moves
+constexpr float kFar = 0.25F;  // 1/m: what stands behind it
+// At 1 m/s what is 2 m away goes a px in so many seconds.
+constexpr double kPxTime_s = 1 / (kMovedFocal_px * kNear);
+// 1/m: shares of samples that lie on px are off by roundings of 1e-7.
+constexpr float kInvZError = 1e-6F;
+
+MovingPx wallAt(uint32_t x, uint32_t y, const glm::vec3& motion_mps = {}) {
+  return {.inv_z = kFar, .color = colorOfPx(x, y, 10), .motion_mps = motion_mps};
+}
+
+bool isPlate(uint32_t x, uint32_t y) {
+  return x >= 10 && x < 18 && y >= 8 && y < 16;
+}
+
+// A plate that goes to the right, before a wall that stands.
+MovingPx plateAt(uint32_t x, uint32_t y) {
+  if (!isPlate(x, y)) return wallAt(x, y);
+  return {.inv_z = kNear, .color = colorOfPx(x, y, 200), .motion_mps = {1, 0, 0}};
+}
+MovingPx behindPlateAt(uint32_t x, uint32_t y) {
+  return isPlate(x, y) ? wallAt(x, y) : MovingPx{};
+}
+
+class FrameRetimerTest : public testing::Test {
+ protected:
+  FramePtr retimed(const FramePtr& frame, double seconds) {
+    return FrameRetimer(workers_).retime(frame, seconds);
+  }
+
+  WorkerPool workers_{3};
+};
+
+TEST_F(FrameRetimerTest, movesWhatMovesByWholePxAndKeepsTheRestToTheByte) {
+  constexpr uint32_t kGone_px = 4;
+  const FramePtr frame = movingFrame({plateAt, behindPlateAt}, kTolerance);
+  const FramePtr later = retimed(frame, kGone_px * kPxTime_s);
+  for (uint32_t y = 0; y < kMovedPx.height; ++y) {
+    for (uint32_t x = 0; x < kMovedPx.width; ++x) {
+      SCOPED_TRACE(testing::Message() << x << ", " << y);
+      const bool is_plate = x >= kGone_px && isPlate(x - kGone_px, y);
+      const MovingPx front = is_plate ? plateAt(x - kGone_px, y) : wallAt(x, y);
+      EXPECT_NEAR(invZAt(*later, 0, x, y), front.inv_z, kInvZError);
+      EXPECT_EQ(colorAt(*later, 0, x, y), front.color);
+      // The wall that it hides now was seen before, and stays known.
+      EXPECT_EQ(invZAt(*later, 1, x, y), is_plate ? kFar : -1);
+      if (!is_plate) continue;
+      EXPECT_EQ(colorAt(*later, 1, x, y), wallAt(x, y).color);
+    }
+  }
+}
+
+TEST_F(FrameRetimerTest, goesBackInTimeAsWell) {
+  const FramePtr earlier =
+      retimed(movingFrame({plateAt, behindPlateAt}, kTolerance), -3 * kPxTime_s);
+  EXPECT_NEAR(invZAt(*earlier, 0, 7, 12), kNear, kInvZError);
+  EXPECT_EQ(colorAt(*earlier, 0, 7, 12), plateAt(10, 12).color);
+  EXPECT_EQ(colorAt(*earlier, 0, 15, 12), wallAt(15, 12).color);
+}
+
+TEST_F(FrameRetimerTest, fillsWhatNoLayerHoldsFromTheFartherSideOfTheRow) {
+  const FramePtr later = retimed(movingFrame({plateAt}, kTolerance), 4 * kPxTime_s);
+  for (uint32_t x = 10; x < 14; ++x) {
+    EXPECT_EQ(invZAt(*later, 0, x, 12), kFar);
+    EXPECT_EQ(colorAt(*later, 0, x, 12), wallAt(9, 12).color) << "of the wall, not of the plate";
+  }
+}
+
+TEST_F(FrameRetimerTest, leavesHolesThatTheFrameHas) {
+  const auto layer = [](uint32_t x, uint32_t y) { return x < 5 ? MovingPx{} : plateAt(x, y); };
+  const FramePtr later = retimed(movingFrame({layer}, kTolerance), 2 * kPxTime_s);
+  EXPECT_LT(invZAt(*later, 0, 3, 12), 0);
+  EXPECT_EQ(invZAt(*later, 0, 5, 12), kFar);
+}
+
+TEST_F(FrameRetimerTest, blendsColoursOfConnectedSamplesBetweenPx) {
+  const FramePtr later =
+      retimed(movingFrame({plateAt, behindPlateAt}, kTolerance), 0.5 * kPxTime_s);
+  const glm::u8vec3 left = plateAt(12, 12).color, right = plateAt(13, 12).color;
+  const glm::u8vec3 between = colorAt(*later, 0, 13, 12);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(between[i], 0.5 * (left[i] + right[i]), 1) << i;
+  // Its edges are not mixed with the wall: of two px that are half covered, one has the plate.
+  EXPECT_EQ(colorAt(*later, 0, 10, 12), plateAt(10, 12).color);
+  EXPECT_EQ(colorAt(*later, 0, 18, 12), wallAt(18, 12).color);
+}
+
+TEST_F(FrameRetimerTest, tearsWhatOnlyTouched) {
+  // Of one depth, side by side; one half leaves upwards, 6 px.
+  const auto layer = [](uint32_t x, uint32_t y) {
+    MovingPx px = wallAt(x, y);
+    px.inv_z = kNear;
+    if (x >= 16) px.motion_mps = {0, 1, 0};
+    return px;
+  };
+  const FramePtr later = retimed(movingFrame({layer}, kTolerance), 6 * kPxTime_s);
+  EXPECT_EQ(colorAt(*later, 0, 15, 10), wallAt(15, 10).color);
+  EXPECT_EQ(colorAt(*later, 0, 16, 10), wallAt(16, 16).color);
+}
+
+TEST_F(FrameRetimerTest, readsMotionAlongTheAxesOfTheWorld) {
+  const Pose pose{.position_m = {5, -1, 2},
+                  .orientation = glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3)))};
+  const glm::vec3 in_camera_mps(0.5F, -0.25F, 0.75F);
+  const auto moving = [](const glm::vec3& motion_mps) {
+    return [motion_mps](uint32_t x, uint32_t y) { return wallAt(x, y, motion_mps); };
+  };
+  const auto in_world_mps = glm::vec3(pose.orientation * glm::dvec3(in_camera_mps));
+  const FramePtr straight = retimed(movingFrame({moving(in_camera_mps)}, kTolerance), 0.5);
+  const FramePtr turned = retimed(movingFrame({moving(in_world_mps)}, kTolerance, pose), 0.5);
+  // Speeds are binary16, to within 2^-11: over half a second 0.2 mm of 4 m.
+  for (uint32_t y = 2; y < kMovedPx.height - 2; ++y) {
+    for (uint32_t x = 2; x < kMovedPx.width - 2; ++x) {
+      EXPECT_NEAR(invZAt(*turned, 0, x, y), invZAt(*straight, 0, x, y), 2e-5);
+    }
+  }
+}
+
+TEST_F(FrameRetimerTest, forgetsWhatHasPassedTheCamera) {
+  const FramePtr later = retimed(movingFrame({[](uint32_t x, uint32_t y) {
+                                               return wallAt(x, y, {0, 0, 5});
+                                             }},
+                                             kTolerance),
+                                 1);
+  for (uint32_t x = 0; x < kMovedPx.width; ++x) EXPECT_LT(invZAt(*later, 0, x, 12), 0);
+}
+
+TEST_F(FrameRetimerTest, sharesThePlanesOfSourcesThatStand) {
+  auto frame = std::make_shared<Frame>(*movingFrame({plateAt}, kTolerance));
+  const FramePtr still =
+      movingFrame({[](uint32_t x, uint32_t y) { return wallAt(x, y); }}, kTolerance);
+  EXPECT_TRUE(movesByItself(*frame));
+  EXPECT_FALSE(movesByItself(*still));
+  frame->format.sources.insert(frame->format.sources.begin(), still->format.sources[0]);
+  frame->sources.insert(frame->sources.begin(), still->sources[0]);
+  const FramePtr later = retimed(frame, kPxTime_s);
+  EXPECT_EQ(later->sources[0][0].depth, still->sources[0][0].depth);
+  EXPECT_NE(*later->sources[1][0].color, *frame->sources[1][0].color);
+}
+
+}  // namespace
+}  // namespace viewloom::test

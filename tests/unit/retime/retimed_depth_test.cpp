@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth of surfaces that move in every direction, beside rays through the triangles between their
+// samples in space; and whether threads change anything.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include <glm/geometric.hpp>
+
+#include "retime/frame_retimer.h"
+#include "unit/retime/moved_frames.h"
+
+namespace viewloom::test {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kTime_s = 0.1;
+// A place may be off by a few ulps of binary32 of 32 px, which moves the steepest surface here, of
+// 0.05 1/m a px, by as many times that.
+constexpr double kInvZError = 1e-5;
+// Of a px beside a triangle: rounding may put it on either side.
+constexpr double kEdge = 1e-4;
+
+dvec3 rayThrough(double x_px, double y_px) {
+  return {(x_px - 0.5 * kMovedPx.width) / kMovedFocal_px,
+          (0.5 * kMovedPx.height - y_px) / kMovedFocal_px, -1};
+}
+
+// Waves that turn, grow and sway; no two samples move alike.
+MovingPx waveAt(uint32_t x, uint32_t y) {
+  MovingPx px;
+  px.inv_z = float(0.5 + 0.03 * std::sin(0.5 * x) + 0.04 * std::cos(0.4 * y + 0.2 * x));
+  px.color = colorOfPx(x, y, 77);
+  const dvec3 point = rayThrough(x + 0.5, y + 0.5) / double{px.inv_z};
+  px.motion_mps =
+      glm::vec3(dvec3(0.8, -0.5, 1.5) + glm::cross(dvec3(0.4, 0.8, -1.5), point - dvec3(0, 0, -2)));
+  // As it travels.
+  for (int i = 0; i < 3; ++i) px.motion_mps[i] = std::round(px.motion_mps[i] * 64) / 64;
+  return px;
+}
+
+dvec3 movedPoint(uint32_t x, uint32_t y) {
+  const MovingPx px = waveAt(x, y);
+  return rayThrough(x + 0.5, y + 0.5) / double{px.inv_z} + kTime_s * dvec3(px.motion_mps);
+}
+
+struct Met {
+  double inv_z = 0;
+  double least_share = 0;  // how far inside
+};
+
+// After Moeller and Trumbore: where the ray from the origin meets the triangle's plane, and whether
+// that is inside, or all but inside.
+std::optional<Met> meet(const dvec3& ray, const dvec3& a, const dvec3& b, const dvec3& c) {
+  const dvec3 along_b = b - a, along_c = c - a;
+  const dvec3 p = glm::cross(ray, along_c);
+  const double determinant = glm::dot(along_b, p);
+  if (std::abs(determinant) < 1e-14) return std::nullopt;
+  const double u = glm::dot(-a, p) / determinant;
+  const dvec3 q = glm::cross(-a, along_b);
+  const double v = glm::dot(ray, q) / determinant;
+  const double depth = glm::dot(along_c, q) / determinant;
+  const double least = std::min({u, v, 1 - u - v});
+  if (depth <= 0 || least < -kEdge) return std::nullopt;
+  return Met{1 / depth, least};
+}
+
+TEST(RetimedDepth, isThatOfTheTrianglesBetweenMovedSamples) {
+  WorkerPool workers(3);
+  const FramePtr later = FrameRetimer(workers).retime(movingFrame({waveAt}, 10), kTime_s);
+  int compared = 0;
+  // At the border quarters of footprints, which are flat, may turn before the triangles.
+  for (uint32_t y = 2; y < kMovedPx.height - 2; ++y) {
+    for (uint32_t x = 2; x < kMovedPx.width - 2; ++x) {
+      const dvec3 ray = rayThrough(x + 0.5, y + 0.5);
+      Met nearest;
+      for (uint32_t j = 0; j + 1 < kMovedPx.height; ++j) {
+        for (uint32_t i = 0; i + 1 < kMovedPx.width; ++i) {
+          const dvec3 right = movedPoint(i + 1, j), below = movedPoint(i, j + 1);
+          for (const auto& met : {meet(ray, movedPoint(i, j), right, below),
+                                  meet(ray, right, movedPoint(i + 1, j + 1), below)}) {
+            if (met && met->inv_z > nearest.inv_z) nearest = *met;
+          }
+        }
+      }
+      if (nearest.inv_z == 0) continue;  // beyond its edge
+      ++compared;
+      EXPECT_NEAR(invZAt(*later, 0, x, y), nearest.inv_z, kInvZError) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(compared, int(kMovedPx.area()) / 2);
+}
+
+TEST(RetimedDepth, isTheSameHoweverManyThreadsDrawIt) {
+  std::mt19937 random(5);
+  const auto uniform = [&] { return float(random() >> 8) / float(1 << 24); };
+  const auto noise = [&](uint32_t x, uint32_t y) {
+    return MovingPx{.inv_z = uniform() < 0.1F ? -1 : 0.2F + 0.3F * uniform(),
+                    .color = colorOfPx(x, y, 1),
+                    .motion_mps = 20.0F * glm::vec3(uniform(), uniform(), uniform()) - 10.0F};
+  };
+  const FramePtr frame = movingFrame({noise, noise, noise}, 0.02);
+  WorkerPool alone(1), several(5);
+  FrameRetimer one(alone), other(several);
+  for (const double seconds : {0.02, -0.1, 0.05}) {
+    const FramePtr first = one.retime(frame, seconds);
+    for (int again = 0; again < 3; ++again) {
+      const FramePtr second = other.retime(frame, seconds);
+      for (size_t layer = 0; layer < 3; ++layer) {
+        EXPECT_EQ(*first->sources[0][layer].depth, *second->sources[0][layer].depth);
+        EXPECT_EQ(*first->sources[0][layer].color, *second->sources[0][layer].color);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viewloom::test
