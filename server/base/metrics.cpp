@@ -122,6 +122,9 @@ Metrics::Metrics()
                              "Bytes of planes, as they came on the wire.")),
       structures_built(counter(store_->registry, "viewloom_structures_built_total",
                                "Acceleration structures built.")),
+      structures_retimed(counter(store_->registry, "viewloom_structures_retimed_total",
+                                 "Of those, structures of things that move by themselves, built "
+                                 "for times between frames.")),
       atlases_traced(counters<TraceMethod>(store_->registry, "viewloom_atlases_traced_total",
                                            "Atlases traced, one per distinct picture, by how.",
                                            "method", kTraceMethods)),

@@ -102,6 +102,7 @@ class Metrics {
   Counter frames_unchanged;  // the same as the resident one
   Counter received_bytes;    // of planes, as they came on the wire
   Counter structures_built;
+  Counter structures_retimed;  // of those, for times between frames: things move by themselves
   Labelled<TraceMethod, Counter> atlases_traced;  // {method}
   Counter atlases_encoded;
   Counter bands_encoded;

@@ -19,6 +19,7 @@ namespace viewloom {
 struct OutputTick {
   int64_t due_ns = 0;  // server's monotonic clock
   ShownInstant shown;
+  int64_t frames_apart_ns = 0;  // the newest and the one before, by the publisher's clock
 };
 
 // An atlas to be made: one picture, from one structure. Displays with equal picture_key share it.

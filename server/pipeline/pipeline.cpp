@@ -8,7 +8,9 @@
 
 #include "display/rgbd.h"
 #include "pipeline/encode_pool.h"
+#include "pipeline/frame_builder.h"
 #include "pipeline/gpu_loop.h"
+#include "pipeline/stream_retimer.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/tick_loop.h"
@@ -77,14 +79,10 @@ struct Pipeline::Loops {
                [this] { gpu_wake_up.ring(); }),
         streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
         gpu(links, timeline, builder, traces, gpu_wake_up),
-        ticks(links,
-              [this](AtlasJob job, const DisplaySpec& spec) {
-                job.deadline_ns = deadlineNs(spec);
-                const bool is_taken = traces.offerUnlessBusy(job);
-                if (is_taken) gpu_wake_up.ring();
-                return is_taken;
-              }),
-        structures(links, streams, gpu, structure_wake_up,
+        frames(links, gpu),
+        ticks(links, [this](AtlasJob job,
+                            const DisplaySpec& spec) { return offerTick(std::move(job), spec); }),
+        structures(links, streams, frames, structure_wake_up,
                    [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
                      serve(stream, ticket);
                    }) {}
@@ -92,6 +90,8 @@ struct Pipeline::Loops {
   // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
   // the resident structure's frame, if that has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
+  // False while the picture's last atlas is on its way, or its structure finds no room.
+  bool offerTick(AtlasJob job, const DisplaySpec& spec);
   // Of an atlas that is wanted from now on.
   int64_t deadlineNs(const DisplaySpec& spec) const;
   void fail(const std::exception& error);
@@ -110,6 +110,7 @@ struct Pipeline::Loops {
   TraceLoop traces;
   StreamTable streams;
   GpuLoop gpu;
+  FrameBuilder frames;
   TickLoop ticks;
   StructureLoop structures;
 };
@@ -137,6 +138,14 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   }
   ticks.offer(stream.name, newest, ticket);
   gpu_wake_up.ring();
+}
+
+bool Pipeline::Loops::offerTick(AtlasJob job, const DisplaySpec& spec) {
+  if (traces.isBusy(job.picture_key) || !showAsOfTick(job)) return false;
+  job.deadline_ns = deadlineNs(spec);
+  const bool is_taken = traces.offerUnlessBusy(job);
+  if (is_taken) gpu_wake_up.ring();
+  return is_taken;
 }
 
 int64_t Pipeline::Loops::deadlineNs(const DisplaySpec& spec) const {

@@ -17,6 +17,8 @@
 
 namespace viewloom {
 
+class StreamRetimer;
+
 // Immutable once built. Its slot goes back to the stream's pool with the last reader, so whoever
 // has submitted a trace of it holds it until the device is done.
 struct ResidentStructure {
@@ -35,6 +37,10 @@ struct ResidentStructure {
   int64_t built_at_ns = 0;
   // Set when a display needs the walk, so that the stream's next frame is built for it.
   std::shared_ptr<std::atomic<bool>> stream_is_walked;
+  // Where surfaces of the frame move by themselves: the frame, and who makes structures of it for
+  // other times. Else nullptr.
+  FramePtr moving_frame;
+  std::shared_ptr<StreamRetimer> retimer;
 };
 
 using ResidentPtr = std::shared_ptr<const ResidentStructure>;

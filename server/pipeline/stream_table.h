@@ -57,6 +57,7 @@ class PipelineStream {
   std::optional<SourceStats> first_stats;  // of the first frame, then held
   CameraTrack track;                       // of the frames that were resident, or equal to it
   FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other
+  std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
   // A display of the stream needed the walk since the last frame came: the next is built for it.
   std::shared_ptr<std::atomic<bool>> is_walked = std::make_shared<std::atomic<bool>>(false);
 

@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "frame/same_content.h"
+#include "pipeline/stream_retimer.h"
 
 namespace viewloom {
 namespace {
@@ -15,7 +16,8 @@ TrackedFrame trackedFrame(const Frame& frame, const SourceStats& stats, int64_t 
           .captured_ns = frame.format.capture_time_ns,
           .arrived_ns = frame.times.first_chunk_ns,
           .built_ns = now_ns,
-          .inv_z_near = stats.inv_z_near};
+          .inv_z_near = stats.inv_z_near,
+          .things_move = movesByItself(frame)};
 }
 
 // What the frame itself says.
@@ -32,11 +34,11 @@ ResidentStructure describe(const Frame& frame) {
 
 }  // namespace
 
-StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams, GpuLoop& gpu,
-                             WakeUp& wake_up, OnResident on_resident)
+StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams,
+                             FrameBuilder& builder, WakeUp& wake_up, OnResident on_resident)
     : links_(links),
       streams_(streams),
-      gpu_(gpu),
+      builder_(builder),
       wake_up_(wake_up),
       on_resident_(std::move(on_resident)),
       thread_([this](const std::stop_token& stop) {
@@ -112,26 +114,7 @@ bool StructureLoop::isInterpolated(const PipelineStream& stream) const {
 std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
                                                         const Frame& frame) const {
   stream.slots.setCountMax(stream.slot_count + (isInterpolated(stream) ? 1 : 0));
-  const std::vector<FrameShape> shapes = shapesOf(frame);
-  std::shared_ptr<StructureBuild> slot =
-      stream.slots.take([&](const StructureBuild& free) { return free.shapes == shapes; },
-                        [&] { return std::make_unique<StructureBuild>(shapes); });
-  if (!slot) return nullptr;
-  // A GPU walks everything: there the walk is faster than the CPU beside it.
-  slot->is_swept = links_.device.info().is_software && canSweep(frame);
-  slot->is_walked = stream.is_walked->exchange(false) || !slot->is_swept;
-  try {
-    if (slot->is_walked) {
-      if (!fits(stream.build_memory, shapes)) {
-        stream.build_memory = makeBuildMemory(links_.device, shapes);
-      }
-      slot->prepareWalked(links_.device, stream.build_memory);
-    }
-  } catch (const vk::OutOfDeviceMemoryError&) {
-    if (!slot->is_swept) throw;
-    slot->is_walked = false;  // those who need it are told, the others are served
-  }
-  return slot;
+  return builder_.takeSlot(stream.slots, stream.build_memory, frame, *stream.is_walked);
 }
 
 void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
@@ -139,34 +122,22 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   auto structure = std::make_shared<ResidentStructure>(describe(*offered.frame));
   structure->stream = stream.name;
   structure->serial = ++last_serial_;
-
-  const int64_t started_ns = links_.clock.nowNs();
-  if (slot->is_walked) slot->walked->structure.upload(*offered.frame);
-  const int64_t uploaded_ns = links_.clock.nowNs();
-  if (slot->is_swept) slot->swept.prepare(offered.frame, workers_);
-  if (slot->is_walked) gpu_.build(*slot);
-  structure->built_at_ns = links_.clock.nowNs();
-  structure->upload_ns = uploaded_ns - started_ns;
-  structure->build_ns = structure->built_at_ns - uploaded_ns;
-
-  structure->stats =
-      slot->is_swept ? slot->swept.measured().stats : slot->walked->structure.stats().front();
-  for (const LayerPlanes& layer : offered.frame->sources.front()) {
-    structure->stats.bad_normals_count += layer.bad_normals_count;
-  }
-  structure->depths =
-      slot->is_swept ? slot->swept.measured().depths : slot->walked->structure.depthSpread();
+  builder_.build(offered.frame, std::move(slot), *structure);
   structure->stream_is_walked = stream.is_walked;
   if (!stream.first_stats) stream.first_stats = structure->stats;
   structure->defaults = streamDefaults(structure->sources.front().camera.intrinsics,
                                        structure->sources.front().size_px, *stream.first_stats);
-  structure->build = std::move(slot);
+  if (movesByItself(*offered.frame)) {
+    if (!stream.retimer) stream.retimer = std::make_shared<StreamRetimer>(links_, builder_);
+    structure->moving_frame = offered.frame;
+    structure->retimer = stream.retimer;
+  }
 
   count(*structure);
   const CameraMotion& motion =
       stream.track.add(trackedFrame(*offered.frame, structure->stats, structure->built_at_ns));
   // A camera that stands has seen nothing else a frame ago.
-  const bool keeps_before = motion.isMoving() && isInterpolated(stream);
+  const bool keeps_before = motion.isMoving() && motion.interval_ns > 0 && isInterpolated(stream);
   stream.setNewest({std::move(structure), motion, keeps_before ? stream.resident() : nullptr});
   stream.resident_frame = std::move(offered.frame);
   on_resident_(stream, std::move(offered.ticket));

@@ -5,8 +5,7 @@
 #include <functional>
 #include <thread>
 
-#include "base/worker_pool.h"
-#include "pipeline/gpu_loop.h"
+#include "pipeline/frame_builder.h"
 #include "pipeline/pipeline_links.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/wake_up.h"
@@ -22,8 +21,8 @@ class StructureLoop {
   using OnResident = std::function<void(const PipelineStream& stream, FrameTicketPtr ticket)>;
 
   // `wake_up` is rung when a frame was offered or a slot came back.
-  StructureLoop(const PipelineLinks& links, StreamTable& streams, GpuLoop& gpu, WakeUp& wake_up,
-                OnResident on_resident);
+  StructureLoop(const PipelineLinks& links, StreamTable& streams, FrameBuilder& builder,
+                WakeUp& wake_up, OnResident on_resident);
   ~StructureLoop() { stop(); }
 
   // Finishes the frame in hand; frames that wait are left to be reported as replaced.
@@ -40,10 +39,9 @@ class StructureLoop {
 
   const PipelineLinks& links_;
   StreamTable& streams_;
-  GpuLoop& gpu_;
+  FrameBuilder& builder_;
   WakeUp& wake_up_;
   const OnResident on_resident_;
-  WorkerPool workers_;
   uint64_t last_serial_ = 0;
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -10,10 +10,15 @@ namespace {
 
 // A display in the world sees the same whatever the camera does.
 ShownInstant shownTo(const DisplaySpec& spec, const CameraMotion& motion, int64_t due_ns) {
-  if (spec.world_pose) return {motion.captured_ns, Timing::kCaptured, motion.pose};
+  if (spec.world_pose && !motion.things_move) {
+    return {motion.captured_ns, Timing::kCaptured, motion.pose};
+  }
   const int64_t bridge_ns = std::llround(1e9 * spec.temporal->bridge_s);
-  return spec.temporal->mode == TemporalMode::kInterpolate ? interpolated(motion, due_ns, bridge_ns)
-                                                           : predicted(motion, due_ns, bridge_ns);
+  ShownInstant shown = spec.temporal->mode == TemporalMode::kInterpolate
+                           ? interpolated(motion, due_ns, bridge_ns)
+                           : predicted(motion, due_ns, bridge_ns);
+  if (spec.world_pose) shown.source_pose = motion.pose;
+  return shown;
 }
 
 }  // namespace
@@ -84,7 +89,8 @@ void TickLoop::noteDisplays(const std::string& stream, Tickets& released) {
 
 void TickLoop::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    if (const std::optional<int64_t> due_ns = offerDue()) {
+    for (DueTick& due : takeDue()) offerTick(due);
+    if (const std::optional<int64_t> due_ns = soonestNs()) {
       wake_up_.waitFor(links_.clock.napUntil(*due_ns));
     } else {
       wake_up_.wait();
@@ -93,35 +99,48 @@ void TickLoop::run(const std::stop_token& stop) {
 }
 
 // When the next tick is due; empty while there are no displays that tick.
-std::optional<int64_t> TickLoop::offerDue() {
-  Tickets released;
+std::optional<int64_t> TickLoop::soonestNs() {
   std::lock_guard lock(mutex_);
   std::optional<int64_t> soonest_ns;
-  for (auto& [key, picture] : pictures_) {
-    if (const auto tick = picture.clock.take(links_.clock.nowNs())) {
-      offerTick(key, picture, *tick, released);
-    }
+  for (const auto& [key, picture] : pictures_) {
     soonest_ns = std::min(soonest_ns.value_or(INT64_MAX), picture.clock.dueNs());
   }
   return soonest_ns;
 }
 
-void TickLoop::offerTick(const std::string& key, Picture& picture, const OutputClock::Tick& tick,
-                         Tickets& released) const {
-  const StreamInstant& newest = streams_.at(picture.display->stream);
-  const DisplaySpec& spec = picture.display->spec;
-  const OutputTick output{.due_ns = tick.due_ns,
-                          .shown = shownTo(spec, newest.motion, tick.due_ns)};
-  const bool is_between = spec.temporal->mode == TemporalMode::kInterpolate;
-  const bool is_taken = offer_tick_({.picture_key = key,
-                                     .structure = newest.structure,
-                                     .ticket = picture.ticket,
-                                     .tick = output,
-                                     .before = is_between ? newest.before : nullptr},
-                                    spec);
-  if (is_taken) released.push_back(std::move(picture.ticket));
-  const uint64_t skipped_count = tick.missed_count + (is_taken ? 0 : 1);
+std::vector<TickLoop::DueTick> TickLoop::takeDue() {
+  std::lock_guard lock(mutex_);
+  std::vector<DueTick> all;
+  for (auto& [key, picture] : pictures_) {
+    const auto tick = picture.clock.take(links_.clock.nowNs());
+    if (!tick) continue;
+    const StreamInstant& newest = streams_.at(picture.display->stream);
+    const DisplaySpec& spec = picture.display->spec;
+    const bool is_between = spec.temporal->mode == TemporalMode::kInterpolate;
+    const OutputTick output{.due_ns = tick->due_ns,
+                            .shown = shownTo(spec, newest.motion, tick->due_ns),
+                            .frames_apart_ns = newest.motion.interval_ns};
+    all.push_back({.display = picture.display,
+                   .job = {.picture_key = key,
+                           .structure = newest.structure,
+                           .ticket = std::exchange(picture.ticket, nullptr),
+                           .tick = output,
+                           .before = is_between ? newest.before : nullptr},
+                   .missed_count = tick->missed_count});
+  }
+  return all;
+}
+
+// A ticket that goes with no atlas waits for the next tick, unless a newer one is there.
+void TickLoop::offerTick(DueTick& due) {
+  const bool is_taken = offer_tick_(due.job, due.display->spec);
+  const uint64_t skipped_count = due.missed_count + (is_taken ? 0 : 1);
   if (skipped_count > 0) links_.metrics.output_ticks_skipped.add(double(skipped_count));
+  if (is_taken) return;
+  std::lock_guard lock(mutex_);
+  const auto picture = pictures_.find(due.job.picture_key);
+  if (picture == pictures_.end() || picture->second.ticket) return;
+  picture->second.ticket = std::move(due.job.ticket);
 }
 
 }  // namespace viewloom

@@ -25,7 +25,7 @@ namespace viewloom {
 class TickLoop {
  public:
   // Gives the job of a picture, of displays of this kind, to the trace loop, with a deadline; false
-  // while that is busy with the picture.
+  // while that is busy with the picture. Called without a lock, as it may build what moves anew.
   using OfferTick = std::function<bool(AtlasJob job, const DisplaySpec& spec)>;
 
   TickLoop(const PipelineLinks& links, OfferTick offer_tick);
@@ -43,12 +43,17 @@ class TickLoop {
     FrameTicketPtr ticket;
   };
   using Tickets = std::vector<FrameTicketPtr>;
+  struct DueTick {
+    ActiveDisplayPtr display;
+    AtlasJob job;
+    uint64_t missed_count = 0;
+  };
 
   void run(const std::stop_token& stop);
-  std::optional<int64_t> offerDue();
+  std::vector<DueTick> takeDue();
+  std::optional<int64_t> soonestNs();
   void noteDisplays(const std::string& stream, Tickets& released);
-  void offerTick(const std::string& key, Picture& picture, const OutputClock::Tick& tick,
-                 Tickets& released) const;
+  void offerTick(DueTick& due);
 
   const PipelineLinks& links_;
   const OfferTick offer_tick_;

@@ -24,8 +24,8 @@ namespace viewloom {
 // by the form of their colour.
 inline constexpr uint32_t kSlotRingCount = 12;
 
-// Thread-safety: offer() and noteComplete() from any thread; the rest is the GPU loop's, and after
-// its end anyone's.
+// Thread-safety: offer(), isBusy() and noteComplete() from any thread; the rest is the GPU loop's,
+// and after its end anyone's.
 class TraceLoop {
  public:
   TraceLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
@@ -34,6 +34,11 @@ class TraceLoop {
 
   // Replaces a job of the same picture and an older structure that has not begun.
   void offer(AtlasJob job);
+  // An atlas of the picture waits or is on its way.
+  bool isBusy(const std::string& picture_key) {
+    std::lock_guard lock(mutex_);
+    return jobs_.isBusy(picture_key);
+  }
   // Of a tick: false while an atlas of its picture is on its way.
   bool offerUnlessBusy(const AtlasJob& job);
   // The run's atlas is published: the next of its picture may begin. From any thread.

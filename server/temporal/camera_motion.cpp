@@ -2,6 +2,7 @@
 #include "temporal/camera_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -38,24 +39,30 @@ ShownInstant predicted(const CameraMotion& motion, int64_t server_ns, int64_t br
   if (!motion.isMoving()) return captured;
   const int64_t age_ns = server_ns - motion.least_delay_ns - motion.captured_ns;
   if (age_ns <= 0) return captured;
-  const Pose pose = moved(motion, carriedSeconds(age_ns, motion.interval_ns, bridge_ns));
-  if (age_ns >= bridge_ns) return {motion.captured_ns + bridge_ns, Timing::kHeld, pose};
-  return {motion.captured_ns + age_ns, Timing::kPredicted, pose};
+  const double carried_s = carriedSeconds(age_ns, motion.interval_ns, bridge_ns);
+  const Pose pose = moved(motion, carried_s);
+  const int64_t carried_ns = motion.things_move ? std::llround(1e9 * carried_s) : 0;
+  if (age_ns >= bridge_ns) return {motion.captured_ns + bridge_ns, Timing::kHeld, pose, carried_ns};
+  return {motion.captured_ns + age_ns, Timing::kPredicted, pose, carried_ns};
 }
 
 ShownInstant interpolated(const CameraMotion& motion, int64_t server_ns, int64_t bridge_ns) {
   const int64_t lagging_ns = server_ns - motion.lag_ns;
-  if (!motion.isMoving()) return predicted(motion, lagging_ns, bridge_ns);
+  if (!motion.isMoving() || motion.interval_ns == 0) {
+    return predicted(motion, lagging_ns, bridge_ns);
+  }
   const int64_t age_ns = lagging_ns - motion.least_delay_ns - motion.captured_ns;
   if (age_ns >= 0) return predicted(motion, lagging_ns, bridge_ns);
   if (age_ns <= -motion.interval_ns) {
-    return {motion.captured_ns - motion.interval_ns, Timing::kCaptured, motion.before};
+    return {motion.captured_ns - motion.interval_ns, Timing::kCaptured, motion.before,
+            motion.things_move ? -motion.interval_ns : 0};
   }
   const double share = 1 + double(age_ns) / double(motion.interval_ns);
   const Pose between{
       .position_m = glm::mix(motion.before.position_m, motion.pose.position_m, share),
       .orientation = glm::slerp(motion.before.orientation, motion.pose.orientation, share)};
-  return {motion.captured_ns + age_ns, Timing::kInterpolated, between};
+  return {motion.captured_ns + age_ns, Timing::kInterpolated, between,
+          motion.things_move ? age_ns : 0};
 }
 
 }  // namespace viewloom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the camera of a stream moves, as its two newest frames tell, and where it is between frames.
+// How the camera of a stream moves, as its two newest frames tell, and where it is between frames;
+// and for how long things have gone on that move by themselves.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,14 @@ struct ShownInstant {
   int64_t time_ns = 0;  // the publisher's clock
   Timing timing = Timing::kCaptured;
   Pose source_pose;  // of the first source's camera, then
+  // For how long what moves by itself goes on at its speed to where it is then, from the newest
+  // frame; negative: back from it. 0 where nothing does.
+  int64_t carried_ns = 0;
 
   // Neither shows anything that the other does not.
   bool looksLike(const ShownInstant& other) const {
-    return timing == other.timing && source_pose == other.source_pose;
+    return timing == other.timing && source_pose == other.source_pose &&
+           carried_ns == other.carried_ns;
   }
 };
 
@@ -28,18 +33,22 @@ struct CameraMotion {
   Pose pose;
   int64_t captured_ns = 0;     // the publisher's clock
   int64_t least_delay_ns = 0;  // the server's clock less the publisher's
-  int64_t interval_ns = 0;     // since the frame before; 0 = not known
+  int64_t interval_ns = 0;     // since the frame before; 0 = not known, or a cut
   Pose before;                 // of that frame
   // By how much a display that shows what lies between two frames is behind: an interval, and what
   // frames take until they can be traced.
   int64_t lag_ns = 0;
   glm::dvec3 velocity_mps{0.0};
   glm::dvec3 turn_rad_per_s{0.0};  // around its own place; the axis is the world's
+  bool things_move = false;        // surfaces of the frame move by themselves
 
-  bool isMoving() const { return velocity_mps != glm::dvec3(0) || turn_rad_per_s != glm::dvec3(0); }
+  bool isMoving() const {
+    return things_move || velocity_mps != glm::dvec3(0) || turn_rad_per_s != glm::dvec3(0);
+  }
 };
 
-// The camera at `server_ns` of the server's clock, carried on from the newest frame. For as long as
+// The camera, and what moves by itself, at `server_ns` of the server's clock, carried on from the
+// newest frame. For as long as
 // frames are apart it keeps its speed, which then falls evenly, to nothing when the frame is
 // `bridge_ns` old: from there on it is held.
 ShownInstant predicted(const CameraMotion& motion, int64_t server_ns, int64_t bridge_ns);

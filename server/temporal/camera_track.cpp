@@ -31,6 +31,7 @@ const CameraMotion& CameraTrack::add(const TrackedFrame& frame) {
   } else {
     begin(frame);
   }
+  motion_.things_move = frame.things_move && isTimed(frame);
   last_ = frame;
   return motion_;
 }
@@ -57,11 +58,14 @@ void CameraTrack::measure(const TrackedFrame& frame) {
              .interval_ns = interval_ns,
              .before = last_->pose,
              .lag_ns = lag_ns};
-  if (interval_ns > kTrackedIntervalMax_ns) return;
   const glm::dvec3 way_m = frame.pose.position_m - last_->pose.position_m;
   const glm::dvec3 turn_rad = turnBetween(last_->pose.orientation, frame.pose.orientation);
   const double nearest = std::max(frame.inv_z_near, last_->inv_z_near);
-  if (glm::length(way_m) * nearest > 1 || glm::length(turn_rad) > kCutTurn_rad) return;
+  if (interval_ns > kTrackedIntervalMax_ns || glm::length(way_m) * nearest > 1 ||
+      glm::length(turn_rad) > kCutTurn_rad) {
+    motion_.interval_ns = 0;
+    return;
+  }
   const double interval_s = 1e-9 * double(interval_ns);
   motion_.velocity_mps = way_m / interval_s;
   motion_.turn_rad_per_s = turn_rad / interval_s;

@@ -10,11 +10,12 @@ namespace viewloom {
 
 // A frame as far as it tells of motion.
 struct TrackedFrame {
-  Pose pose;                // of the first source's camera
-  int64_t captured_ns = 0;  // the publisher's clock
-  int64_t arrived_ns = 0;   // its first bytes, the server's clock
-  int64_t built_ns = 0;     // since when it can be traced, likewise
-  double inv_z_near = 0;    // 1/m, of its nearest surfaces
+  Pose pose;                 // of the first source's camera
+  int64_t captured_ns = 0;   // the publisher's clock
+  int64_t arrived_ns = 0;    // its first bytes, the server's clock
+  int64_t built_ns = 0;      // since when it can be traced, likewise
+  double inv_z_near = 0;     // 1/m, of its nearest surfaces
+  bool things_move = false;  // surfaces of it move by themselves
 };
 
 // Frames further apart say nothing of how a camera moves now.

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Displays with an output rate of their own: what they get between frames, by a clock that the test
 // turns.
-#include <chrono>
 #include <thread>
 
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
 
-#include "e2e/pipeline_fixture.h"
+#include "e2e/ticks_fixture.h"
 
 namespace viewloom::test {
 namespace {
 
 using testing::SizeIs;
 
-constexpr int64_t kMs_ns = 1'000'000;
-constexpr int64_t kFrame_ns = 100 * kMs_ns;
-constexpr int64_t kTick_ns = 20 * kMs_ns;
-constexpr int64_t kBridge_ns = 250 * kMs_ns;
-constexpr int64_t kStart_ns = 1'000'000 * kMs_ns;  // of the publisher's clock, at the server's 0
 constexpr glm::dvec3 kSpeed_mps{0.2, -0.1, 0.05};
 
 glm::dvec3 placeAt(int64_t captured_ns) {
@@ -35,15 +29,7 @@ FramePtr frameAt(uint64_t number, int64_t now_ns, const glm::dvec3& place_m) {
   return frame;
 }
 
-DisplaySpec ticking(DisplaySpec spec = smallQuilt({64, 40})) {
-  spec.temporal = TemporalSpec{.output_rate_hz = 50};
-  return *completeDisplaySpec(std::move(spec));
-}
-
-// After so many without an atlas none is to be expected: more than a picture is bridged for.
-constexpr int kTicksMax = 40;
-
-class PipelineTicksTest : public PipelineFixture {
+class PipelineTicksTest : public TicksFixture {
  protected:
   static double tracedCount(const Server& server) {
     return server.metrics.atlases_traced[TraceMethod::kWalk].value() +
@@ -54,26 +40,6 @@ class PipelineTicksTest : public PipelineFixture {
   static void offerMoving(Server& server, uint64_t number) {
     const int64_t now_ns = server.clock.nowNs();
     server.offer(frameAt(number, now_ns, placeAt(kStart_ns + now_ns)));
-  }
-
-  // The next atlas of the display, at the first tick that brings one: at some the last atlas may
-  // not be off the loops yet, or the frame still on its way through them.
-  static AtlasPtr next(Server& server, const Viewer& viewer) {
-    const uint64_t display_id = viewer.subscription->displayId();
-    const uint64_t count = server.broadcaster.atlasCount(display_id);
-    const auto isStill = [&] { return server.broadcaster.atlasCount(display_id) == count; };
-    for (int tick = 0; tick < kTicksMax && isStill(); ++tick) {
-      const double skipped_count = server.metrics.output_ticks_skipped.value();
-      server.clock.advance(kTick_ns);
-      // A tick that is skipped says that an atlas is on its way: no other is asked for meanwhile.
-      const auto patience = [&] {
-        return server.metrics.output_ticks_skipped.value() > skipped_count ? 20000 : 300;
-      };
-      for (int nap = 0; nap < patience() && isStill(); ++nap) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
-    }
-    return server.broadcaster.newest(display_id);
   }
 
   // Two frames of the moving camera; the first atlas of the second.
@@ -107,6 +73,7 @@ TEST_F(PipelineTicksTest, carriesTheCameraOnBetweenFrames) {
   }
   server.pipeline.drain();
   EXPECT_EQ(server.metrics.structures_built.value(), 2) << "nothing is built between frames";
+  EXPECT_EQ(server.metrics.structures_retimed.value(), 0);
 }
 
 TEST_F(PipelineTicksTest, bridgesALateFrameThenHoldsThenTellsOnce) {

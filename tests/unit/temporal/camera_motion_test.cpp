@@ -117,6 +117,47 @@ TEST(CameraMotion, liesBetweenTwoFramesOneIntervalLater) {
   EXPECT_EQ(interpolated(motion, built_ns + 900 * kMs_ns, kBridge_ns).timing, Timing::kHeld);
 }
 
+TEST(CameraMotion, carriesThingsOnWhereTheCameraStands) {
+  CameraTrack track;
+  TrackedFrame frame{.pose = {},
+                     .captured_ns = 1000 * kMs_ns,
+                     .arrived_ns = 1000 * kMs_ns + kDelay_ns,
+                     .inv_z_near = 0.5,
+                     .things_move = true};
+  const CameraMotion first = track.add(frame);
+  ASSERT_TRUE(first.isMoving());
+  EXPECT_EQ(predicted(first, frame.arrived_ns, kBridge_ns).carried_ns, 0);
+  // How far frames are apart is not known yet: speed falls at once, half of the way is left.
+  EXPECT_EQ(predicted(first, frame.arrived_ns + kBridge_ns, kBridge_ns).carried_ns, kBridge_ns / 2);
+  frame.captured_ns += 100 * kMs_ns;
+  frame.arrived_ns += 100 * kMs_ns;
+  frame.built_ns = frame.arrived_ns;
+  const CameraMotion motion = track.add(frame);
+  const ShownInstant shown = predicted(motion, frame.arrived_ns + 40 * kMs_ns, kBridge_ns);
+  EXPECT_EQ(shown.timing, Timing::kPredicted);
+  EXPECT_EQ(shown.carried_ns, 40 * kMs_ns);
+  EXPECT_EQ(shown.source_pose, Pose{});
+  EXPECT_FALSE(shown.looksLike(predicted(motion, frame.arrived_ns, kBridge_ns)));
+  EXPECT_EQ(predicted(motion, frame.arrived_ns + 2 * kBridge_ns, kBridge_ns).timing, Timing::kHeld);
+  const ShownInstant between = interpolated(motion, frame.arrived_ns + 70 * kMs_ns, kBridge_ns);
+  EXPECT_EQ(between.timing, Timing::kInterpolated);
+  EXPECT_EQ(between.carried_ns, -30 * kMs_ns);
+}
+
+TEST(CameraMotion, doesNotStandBetweenFramesOnBothSidesOfACut) {
+  CameraTrack track;
+  TrackedFrame frame = frameAt(0);
+  frame.things_move = true;
+  track.add(frame);
+  TrackedFrame far = frameAt(100 * kMs_ns);
+  far.things_move = true;
+  far.pose.position_m.x += 3;
+  const CameraMotion motion = track.add(far);
+  EXPECT_TRUE(motion.isMoving());
+  EXPECT_EQ(motion.interval_ns, 0);
+  EXPECT_EQ(interpolated(motion, far.arrived_ns, kBridge_ns).source_pose, far.pose);
+}
+
 TEST(CameraMotion, aLostFrameTurnsNoTimeBack) {
   CameraTrack track;
   CameraMotion motion;
@@ -179,7 +220,8 @@ TEST(CameraTrack, takesTimesOfAnySize) {
     const CameraMotion motion = track.add({.pose = {.position_m = {place_m += 0.1, 0, 0}},
                                            .captured_ns = time_ns,
                                            .arrived_ns = kMs_ns,
-                                           .inv_z_near = 0.5});
+                                           .inv_z_near = 0.5,
+                                           .things_move = std::abs(double(time_ns)) > 3e18});
     EXPECT_FALSE(motion.isMoving()) << time_ns;
     const ShownInstant shown = predicted(motion, 2 * kMs_ns, kBridge_ns);
     EXPECT_EQ(shown.time_ns, time_ns);

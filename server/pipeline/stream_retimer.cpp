@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/stream_retimer.h"
+
+#include <utility>
+
+#include "base/log.h"
+
+namespace viewloom {
+
+StreamRetimer::StreamRetimer(const PipelineLinks& links, FrameBuilder& builder)
+    : links_(links),
+      builder_(builder),
+      carried_{Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr},
+               Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr}} {}
+
+ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried_ns, Which which) {
+  if (carried_ns == 0) return structure;
+  Carried& last = carried_[size_t(which)];
+  const bool is_known =
+      last.structure && last.serial == structure->serial && last.carried_ns == carried_ns;
+  if (is_known) return last.structure;
+  last.structure = nullptr;  // its slot may serve again
+  try {
+    last.structure = build(*structure, carried_ns, last.retimer);
+  } catch (const vk::OutOfDeviceMemoryError& error) {
+    log(LogLevel::kWarning, "stream ", structure->stream, ", between frames: ", error.what());
+    return structure;
+  }
+  last.serial = structure->serial;
+  last.carried_ns = carried_ns;
+  return last.structure;
+}
+
+ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t carried_ns,
+                                 FrameRetimer& retimer) {
+  const int64_t started_ns = links_.clock.nowNs();
+  const FramePtr frame = retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns));
+  const int64_t retimed_ns = links_.clock.nowNs();
+  std::shared_ptr<StructureBuild> slot =
+      builder_.takeSlot(slots_, build_memory_, *frame, *is_walked_);
+  if (!slot) return nullptr;
+  auto carried = std::make_shared<ResidentStructure>(structure);
+  carried->stream_is_walked = is_walked_;
+  carried->moving_frame = nullptr;
+  carried->retimer = nullptr;
+  builder_.build(frame, std::move(slot), *carried);
+  carried->build_ns += retimed_ns - started_ns;
+  // What came with the frame, rather than what was made of it.
+  carried->stats.bad_samples_count = structure.stats.bad_samples_count;
+  carried->stats.unsorted_columns_count = structure.stats.unsorted_columns_count;
+  carried->stats.bad_normals_count = structure.stats.bad_normals_count;
+  carried->stats.bad_motions_count = structure.stats.bad_motions_count;
+  links_.metrics.structures_built.add();
+  links_.metrics.structures_retimed.add();
+  links_.metrics.observeStage(Stage::kUpload, carried->upload_ns);
+  links_.metrics.observeStage(Stage::kBuild, carried->build_ns);
+  return carried;
+}
+
+bool showAsOfTick(AtlasJob& job) {
+  const int64_t carried_ns = job.tick->shown.carried_ns;
+  if (!job.structure->retimer) return true;
+  // Of the frame before, only if that moves, too.
+  if (job.before && job.before->retimer) {
+    job.before = job.before->retimer->carried(job.before, carried_ns + job.tick->frames_apart_ns,
+                                              StreamRetimer::Which::kBefore);
+    if (!job.before) return false;
+  }
+  job.structure =
+      job.structure->retimer->carried(job.structure, carried_ns, StreamRetimer::Which::kNewest);
+  return job.structure != nullptr;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structures of a stream's frames as they are for times between frames: what moves by itself has
+// gone on.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+
+#include "pipeline/frame_builder.h"
+#include "pipeline/job_queue.h"
+#include "retime/frame_retimer.h"
+
+namespace viewloom {
+
+// Each time is built once, for all displays that show it one after the other. Memory is bounded by
+// kSlotCount structures. Thread-safety: none; the tick loop's.
+class StreamRetimer {
+ public:
+  StreamRetimer(const PipelineLinks& links, FrameBuilder& builder);
+
+  // Which of the two newest frames a structure is of.
+  enum class Which : uint8_t { kNewest, kBefore };
+
+  // The structure with everything that moves carried on for so long, or back; what was not carried
+  // is handed back as it is, and so is what the device has no room for. nullptr: all slots are
+  // lent.
+  ResidentPtr carried(const ResidentPtr& structure, int64_t carried_ns, Which which);
+
+ private:
+  // The last one of its kind.
+  struct Carried {
+    FrameRetimer retimer;
+    uint64_t serial = 0;
+    int64_t carried_ns = 0;
+    ResidentPtr structure;
+  };
+  // Of each kind one is traced while the next is built.
+  static constexpr size_t kSlotCount = 4;
+
+  ResidentPtr build(const ResidentStructure& structure, int64_t carried_ns, FrameRetimer& retimer);
+
+  const PipelineLinks& links_;
+  FrameBuilder& builder_;
+  SlotPool<StructureBuild> slots_{kSlotCount, [] {}};
+  FrameBuildMemory build_memory_;
+  // A display of the stream needed the walk since the last one was built.
+  std::shared_ptr<std::atomic<bool>> is_walked_ = std::make_shared<std::atomic<bool>>(false);
+  std::array<Carried, 2> carried_;
+};
+
+// Gives the job of a tick the structures of the time that is shown. False while there is no room.
+bool showAsOfTick(AtlasJob& job);
+
+}  // namespace viewloom
