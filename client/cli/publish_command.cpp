@@ -61,6 +61,10 @@ void addSourceOptions(CLI::App& app, PublishOptions& options) {
       ->excludes("--sources")
       ->excludes("--cube")
       ->group("What");
+  app.add_flag("--motion", options.synthetic.has_motion,
+               "With how the things of the synthetic scene move, for displays with an output rate")
+      ->excludes("--cube")
+      ->group("What");
   app.add_option("--seconds", options.synthetic.duration_s,
                  "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
       ->check(CLI::NonNegativeNumber)
@@ -114,10 +118,10 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& opti
 absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions& options) {
   const SyntheticFeedOptions& synthetic = options.synthetic;
   if (options.layer_count || synthetic.source_count != 1 || synthetic.is_cube_map ||
-      synthetic.has_moving_camera || synthetic.has_mirrors) {
+      synthetic.has_moving_camera || synthetic.has_mirrors || synthetic.has_motion) {
     return absl::InvalidArgumentError(
         "--pattern has layers and a source of its own; leave out --layers, --sources, --cube, "
-        "--moving-camera and --mirrors");
+        "--moving-camera, --mirrors and --motion");
   }
   patterns::PatternOptions pattern = patternOptions(options.pattern);
   if (options.size_px.width > 0) pattern.size_px = options.size_px;

@@ -59,7 +59,8 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
                          .layer_count = options_.layer_count,
                          .time_s = elapsed_s,
                          .camera = {},
-                         .has_mirrors = options_.has_mirrors};
+                         .has_mirrors = options_.has_mirrors,
+                         .has_motion = options_.has_motion};
   const Pose first = firstPose(options_.has_moving_camera, elapsed_s);
   if (options_.is_cube_map) return cubeMapFrame(scene);
   if (options_.has_moving_camera) scene.camera = cameraOf(0, first, options_.size_px);

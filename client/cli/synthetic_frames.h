@@ -14,6 +14,7 @@ struct SyntheticFeedOptions {
   bool has_moving_camera = false;  // the first sways; the others stand beside it
   bool is_cube_map = false;        // with faces as high as size_px; then one source
   bool has_mirrors = false;        // then one source, no cube map
+  bool has_motion = false;         // says how things move; then no cube map
   double duration_s = 0;           // 0 = without end
 };
 

@@ -53,7 +53,11 @@ Sphere ballAt(const BallPath& path, double time_s) {
           .radius_m = path.radius_m,
           .spin_rad = kStripeTurnsPerRad * angle_rad,
           .color = path.color,
-          .stripe_color = path.stripe_color};
+          .stripe_color = path.stripe_color,
+          .velocity_mps = path.rate_rad_per_s * path.sway_m *
+                          glm::dvec3{std::cos(angle_rad), 2.0 * std::cos(2.0 * angle_rad),
+                                     -std::sin(angle_rad)},
+          .spin_rad_per_s = kStripeTurnsPerRad * path.rate_rad_per_s};
 }
 
 Panel panelAt(double time_s) {
@@ -63,6 +67,8 @@ Panel panelAt(double time_s) {
   panel.right = {std::cos(yaw_rad), 0.0, -std::sin(yaw_rad)};
   panel.normal = glm::cross(panel.right, panel.up);
   panel.half_size_m = {0.80, 0.50};
+  panel.velocity_mps = {0.0, 0.08 * 0.9 * std::cos(0.9 * time_s), 0.0};
+  panel.turn_rad_per_s = 0.55 * 0.6 * std::cos(0.6 * time_s);
   return panel;
 }
 
@@ -82,7 +88,9 @@ Scene makeScene(double time_s) {
                              .radius_m = kLampRadius_m,
                              .spin_rad = 0,
                              .color = kLampColor,
-                             .stripe_color = kLampColor});
+                             .stripe_color = kLampColor,
+                             .velocity_mps = {},
+                             .spin_rad_per_s = 0});
   }
   scene.panel = panelAt(time_s);
   scene.ridges = {

@@ -18,6 +18,8 @@ struct Sphere {
   double spin_rad = 0;    // around +y; turns the stripes
   glm::vec3 color{0.0F};  // linear light, 0..1
   glm::vec3 stripe_color{0.0F};
+  glm::dvec3 velocity_mps{0.0};
+  double spin_rad_per_s = 0;
 };
 
 // An upright cylinder from the ground to top_y_m.
@@ -34,6 +36,8 @@ struct Panel {
   glm::dvec3 up{0.0, 1.0, 0.0};
   glm::dvec3 normal{0.0, 0.0, 1.0};
   glm::dvec2 half_size_m{0.0};
+  glm::dvec3 velocity_mps{0.0};
+  double turn_rad_per_s = 0;  // around its own upright
 };
 
 // A wall across the whole scene that faces +z and ends at a wavy crest.

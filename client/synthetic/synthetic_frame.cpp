@@ -14,6 +14,7 @@
 #include "synthetic/cast_row.h"
 #include "synthetic/surface_color.h"
 #include "synthetic/surface_gloss.h"
+#include "synthetic/surface_motion.h"
 
 namespace viewloom {
 namespace {
@@ -51,6 +52,7 @@ class FrameRenderer {
         size_px_(options.size_px),
         camera_(options.camera.value_or(syntheticCamera(options.size_px))),
         has_mirrors_(options.has_mirrors),
+        has_motion_(options.has_motion),
         layers_(layers) {
     const glm::dvec3 right = camera_.pose.orientation * glm::dvec3(1.0, 0.0, 0.0);
     step_ = right / camera_.intrinsics.focal_px.x;
@@ -101,6 +103,10 @@ class FrameRenderer {
         const glm::vec3 normal = synthetic::surfaceNormal(scene_, hit, point_m, direction);
         writeGloss(gloss, normal, row + x, layers_[layer]);
       }
+      if (has_motion_) {
+        const auto halves = synthetic::halvesOf(synthetic::surfaceMotion(scene_, hit, point_m));
+        std::copy_n(halves.data(), 3, &layers_[layer].motion[3 * (row + x)]);
+      }
     }
   }
 
@@ -117,6 +123,7 @@ class FrameRenderer {
   const SizePx size_px_;
   const Camera camera_;
   const bool has_mirrors_;
+  const bool has_motion_;
   glm::dvec3 step_{0.0};
   std::vector<SyntheticLayer>& layers_;
   std::atomic<uint32_t> next_row_{0};
@@ -137,11 +144,12 @@ void renderSyntheticFrame(const SyntheticOptions& options, std::vector<Synthetic
   for (SyntheticLayer& layer : layers) {
     layer.color.resize(4 * options.size_px.area());
     layer.depth_m.resize(options.size_px.area());
-    // Mirrors nothing, whatever a frame before had there.
+    // Mirrors nothing and stands, whatever a frame before had there.
     const size_t mirrored_px = options.has_mirrors ? options.size_px.area() : 0;
     layer.normal.assign(mirrored_px, 0);
     layer.roughness.assign(mirrored_px, 0);
     layer.specular.assign(3 * mirrored_px, 0);
+    layer.motion.assign(options.has_motion ? 3 * options.size_px.area() : 0, 0);
   }
   FrameRenderer renderer(options, layers);
   const uint32_t core_count = std::max(1U, std::thread::hardware_concurrency());

@@ -18,6 +18,7 @@ struct SyntheticOptions {
   std::optional<Camera> camera;  // default: syntheticCamera(size_px)
   uint32_t thread_count = 0;     // 0 = one per core
   bool has_mirrors = false;      // some surfaces mirror; their own colour is then darker
+  bool has_motion = false;       // says how surfaces move
 };
 
 // Layer k holds, per pixel, the k-th camera-facing surface along the ray through the pixel's
@@ -29,6 +30,8 @@ struct SyntheticLayer {
   std::vector<uint32_t> normal;    // uint32_t[h][w]
   std::vector<uint8_t> roughness;  // uint8_t[h][w]
   std::vector<uint8_t> specular;   // uint8_t[h][w][3]
+  // With motion alone; else empty. As PLANE_ENCODING_XYZ16F, m/s along the world's axes.
+  std::vector<uint16_t> motion;  // uint16_t[h][w][3]
 };
 
 // Where the scene is meant to be seen from: the origin, looking along -z, 36 degrees high. Surfaces

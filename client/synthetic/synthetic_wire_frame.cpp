@@ -60,6 +60,12 @@ void addLayers(SizePx size_px, std::vector<SyntheticLayer> layers, v1::Source& s
              frame);
     addPlane(v1::PLANE_KIND_DEPTH, v1::PLANE_ENCODING_DEPTH_F32, size_px, std::move(depth_bytes),
              layer, frame);
+    if (!from.motion.empty()) {
+      std::vector<uint8_t> motion_bytes(from.motion.size() * sizeof(uint16_t));
+      std::memcpy(motion_bytes.data(), from.motion.data(), motion_bytes.size());
+      addPlane(v1::PLANE_KIND_MOTION, v1::PLANE_ENCODING_XYZ16F, size_px, std::move(motion_bytes),
+               layer, frame);
+    }
     if (from.specular.empty()) continue;
     std::vector<uint8_t> normal_bytes(from.normal.size() * sizeof(uint32_t));
     std::memcpy(normal_bytes.data(), from.normal.data(), normal_bytes.size());

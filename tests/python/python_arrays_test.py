@@ -81,6 +81,12 @@ class Refusals(unittest.TestCase):
         self.refused("specular", "has 1 layers, must have as many as depth, 2",
                      color=[COLOR] * 2, depth=[DEPTH] * 2, specular=DEPTH)
 
+    def test_motion_that_cannot_be(self):
+        self.refused("motion", "samples of int32", motion=np.ones((4, 6, 3), np.int32))
+        self.refused("motion", "has the shape 4x6,", motion=DEPTH)
+        self.refused("motion", "has 1 layers, must have as many as depth, 2",
+                     color=[COLOR] * 2, depth=[DEPTH] * 2, motion=np.ones((4, 6, 3)))
+
     def test_words_that_mean_nothing(self):
         self.refused("transfer", "srgb, linear", transfer="gamma")
         self.refused("primaries", "bt709, display_p3, bt2020", primaries="adobe")

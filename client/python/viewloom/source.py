@@ -12,7 +12,7 @@ from viewloom.camera import PoseLike, make_camera
 from viewloom.errors import BadInput
 from viewloom.planes import (ColorMeaning, DepthFormatLike, WirePlane, color_plane, depth_format,
                              depth_plane)
-from viewloom.surface import normal_plane, roughness_plane, specular_plane
+from viewloom.surface import motion_plane, normal_plane, roughness_plane, specular_plane
 from viewloom.v1 import frame_pb2, geometry_pb2
 
 ArrayOrLayers = Union[NDArray[Any], Sequence[NDArray[Any]]]
@@ -50,6 +50,9 @@ class Source:
                  depth slopes.
     normal_space: "camera" (+x right, +y up, +z towards it) or "world".
     color_has_reflections: nothing is added to the colour, whatever specular says.
+    motion:      how surfaces move by themselves, without what the camera does: float
+                 [height_px][width_px][3] of depth's size, m/s along the world's axes. For displays
+                 with effects.temporal; colour has to be as large as depth. None: all stands.
     cube_map:    six square faces below each other: +x, -x, +y, -y, +z, -z, as in proto Source.
     """
 
@@ -70,6 +73,7 @@ class Source:
     normal: Optional[ArrayOrLayers] = None
     normal_space: str = "camera"
     color_has_reflections: bool = False
+    motion: Optional[ArrayOrLayers] = None
 
     def camera(self, size_px: tuple[int, int]) -> geometry_pb2.Camera:
         """Of depth planes of (width, height) px."""
@@ -86,9 +90,10 @@ def _layers(value: ArrayOrLayers, field: str) -> list[tuple[str, Any]]:
 
 
 def _surface_planes(source: Source, layer: int, layer_count: int) -> list[WirePlane]:
-    """Of one layer, what says how it mirrors."""
+    """Of one layer, what says how it moves and mirrors."""
     planes = []
-    given = {"normal": source.normal, "roughness": source.roughness, "specular": source.specular}
+    given = {"motion": source.motion, "normal": source.normal, "roughness": source.roughness,
+             "specular": source.specular}
     for name, value in given.items():
         if value is None:
             continue
@@ -97,7 +102,9 @@ def _surface_planes(source: Source, layer: int, layer_count: int) -> list[WirePl
             raise BadInput(name, f"has {len(layers)} layers, must have as many as depth, "
                            f"{layer_count}")
         field, array = layers[layer]
-        if name == "normal":
+        if name == "motion":
+            planes.append(motion_plane(array, field))
+        elif name == "normal":
             planes.append(normal_plane(array, field, source.normal_space))
         elif name == "roughness":
             planes.append(roughness_plane(array, field))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How surfaces mirror, from numpy arrays to planes of the wire."""
+"""How surfaces mirror and move, from numpy arrays to planes of the wire."""
 
 from __future__ import annotations
 
@@ -50,6 +50,17 @@ def normal_plane(normal: Any, field: str, space: str) -> WirePlane:
     with np.errstate(over="ignore"):  # what is too long for binary16 has no direction
         samples = np.ascontiguousarray(array.astype(wire_type, copy=False))
     return _plane(frame_pb2.PLANE_KIND_NORMAL, encoding, samples, normal_space=_SPACES[space])
+
+
+def motion_plane(motion: Any, field: str) -> WirePlane:
+    """float [height][width][3], m/s along the world's axes."""
+    accepted = "floats of shape (height, width, 3), m/s, top row first"
+    array = _checked(motion, field, accepted, (3,))
+    if array.dtype.kind != "f":
+        raise BadInput(field, f"has samples of {array.dtype}, must be {accepted}")
+    with np.errstate(over="ignore"):  # what is too fast for binary16 stands, and is counted
+        samples = np.ascontiguousarray(array.astype("<f2", copy=False))
+    return _plane(frame_pb2.PLANE_KIND_MOTION, frame_pb2.PLANE_ENCODING_XYZ16F, samples)
 
 
 def _shares(array: NDArray[Any], field: str, accepted: str) -> NDArray[Any]:
