@@ -33,6 +33,18 @@ Sequence movingCamera() {
   return sequence;
 }
 
+Sequence movingThings() {
+  constexpr double kFaster = 2;  // than in the room, as the camera's hand is than any
+  Sequence sequence{.name = "object motion",
+                    .scene = truth::clutteredRoom(),
+                    .camera_at = [](double) { return Pose{}; }};
+  for (truth::Body& body : sequence.scene.bodies) {
+    body.velocity_mps *= kFaster;
+    body.spin_rad_per_s *= kFaster;
+  }
+  return sequence;
+}
+
 Intrinsics sequenceIntrinsics() {
   return {.focal_px = glm::dvec2(280),
           .principal_px = {0.5 * kSequence_px.width, 0.5 * kSequence_px.height}};

@@ -21,6 +21,8 @@ struct Sequence {
 
 // A room in which nothing moves, seen by a camera in a hand.
 Sequence movingCamera();
+// The same room with things that fly, roll and turn, seen by a camera that stands.
+Sequence movingThings();
 
 inline constexpr SizePx kSequence_px{320, 240};
 

@@ -8,6 +8,7 @@
 
 #include "bench/moving_frames.h"
 #include "commands/offline_renderer.h"
+#include "retime/frame_retimer.h"
 #include "support/truth/picture_frame.h"
 #include "temporal/camera_track.h"
 
@@ -28,6 +29,7 @@ int64_t timeNs(uint32_t index) {
 struct TrueSequence {
   std::string name;
   std::vector<truth::Picture> pictures;
+  bool things_move = false;
 };
 
 TrueSequence takeAll(const Sequence& sequence) {
@@ -35,6 +37,7 @@ TrueSequence takeAll(const Sequence& sequence) {
   for (uint32_t index = 0; index < kFrameCount; ++index) {
     taken.pictures.push_back(pictureOf(sequence, index, kLayers));
   }
+  taken.things_move = movesByItself(*truth::frameOf(taken.pictures.front(), kLayers));
   return taken;
 }
 
@@ -43,7 +46,20 @@ TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index) {
   return {.pose = sequence.pictures[index].camera.pose,
           .captured_ns = timeNs(index),
           .arrived_ns = timeNs(index),
-          .inv_z_near = 0.5};
+          .inv_z_near = 0.5,
+          .things_move = sequence.things_move};
+}
+
+// Both sources, one after the other.
+FramePtr joined(const Frame& newest, const Frame& before) {
+  auto both = std::make_shared<Frame>(newest);
+  both->format.sources.push_back(before.format.sources.front());
+  both->sources.push_back(before.sources.front());
+  return both;
+}
+
+double secondsOf(int64_t time_ns) {
+  return 1e-9 * double(time_ns);
 }
 
 // One view, of the sequence's size, from a place in the world.
@@ -85,21 +101,27 @@ class Scores {
   uint32_t count_ = 0;
 };
 
-// Each dropped frame from the kept one before it, as the two before tell that the camera moves.
+// Each dropped frame from the kept one before it, as the two before tell that the camera moves, and
+// planes of motion that things do.
 TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
                           uint32_t kept_one_of) {
   Scores scores;
   OfflineRenderer renderer(device);
+  WorkerPool workers;
+  FrameRetimer retimer(workers);
   CameraTrack track;
   track.add(trackedFrame(sequence, 0));
   for (uint32_t kept = kept_one_of; kept + kept_one_of < kFrameCount; kept += kept_one_of) {
     const truth::Picture& picture = sequence.pictures[kept];
     const CameraMotion motion = track.add(trackedFrame(sequence, kept));
-    renderer.build(*truth::frameOf(picture, kLayers));
+    const FramePtr frame = truth::frameOf(picture, kLayers);
     for (uint32_t index = kept + 1; index < kept + kept_one_of; ++index) {
-      const Pose pose = predicted(motion, timeNs(index), kBridge_ns).source_pose;
-      scores.add(imageOf(sequence.pictures[index]), imageOf(picture), rowWarp(picture, pose),
-                 viewFrom(renderer, pose));
+      const ShownInstant shown = predicted(motion, timeNs(index), kBridge_ns);
+      if (index == kept + 1 || sequence.things_move) {
+        renderer.build(*retimer.retime(frame, secondsOf(shown.carried_ns)));
+      }
+      scores.add(imageOf(sequence.pictures[index]), imageOf(picture),
+                 rowWarp(picture, shown.source_pose), viewFrom(renderer, shown.source_pose));
     }
   }
   return scores.means(sequence, "predict", kept_one_of);
@@ -110,15 +132,21 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
                              uint32_t kept_one_of) {
   Scores scores;
   OfflineRenderer renderer(device);
+  WorkerPool workers;
+  FrameRetimer newest_retimer(workers), before_retimer(workers);
   CameraTrack track;
   track.add(trackedFrame(sequence, 0));
   for (uint32_t kept = kept_one_of; kept < kFrameCount; kept += kept_one_of) {
     const truth::Picture& picture = sequence.pictures[kept];
     const truth::Picture& before = sequence.pictures[kept - kept_one_of];
     const CameraMotion motion = track.add(trackedFrame(sequence, kept));
-    renderer.build(*truth::frameOf({picture, before}, kLayers));
+    const FramePtr newest_frame = truth::frameOf(picture, kLayers);
+    const FramePtr before_frame = truth::frameOf(before, kLayers);
     for (uint32_t index = kept + 1 - kept_one_of; index < kept; ++index) {
       const ShownInstant shown = interpolated(motion, timeNs(index) + motion.lag_ns, kBridge_ns);
+      const int64_t from_before_ns = shown.carried_ns + motion.interval_ns;
+      renderer.build(*joined(*newest_retimer.retime(newest_frame, secondsOf(shown.carried_ns)),
+                             *before_retimer.retime(before_frame, secondsOf(from_before_ns))));
       const bool is_later_nearer = 2 * (kept - index) <= kept_one_of;
       scores.add(imageOf(sequence.pictures[index]), imageOf(before),
                  rowWarp(is_later_nearer ? picture : before, shown.source_pose),
@@ -131,11 +159,13 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
 }  // namespace
 
 std::vector<TimeScore> timeScores(const Device& device) {
-  const TrueSequence sequence = takeAll(movingCamera());
   std::vector<TimeScore> scores;
-  for (const uint32_t kept_one_of : {2U, 4U}) {
-    scores.push_back(scorePrediction(device, sequence, kept_one_of));
-    scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
+  for (const Sequence& scene : {movingCamera(), movingThings()}) {
+    const TrueSequence sequence = takeAll(scene);
+    for (const uint32_t kept_one_of : {2U, 4U}) {
+      scores.push_back(scorePrediction(device, sequence, kept_one_of));
+      scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
+    }
   }
   return scores;
 }

@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "base/check.h"
+#include "decode/keep_motion.h"
 #include "decode/pack_surface.h"
 #include "frame/cube_map.h"
 #include "frame/limits.h"
@@ -90,6 +91,23 @@ void addSurface(const std::vector<Picture>& stacked, uint32_t index, const Camer
       camera.pose.orientation, pool, planes);
 }
 
+// How a layer's surfaces move, if any does.
+void addMotion(const std::vector<Picture>& stacked, uint32_t index, LayerFormat& layer,
+               LayerPlanes& planes) {
+  std::vector<glm::vec3> motion_mps;
+  for (const Picture& picture : stacked) {
+    const std::vector<glm::vec3>& from = picture.layers[index].motion_mps;
+    motion_mps.insert(motion_mps.end(), from.begin(), from.end());
+  }
+  BytePool pool(0);
+  keepMotion(halfBytes(motion_mps), pool, planes);
+  if (planes.motion == nullptr) return;
+  layer.others.push_back({.kind = PlaneKind::kMotion,
+                          .encoding = PlaneEncoding::kXyz16f,
+                          .size_px = layer.depth.size_px,
+                          .depth = {}});
+}
+
 // The first layers of pictures of one size, one below the other.
 void addSource(const std::vector<Picture>& stacked, const Camera& camera, uint32_t layer_count,
                Frame& frame) {
@@ -119,6 +137,7 @@ void addSource(const std::vector<Picture>& stacked, const Camera& camera, uint32
                       .color_encoding = PlaneEncoding::kRgba8,
                       .depth = floatBytes(depth_m)});
     addSurface(stacked, i, camera, layer, planes.back());
+    addMotion(stacked, i, layer, planes.back());
   }
 }
 

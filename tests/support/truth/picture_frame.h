@@ -10,7 +10,8 @@
 
 namespace viewloom::truth {
 
-// One source with the first layer_count layers: opaque 8-bit sRGB and binary32 planar depth.
+// One source with the first layer_count layers: opaque 8-bit sRGB and binary32 planar depth;
+// how surfaces mirror and how they move by themselves, where any does.
 FramePtr frameOf(const Picture& picture, uint32_t layer_count);
 // A source for each picture.
 FramePtr frameOf(const std::vector<Picture>& pictures, uint32_t layer_count);
