@@ -4,13 +4,17 @@
 #include "gpu/barrier.h"
 #include "shaders/gather_lens.h"
 #include "shaders/list_met.h"
+#include "shared/lens_abi.h"
 #include "trace/band_params.h"
 
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kListSlots[] = {{abi::kBindingMet, DescriptorKind::kStorage},
-                                         {abi::kBindingMetLists, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kListSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                         {abi::kBindingViews, DescriptorKind::kStorage},
+                                         {abi::kBindingMet, DescriptorKind::kStorage},
+                                         {abi::kBindingMetLists, DescriptorKind::kStorage},
+                                         {abi::kBindingUnsettled, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kGatherSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
                                            {abi::kBindingStructureHalves, DescriptorKind::kTexels},
                                            {abi::kBindingColor, DescriptorKind::kTexels},
@@ -19,10 +23,12 @@ constexpr DescriptorSlot kGatherSlots[] = {{abi::kBindingStructure, DescriptorKi
                                            {abi::kBindingExtras, DescriptorKind::kUniform},
                                            {abi::kBindingBand, DescriptorKind::kStorage},
                                            {abi::kBindingMetLists, DescriptorKind::kStorage},
+                                           {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                            {abi::kBindingSums, DescriptorKind::kStorage}};
 
-abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuffer& color,
-                               const TraceJob& job, BandRows rows) {
+// `color`: nullptr where none is read.
+abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuffer* color,
+                               const TraceJob& job, const GatherRows& rows) {
   const AtlasLayout& layout = *job.layout;
   const uint32_t border = job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
   abi::GatherPush push{.layers = {},
@@ -30,34 +36,40 @@ abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuff
                        .source_size_px = packSize(structure.shape().depth_px),
                        .layer_count = structure.shape().layerCount(),
                        .atlas_width_px = layout.size_px.width,
-                       .first_row = rows.first_row,
-                       .row_count = rows.row_count,
+                       .first_row = rows.band.first_row,
+                       .row_count = rows.band.row_count,
                        .tile_size_px = packSize(layout.tile_size_px),
                        .tile_grid = packSize({layout.columns, layout.rows}),
                        .padding_top_px = layout.padding_top_px,
                        .fill = redFirst(job.background_rgb) | border,
-                       .first_block_row = metBlocks(layout, rows).first_row,
+                       .first_block_row = metBlocks(layout, rows.band).first_row,
+                       .piece_row = rows.first_row,
                        .walked_count = layout.lens->walked_count,
-                       .gathered_count = layout.lens->gathered_count};
+                       .point_count = layout.lens->pointCount(),
+                       .sample_count = job.sample_count,
+                       .probed_count = probedCount(job)};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
-    push.color[i] = addressWords(color.address(i));
+    if (color) push.color[i] = addressWords(color->address(i));
   }
   return push;
 }
 
 }  // namespace
 
-const ComputePass& LensGatherer::listPass() {
+const ComputePass& LensGatherer::listPass(bool reads_by_address, bool is_probe) {
   std::lock_guard lock(mutex_);
-  if (!list_pass_) {
-    list_pass_ = std::make_unique<ComputePass>(
-        *device_, ComputePassOptions{.spirv = list_met_spirv,
-                                     .push_bytes = sizeof(abi::GatherPush),
-                                     .descriptors = kListSlots,
-                                     .debug_name = "list met surfaces"});
+  std::unique_ptr<ComputePass>& made = list_passes_[{reads_by_address, is_probe}];
+  if (!made) {
+    const uint32_t constants[] = {reads_by_address, 0, is_probe};
+    made = std::make_unique<ComputePass>(*device_,
+                                         ComputePassOptions{.spirv = list_met_spirv,
+                                                            .push_bytes = sizeof(abi::GatherPush),
+                                                            .specialization = constants,
+                                                            .descriptors = kListSlots,
+                                                            .debug_name = "list met sheets"});
   }
-  return *list_pass_;
+  return *made;
 }
 
 const ComputePass& LensGatherer::gatherPass(const Variant& variant) {
@@ -77,22 +89,29 @@ const ComputePass& LensGatherer::gatherPass(const Variant& variant) {
   return *made;
 }
 
+void LensGatherer::recordLists(vk::CommandBuffer commands, const StructureSlot& structure,
+                               const TraceJob& job, BandRows rows, const Descriptor& views,
+                               const MetTarget& target, bool is_probe) {
+  const MetBlocks blocks = metBlocks(*job.layout, rows);
+  if (blocks.row_count == 0) return;
+  const Descriptor descriptors[] = {structure.structure().asTexels(abi::kBindingStructure), views,
+                                    wholeBuffer(abi::kBindingMet, target.met),
+                                    wholeBuffer(abi::kBindingMetLists, target.lists),
+                                    wholeBuffer(abi::kBindingUnsettled, target.unsettled)};
+  const ComputePass& list = listPass(structure.readsByAddress(), is_probe);
+  recordComputeBarrier(commands);
+  list.recordDescriptors(commands, descriptors);
+  list.record(commands, describeGather(structure, nullptr, job, {rows, 0, 0}),
+              groupCount(blocks.per_row), blocks.row_count);
+  recordComputeBarrier(commands);
+}
+
 void LensGatherer::record(vk::CommandBuffer commands, const StructureSlot& structure,
                           const LayeredBuffer& color, uint32_t color_format, const TraceJob& job,
-                          BandRows rows, const std::vector<Descriptor>& params,
+                          const GatherRows& rows, const std::vector<Descriptor>& params,
                           const GatherTarget& target) {
   const AtlasLayout& layout = *job.layout;
-  const MetBlocks blocks = metBlocks(layout, rows);
-  if (blocks.row_count == 0) return;
-  const abi::GatherPush push = describeGather(structure, color, job, rows);
-  const Descriptor lists[] = {wholeBuffer(abi::kBindingMet, target.met),
-                              wholeBuffer(abi::kBindingMetLists, target.lists)};
-  const ComputePass& list = listPass();
-  recordComputeBarrier(commands);
-  list.recordDescriptors(commands, lists);
-  list.record(commands, push, groupCount(blocks.per_row), blocks.row_count);
-  recordComputeBarrier(commands);
-
+  if (metBlocks(layout, rows.band).row_count == 0) return;
   const ComputePass& gather = gatherPass({.reads_by_address = structure.readsByAddress(),
                                           .wanted = target.wants_linear ? abi::kWantLinear : 0,
                                           .color_format = color_format,
@@ -108,8 +127,9 @@ void LensGatherer::record(vk::CommandBuffer commands, const StructureSlot& struc
     descriptors.push_back(descriptor);
   }
   gather.recordDescriptors(commands, descriptors);
-  gather.record(commands, push, groupCount(layout.tile_size_px.width * layout.columns),
-                rows.row_count);
+  gather.record(commands, describeGather(structure, &color, job, rows),
+                groupCount(layout.tile_size_px.width * layout.columns),
+                rows.end_row - rows.first_row);
   recordComputeBarrier(commands);
 }
 

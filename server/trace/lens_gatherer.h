@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "gpu/compute_pass.h"
@@ -17,13 +18,26 @@
 
 namespace viewloom {
 
+// What the walked rays of a band met.
+struct MetTarget {
+  const Buffer& met;        // of each ray: uint32_t[sample][row][width]
+  const Buffer& lists;      // of metListsBytes()
+  const Buffer& unsettled;  // of unsettledBytes(); its head is 0 before the first list
+};
+
 // What is read and written beside the structure.
 struct GatherTarget {
-  const Buffer& met;    // what the walked rays met: uint32_t[sample][row][width]
-  const Buffer& lists;  // of metListsBytes()
-  const Buffer& sums;   // the mean of the walked rays: linear light, float[3] per px
-  const Buffer& band;   // written: R, G, B, 255, uint32_t per px
+  const Buffer& lists;
+  const Buffer& sums;  // of the walked rays: linear light, float[3] per px
+  const Buffer& band;  // written: R, G, B, 255, uint32_t per px
   bool wants_linear = false;
+};
+
+// Rows of a band, of which some are gathered. The first come first.
+struct GatherRows {
+  BandRows band;
+  uint32_t first_row = 0;  // of the band
+  uint32_t end_row = 0;
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
@@ -31,11 +45,17 @@ class LensGatherer {
  public:
   explicit LensGatherer(const Device& device) : device_(&device) {}
 
-  // `color`: of the structure, opaque. `params`: the views and the extras, as for the walk. Waits
-  // for the compute work before it.
+  // Lists what rays met: as a probe what the first of all px did, of which probedCount() are
+  // walked; then the rest, of blocks that are not settled. `views`: as for the walk. Waits for the
+  // compute work before it, and what follows waits for it.
+  void recordLists(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
+                   BandRows rows, const Descriptor& views, const MetTarget& target, bool is_probe);
+  // `color`: of the structure, opaque. `params`: the views, the extras and all points of the lens,
+  // as for the walk. Waits as above.
   void record(vk::CommandBuffer commands, const StructureSlot& structure,
-              const LayeredBuffer& color, uint32_t color_format, const TraceJob& job, BandRows rows,
-              const std::vector<Descriptor>& params, const GatherTarget& target);
+              const LayeredBuffer& color, uint32_t color_format, const TraceJob& job,
+              const GatherRows& rows, const std::vector<Descriptor>& params,
+              const GatherTarget& target);
 
  private:
   struct Variant {
@@ -48,12 +68,12 @@ class LensGatherer {
     auto operator<=>(const Variant&) const = default;
   };
 
-  const ComputePass& listPass();
+  const ComputePass& listPass(bool reads_by_address, bool is_probe);
   const ComputePass& gatherPass(const Variant& variant);
 
   const Device* device_;
   std::mutex mutex_;  // guards what follows
-  std::unique_ptr<ComputePass> list_pass_;
+  std::map<std::pair<bool, bool>, std::unique_ptr<ComputePass>> list_passes_;
   std::map<Variant, std::unique_ptr<ComputePass>> gather_passes_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "shared/trace_abi.h"
+#include "shared/lens_abi.h"
 
 namespace viewloom {
 namespace {
@@ -37,7 +37,15 @@ uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max) {
   const uint32_t tiles = row_count_max / layout.tile_size_px.height + 2;
   const uint32_t block_rows = blocksIn(row_count_max) + tiles;
   return uint64_t{block_rows} * blocksIn(layout.tile_size_px.width) * layout.columns *
-         abi::kMetListStride * sizeof(uint32_t);
+         sizeof(abi::MetList);
+}
+
+uint64_t unsettledBytes(uint64_t lists_bytes) {
+  return sizeof(abi::UnsettledHead) + lists_bytes / sizeof(abi::MetList) * sizeof(uint32_t);
+}
+
+uint32_t probedCount(const TraceJob& job) {
+  return std::max(job.sample_count / 4, 1U);
 }
 
 }  // namespace viewloom

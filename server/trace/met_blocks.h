@@ -17,5 +17,11 @@ struct MetBlocks {
 MetBlocks metBlocks(const AtlasLayout& layout, BandRows rows);
 // Bytes of the lists of a band with so many rows, wherever it begins.
 uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max);
+// Of the list of those of them that are not settled.
+uint64_t unsettledBytes(uint64_t lists_bytes);
+
+// Rays of each px that are walked before blocks are looked at: those that are settled have no more.
+// A quarter of all: what they have not met is missed the less the more there are.
+uint32_t probedCount(const TraceJob& job);
 
 }  // namespace viewloom

@@ -44,7 +44,7 @@ void SampleBlender::record(vk::CommandBuffer commands, const BlendTarget& target
   const abi::BlendPush push{
       .px_count = target.px_count,
       .is_first = index == 0,
-      .is_last = index + 1 == samples.size() && !target.has_more,
+      .is_last = index + 1 == samples.size(),
       .weights = {weightOf(samples, index, kRedChannel), weightOf(samples, index, kGreenChannel),
                   weightOf(samples, index, kBlueChannel)},
       .linear = addressWords(target.linear_address)};

@@ -19,7 +19,6 @@ struct BlendTarget {
   const Buffer& band;           // as `sample`
   uint64_t linear_address = 0;  // of TraceExtras::linear; 0 = not wanted
   uint32_t px_count = 0;
-  bool has_more = false;  // px are made of the sums by someone else: `band` is not written
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rays of each px: one, or several whose light is averaged.
-#include <optional>
-
 #include "gpu/barrier.h"
 #include "trace/band_params.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
+namespace {
+
+// Such a ray has no single surface to compare with.
+bool seesThrough(const StructureSlot& structure) {
+  return colorFormat(structure.shape().color_storage) == abi::kColorRgba16f;
+}
+
+}  // namespace
 
 void ViewTracer::recordRays(vk::CommandBuffer commands,
                             std::span<const StructureSlot* const> structures, const TraceJob& job,
@@ -21,46 +27,70 @@ void ViewTracer::recordRays(vk::CommandBuffer commands,
 
 void ViewTracer::recordSamples(vk::CommandBuffer commands,
                                std::span<const StructureSlot* const> structures,
-                               const TraceJob& job, BandRows rows, TraceSlot& slot) {
-  BlendTarget blended{
+                               const TraceJob& job, BandRows rows, const BandPart& part,
+                               TraceSlot& slot) {
+  // What else is wanted than colour is that of the ray through the middle of px and lens.
+  const uint32_t wanted = wantedFlags(slot.shape_.outputs);
+  const bool has_middle_apart = job.hasLens() && (wanted & ~abi::kWantLinear) != 0;
+  if (has_middle_apart && part.walks() && part.first_sample == 0) {
+    recordRays(commands, structures, job, rows, {.wanted = wanted & ~abi::kWantLinear}, slot);
+    recordComputeBarrier(commands);
+  }
+  if (job.mayGather() && !seesThrough(*structures[0])) {
+    recordLensSamples(commands, *structures[0], job, rows, part, slot);
+    return;
+  }
+  const BlendTarget blended{
       .sample = slot.sampleTarget(job),
       .sums = slot.sums_,
       .band = slot.rgba(),
       .linear_address = slot.linear_.isEmpty() ? 0 : slot.linear_.target().address(),
       .px_count = uint32_t(slot.band_px_.area())};
-  // What else is wanted than colour is that of the ray through the middle of px and lens.
-  const uint32_t wanted = wantedFlags(slot.shape_.outputs);
-  const bool has_middle_apart = job.hasLens() && (wanted & ~abi::kWantLinear) != 0;
-  if (has_middle_apart) {
-    recordRays(commands, structures, job, rows, {.wanted = wanted & ~abi::kWantLinear}, slot);
-    recordComputeBarrier(commands);
-  }
-  std::optional<ColorAverager::Color> gathered;
-  if (job.mayGather()) {
-    const TileRays rays = raysOf(job, 0, 0);
-    gathered.emplace(
-        averager_.record(commands, *structures[0], colorReach(rays.tiles, rays.tile_px)));
-    // What is seen through has no single surface to compare with.
-    if (gathered->format == abi::kColorRgba16f) gathered.reset();
-  }
-  blended.has_more = gathered.has_value();
-  for (uint32_t sample = 0; sample < job.sample_count; ++sample) {
-    const uint32_t of_first = sample == 0 && !has_middle_apart ? wanted : 0;
+  for (uint32_t sample = part.first_sample; sample < part.end_sample; ++sample) {
     const Rays rays{.sample = sample,
                     .through_lens = job.hasLens(),
-                    .wanted = of_first | (gathered ? abi::kWantMet : 0) |
+                    .wanted = (sample == 0 && !has_middle_apart ? wanted : 0) |
                               (job.reflects() ? abi::kWantRecords : 0)};
     recordRays(commands, structures, job, rows, rays, slot);
     if (job.sumsLight()) blender_.record(commands, blended, job.layout->samples, sample);
   }
-  if (!gathered) return;
-  gatherer_.record(commands, *structures[0], gathered->texels, gathered->format, job, rows,
-                   describeParams(job, 0, 0, slot),
-                   {.met = slot.met_,
-                    .lists = slot.met_lists_,
+}
+
+// Rays that are walked add their light, and leave what they met: blocks where the first of them
+// met one sheet have no more of them. The second stage makes px of the sums.
+void ViewTracer::recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
+                                   const TraceJob& job, BandRows rows, const BandPart& part,
+                                   TraceSlot& slot) {
+  std::vector<Descriptor> params = describeParams(job, 0, 0, slot);
+  const MetTarget met{slot.met_, slot.met_lists_, slot.unsettled_};
+  const uint32_t probed_count = probedCount(job);
+  for (uint32_t sample = part.first_sample; sample < part.end_sample; ++sample) {
+    if (sample == probed_count) {
+      gatherer_.recordLists(commands, structure, job, rows, params.front(), met, true);
+    }
+    const Rays rays{.sample = sample,
+                    .through_lens = true,
+                    .wanted = abi::kWantMet | abi::kWantSum,
+                    .is_of_blocks = sample >= probed_count};
+    const Descriptor band = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
+    recordWalk(commands, {structure, job, 0, rays, slot, band}, rows);
+    recordComputeBarrier(commands);
+  }
+  if (part.walks()) return;
+  if (part.first_row == 0) {
+    gatherer_.recordLists(commands, structure, job, rows, params.front(), met,
+                          probed_count == job.sample_count);
+  }
+  const TileRays rays = raysOf(job, 0, 0);
+  const ColorAverager::Color color =
+      averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));
+  params.push_back(slot.lensDescriptor(job, 0));
+  gatherer_.record(commands, structure, color.texels, color.format, job,
+                   {rows, part.first_row, part.end_row}, params,
+                   {.lists = slot.met_lists_,
                     .sums = slot.sums_,
                     .band = slot.rgba(),
-                    .wants_linear = blended.linear_address != 0});
+                    .wants_linear = !slot.linear_.isEmpty()});
 }
 
 }  // namespace viewloom

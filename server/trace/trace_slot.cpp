@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gpu/barrier.h"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/met_blocks.h"
 
@@ -99,10 +100,19 @@ uint64_t TraceSlot::lensOffset(const TraceJob& job) {
   return tilesOffset(part_count, part_count, job.tileCount());
 }
 
-uint64_t TraceSlot::lensAddress(const TraceJob& job, uint32_t sample) const {
-  const uint32_t point = sample % job.layout->lens->walked_count;
-  return params_.address() + lensOffset(job) +
-         uint64_t{point} * kLensPatternArea_px * sizeof(abi::vec2);
+Descriptor TraceSlot::lensDescriptor(const TraceJob& job, uint32_t sample) const {
+  Descriptor points{.binding = abi::kBindingLensPoints,
+                    .kind = DescriptorKind::kStorage,
+                    .buffer = params_.handle(),
+                    .size_bytes = kExtrasStride_bytes};
+  if (!job.hasLens()) return points;
+  constexpr uint64_t kPoint_bytes = uint64_t{kLensPatternArea_px} * sizeof(abi::vec2);
+  static_assert(kPoint_bytes % kDescriptorAlignment_bytes == 0);
+  const LensRays& lens = *job.layout->lens;
+  const uint32_t point = sample % lens.walked_count;
+  points.offset_bytes = lensOffset(job) + point * kPoint_bytes;
+  points.size_bytes = (lens.pointCount() - point) * kPoint_bytes;
+  return points;
 }
 
 ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
@@ -153,6 +163,8 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
                            .debug_name = "met surfaces"});
     met_lists_ =
         Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
+    unsettled_ = Buffer(device, {.size_bytes = unsettledBytes(shape.met_lists_bytes),
+                                 .debug_name = "unsettled blocks"});
   }
   if (shape.reflects) addReflections(device, area_px);
 }
@@ -180,7 +192,8 @@ uint64_t TraceSlot::sizeBytes() const {
   }
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
          sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
-         hits_.sizeBytes() + reflected_.sizeBytes() + reflection_settings_.sizeBytes();
+         unsettled_.sizeBytes() + hits_.sizeBytes() + reflected_.sizeBytes() +
+         reflection_settings_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {

@@ -8,6 +8,7 @@
 
 #include "frame/stage_times.h"
 #include "gpu/buffer.h"
+#include "gpu/descriptor.h"
 #include "shared/trace_abi.h"
 #include "trace/trace_job.h"
 
@@ -117,8 +118,8 @@ class TraceSlot {
   static uint64_t tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count);
   // After all tiles, AtlasLayout::lens_points.
   static uint64_t lensOffset(const TraceJob& job);
-  // On the device, of a sample's point.
-  uint64_t lensAddress(const TraceJob& job, uint32_t sample) const;
+  // Of a sample's point and those after it; without a lens, of nothing that is read.
+  Descriptor lensDescriptor(const TraceJob& job, uint32_t sample) const;
 
   TraceSlotShape shape_;
   SizePx band_px_;  // of the band in it
@@ -136,7 +137,8 @@ class TraceSlot {
   Buffer sums_;     // light of those before it
   Buffer met_;      // what rays through a lens met
   Buffer met_lists_;
-  Buffer hits_;  // abi::RayRecord, where reflections begin; empty where records_ has them
+  Buffer unsettled_;  // blocks of px
+  Buffer hits_;       // abi::RayRecord, where reflections begin; empty where records_ has them
   Buffer reflection_settings_;
   Buffer reflected_;  // abi::ReflectedLight
 };

@@ -2,12 +2,15 @@
 #include "trace/view_tracer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "base/check.h"
 #include "gpu/barrier.h"
 #include "shaders/walk_views.h"
+#include "shared/lens_abi.h"
 #include "trace/band_params.h"
+#include "trace/met_blocks.h"
 #include "trace/ray_sources.h"
 
 namespace viewloom {
@@ -30,15 +33,16 @@ constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 // this, eyes count as in the plane up to 2^-30 m from it: there they are one with it (abi::kAtEye).
 constexpr double kInvZOfOthers = 1;  // 1/m
 
-constexpr uint32_t kOpaqueBlack = 0xff000000;
-
 constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
                                      {abi::kBindingStructureHalves, DescriptorKind::kTexels},
                                      {abi::kBindingColor, DescriptorKind::kTexels},
                                      {abi::kBindingMeasured, DescriptorKind::kUniform},
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
-                                     {abi::kBindingBand, DescriptorKind::kStorage}};
+                                     {abi::kBindingLensPoints, DescriptorKind::kStorage},
+                                     {abi::kBindingBand, DescriptorKind::kStorage},
+                                     {abi::kBindingSums, DescriptorKind::kStorage},
+                                     {abi::kBindingUnsettled, DescriptorKind::kStorage}};
 
 // Of one view, neighbours in a row. Views see about what the source sees.
 uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
@@ -59,19 +63,13 @@ uint32_t shownBeside(const TraceJob& job) {
   return flags;
 }
 
-bool hasUnusedPixels(const TraceJob& job) {
-  const AtlasLayout& layout = *job.layout;
-  return job.hasEyesBeside() || layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
-         layout.views.size() < size_t{layout.columns} * layout.rows;
-}
-
 abi::Address addressOf(const ReadablePlane& plane) {
   return plane.isEmpty() ? abi::Address{0, 0} : addressWords(plane.target().address());
 }
 
-// What no view covers is black; every plane is cleared, so that no byte of an older band is left.
-void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_t value) {
-  if (!plane.isEmpty()) commands.fillBuffer(plane.target().handle(), 0, VK_WHOLE_SIZE, value);
+// Every binding of a kernel has to have a buffer, also one that its variant does not use.
+Descriptor bufferOr(uint32_t binding, const Buffer& buffer, const Buffer& unused) {
+  return wholeBuffer(binding, buffer.sizeBytes() > 0 ? buffer : unused);
 }
 
 }  // namespace
@@ -108,7 +106,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.is_cube_face,
                                   variant.rays,
                                   variant.shown_beside,
-                                  variant.through_lens};
+                                  variant.through_lens,
+                                  variant.is_of_blocks};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -136,7 +135,6 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .microlenses = microlensesOf(*job.layout),
       .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count),
       .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{})),
-      .lens_points = addressWords(job.hasLens() ? slot.lensAddress(job, part / job.walk_count) : 0),
       .met = addressWords(job.mayGather() ? slot.metAddress(part) : 0)};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
@@ -183,6 +181,7 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
   const uint32_t border = walk.job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
+  const uint32_t first = walk.rays.sample == 0 ? abi::kFillFirst : 0;
   abi::TracePush push{.layers = {},
                       .color = {},
                       .source_size_px = packSize(structure.shape().depth_px),
@@ -192,7 +191,9 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
                       .tile_size_px = packSize(layout.tile_size_px),
                       .tile_grid = packSize({layout.columns, layout.rows}),
                       .padding_top_px = layout.padding_top_px,
-                      .fill = redFirst(walk.job.background_rgb) | border};
+                      .fill = redFirst(walk.job.background_rgb) | border | first,
+                      .row_count = rows.row_count,
+                      .first_block_row = metBlocks(layout, rows).first_row};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     push.color[i] = addressWords(color.address(i));
@@ -228,66 +229,33 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
             .is_cube_face = structure.shape().is_cube_face,
             .rays = raySourceOf(layout),
             .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job),
-            .through_lens = walk.rays.through_lens});
+            .through_lens = walk.rays.through_lens,
+            .is_of_blocks = walk.rays.is_of_blocks});
   std::vector<Descriptor> descriptors =
       describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
   for (const Descriptor& descriptor :
        {structure.measuredDescriptor(), walk.target,
+        walk.slot.lensDescriptor(walk.job, walk.rays.sample),
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
         color.texels.asTexels(abi::kBindingColor)}) {
     descriptors.push_back(descriptor);
   }
+  const Buffer& unused = walk.slot.params_;
+  descriptors.push_back(bufferOr(abi::kBindingSums, walk.slot.sums_, unused));
+  descriptors.push_back(bufferOr(abi::kBindingUnsettled, walk.slot.unsettled_, unused));
   walk_views.recordDescriptors(commands, descriptors);
-  walk_views.record(commands, describeBand(walk, color.texels, rows),
-                    groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
-                    rows.row_count);
+  const abi::TracePush push = describeBand(walk, color.texels, rows);
+  if (walk.rays.is_of_blocks) {
+    walk_views.recordIndirect(commands, push, walk.slot.unsettled_,
+                              offsetof(abi::UnsettledHead, group_count));
+  } else {
+    walk_views.record(
+        commands, push,
+        groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
+        rows.row_count);
+  }
   if (walk.job.reflects()) recordReflections(commands, walk, rows);
-}
-
-void ViewTracer::recordBand(vk::CommandBuffer commands,
-                            std::span<const StructureSlot* const> structures, const TraceJob& job,
-                            BandRows rows, TraceSlot& slot, GpuTimer* timer) {
-  const AtlasLayout& layout = *job.layout;
-  VIEWLOOM_CHECK(
-      slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
-      slot.shape_.tile_count_max >= job.tilesOf(0).size() &&
-      slot.shape_.walk_count >= job.walk_count && slot.shape_.sample_count >= job.sample_count &&
-      slot.shape_.lens_point_count >= layout.lens_points.size() &&
-      (slot.shape_.reflects || !job.reflects()));
-  VIEWLOOM_CHECK(structures.size() == job.walk_count);
-  slot.band_px_ = {layout.size_px.width, rows.row_count};
-  const uint64_t area_px = slot.band_px_.area();
-  fillParams(structures, job, slot);
-
-  if (timer) timer->recordBegin(commands, "trace");
-  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = TraceSlot::lensOffset(job) +
-                                             std::span(job.layout->lens_points).size_bytes()});
-  recordClear(commands, slot.counters_, 0);
-  if (hasUnusedPixels(job)) {
-    commands.fillBuffer(slot.sampleTarget(job).handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
-    for (const ReadablePlane* plane : {&slot.depth_, &slot.mask_, &slot.linear_, &slot.records_}) {
-      recordClear(commands, *plane, 0);
-    }
-  }
-  recordTransferToCompute(commands);
-  recordSamples(commands, structures, job, rows, slot);
-  const ColorForm form = slot.shape_.outputs.color;
-  if (form != ColorForm::kRgba) {
-    packer_.record(commands, slot.rgba(), slot.color_.target(), slot.band_px_, form);
-  }
-  if (timer) timer->recordEnd(commands);
-
-  recordComputeToTransfer(commands);
-  slot.color_.recordReadback(commands, slot.colorBytes());
-  slot.depth_.recordReadback(commands, area_px * sizeof(float));
-  slot.mask_.recordReadback(commands, area_px);
-  slot.linear_.recordReadback(commands, area_px * 4 * sizeof(float));
-  slot.records_.recordReadback(commands, area_px * sizeof(abi::RayRecord));
-  slot.counters_.recordReadback(commands, kCounterCount * sizeof(uint32_t));
-  recordTransferToHost(commands);
-  recordComputeToHost(commands);
 }
 
 }  // namespace viewloom

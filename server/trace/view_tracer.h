@@ -13,6 +13,7 @@
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
 #include "trace/band_packer.h"
+#include "trace/band_parts.h"
 #include "trace/color_averager.h"
 #include "trace/lens_gatherer.h"
 #include "trace/reflector.h"
@@ -42,6 +43,10 @@ class ViewTracer {
     const StructureSlot* const structures[] = {&structure};
     recordBand(commands, structures, job, rows, slot, timer);
   }
+  // The same part by part (BandParts), all of them in their order, each in a submission of its own
+  // if wanted. Nothing else may use the slot meanwhile.
+  void recordPart(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                  const TraceJob& job, BandRows rows, uint32_t part, TraceSlot& slot);
 
  private:
   // What the pipeline is specialised to.
@@ -59,6 +64,7 @@ class ViewTracer {
     uint32_t rays;          // abi::kRaysOf...
     uint32_t shown_beside;  // abi::kShows... flags that some tile has
     uint32_t through_lens;
+    uint32_t is_of_blocks;
 
     auto operator<=>(const Variant&) const = default;
   };
@@ -67,7 +73,8 @@ class ViewTracer {
   struct Rays {
     uint32_t sample = 0;
     bool through_lens = false;
-    uint32_t wanted = 0;  // abi::kWant... flags
+    uint32_t wanted = 0;        // abi::kWant... flags
+    bool is_of_blocks = false;  // of px in blocks that are not settled alone
   };
 
   // One of the walks of a job, and where its answers go.
@@ -93,8 +100,13 @@ class ViewTracer {
                     const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
   void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
+  void beginBand(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                 const TraceJob& job, BandRows rows, TraceSlot& slot);
+  void endBand(vk::CommandBuffer commands, TraceSlot& slot);
   void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                     const TraceJob& job, BandRows rows, TraceSlot& slot);
+                     const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
+  void recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
+                         const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
   uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                        const TraceJob& job, BandRows piece, const Rays& rays,
                        const AnswersLayout& answers, const TraceSlot& slot);

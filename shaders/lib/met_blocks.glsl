@@ -4,18 +4,39 @@
 #ifndef VIEWLOOM_LIB_MET_BLOCKS_GLSL_
 #define VIEWLOOM_LIB_MET_BLOCKS_GLSL_
 
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
 uvec2 sizeOf(uint size_px) {
   return uvec2(size_px & 0xffffu, size_px >> 16);
 }
 
-uvec2 blocksPerTile(GatherPush push) {
-  return (sizeOf(push.tile_size_px) + kMetBlockSide_px - 1u) / kMetBlockSide_px;
+// Of a band. Block rows are counted from the first that the band has a part of.
+struct BlockGrid {
+  uvec2 tile_size_px;
+  uvec2 tile_count;
+  uint padding_top_px;
+  uint first_row;  // of the band, in the atlas
+  uint row_count;
+  uint first_block_row;  // of those of all tile rows
+};
+
+BlockGrid gridOf(GatherPush push) {
+  return BlockGrid(sizeOf(push.tile_size_px), sizeOf(push.tile_grid), push.padding_top_px,
+                   push.first_row, push.row_count, push.first_block_row);
 }
 
-uint blocksPerRow(GatherPush push) {
-  return blocksPerTile(push).x * sizeOf(push.tile_grid).x;
+BlockGrid gridOf(TracePush push) {
+  return BlockGrid(sizeOf(push.tile_size_px), sizeOf(push.tile_grid), push.padding_top_px,
+                   push.first_row, push.row_count, push.first_block_row);
+}
+
+uvec2 blocksPerTile(BlockGrid grid) {
+  return (grid.tile_size_px + kMetBlockSide_px - 1u) / kMetBlockSide_px;
+}
+
+uint blocksPerRow(BlockGrid grid) {
+  return blocksPerTile(grid).x * grid.tile_count.x;
 }
 
 // Px of the band: [first, end) along both axes.
@@ -26,18 +47,20 @@ struct MetBlock {
   uint end_row;
 };
 
-// `row`: of blocks, from the first that the band has a part of.
-MetBlock metBlock(GatherPush push, uint column, uint row) {
-  const uvec2 per_tile = blocksPerTile(push);
-  const uvec2 tile_size = sizeOf(push.tile_size_px);
-  const uvec2 block = uvec2(column, push.first_block_row + row);
-  const uvec2 tile = block / per_tile;
-  const uvec2 in_tile = block % per_tile * kMetBlockSide_px;
-  const uvec2 first = tile * tile_size + in_tile;
-  const uvec2 end = tile * tile_size + min(in_tile + kMetBlockSide_px, tile_size);
+uvec2 tileOfBlock(BlockGrid grid, uvec2 block) {
+  return uvec2(block.x, grid.first_block_row + block.y) / blocksPerTile(grid);
+}
+
+MetBlock metBlock(BlockGrid grid, uvec2 block) {
+  const uvec2 tile = tileOfBlock(grid, block);
+  const uvec2 in_tile = (uvec2(block.x, grid.first_block_row + block.y) -
+                         tile * blocksPerTile(grid)) * kMetBlockSide_px;
+  const uvec2 first = tile * grid.tile_size_px + in_tile;
+  const uvec2 end =
+      tile * grid.tile_size_px + min(in_tile + kMetBlockSide_px, grid.tile_size_px);
   // Rows count from the top of the tiles; the band may begin above that, or further down.
-  const int band_first = int(push.first_row) - int(push.padding_top_px);
-  const ivec2 rows = clamp(ivec2(first.y, end.y) - band_first, 0, int(push.row_count));
+  const int band_first = int(grid.first_row) - int(grid.padding_top_px);
+  const ivec2 rows = clamp(ivec2(first.y, end.y) - band_first, 0, int(grid.row_count));
   return MetBlock(first.x, end.x, uint(rows.x), uint(rows.y));
 }
 

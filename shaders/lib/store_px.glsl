@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the answer of a ray goes: the planes of a band. The includer has `extras`, `band` and the
-// constants of trace/walk_views.comp.
+// Where the answer of a ray goes: the planes of a band. The includer has `extras`, `band`, `sums`
+// and the constants of trace/walk_views.comp.
 #ifndef VIEWLOOM_LIB_STORE_PX_GLSL_
 #define VIEWLOOM_LIB_STORE_PX_GLSL_
 
@@ -17,6 +17,11 @@ uint classOf(Walk walk) {
 }
 
 void storeCodes(uint index, vec3 codes) {
+  if ((kWanted & kWantSum) != 0u) {
+    const vec3 light = linearFromSrgb(codes / 255.0);
+    sums[index] = (push.fill & kFillFirst) != 0u ? light : sums[index] + light;
+    return;
+  }
   band[index] = packCodes(codes);
   if ((kWanted & kWantLinear) != 0u) {
     Vec4Ref(extras.linear).at[index] = vec4(clamp(codes / 255.0, 0.0, 1.0), 1.0);

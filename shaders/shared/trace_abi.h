@@ -139,10 +139,7 @@ struct TraceExtras {
   Microlenses microlenses;
   LenticularEyes lenticular;
   DepthScale depth_scale;  // of tiles that show depth
-  // vec2[kLensPatternArea_px]: where the rays pass through the lens, by place in the pattern; of
-  // the second stage, [point][kLensPatternArea_px]
-  Address lens_points;
-  Address met;  // uint[rows][width]: lib/met_surface.glsl; 0 = not wanted
+  Address met;             // uint[rows][width]: lib/met_surface.glsl; 0 = not wanted
 };
 
 // What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
@@ -193,10 +190,14 @@ struct TracePush {
   uint tile_size_px;  // width | height << 16
   uint tile_grid;     // columns | rows << 16
   uint padding_top_px;
-  uint fill;  // background, red in the low byte, and kFillBorder
+  uint fill;  // background, red in the low byte, and kFill... flags
+  // Of rays whose light is summed, to find blocks of px by.
+  uint row_count;        // of the band
+  uint first_block_row;  // as in GatherPush
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
+VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin with these rays
 
 // Means of colour along an axis; texels of the source's layers.
 struct AveragePush {
@@ -221,33 +222,6 @@ struct BlendPush {
 
 VIEWLOOM_ABI_CONST uint kBindingSample = 15u;  // storage, read: uint per px, as in the band
 VIEWLOOM_ABI_CONST uint kBindingSums = 16u;    // storage: linear light, vec3 per px
-
-// The second stage of a lens: surfaces that the walked rays of a block of px met, each once.
-struct GatherPush {
-  Address layers[kLayerCountMax];  // of the structure
-  Address color[kLayerCountMax];   // texels of the source
-  uint source_size_px;             // width | height << 16
-  uint layer_count;
-  uint atlas_width_px;
-  uint first_row;  // of the band, in the atlas
-  uint row_count;
-  uint tile_size_px;  // width | height << 16
-  uint tile_grid;     // columns | rows << 16
-  uint padding_top_px;
-  uint fill;             // as in TracePush
-  uint first_block_row;  // of blocks of all tile rows: that of the band's first row
-  uint walked_count;
-  uint gathered_count;
-};
-
-VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
-// Surfaces of a block; of one that met more, the walked rays are all there is.
-VIEWLOOM_ABI_CONST uint kMetListMax = 47u;
-VIEWLOOM_ABI_CONST uint kMetListStride = kMetListMax + 1u;  // their number first
-VIEWLOOM_ABI_CONST uint kMetNothing = 0xffffffffu;
-VIEWLOOM_ABI_CONST float kDepthMax = 1e30f;  // m: no surface is further away
-VIEWLOOM_ABI_CONST uint kBindingMet = 17u;  // storage: lib/met_surface.glsl, [sample][row][width]
-VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: uint[block][kMetListStride]
 
 // A band's colour, packed as planes of Y'CbCr.
 struct PackPush {
@@ -275,6 +249,7 @@ VIEWLOOM_ABI_CONST uint kWantMask = 2u;
 VIEWLOOM_ABI_CONST uint kWantLinear = 4u;
 VIEWLOOM_ABI_CONST uint kWantRecords = 8u;
 VIEWLOOM_ABI_CONST uint kWantMet = 16u;  // what rays met, for the second stage of a lens
+VIEWLOOM_ABI_CONST uint kWantSum = 32u;  // the sum of the light of all rays so far, in place of px
 
 #ifdef __cplusplus
 static_assert(sizeof(ViewParams) == 72);
@@ -282,12 +257,11 @@ static_assert(sizeof(EyeAxes) == 28);
 static_assert(sizeof(Microlenses) == 40);
 static_assert(sizeof(Lenticular) == 72);
 static_assert(sizeof(DepthScale) == 12);
-static_assert(sizeof(TraceExtras) == 260);
+static_assert(sizeof(TraceExtras) == 252);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
-static_assert(sizeof(TracePush) == 96);
+static_assert(sizeof(TracePush) == 104);
 static_assert(sizeof(AveragePush) == 104);
-static_assert(sizeof(GatherPush) == 112);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(BlendPush) == 32);
 static_assert(sizeof(RayRecord) == 24);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second stage of a lens: more rays of each px, compared with the surfaces that the walked rays
-// of its block met (shaders/README.md, A lens). The nearest one that holds a ray is what it sees;
-// rays that none holds are left out, or walked. Px are the mean of all rays.
+// The second stage of a lens: more rays of each px, compared with the sheets that the walked rays
+// of its block met (shaders/README.md, A lens). In settled blocks the one sheet is what they see.
+// In mode exact it is the nearest that has a facet where the ray meets it, and rays that something
+// may stand in the way of are walked. Px are the mean of all rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -30,137 +32,74 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];
 };
 layout(set = 0, binding = kBindingMetLists, scalar) readonly buffer MetLists {
-  uint lists[];
+  MetList lists[];
+};
+layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
+  vec2 lens_points[];
 };
 layout(set = 0, binding = kBindingSums, scalar) readonly buffer Sums {
   vec3 sums[];
 };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vec2Ref {
-  vec2 at[];
-};
 
 #include "lib/lens.glsl"
+#include "lib/lens_rays.glsl"
 #include "lib/met_blocks.glsl"
-#include "lib/met_surface.glsl"
+#include "lib/met_sheets.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_start.glsl"
 
-// Rays that are compared with a surface at a time.
+// Rays that are compared with a sheet at a time.
 const uint kAtOnce = 4u;
 
-// The plane of a surface as a linear function g of homogeneous image coordinates: g(P) = 1 on it,
-// less in front of it. Of the parts of rays.
-struct PlaneParts {
-  float eye;
-  float direction;
-  float dx;
-  float dy;
-};
-
-PlaneParts partsOf(vec3 plane, ViewParams view, vec3 direction) {
-  return PlaneParts(dot(plane, view.eye), dot(plane, direction), dot(plane, view.direction_dx),
-                    dot(plane, view.direction_dy));
-}
-
-// A ray of the px: through a point of the lens (as px of the tile for each 1/m) and beside the
-// middle of the px.
-struct LensRay {
-  vec2 lens_px_m;
-  vec2 beside_px;
-};
-
-// Steps of a px of the tile that a ray makes by the lens are up, and rows run down.
-vec3 eyeOf(ViewParams view, LensRay ray) {
-  return view.eye + ray.lens_px_m.x * view.direction_dx - ray.lens_px_m.y * view.direction_dy;
-}
-
-vec3 directionOf(ViewParams view, vec3 direction, LensRay ray) {
-  const vec2 step_px =
-      ray.beside_px - view.lens_inv_focus * vec2(ray.lens_px_m.x, -ray.lens_px_m.y);
-  return direction + step_px.x * view.direction_dx + step_px.y * view.direction_dy;
-}
-
-// Depth along the view's axis at which the ray meets the plane from the front, m; < 0: nowhere.
-float depthAt(PlaneParts parts, ViewParams view, LensRay ray) {
-  const vec2 step_px =
-      ray.beside_px - view.lens_inv_focus * vec2(ray.lens_px_m.x, -ray.lens_px_m.y);
-  const float in_front =
-      1.0 - parts.eye - (ray.lens_px_m.x * parts.dx - ray.lens_px_m.y * parts.dy);
-  const float towards = parts.direction + step_px.x * parts.dx + step_px.y * parts.dy;
-  return in_front > 0.0 && towards > 0.0 ? in_front / towards : -1.0;
-}
-
-// Over the px, as the walked ones are: the first axes of Roberts' R4 sequence.
-vec2 besideOf(uint point) {
-  return fract(0.5 + float(point) * vec2(0.8566748838545029, 0.7338918566271260)) - 0.5;
-}
-
 LensRay lensRay(ViewParams view, uint pattern_index, uint point) {
-  const vec2 at = Vec2Ref(extras.lens_points).at[point * kLensPatternArea_px + pattern_index];
+  const vec2 at = lens_points[point * kLensPatternArea_px + pattern_index];
   return LensRay(view.lens_px_m * at, besideOf(point));
 }
 
-// What a ray has met so far.
+// What a ray has met so far; no layer: nothing.
 struct Nearest {
   float depth;
-  uint name;
+  uint layer;
+  ivec2 cell;
 };
 
-uvec2 loadSurface(Extent extent, MetSurface surface) {
-  const uvec2 block = uvec2(surface.first_px) >> surface.level;
-  return loadCell(push.layers, surface.layer, extent, surface.level, block);
-}
-
-// The plane, of homogeneous image coordinates.
-vec3 planeOf(MetSurface surface, uvec2 bits) {
-  const vec2 slope = unpackSlopes(bits.y);
-  const float inv_z = surface.level == kLevelFacets
-                          ? uintBitsToFloat(bits.x & ~kForwardLinkFlag)
-                          : planeCenter(bits);
-  const vec2 center = vec2(surface.first_px) + 0.5 * float(1u << surface.level);
-  return vec3(slope, inv_z - dot(slope, center));
-}
-
-void compare(uint name, Extent extent, ViewParams view, vec3 direction,
+// Facets of the surface that a sheet stands for lie within its reach, and those beside them within
+// twice that.
+void compare(MetSheet sheet, float reach, Extent extent, ViewParams view, vec3 direction,
              LensRay rays[kAtOnce], inout Nearest nearest[kAtOnce]) {
-  const MetSurface surface = metSurface(name);
-  const PlaneParts parts = partsOf(planeOf(surface, loadSurface(extent, surface)), view, direction);
-  const vec2 low = vec2(surface.first_px);
-  const vec2 high = low + float(1u << surface.level);
+  const PlaneParts parts = partsOf(sheet.plane, view, direction);
   for (uint i = 0u; i < kAtOnce; ++i) {
     const float depth = depthAt(parts, view, rays[i]);
     const vec3 point = eyeOf(view, rays[i]) + depth * directionOf(view, direction, rays[i]);
     const vec2 at = point.xy / point.z;
-    const bool holds = depth > 0.0 && point.z > 0.0 && all(greaterThanEqual(at, low)) &&
-                       all(lessThanEqual(at, high)) && depth < nearest[i].depth;
+    const ivec2 cell = clamp(ivec2(floor(at)), ivec2(0), extent.size_px - 1);
+    const uvec2 facet = loadFacet(push.layers, sheet.layer, extent, cell);
+    const float inv_z = facetAtPoint(facet, cell, at);
+    const bool is_inside = all(greaterThanEqual(at, vec2(0.0))) &&
+                           all(lessThan(at, vec2(extent.size_px)));
+    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z >= 0.0 &&
+                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <= 2.0 * reach &&
+                       depth < nearest[i].depth;
     nearest[i].depth = holds ? depth : nearest[i].depth;
-    nearest[i].name = holds ? name : nearest[i].name;
+    nearest[i].layer = holds ? sheet.layer : nearest[i].layer;
+    nearest[i].cell = holds ? cell : nearest[i].cell;
   }
 }
 
-vec3 lightOfTexel(uint layer, vec2 at, ivec2 cell, Extent extent) {
-  uint index = uint(cell.y * extent.size_px.x + cell.x);
+// Of the nearest texel: the blur averages over texels, so that will do.
+vec3 lightOf(Nearest met, Extent extent) {
+  uint index = uint(met.cell.y * extent.size_px.x + met.cell.x);
   uint count = uint(extent.size_px.x * extent.size_px.y);
   if (kColorIsScaled) {
     const ColorSizes sizes = ColorSizes(extras.color_size_px, extras.color_stride);
-    const ivec2 size_px = colorSize(sizes, layer);
-    const ivec2 texel =
-        clamp(ivec2(at / vec2(extent.size_px) * vec2(size_px)), ivec2(0), size_px - 1);
+    const ivec2 size_px = colorSize(sizes, met.layer);
+    const vec2 middle = (vec2(met.cell) + 0.5) / vec2(extent.size_px);
+    const ivec2 texel = clamp(ivec2(middle * vec2(size_px)), ivec2(0), size_px - 1);
     index = uint(texel.y * size_px.x + texel.x);
     count = extras.color_stride;
   }
-  const vec3 texel = loadTexel(push.color, layer, count, kColorFormat, index).rgb;
+  const vec3 texel = loadTexel(push.color, met.layer, count, kColorFormat, index).rgb;
   return linearFromSrgb(codesOfBlend(texel) / 255.0);
-}
-
-// The blur averages over texels, so the nearest one will do.
-vec3 lightOf(Nearest met, Extent extent, ViewParams view, vec3 direction, LensRay ray) {
-  const MetSurface surface = metSurface(met.name);
-  const vec3 point = eyeOf(view, ray) + met.depth * directionOf(view, direction, ray);
-  const vec2 at = point.xy / point.z;
-  const ivec2 last = min(surface.first_px + int(1u << surface.level), extent.size_px) - 1;
-  const ivec2 cell = clamp(ivec2(floor(at)), surface.first_px, last);
-  return lightOfTexel(surface.layer, at, cell, extent);
 }
 
 // The ray, walked: from as far along as nothing can be before.
@@ -175,10 +114,7 @@ vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
 // What a ray sees, as light; a negative number if it is left out. A surface is what the ray sees if
 // nothing of the source stands nearer than that, and apart from it, all the way there.
 vec3 lightOfRay(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, Nearest met) {
-  const bool is_met = met.name != kMetNothing;
-  if (!kIsExact) {
-    return is_met ? lightOf(met, scene.extent, view, direction, lens_ray) : vec3(-1.0);
-  }
+  const bool is_met = met.layer < kLayerCountMax;
   view.eye = eyeOf(view, lens_ray);
   const vec3 along = directionOf(view, direction, lens_ray);
   const Ray ray = makeAnyRay(view.eye * scene.inv_z_near, along, vec2(scene.extent.size_px),
@@ -189,9 +125,7 @@ vec3 lightOfRay(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, 
   const float bound = startBound(scene, min(ray.start.xy, end_px), max(ray.start.xy, end_px));
   const float inv_z = is_met ? 1.0 / point.z : 0.0;
   const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, inv_z);
-  if (is_met && bound <= inv_z + apart) {
-    return lightOf(met, scene.extent, view, direction, lens_ray);
-  }
+  if (is_met && bound <= inv_z + apart) return lightOf(met, scene.extent);
   return lightOfWalk(scene, view, ray, bound);
 }
 
@@ -207,11 +141,87 @@ Scene sceneOf(GatherPush given) {
   return scene;
 }
 
+// The light of rays, and how many they are.
+struct LightSum {
+  vec3 light;
+  uint count;
+};
+
+// Points of a lens: [first, end).
+struct PointRange {
+  uint first;
+  uint end;
+};
+
+// Of a px of a settled block: nothing stands before the sheet, which is everywhere.
+LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_index,
+                    MetSheet sheet, PointRange points, LightSum sum) {
+  const PlaneParts parts = partsOf(sheet.plane, view, direction);
+  for (uint point = points.first; point < points.end; ++point) {
+    const LensRay ray = lensRay(view, pattern_index, point);
+    const float depth = depthAt(parts, view, ray);
+    const vec3 at = eyeOf(view, ray) + depth * directionOf(view, direction, ray);
+    const ivec2 cell = ivec2(floor(at.xy / at.z));
+    const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
+    const bool is_met = depth > 0.0 && cell == inside;
+    const vec3 light = lightOf(Nearest(depth, sheet.layer, inside), scene.extent);
+    sum.light += is_met ? light : vec3(0.0);
+    sum.count += is_met ? 1u : 0u;
+  }
+  return sum;
+}
+
+LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_index, uint list,
+                     uint sheet_count, PointRange points, LightSum sum) {
+  const float reach = sheetReach(view);
+  for (uint point = points.first; point < points.end; point += kAtOnce) {
+    LensRay rays[kAtOnce];
+    Nearest nearest[kAtOnce];
+    for (uint i = 0u; i < kAtOnce; ++i) {
+      rays[i] = lensRay(view, pattern_index, min(point + i, points.end - 1u));
+      nearest[i] = Nearest(kDepthMax, kLayerCountMax, ivec2(0));
+    }
+    for (uint i = 0u; i < sheet_count; ++i) {
+      compare(lists[list].sheets[i], reach, scene.extent, view, direction, rays, nearest);
+    }
+    for (uint i = 0u; i < kAtOnce; ++i) {
+      if (point + i >= points.end) continue;
+      const vec3 seen = lightOfRay(scene, view, direction, rays[i], nearest[i]);
+      if (seen.r < 0.0) continue;
+      sum.light += seen;
+      ++sum.count;
+    }
+  }
+  return sum;
+}
+
+// The mean of a px's walked rays and of those that are gathered.
+vec3 lightOfPx(Scene scene, ViewParams view, uvec2 px, uint list, vec3 walked_light) {
+  const bool is_settled = lists[list].is_settled != 0u;
+  const uint sheet_count = lists[list].count;
+  const uint pattern_index = lensPatternIndex(px);
+  const vec2 middle = vec2(px) + 0.5;
+  const vec3 direction =
+      view.direction + middle.x * view.direction_dx + middle.y * view.direction_dy;
+  LightSum sum = LightSum(walked_light, is_settled ? push.probed_count : push.sample_count);
+  const uint first = is_settled ? push.probed_count : push.walked_count;
+  if (kIsExact) {
+    const bool has_sheets = sheet_count > 0u && sheet_count != kMetTooMany;
+    sum = sumOnSheets(scene, view, direction, pattern_index, list, sheet_count,
+                      PointRange(first, has_sheets ? push.point_count : first), sum);
+  } else {
+    sum = sumOnSheet(scene, view, direction, pattern_index, lists[list].sheets[0],
+                     PointRange(first, is_settled ? push.point_count : first), sum);
+  }
+  return sum.light / float(sum.count);
+}
+
 void main() {
   const uvec2 tile_size = sizeOf(push.tile_size_px);
   const uvec2 tile_grid = sizeOf(push.tile_grid);
   const uint x = gl_GlobalInvocationID.x;
-  const uint atlas_row = push.first_row + gl_WorkGroupID.y;
+  const uint band_row = push.piece_row + gl_WorkGroupID.y;
+  const uint atlas_row = push.first_row + band_row;
   const uint column = x / tile_size.x;
   if (column >= tile_grid.x || atlas_row < push.padding_top_px) return;
   const uint row = atlas_row - push.padding_top_px;
@@ -219,41 +229,12 @@ void main() {
   const ViewParams view = views[tile_row * tile_grid.x + column];
   if (view.is_used == 0u) return;
   const uvec2 px = uvec2(x, row) - uvec2(column, tile_row) * tile_size;
-  const uvec2 per_tile = blocksPerTile(push);
-  const uvec2 block = px / kMetBlockSide_px + uvec2(column, tile_row) * per_tile;
-  const uint list = ((block.y - push.first_block_row) * blocksPerRow(push) + block.x) *
-                    kMetListStride;
-
-  const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
-  const Scene scene = sceneOf(push);
-  const uint surface_count = lists[list];
-  const uint pattern_index = lensPatternIndex(px);
-  const vec2 middle = vec2(px) + 0.5;
-  const vec3 direction =
-      view.direction + middle.x * view.direction_dx + middle.y * view.direction_dy;
-  vec3 light = sums[index] * float(push.walked_count);
-  uint count = push.walked_count;
-  const uint end = surface_count == 0u ? 0u : push.gathered_count;
-  for (uint first = 0u; first < end; first += kAtOnce) {
-    LensRay rays[kAtOnce];
-    Nearest nearest[kAtOnce];
-    for (uint i = 0u; i < kAtOnce; ++i) {
-      const uint point = min(first + i, push.gathered_count - 1u);
-      rays[i] = lensRay(view, pattern_index, push.walked_count + point);
-      nearest[i] = Nearest(kDepthMax, kMetNothing);
-    }
-    for (uint i = 0u; i < surface_count; ++i) {
-      compare(lists[list + 1u + i], scene.extent, view, direction, rays, nearest);
-    }
-    for (uint i = 0u; i < kAtOnce; ++i) {
-      if (first + i >= push.gathered_count) continue;
-      const vec3 seen = lightOfRay(scene, view, direction, rays[i], nearest[i]);
-      if (seen.r < 0.0) continue;
-      light += seen;
-      ++count;
-    }
-  }
-  const vec3 codes = codesFromLinear(light / float(count));
+  const BlockGrid grid = gridOf(push);
+  const uvec2 block = px / kMetBlockSide_px + uvec2(column, tile_row) * blocksPerTile(grid);
+  const uint list = (block.y - push.first_block_row) * blocksPerRow(grid) + block.x;
+  const uint index = band_row * push.atlas_width_px + x;
+  const vec3 light = lightOfPx(sceneOf(push), view, px, list, sums[index]);
+  const vec3 codes = codesFromLinear(light);
   band[index] = packCodes(codes);
   if ((kWanted & kWantLinear) != 0u) {
     Vec4Ref(extras.linear).at[index] = vec4(clamp(codes / 255.0, 0.0, 1.0), 1.0);

@@ -1,50 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces that the walked rays of each block of 8x8 px met, each once, in the order in which
-// they are found: an invocation a block. What lies outside the band is not looked at.
+// The sheets that the walked rays of each block of 8x8 px met (shaders/README.md, A lens), in the
+// order in which they are found: an invocation a block. What lies outside the band is not looked
+// at.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "lib/memory.glsl"
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
+// After the first rays of all px: sees which blocks need more. Else goes on with those.
+layout(constant_id = kOwnConstants + 0u) const bool kIsProbe = true;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;
+};
+layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
+  ViewParams views[];
 };
 layout(set = 0, binding = kBindingMet, scalar) readonly buffer Met {
   uint met[];
 };
 layout(set = 0, binding = kBindingMetLists, scalar) buffer MetLists {
-  uint lists[];
+  MetList lists[];
+};
+
+layout(set = 0, binding = kBindingUnsettled, scalar) buffer Unsettled {
+  UnsettledHead unsettled;
+  uint unsettled_blocks[];
 };
 
 #include "lib/met_blocks.glsl"
+#include "lib/met_sheets.glsl"
+#include "lib/met_surface.glsl"
+
+// A new sheet: the surface itself where it is a node. A facet alone leans as its neighbours have
+// it, so the node around it counts, if that is a plane; else it is taken to face the source.
+MetSheet sheetOf(MetSurface surface, vec3 plane, Extent extent, float inv_z) {
+  const uvec2 around = uvec2(surface.cell) >> kLevelFirst;
+  const uvec2 bits = loadCell(push.layers, surface.layer, extent, kLevelFirst, around);
+  if (surface.level != kLevelFacets) return MetSheet(plane, surface.layer);
+  const vec2 slope = isPlane(bits) ? unpackSlopes(bits.y) : vec2(0.0);
+  return MetSheet(vec3(slope, inv_z - dot(slope, vec2(surface.cell) + 0.5)), surface.layer);
+}
+
+bool isOf(MetSheet sheet, uint layer, vec3 at, float inv_z, float reach) {
+  return sheet.layer == layer && abs(dot(sheet.plane, at) - inv_z) <= reach;
+}
+
+void listUnsettled(uint list) {
+  const uint place = atomicAdd(unsettled.count, 1u);
+  unsettled_blocks[place] = list;
+  const uint kBlocksPerGroup = kTraceGroupSize / kMetBlockSide_px;
+  if (place % kBlocksPerGroup == 0u) atomicAdd(unsettled.group_count.x, 1u);
+}
 
 void main() {
-  const uint block_column = gl_GlobalInvocationID.x;
-  const uint block_row = gl_WorkGroupID.y;
-  const uint blocks_per_row = blocksPerRow(push);
-  if (block_column >= blocks_per_row) return;
-  const MetBlock block = metBlock(push, block_column, block_row);
-  const uint list = (block_row * blocks_per_row + block_column) * kMetListStride;
-  uint count = 0u;
-  uint last = kMetNothing;
-  for (uint sample_index = 0u; sample_index < push.walked_count; ++sample_index) {
-    for (uint y = block.first_row; y < block.end_row; ++y) {
-      for (uint x = block.first_x; x < block.end_x; ++x) {
-        const uint name =
-            met[(sample_index * push.row_count + y) * push.atlas_width_px + x];
-        if (name == last || name == kMetNothing) continue;
-        last = name;
-        bool is_listed = false;
-        for (uint i = 0u; i < count; ++i) is_listed = is_listed || lists[list + 1u + i] == name;
-        if (is_listed) continue;
-        if (count < kMetListMax) lists[list + 1u + count] = name;
-        ++count;
-      }
-      if (count > kMetListMax) break;
+  const uvec2 at_block = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  const BlockGrid grid = gridOf(push);
+  if (at_block.x >= blocksPerRow(grid)) return;
+  if (kIsProbe && at_block == uvec2(0u)) unsettled.group_count.yz = uvec2(1u);
+  const uint list = at_block.y * blocksPerRow(grid) + at_block.x;
+  const uint first_sample = kIsProbe ? 0u : push.probed_count;
+  const uint end_sample = kIsProbe ? push.probed_count : push.sample_count;
+  uint count = kIsProbe ? 0u : lists[list].count;
+  const bool is_done = !kIsProbe && (lists[list].is_settled != 0u || count == kMetTooMany);
+  const MetBlock block = metBlock(grid, at_block);
+  const uvec2 tile = tileOfBlock(grid, at_block);
+  const ViewParams view = views[tile.y * grid.tile_count.x + tile.x];
+  const float reach = sheetReach(view);
+  const Extent extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
+  MetSheet last = MetSheet(vec3(0.0), kLayerCountMax);
+  const uint width = block.end_x - block.first_x;
+  const uint px_count = width * (block.end_row - block.first_row);
+  const bool is_idle = is_done || view.is_used == 0u;
+  const uint name_count = is_idle ? 0u : px_count * (end_sample - first_sample);
+  bool all_met = true;
+  for (uint i = 0u; i < name_count; ++i) {
+    const uint sample_index = i / px_count;
+    const uint in_block = i - sample_index * px_count;
+    const uint y = block.first_row + in_block / width;
+    const uint x = block.first_x + in_block % width;
+    const uint name =
+        met[((first_sample + sample_index) * push.row_count + y) * push.atlas_width_px + x];
+    const bool is_met = name != kMetNothing;
+    all_met = all_met && is_met;
+    const MetSurface surface = metSurface(is_met ? name : 0u);
+    const vec3 plane = planeOf(surface, loadSurface(push.layers, extent, surface));
+    const vec3 at = vec3(vec2(surface.cell) + 0.5, 1.0);
+    const float inv_z = dot(plane, at);
+    bool is_new = is_met && !isOf(last, surface.layer, at, inv_z, reach);
+    // A loop is what a software device passes over where nobody needs it.
+    for (uint k = 0u; is_new && k < min(count, kMetSheetMax); ++k) {
+      const MetSheet sheet = lists[list].sheets[k];
+      is_new = !isOf(sheet, surface.layer, at, inv_z, reach);
+      if (!is_new) last = sheet;
     }
-    if (count > kMetListMax) break;
+    for (; is_new; is_new = false) {
+      last = sheetOf(surface, plane, extent, inv_z);
+      if (count < kMetSheetMax) lists[list].sheets[count] = last;
+      ++count;
+    }
   }
-  // More than there is room for: the walked rays alone make these px.
-  lists[list] = count > kMetListMax ? 0u : count;
+  if (is_done) return;
+  lists[list].count = count > kMetSheetMax ? kMetTooMany : count;
+  if (!kIsProbe) return;
+  const bool is_settled = count == 1u && all_met;
+  lists[list].is_settled = is_settled ? 1u : 0u;
+  if (!is_settled) listUnsettled(list);
 }

@@ -9,6 +9,7 @@
 #include "lib/extensions.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/memory.glsl"
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -29,6 +30,8 @@ layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
 layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kShows... of some tile
 layout(constant_id = kOwnConstants + 11u) const bool kThroughLens = false;
+// Of blocks that are not settled alone, an invocation a row of a block.
+layout(constant_id = kOwnConstants + 12u) const bool kIsOfBlocks = false;
 // Each px has an eye of its own, or several.
 const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens;
 const bool kIsLayered = kColorFormat == kColorRgba16f;
@@ -51,14 +54,22 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
   RayAnswer answers[];
 };
+layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
+  vec2 lens_points[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
   RayRecord at[];
 };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vec2Ref {
-  vec2 at[];
-};
 layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Uint8Ref {
   uint8_t at[];
+};
+
+layout(set = 0, binding = kBindingSums, scalar) buffer Sums {
+  vec3 sums[];
+};
+layout(set = 0, binding = kBindingUnsettled, scalar) readonly buffer Unsettled {
+  UnsettledHead unsettled;
+  uint unsettled_blocks[];
 };
 
 #include "lib/class_counts.glsl"
@@ -72,10 +83,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/ray_start.glsl"
 #include "lib/store_px.glsl"
 #include "lib/walk.glsl"
-
-uvec2 unpackSize(uint size_px) {
-  return uvec2(size_px & 0xffffu, size_px >> 16);
-}
+#include "lib/walk_tasks.glsl"
 
 Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
   const vec2 px_per_inv_z = ray.extent.xy / (ray.extent.z == 0.0 ? 1.0 : ray.extent.z);
@@ -89,17 +97,6 @@ Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
   seen.clean = cleanShare(ray).x;
   return seen;
 }
-
-// A run of px of one row of one view, and where it lies in the band. Between two runs of a row each
-// is traced with one px more, which the other stores.
-struct Run {
-  uint first_x;
-  uint count;
-  uint lead;   // px of another run at the beginning, 0 or 1
-  uint trail;  // and at the end
-  float tile_y;
-  uint first_index;
-};
 
 // The bound where rays may start that lie between two. Rays between two plain ones are plain, and
 // pass no cell outside the rectangle around those.
@@ -142,7 +139,7 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
   if (kThroughLens) {
     const uvec2 px = uvec2(run.first_x + i, uint(run.tile_y));
-    view = viewThrough(view, Vec2Ref(extras.lens_points).at[lensPatternIndex(px)]);
+    view = viewThrough(view, lens_points[lensPatternIndex(px)]);
   }
   if (kHasOwnEyes) {
     if (kEyesInPlane) view.eye.z = 0.0;
@@ -238,43 +235,28 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
 }
 
 void main() {
-  const uvec2 tile_size = unpackSize(push.tile_size_px);
-  const uvec2 tile_grid = unpackSize(push.tile_grid);
-  const uint row = push.first_row + gl_WorkGroupID.y;
-  const uint invocation = gl_GlobalInvocationID.x;
-  const uint runs = (tile_size.x + kPixelsPerInvocation - 1u) / kPixelsPerInvocation;
-  const uint column = kLanesAreViews ? invocation % tile_grid.x : invocation / runs;
-  const uint run_in_tile = kLanesAreViews ? invocation / tile_grid.x : invocation % runs;
-  const uint tile_row =
-      row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
-  const bool exists = run_in_tile < runs && column < tile_grid.x && tile_row < tile_grid.y;
-  const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
-  ViewParams view = views[tile];
+  Task task;
+  if (kIsOfBlocks)
+    task = taskOfBlock();
+  else
+    task = taskOfRow();
+  ViewParams view = views[task.tile];
 
   uvec3 counts = uvec3(0u);
   if (kEyesInPlane) view.eye.z = 0.0;
-  if (exists && view.is_used != 0u) {
+  if (task.exists && view.is_used != 0u) {
     Scene scene;
     scene.layers = push.layers;
     scene.layer_count = push.layer_count;
-    scene.extent = makeExtent(ivec2(unpackSize(push.source_size_px)));
+    scene.extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
     // A little in front of everything; never 0, it is a divisor.
     scene.inv_z_near =
         max(uintBitsToFloat(measured_head.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
     scene.fills_border = (push.fill & kFillBorder) != 0u;
     scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
-    Run run;
-    const uint first_x = run_in_tile * kPixelsPerInvocation;
-    const bool has_trail = first_x + kPixelsPerInvocation < tile_size.x;
-    const bool looks_for_edges = !kIsOneOfSeveral && !kHasOwnEyes;
-    run.lead = looks_for_edges ? min(first_x, 1u) : 0u;
-    run.trail = has_trail && looks_for_edges ? 1u : 0u;
-    run.first_x = first_x - run.lead;
-    run.count = min(first_x + kPixelsPerInvocation, tile_size.x) + run.trail - run.first_x;
-    run.tile_y = float(row - push.padding_top_px - tile_row * tile_size.y) + 0.5;
-    run.first_index = gl_WorkGroupID.y * push.atlas_width_px + column * tile_size.x + run.first_x;
-    traceRun(scene, view, run, counts);
+    traceRun(scene, view, task.run, counts);
   }
-  if (kIsOneOfSeveral) return;
+  // All px have the rays that are counted.
+  if (kIsOneOfSeveral || kIsOfBlocks) return;
   addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);
 }

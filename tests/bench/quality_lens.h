@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "display/lens.h"
+#include "frame/size.h"
 #include "gpu/device.h"
 
 namespace viewloom::bench {
@@ -23,6 +24,7 @@ struct LensScore {
   LensWay way;
   double psnr_db = 0;     // sRGB, of all px that the source can show
   double mean_error = 0;  // signed, of linear light; 0..1
+  double level_db = 0;    // all of the light, beside what is true
   double trace_ms = 0;    // median
   double pinholes = 0;    // the same, in traces of the view without a lens
 };
@@ -37,6 +39,15 @@ struct LensScoring {
 // The cluttered room, in focus at a third of its depth, seen from the source's own place.
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways);
+
+// sRGB, float[height][width][3].
+struct LensPictures {
+  SizePx size_px;
+  std::vector<float> sharp;  // without a lens
+  std::vector<float> blurred;
+  std::vector<float> truth;
+};
+LensPictures lensPictures(const Device& device, const LensScoring& scoring, const LensWay& way);
 
 nlohmann::ordered_json qualityOfLens(const Device& device);
 

@@ -6,6 +6,7 @@
 
 #include "gpu/rendered_display.h"
 #include "support/srgb_transfer.h"
+#include "trace/band_parts.h"
 
 namespace viewloom {
 namespace {
@@ -40,6 +41,23 @@ ViewCamera pinholeOf(const View& view, glm::dvec2 px, glm::dvec2 point) {
 
 class Lens : public RenderedDisplay {
  protected:
+  // Of two views beside each other.
+  static TraceJob jobOf(uint32_t width_px, uint32_t walked_count, uint32_t gathered_count) {
+    DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {width_px, 64}}};
+    spec.lens = walkedLens();
+    spec.lens->walked_count = walked_count;
+    spec.lens->gathered_count = gathered_count;
+    const auto completed = completeDisplaySpec(spec);
+    EXPECT_TRUE(completed.ok()) << completed.status();
+    const Camera camera{.pose = {},
+                        .intrinsics = {.focal_px = {300, 300}, .principal_px = {160, 90}}};
+    auto layout = makeAtlasLayout(
+        *completed, {.source_intrinsics = camera.intrinsics, .source_size_px = kSource_px});
+    EXPECT_TRUE(layout.ok()) << layout.status();
+    return makeTraceJob(std::make_shared<AtlasLayout>(*std::move(layout)), *completed, Pose{},
+                        camera, kSource_px);
+  }
+
   // Of a px of a view, channel by channel, as codes.
   glm::dvec3 meanOfRays(const RenderedAtlas& rays, uint32_t first) {
     glm::dvec3 light(0.0);
@@ -115,24 +133,41 @@ TEST_F(Lens, showsTheMeanOfItsRaysWhereAViewIsTurned) {
 // Half of what the smallest devices bind at once: a wider atlas, or more samples, would not fit.
 TEST_F(Lens, keepsNoMoreOfWhatRaysMetThanABufferHolds) {
   const auto metCountOf = [](uint32_t width_px, uint32_t walked_count) {
-    DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {width_px, 64}}};
-    spec.lens = walkedLens();
-    spec.lens->walked_count = walked_count;
-    spec.lens->gathered_count = 32;
-    const auto completed = completeDisplaySpec(spec);
-    EXPECT_TRUE(completed.ok()) << completed.status();
-    const Camera camera{.pose = {},
-                        .intrinsics = {.focal_px = {300, 300}, .principal_px = {160, 90}}};
-    auto layout = makeAtlasLayout(
-        *completed, {.source_intrinsics = camera.intrinsics, .source_size_px = kSource_px});
-    EXPECT_TRUE(layout.ok()) << layout.status();
-    const TraceJob job = makeTraceJob(std::make_shared<AtlasLayout>(*std::move(layout)), *completed,
-                                      Pose{}, camera, kSource_px);
-    return slotShape(job, kBandRowsMax, {}).met_count;
+    return slotShape(jobOf(width_px, walked_count, 32), kBandRowsMax, {}).met_count;
   };
   EXPECT_EQ(metCountOf(480, 64), 64u);
   EXPECT_EQ(metCountOf(16384, 8), 8u);  // 64 MiB
   EXPECT_EQ(metCountOf(16384, 9), 0u);
+}
+
+// So that nobody waits at a device for all the rays of another's lens.
+TEST_F(Lens, isTracedInPartsOfBoundedWork) {
+  const TraceJob job = jobOf(16384, 7, kGatheredSamplesMax);
+  constexpr BandRows kRows = {.first_row = 0, .row_count = 64};
+  const BandParts parts(job, kRows);
+  uint32_t sample = 0;
+  uint32_t row = 0;
+  for (uint32_t index = 0; index < parts.count(); ++index) {
+    const BandPart part = parts.at(index);
+    EXPECT_LE(part.ray_count, kPartRays) << index;
+    EXPECT_EQ(part.first_sample, part.walks() ? sample : 0);
+    EXPECT_EQ(part.first_row, row);
+    if (part.walks()) sample = part.end_sample;
+    row = part.end_row;
+  }
+  EXPECT_EQ(sample, 7u) << "two samples a part, one in the last";
+  EXPECT_EQ(row, kRows.row_count);
+  EXPECT_EQ(parts.count(), 4u + 32u);
+  EXPECT_EQ(BandParts(jobOf(480, 8, 32), kRows).count(), 2u) << "the two stages";
+}
+
+TEST_F(Lens, leavesWhatNoViewCoversBlack) {
+  DisplaySpec spec{.kind = QuiltSpec{.columns = 3, .rows = 1, .size_px = {100, 40}}};
+  spec.lens = walkedLens();
+  spec.lens->gathered_count = 8;
+  const RenderedAtlas atlas = render(spec);
+  EXPECT_EQ(atlas.layout->padding_right_px, 1u);
+  EXPECT_EQ(atlas.color[99], 0xff000000);
 }
 
 TEST_F(Lens, leavesDepthAndMaskToTheRayThroughItsMiddle) {

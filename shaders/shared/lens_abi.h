@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernels of a lens are told beside what every trace is, and what they hand on.
+#ifndef VIEWLOOM_SHADERS_SHARED_LENS_ABI_H_
+#define VIEWLOOM_SHADERS_SHARED_LENS_ABI_H_
+
+#include "shared/gpu_types.h"
+#include "shared/structure_abi.h"
+
+VIEWLOOM_ABI_BEGIN
+
+// The second stage of a lens: surfaces that the walked rays of a block of px met, each once.
+struct GatherPush {
+  Address layers[kLayerCountMax];  // of the structure
+  Address color[kLayerCountMax];   // texels of the source
+  uint source_size_px;             // width | height << 16
+  uint layer_count;
+  uint atlas_width_px;
+  uint first_row;  // of the band, in the atlas
+  uint row_count;
+  uint tile_size_px;  // width | height << 16
+  uint tile_grid;     // columns | rows << 16
+  uint padding_top_px;
+  uint fill;             // as in TracePush
+  uint first_block_row;  // of blocks of all tile rows: that of the band's first row
+  uint piece_row;        // of the band: where the rows begin that are gathered
+  uint walked_count;     // points of the lens that are for walked rays
+  uint point_count;      // and those for gathered ones
+  uint sample_count;     // walked rays of a px
+  uint probed_count;     // of them, those that px of settled blocks have
+};
+
+// A plane of 1/Z over the image of the source: surfaces of a layer that walked rays met lie on it,
+// to within what moves a ray through the rim of the lens by kSheetReach_px.
+struct MetSheet {
+  vec3 plane;  // inv_z = x plane.x + y plane.y + plane.z, x and y in px
+  uint layer;
+};
+
+VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
+VIEWLOOM_ABI_CONST uint kMetSheetMax = 12u;
+VIEWLOOM_ABI_CONST float kSheetReach_px = 0.5f;
+
+// What the walked rays of a block met. Of one that met more sheets, the walked rays are all there
+// is: the count is kMetTooMany.
+struct MetList {
+  uint count;
+  uint is_settled;  // the first rays of its px met one sheet, all of them: no more are walked
+  MetSheet sheets[kMetSheetMax];
+};
+VIEWLOOM_ABI_CONST uint kMetTooMany = 0xffu;
+
+// The blocks of a band that are not settled, and how many groups of kTraceGroupSize invocations it
+// takes for one of each of their rows.
+struct UnsettledHead {
+  uvec3 group_count;
+  uint count;  // of the uints that follow: places of blocks in the lists
+};
+
+VIEWLOOM_ABI_CONST uint kMetNothing = 0xffffffffu;
+VIEWLOOM_ABI_CONST float kDepthMax = 1e30f;  // m: no surface is further away
+VIEWLOOM_ABI_CONST uint kBindingMet = 17u;   // storage: lib/met_surface.glsl, [sample][row][width]
+VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: MetList per block
+// storage: vec2[kLensPatternArea_px]: where rays pass through the lens, by place in the pattern; of
+// the second stage, [point][kLensPatternArea_px]
+VIEWLOOM_ABI_CONST uint kBindingLensPoints = 19u;
+VIEWLOOM_ABI_CONST uint kBindingUnsettled = 23u;  // storage: UnsettledHead, and uints
+
+#ifdef __cplusplus
+static_assert(sizeof(MetList) == 200);
+static_assert(sizeof(UnsettledHead) == 16);
+static_assert(sizeof(GatherPush) == 124);
+#endif
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_SHADERS_SHARED_LENS_ABI_H_

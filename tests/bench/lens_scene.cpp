@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/lens_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/worker_pool.h"
+#include "support/truth/picture.h"
+
+namespace viewloom::bench {
+namespace {
+
+constexpr double kSlope = 0.5;  // of the widest ray of the view, to the side
+
+// Halton's sequence, which has nothing to do with what is scored.
+double radicalInverse(uint32_t index, uint32_t base) {
+  double inverse = 0;
+  double digit = 1;
+  for (; index > 0; index /= base) {
+    digit /= base;
+    inverse += digit * (index % base);
+  }
+  return inverse;
+}
+
+glm::dvec2 onDisc(double share, double turn) {
+  const double angle_rad = 2 * std::numbers::pi * turn;
+  return std::sqrt(share) * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
+}
+
+// The light of a px: of exact rays over its area and the lens, each of which goes to where the
+// middle's ray through the same place of the px is in focus.
+glm::dvec3 trueLight(const truth::Instant& instant, const Camera& camera, glm::dvec2 px,
+                     uint32_t ray_count) {
+  glm::dvec3 light(0.0);
+  const Intrinsics& in = camera.intrinsics;
+  for (uint32_t i = 0; i < ray_count; ++i) {
+    const glm::dvec2 at = px + glm::dvec2(radicalInverse(i, 5), radicalInverse(i, 7));
+    const glm::dvec2 eye_m = kLensRadius_m * onDisc(radicalInverse(i, 2), radicalInverse(i, 3));
+    const glm::dvec2 slope = (at - in.principal_px) / in.focal_px;
+    Camera moved = camera;
+    moved.pose.position_m += glm::dvec3(eye_m, 0);
+    const glm::dvec2 from_eye = slope - glm::dvec2(eye_m.x, -eye_m.y) / kLensFocus_m;
+    const truth::Ray ray = truth::rayThrough(moved, from_eye * in.focal_px + in.principal_px);
+    const truth::HitColumn column = instant.peel(ray, 1);
+    if (column.count > 0) light += glm::dvec3(instant.color(ray, column.hits[0]));
+  }
+  return light / double(ray_count);
+}
+
+}  // namespace
+
+Camera lensCamera(uint32_t width_px) {
+  const double height_px = width_px * 9.0 / 16;
+  const double focal_px = width_px / (2 * kSlope);
+  return {.pose = {},
+          .intrinsics = {.focal_px = {focal_px, focal_px},
+                         .principal_px = {width_px / 2.0, height_px / 2}}};
+}
+
+SizePx lensPictureSize(uint32_t width_px) {
+  return {width_px, width_px * 9 / 16};
+}
+
+std::vector<float> trueLensPicture(const truth::Instant& instant, uint32_t width_px,
+                                   uint32_t ray_count) {
+  const SizePx size_px = lensPictureSize(width_px);
+  const Camera camera = lensCamera(width_px);
+  std::vector<float> light(3 * size_px.area());
+  WorkerPool workers;
+  workers.forEach(size_px.height, [&](uint32_t y, uint32_t) {
+    for (uint32_t x = 0; x < size_px.width; ++x) {
+      const glm::dvec3 of_px = trueLight(instant, camera, {x, y}, ray_count);
+      for (int c = 0; c < 3; ++c) light[3 * (size_t{y} * size_px.width + x) + c] = float(of_px[c]);
+    }
+  });
+  return light;
+}
+
+}  // namespace viewloom::bench
