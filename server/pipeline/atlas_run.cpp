@@ -56,10 +56,6 @@ uint32_t AtlasRun::rowCount(uint32_t strip) const {
   return std::min(strip_row_count, picture->layout->imageSize().height - rowInImage(strip));
 }
 
-int64_t AtlasRun::stripPx() const {
-  return int64_t(picture->layout->size_px.area() / stripCount());
-}
-
 TraceSlotShape AtlasRun::stripShape() const {
   return slotShape(*picture, strip_row_count, planes);
 }

@@ -14,6 +14,7 @@
 #include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/resident_structure.h"
+#include "pipeline/strip_trace.h"
 #include "publish/broadcaster.h"
 #include "trace/trace_slot.h"
 
@@ -28,8 +29,11 @@ struct AtlasOutput {
   uint32_t bands_per_plane = 0;
 };
 
+// Rays that an atlas is walked by before others go first: a large quilt's.
+inline constexpr uint64_t kTurnRays = uint64_t{1} << 24;
+
 // Traced in strips of strip_row_count rows, each of one image, all displays of the picture at once.
-// Thread-safety: next_strip is the trace loop's; strips are noted from any thread.
+// Thread-safety: what follows next_strip is the trace loop's; strips are noted from any thread.
 class AtlasRun {
  public:
   // `displays` share the job's picture and want its atlas, seen from `pose`.
@@ -48,7 +52,8 @@ class AtlasRun {
   uint32_t firstRow(uint32_t strip) const;
   uint32_t rowCount(uint32_t strip) const;
   TraceSlotShape stripShape() const;
-  int64_t stripPx() const;  // the mean
+  // It has had more of the device than most atlases need: others go first, or take turns with it.
+  bool isLong() const { return !isTracked() && submitted_rays >= kTurnRays; }
 
   void noteTraced(const Coverage& strip_coverage, int64_t now_ns,
                   const ReflectionCounts& strip_reflections = {});
@@ -66,6 +71,10 @@ class AtlasRun {
   uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;
   uint32_t next_strip = 0;
+  // Of a walk: the next part of that strip, and the slot that the parts before it are in.
+  uint32_t next_part = 0;
+  std::shared_ptr<StripTrace> trace;
+  uint64_t submitted_rays = 0;
 
   Coverage coverage() const;
   ReflectionCounts reflections() const;

@@ -56,7 +56,7 @@ void GpuLoop::run(const std::stop_token& stop) {
   while (!is_abandoned_) {
     if (submitBuild()) continue;
     const bool may_begin = !stop.stop_requested();
-    if (traces_.submitStrip(may_begin)) continue;
+    if (traces_.submitPart(may_begin)) continue;
     if (!may_begin && !traces_.hasBegun()) return;
     wake_up_.wait();
   }

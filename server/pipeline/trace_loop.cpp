@@ -82,22 +82,27 @@ void TraceLoop::dropAll() {
   dropped = jobs_.clear();
 }
 
-bool TraceLoop::submitStrip(bool may_begin) {
+bool TraceLoop::submitPart(bool may_begin) {
   if (may_begin) beginDueJobs();
-  const AtlasRunPtr run = soonestRun();
+  const AtlasRunPtr run = begun_.soonest();
   if (!run) return false;
-  const AtlasRunPtr other = run->isTracked() ? soonestOther() : nullptr;
-  if (other && turn_.isOver() && submitStripOf(other)) return true;
-  return submitStripOf(run);
+  const AtlasRunPtr other = begun_.inTurn(*run);
+  if (other && submitPartOf(other)) return true;
+  if (submitPartOf(run)) return true;
+  // There is no slot for it: a strip that has one makes room.
+  const AtlasRunPtr traced = begun_.inSlot();
+  return traced && submitPartOf(traced);
 }
 
-bool TraceLoop::submitStripOf(const AtlasRunPtr& run) {
-  if (run->next_strip == 0) latchEyes(*run);
-  if (run->method == TraceMethod::kSweep) return submitSweep(run);
-  run->planes.color = tracer_.colorForm(run->direct_color);
-  std::shared_ptr<StripTrace> trace = takeSlot(*run);
-  if (!trace) return false;
-  submit(run, std::move(trace));
+bool TraceLoop::submitPartOf(const AtlasRunPtr& run) {
+  if (!run->trace) {
+    if (run->next_strip == 0) latchEyes(*run);
+    if (run->method == TraceMethod::kSweep) return submitSweep(run);
+    run->planes.color = tracer_.colorForm(run->direct_color);
+    run->trace = takeSlot(*run);
+    if (!run->trace) return false;
+  }
+  submit(run);
   return true;
 }
 
@@ -111,16 +116,16 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }
 
-// Begins jobs as long as one is due before everything that has begun, or eyes wait and nobody's
-// are served.
+// Begins jobs as long as one is due before everything that has begun, or all that has is long, or
+// eyes wait and nobody's are served.
 void TraceLoop::beginDueJobs() {
   while (true) {
     std::optional<AtlasJob> job;
     {
       std::lock_guard lock(mutex_);
       const std::optional<int64_t> due_ns = jobs_.soonestDeadlineNs();
-      const AtlasRunPtr run = soonestRun();
-      const bool is_due = due_ns && (!run || *due_ns < run->job.deadline_ns);
+      const AtlasRunPtr run = begun_.soonest();
+      const bool is_due = due_ns && (!run || run->isLong() || *due_ns < run->job.deadline_ns);
       const bool eyes_wait = run && !run->isTracked() && jobs_.hasTracked();
       if (!is_due && !eyes_wait) return;
       job = jobs_.begin();
@@ -184,7 +189,7 @@ bool TraceLoop::begin(AtlasJob& job) {
   run->method = *method;
   run->begun_ns = links_.clock.nowNs();
   publisher_.begin(run);
-  begun_.push_back(std::move(run));
+  begun_.add(std::move(run));
   return true;
 }
 
@@ -233,22 +238,6 @@ absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture, co
   return TraceMethod::kWalk;
 }
 
-AtlasRunPtr TraceLoop::soonestRun() const {
-  const auto soonest = std::min_element(
-      begun_.begin(), begun_.end(),
-      [](const AtlasRunPtr& a, const AtlasRunPtr& b) { return goesFirst(*a, *b); });
-  return soonest == begun_.end() ? nullptr : *soonest;
-}
-
-// Of a display that is not tracked.
-AtlasRunPtr TraceLoop::soonestOther() const {
-  AtlasRunPtr soonest;
-  for (const AtlasRunPtr& run : begun_) {
-    if (!run->isTracked() && (!soonest || goesFirst(*run, *soonest))) soonest = run;
-  }
-  return soonest;
-}
-
 // A structure that nobody has walked so far: the device has no newer work to do. The stream's next
 // frame may be on its way into the memory that its slots share.
 void TraceLoop::buildForWalk(StructureBuild& build) {
@@ -272,13 +261,23 @@ bool TraceLoop::submitSweep(const AtlasRunPtr& run) {
   return true;
 }
 
-void TraceLoop::submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace) {
-  const uint32_t strip = run->next_strip++;
-  turn_.note(run->isTracked(), run->stripPx());
-  tracer_.recordBand(trace->recorder.begin(), partsOf(run->job), *run->picture,
-                     {run->firstRow(strip), run->rowCount(strip)}, trace->slot, nullptr);
-  const uint64_t value = trace->recorder.submit(timeline_);
-  encoders_.push(TracedStrip{run, strip, std::move(trace), value});
+// With the last part of a strip the slot goes on to those who pack it.
+void TraceLoop::submit(const AtlasRunPtr& run) {
+  StripTrace& trace = *run->trace;
+  const uint32_t strip = run->next_strip;
+  const BandRows rows = {run->firstRow(strip), run->rowCount(strip)};
+  const BandParts parts(*run->picture, rows);
+  begun_.note(*run, parts.at(run->next_part).ray_count);
+  const size_t turn = run->next_part % trace.recorders.size();
+  timeline_.wait(trace.submitted[turn]);
+  tracer_.recordPart(trace.recorders[turn].begin(), partsOf(run->job), *run->picture, rows,
+                     run->next_part, trace.slot);
+  const uint64_t value = trace.recorders[turn].submit(timeline_);
+  trace.submitted[turn] = value;
+  if (++run->next_part < parts.count()) return;
+  run->next_part = 0;
+  ++run->next_strip;
+  encoders_.push(TracedStrip{run, strip, std::move(run->trace), value});
   if (run->next_strip == run->stripCount()) finish(run);
 }
 
@@ -288,7 +287,7 @@ void TraceLoop::finish(const AtlasRunPtr& run) {
     std::lock_guard lock(mutex_);
     jobs_.finish(run->job.picture_key);
   }
-  std::erase(begun_, run);
+  begun_.remove(*run);
 }
 
 void TraceLoop::noteComplete(const AtlasRun& run) {

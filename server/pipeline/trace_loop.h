@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/begun_runs.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/slot_pool.h"
 #include "pipeline/strip_trace.h"
-#include "pipeline/turns.h"
 #include "structure/structure_builder.h"
 #include "trace/view_tracer.h"
 
@@ -46,11 +46,12 @@ class TraceLoop {
   // Forgets the jobs that have not begun and, after a failure, those that will not be finished.
   void dropAll();
 
-  // Records and submits the strip that is due soonest. Between two strips an atlas with a sooner
-  // deadline, or of a tracked display, may begin, if may_begin. False when there is nothing to do
-  // or no free slot.
-  bool submitStrip(bool may_begin);
-  bool hasBegun() const { return !begun_.empty(); }
+  // Records and submits the next part of a strip of the atlas that is due soonest, as turns have
+  // it. Between two parts an atlas with a sooner deadline, or of a tracked display, may begin, or
+  // any other if what has begun is long, if may_begin. Waits until the device is no more than two
+  // parts of a strip behind. False when there is nothing to do or no free slot.
+  bool submitPart(bool may_begin);
+  bool hasBegun() const { return !begun_.isEmpty(); }
 
  private:
   // What the last atlas of a display showed.
@@ -75,12 +76,10 @@ class TraceLoop {
   void beginDueJobs();
   bool begin(AtlasJob& job);
   Unserved takeUnserved(const AtlasJob& job);
-  AtlasRunPtr soonestRun() const;
-  AtlasRunPtr soonestOther() const;
-  bool submitStripOf(const AtlasRunPtr& run);
+  bool submitPartOf(const AtlasRunPtr& run);
   void latchEyes(AtlasRun& run);
   bool submitSweep(const AtlasRunPtr& run);
-  void submit(const AtlasRunPtr& run, std::shared_ptr<StripTrace> trace);
+  void submit(const AtlasRunPtr& run);
   absl::StatusOr<TraceMethod> prepareMethod(const TraceJob& picture, const AtlasJob& job);
   void buildForWalk(StructureBuild& build);
   void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status);
@@ -96,8 +95,7 @@ class TraceLoop {
   std::vector<SlotRing> rings_;  // one for each set of planes, see ringOf
   SlotPool<SweptAtlas> swept_atlases_;
   SlotPool<SweptAtlas> swept_eyes_;  // of tracked displays: no quilt's end is waited for
-  std::vector<AtlasRunPtr> begun_;
-  EyesTurn turn_;                      // at the device, in px
+  BegunRuns begun_;
   std::map<uint64_t, Served> served_;  // by display, as last begun
 
   std::mutex mutex_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of two atlases on their way goes first: eyes that move wait for nobody, but leave others
-// their share.
+// Which of two atlases on their way goes first: eyes that move wait for nobody, and atlases of many
+// rays let others by, but all of them leave others their share.
 #pragma once
 
 #include <algorithm>
@@ -21,22 +21,34 @@ inline bool goesFirst(const AtlasRun& a, const AtlasRun& b) {
   return a.job.deadline_ns < b.job.deadline_ns;
 }
 
-// While others wait, they get a quarter of the work, however fast poses come: so answers to eyes
-// take no more than a third longer, and no display stands still. Work in any unit, as it was done.
+// The same on a device, where an atlas may be long: until another has had as much, that goes first.
+inline bool goesFirstOnDevice(const AtlasRun& a, const AtlasRun& b) {
+  if (a.isLong() != b.isLong()) return b.isLong();
+  return goesFirst(a, b);
+}
+
+// The turn of those who go first. While others wait, they get a part of the work for every
+// kFirstPerOther parts: so no display stands still. Work in any unit, as it was done.
 // Thread-safety: none.
-class EyesTurn {
+template <int64_t kFirstPerOther>
+class Turn {
  public:
   // Whether the next part is of another atlas.
   bool isOver() const { return owed_ > 0; }
   // A part of an atlas. What is owed never exceeds it: who comes late has no claim to the past.
-  void note(bool is_tracked, int64_t work) {
+  void note(bool goes_first, int64_t work) {
     owed_ =
-        is_tracked ? std::min(owed_ + work / kEyesPerOther, work) : std::max(owed_ - work, -work);
+        goes_first ? std::min(owed_ + work / kFirstPerOther, work) : std::max(owed_ - work, -work);
   }
 
  private:
-  static constexpr int64_t kEyesPerOther = 3;
   int64_t owed_ = 0;  // to others
 };
+
+// A quarter of the work is left to others, however fast poses come: so answers to eyes take no more
+// than a third longer.
+using EyesTurn = Turn<3>;
+// Long atlases and all others share the work alike.
+using ShortTurn = Turn<1>;
 
 }  // namespace viewloom

@@ -86,9 +86,9 @@ class Walk {
 
   // The first strip: all others go through the same slot.
   void trace(const WalkedForm& form, StripTrace& strip) {
-    tracer_.recordBand(strip.recorder.begin(), form.structure.firstPart(), job_,
+    tracer_.recordBand(strip.recorders[0].begin(), form.structure.firstPart(), job_,
                        {0, strip.slot.shape().row_count_max}, strip.slot, nullptr);
-    timeline_.wait(strip.recorder.submit(timeline_));
+    timeline_.wait(strip.recorders[0].submit(timeline_));
   }
 
   const Device& device_;

@@ -15,7 +15,8 @@ struct Work {
 };
 
 // Both always have a part to do.
-Work share(EyesTurn& turn, int64_t eyes_part, int64_t other_part) {
+template <int64_t kFirstPerOther>
+Work share(Turn<kFirstPerOther>& turn, int64_t eyes_part, int64_t other_part) {
   Work done;
   int64_t wait = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -40,6 +41,13 @@ TEST(EyesTurn, leavesOthersAQuarterOfTheWorkWhateverTheirParts) {
     EXPECT_NEAR(double(done.of_others) / double(done.of_eyes), 1.0 / 3, 0.02);
     EXPECT_LE(done.longest_wait, parts.eyes / 3 + parts.other);
   }
+}
+
+TEST(ShortTurn, leavesLongAtlasesHalfOfTheWorkAndNoMore) {
+  ShortTurn turn;
+  const Work done = share(turn, 300, 7000);
+  EXPECT_NEAR(double(done.of_others) / double(done.of_eyes), 1, 0.05);
+  EXPECT_LE(done.longest_wait, 7000) << "a part at a time";
 }
 
 TEST(EyesTurn, owesNobodyForTheTimeBeforeHeCame) {
