@@ -20,6 +20,7 @@
 #include "bench/display_bench.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/knob.h"
+#include "bench/lens_pictures.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
 #include "bench/quality.h"
@@ -162,6 +163,7 @@ int runBench(int argc, char** argv) {
   addStereoCommand(app);
   addKnobCommand(app);
   addQualityCommand(app);
+  addLensPicturesCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }
