@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/plane_file.h"
+#include "files/surface_file.h"
 
 namespace viewloom::files {
 namespace {
@@ -42,6 +43,32 @@ void addPlane(LoadedPlane loaded, v1::Layer& layer, WireFrame& frame) {
   frame.planes.push_back(std::move(loaded.bytes));
 }
 
+// How the layer mirrors, where there are files that say so.
+absl::Status loadSurface(const v1::LayerFiles& files, const std::filesystem::path& folder,
+                         v1::Layer& layer, LoadedFrame& frame) {
+  struct SurfaceFile {
+    const char* field;
+    const v1::PlaneFile* file;
+    v1::PlaneKind kind;
+  };
+  const SurfaceFile surface[] = {
+      {"normal", files.has_normal() ? &files.normal() : nullptr, v1::PLANE_KIND_NORMAL},
+      {"roughness", files.has_roughness() ? &files.roughness() : nullptr, v1::PLANE_KIND_ROUGHNESS},
+      {"specular", files.has_specular() ? &files.specular() : nullptr, v1::PLANE_KIND_SPECULAR}};
+  for (const auto& [field, file, kind] : surface) {
+    if (file == nullptr) continue;
+    absl::StatusOr<LoadedPlane> plane = loadSurfacePlane(*file, folder, kind);
+    if (!plane.ok()) return withFieldPrefix(plane.status(), field);
+    if (kind == v1::PLANE_KIND_NORMAL) plane->plane.set_normal_space(files.normal_space());
+    addPlane(*std::move(plane), layer, frame.wire);
+  }
+  if (!files.has_normal() && files.normal_space() != v1::NORMAL_SPACE_UNSPECIFIED) {
+    return invalidField("normal_space", "is given without normal");
+  }
+  layer.set_color_has_reflections(files.color_has_reflections());
+  return absl::OkStatus();
+}
+
 absl::Status loadLayer(const v1::LayerFiles& files, const std::filesystem::path& folder,
                        v1::Layer& layer, LoadedFrame& frame) {
   absl::StatusOr<LoadedPlane> color = loadColorPlane(files.color(), folder);
@@ -56,7 +83,7 @@ absl::Status loadLayer(const v1::LayerFiles& files, const std::filesystem::path&
   frame.code_max.push_back(depth->code_max);
   addPlane(*std::move(color), layer, frame.wire);
   addPlane(*std::move(depth), layer, frame.wire);
-  return absl::OkStatus();
+  return loadSurface(files, folder, layer, frame);
 }
 
 absl::Status checkDepthSizes(const v1::Source& source) {

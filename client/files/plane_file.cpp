@@ -97,6 +97,18 @@ absl::StatusOr<PlaneImage> readDepth(const v1::PlaneFile& file, const std::files
   return depthPlane(file.file(), *picture, file.depth().meaning() == v1::DEPTH_MEANING_WINDOW);
 }
 
+v1::AlphaMode alphaOf(const PlaneImage& image, const std::filesystem::path& path) {
+  if (!image.has_alpha) return v1::ALPHA_MODE_OPAQUE;
+  return extensionOf(path) == ".exr" ? v1::ALPHA_MODE_PREMULTIPLIED : v1::ALPHA_MODE_STRAIGHT;
+}
+
+}  // namespace
+
+absl::StatusOr<PlaneImage> readColorImage(const v1::PlaneFile& file,
+                                          const std::filesystem::path& folder) {
+  return readColor(file, resolve(file, folder));
+}
+
 LoadedPlane withBytes(PlaneImage image, v1::PlaneKind kind) {
   LoadedPlane loaded;
   loaded.plane.set_kind(kind);
@@ -108,13 +120,6 @@ LoadedPlane withBytes(PlaneImage image, v1::PlaneKind kind) {
   loaded.bytes = std::make_shared<const std::vector<uint8_t>>(std::move(image.bytes));
   return loaded;
 }
-
-v1::AlphaMode alphaOf(const PlaneImage& image, const std::filesystem::path& path) {
-  if (!image.has_alpha) return v1::ALPHA_MODE_OPAQUE;
-  return extensionOf(path) == ".exr" ? v1::ALPHA_MODE_PREMULTIPLIED : v1::ALPHA_MODE_STRAIGHT;
-}
-
-}  // namespace
 
 absl::StatusOr<LoadedPlane> makeColorPlane(const v1::PlaneFile& file, PlaneImage image) {
   const bool linear = image.encoding == v1::PLANE_ENCODING_RGBA16F;

@@ -17,6 +17,12 @@ struct LoadedPlane {
   uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
 };
 
+// The file's px as colour, and how they are described for the wire. `folder`: where relative names
+// begin.
+absl::StatusOr<PlaneImage> readColorImage(const v1::PlaneFile& file,
+                                          const std::filesystem::path& folder);
+LoadedPlane withBytes(PlaneImage image, v1::PlaneKind kind);
+
 // Relative file names are taken from `folder`. What the manifest leaves open comes from the file:
 // transfer LINEAR for EXR, PFM and 16-bit PNG, else SRGB; alpha PREMULTIPLIED for EXR with A,
 // STRAIGHT for PNG with alpha, else OPAQUE.

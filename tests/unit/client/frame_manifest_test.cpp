@@ -49,6 +49,13 @@ std::string layer(const std::string& color, const std::string& depth) {
          R"(", "depth": {"meaning": "DEPTH_MEANING_DISPARITY", "scale": 0.01}}})";
 }
 
+// With more planes in JSON.
+std::string layerWith(const std::string& more) {
+  std::string json = layer("color.png", "depth.png");
+  json.pop_back();
+  return json + ", " + more + "}";
+}
+
 std::string source(const std::string& layers) {
   return R"({"number": "7", "sources": [{"camera": {"intrinsics": {"focalXPx": 2, "focalYPx": 2,
     "principalXPx": 1, "principalYPx": 0.5}}, "layers": [)" +
@@ -117,6 +124,55 @@ TEST_F(FrameManifestTest, refusesDepthPlanesOfDifferentSizes) {
   const std::string layers = layer("color.png", "depth.png") + "," + layer("color.png", "wide.png");
   EXPECT_THAT(refusal(source(layers)),
               HasSubstr("sources[0].layers[1].depth: is 3x1 px; accepted is the size of layer 0"));
+}
+
+TEST_F(FrameManifestTest, takesPlanesThatSayHowALayerMirrors) {
+  const auto frame = load(source(layerWith(
+      R"("normal": {"file": "color.png"}, "normalSpace": "NORMAL_SPACE_WORLD",
+         "roughness": {"file": "depth.png"}, "specular": {"file": "color.png"},
+         "colorHasReflections": true)")));
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  const v1::Layer& taken = frame->header.sources(0).layers(0);
+  EXPECT_TRUE(taken.color_has_reflections());
+  ASSERT_EQ(taken.planes_size(), 5);
+  EXPECT_EQ(taken.planes(2).kind(), v1::PLANE_KIND_NORMAL);
+  EXPECT_EQ(taken.planes(2).encoding(), v1::PLANE_ENCODING_XYZ8);
+  EXPECT_EQ(taken.planes(2).normal_space(), v1::NORMAL_SPACE_WORLD);
+  EXPECT_EQ(*frame->planes[2], std::vector<uint8_t>(6, 8));
+  EXPECT_EQ(taken.planes(3).kind(), v1::PLANE_KIND_ROUGHNESS);
+  EXPECT_EQ(taken.planes(3).encoding(), v1::PLANE_ENCODING_R8);
+  EXPECT_EQ(*frame->planes[3], std::vector<uint8_t>(2, 8));
+  EXPECT_EQ(taken.planes(4).kind(), v1::PLANE_KIND_SPECULAR);
+  EXPECT_EQ(taken.planes(4).encoding(), v1::PLANE_ENCODING_RGB8);
+  EXPECT_EQ(taken.planes(4).bytes_count(), 6U);
+}
+
+TEST_F(FrameManifestTest, takesNormalsAndSharesOfFloats) {
+  // A px that faces (-1, 0.5, 2), rough by more than can be.
+  const float samples[] = {-1, 0.5F, 2};
+  std::string pfm = "PF\n1 1\n-1\n";
+  pfm.append(reinterpret_cast<const char*>(samples), sizeof samples);
+  folder_.write("floats.pfm", pfm);
+  const auto frame = load(source(layerWith(
+      R"("normal": {"file": "floats.pfm"}, "specular": {"file": "floats.pfm"})")));
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  const v1::Layer& taken = frame->header.sources(0).layers(0);
+  EXPECT_EQ(taken.planes(2).encoding(), v1::PLANE_ENCODING_XYZ16F);
+  EXPECT_EQ(*frame->planes[2], (std::vector<uint8_t>{0x00, 0xbc, 0x00, 0x38, 0x00, 0x40}));
+  EXPECT_EQ(*frame->planes[3], (std::vector<uint8_t>{0, 128, 255}));
+}
+
+TEST_F(FrameManifestTest, namesTheMirrorPlaneAtFault) {
+  const std::string at = "sources[0].layers[0].";
+  EXPECT_THAT(refusal(source(layerWith(R"("specular": {"file": "none.png"})"))),
+              HasSubstr(at + "specular: "));
+  EXPECT_THAT(refusal(source(layerWith(R"("normal": {"file": "normal.jpg"})"))),
+              HasSubstr(at + "normal.file: is normal.jpg; accepted here are .exr, .png and .pfm"));
+  EXPECT_THAT(refusal(source(layerWith(
+                  R"("roughness": {"file": "depth.png", "transfer": "COLOR_TRANSFER_SRGB"})"))),
+              HasSubstr(at + "roughness.transfer: given for depth.png"));
+  EXPECT_THAT(refusal(source(layerWith(R"("normalSpace": "NORMAL_SPACE_WORLD")"))),
+              HasSubstr(at + "normal_space: is given without normal"));
 }
 
 TEST_F(FrameManifestTest, refusesDepthWithoutAMeaning) {

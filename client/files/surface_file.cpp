@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/surface_file.h"
+
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+
+namespace viewloom::files {
+namespace {
+
+bool isNamed(const v1::PlaneFile& file, const char* extension) {
+  return absl::EndsWithIgnoreCase(file.file(), extension);
+}
+
+absl::Status checkFile(const v1::PlaneFile& file) {
+  if (!isNamed(file, ".exr") && !isNamed(file, ".png") && !isNamed(file, ".pfm")) {
+    return invalidField(
+        "file", absl::StrCat("is ", file.file(), "; accepted here are .exr, .png and .pfm"));
+  }
+  const char* const foreign = file.transfer() != v1::COLOR_TRANSFER_UNSPECIFIED     ? "transfer"
+                              : file.primaries() != v1::COLOR_PRIMARIES_UNSPECIFIED ? "primaries"
+                              : file.alpha() != v1::ALPHA_MODE_UNSPECIFIED          ? "alpha"
+                              : file.has_depth()                                    ? "depth"
+                                                                                    : nullptr;
+  if (foreign == nullptr) return absl::OkStatus();
+  return invalidField(foreign,
+                      absl::StrCat("given for ", file.file(), ", whose samples count as they are"));
+}
+
+// Samples of a px, as they are stored.
+size_t channelsOf(v1::PlaneEncoding encoding) {
+  return encoding == v1::PLANE_ENCODING_RGB8 ? 3 : 4;
+}
+
+float halfAt(const PlaneImage& image, size_t sample) {
+  Imath::half value;
+  std::memcpy(&value, &image.bytes[2 * sample], sizeof value);
+  return value;
+}
+
+// The first channels of every px, 8 bits each.
+std::vector<uint8_t> bytesOf(const PlaneImage& image, size_t channel_count) {
+  const size_t stored = channelsOf(image.encoding);
+  const size_t px_count = size_t{image.width_px} * image.height_px;
+  std::vector<uint8_t> bytes(channel_count * px_count);
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    const size_t sample = i / channel_count * stored + i % channel_count;
+    bytes[i] = image.encoding == v1::PLANE_ENCODING_RGBA16F
+                   ? uint8_t(std::lround(255 * std::clamp(halfAt(image, sample), 0.0F, 1.0F)))
+                   : image.bytes[sample];
+  }
+  return bytes;
+}
+
+// `is_unsigned`: 0..1 stands for -1..1.
+std::vector<uint8_t> halfNormals(const PlaneImage& image, bool is_unsigned) {
+  const size_t px_count = size_t{image.width_px} * image.height_px;
+  std::vector<uint8_t> bytes(6 * px_count);
+  for (size_t i = 0; i < 3 * px_count; ++i) {
+    const float stored = halfAt(image, i / 3 * 4 + i % 3);
+    const uint16_t bits = Imath::half(is_unsigned ? 2 * stored - 1 : stored).bits();
+    std::memcpy(&bytes[2 * i], &bits, sizeof bits);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
+                                             const std::filesystem::path& folder,
+                                             v1::PlaneKind kind) {
+  VIEWLOOM_RETURN_IF_ERROR(checkFile(file));
+  v1::PlaneFile as_stored = file;
+  as_stored.set_transfer(v1::COLOR_TRANSFER_LINEAR);
+  absl::StatusOr<PlaneImage> image = readColorImage(as_stored, folder);
+  if (!image.ok()) return image.status();
+  const bool is_half = image->encoding == v1::PLANE_ENCODING_RGBA16F;
+  PlaneImage plane{.width_px = image->width_px, .height_px = image->height_px, .bytes = {}};
+  if (kind == v1::PLANE_KIND_NORMAL && is_half) {
+    plane.encoding = v1::PLANE_ENCODING_XYZ16F;
+    plane.bytes = halfNormals(*image, isNamed(file, ".png"));
+  } else if (kind == v1::PLANE_KIND_ROUGHNESS) {
+    plane.encoding = v1::PLANE_ENCODING_R8;
+    plane.bytes = bytesOf(*image, 1);
+  } else {
+    plane.encoding =
+        kind == v1::PLANE_KIND_NORMAL ? v1::PLANE_ENCODING_XYZ8 : v1::PLANE_ENCODING_RGB8;
+    plane.bytes = bytesOf(*image, 3);
+  }
+  return withBytes(std::move(plane), kind);
+}
+
+}  // namespace viewloom::files

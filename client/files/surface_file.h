@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planes that say how a surface mirrors, as a manifest names them.
+#pragma once
+
+#include <filesystem>
+
+#include "files/plane_file.h"
+
+namespace viewloom::files {
+
+// `kind`: NORMAL, ROUGHNESS or SPECULAR. Normals come as XYZ16F, or XYZ8 of PNG with 8 bits; the
+// others as R8 and RGB8, for which samples are brought into 0..1. Relative names begin at `folder`.
+// INVALID_ARGUMENT with the field of the PlaneFile.
+absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
+                                             const std::filesystem::path& folder,
+                                             v1::PlaneKind kind);
+
+}  // namespace viewloom::files
