@@ -72,7 +72,8 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
   }
   if (spec.temporal) VIEWLOOM_RETURN_IF_ERROR(complete(*spec.temporal));
   if (spec.reflection) {
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(complete(*spec.reflection), "effects.reflection"));
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(completeReflection(*spec.reflection, spec.quality), "effects.reflection"));
   }
   if (spec.lens && spec.reflection) {
     return fieldError(absl::StatusCode::kUnimplemented, "effects.reflection",

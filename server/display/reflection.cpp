@@ -5,10 +5,22 @@
 #include "display/field_checks.h"
 
 namespace viewloom {
+namespace {
 
-absl::Status complete(ReflectionSpec& reflection) {
+// By quality: draft, balanced, best.
+struct Counts {
+  uint32_t bounces;
+  uint32_t samples;
+};
+constexpr Counts kCounts[] = {{1, 4}, {2, 8}, {4, 32}};
+
+}  // namespace
+
+absl::Status completeReflection(ReflectionSpec& reflection, Quality quality) {
+  const Counts& counts = kCounts[size_t(quality)];
+  if (reflection.bounce_count == 0) reflection.bounce_count = counts.bounces;
+  if (reflection.sample_count == 0) reflection.sample_count = counts.samples;
   VIEWLOOM_RETURN_IF_ERROR(checkCount(reflection.bounce_count, kBounceCountMax, "bounces"));
-  if (reflection.sample_count == 0) reflection.sample_count = kDefaultReflectionSampleCount;
   VIEWLOOM_RETURN_IF_ERROR(
       checkCount(reflection.sample_count, kReflectionSampleCountMax, "samples"));
   if (reflection.environment_rgb <= 0xFFFFFF) return absl::OkStatus();

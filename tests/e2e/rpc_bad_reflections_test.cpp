@@ -20,9 +20,6 @@ v1::ReflectionEffect& reflection(v1::OpenDisplay& open) {
 }
 
 const std::vector<BadDisplay> kReflections = {
-    {"no bounce",
-     [](auto& o) { o.mutable_display()->mutable_effects()->mutable_reflection(); },
-     {kInvalid, kReflection + "bounces"}},
     {"five bounces",
      [](auto& o) { reflection(o).set_bounces(5); },
      {kInvalid, kReflection + "bounces"}},
