@@ -67,9 +67,11 @@ abi::Address addressOf(const ReadablePlane& plane) {
   return plane.isEmpty() ? abi::Address{0, 0} : addressWords(plane.target().address());
 }
 
-// Every binding of a kernel has to have a buffer, also one that its variant does not use.
-Descriptor bufferOr(uint32_t binding, const Buffer& buffer, const Buffer& unused) {
-  return wholeBuffer(binding, buffer.sizeBytes() > 0 ? buffer : unused);
+// Every binding of a kernel has to have a buffer, also one that its variant does not use: there
+// stands what it writes anyhow, so that walks beside each other need not wait.
+Descriptor usedOr(uint32_t binding, bool is_used, const Buffer& buffer, Descriptor target) {
+  target.binding = binding;
+  return is_used ? wholeBuffer(binding, buffer) : target;
 }
 
 }  // namespace
@@ -241,9 +243,10 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
         color.texels.asTexels(abi::kBindingColor)}) {
     descriptors.push_back(descriptor);
   }
-  const Buffer& unused = walk.slot.params_;
-  descriptors.push_back(bufferOr(abi::kBindingSums, walk.slot.sums_, unused));
-  descriptors.push_back(bufferOr(abi::kBindingUnsettled, walk.slot.unsettled_, unused));
+  const bool is_of_blocks = walk.rays.is_of_blocks;
+  descriptors.push_back(usedOr(abi::kBindingSums, is_of_blocks, walk.slot.sums_, walk.target));
+  descriptors.push_back(
+      usedOr(abi::kBindingUnsettled, is_of_blocks, walk.slot.unsettled_, walk.target));
   walk_views.recordDescriptors(commands, descriptors);
   const abi::TracePush push = describeBand(walk, color.texels, rows);
   if (walk.rays.is_of_blocks) {
