@@ -190,9 +190,11 @@ absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool 
   VIEWLOOM_RETURN_IF_ERROR(readEffort(parameters, display));
   VIEWLOOM_RETURN_IF_ERROR(readTemporal(parameters, display));
   if (parameters.contains("reflections")) {
-    display.reflection.emplace();
-    VIEWLOOM_RETURN_IF_ERROR(
-        readNumber(parameters, "reflections", display.reflection->bounce_count));
+    uint32_t& bounce_count = display.reflection.emplace().bounce_count;
+    VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "reflections", bounce_count));
+    if (bounce_count == 0) {
+      return invalidField("reflections", "got 0, accepted are 1..4 bounces; without it, none");
+    }
   }
   return display;
 }

@@ -138,6 +138,7 @@ void addSource(const std::vector<Picture>& stacked, const Camera& camera, uint32
                       .depth = floatBytes(depth_m)});
     addSurface(stacked, i, camera, layer, planes.back());
     addMotion(stacked, i, layer, planes.back());
+    for (PlaneFormat& plane : layer.others) plane.wire_bytes = uncompressedBytes(plane);
   }
 }
 
