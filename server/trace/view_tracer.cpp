@@ -243,10 +243,10 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
         color.texels.asTexels(abi::kBindingColor)}) {
     descriptors.push_back(descriptor);
   }
-  const bool is_of_blocks = walk.rays.is_of_blocks;
-  descriptors.push_back(usedOr(abi::kBindingSums, is_of_blocks, walk.slot.sums_, walk.target));
+  const bool sums = (walk.rays.wanted & abi::kWantSum) != 0;
+  descriptors.push_back(usedOr(abi::kBindingSums, sums, walk.slot.sums_, walk.target));
   descriptors.push_back(
-      usedOr(abi::kBindingUnsettled, is_of_blocks, walk.slot.unsettled_, walk.target));
+      usedOr(abi::kBindingUnsettled, walk.rays.is_of_blocks, walk.slot.unsettled_, walk.target));
   walk_views.recordDescriptors(commands, descriptors);
   const abi::TracePush push = describeBand(walk, color.texels, rows);
   if (walk.rays.is_of_blocks) {
