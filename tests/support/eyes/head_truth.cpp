@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/eyes/head_truth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -109,9 +110,13 @@ HeadTruth::HeadTruth(const truth::Scene& scene, SizePx source_px, double focal_p
       layer_count_(layer_count) {}
 
 FramePtr HeadTruth::frame() const {
-  return truth::frameOf(
-      truth::takePicture(instant_, source_, {.size_px = source_px_, .layer_count = layer_count_}),
-      layer_count_);
+  truth::Picture picture =
+      truth::takePicture(instant_, source_, {.size_px = source_px_, .layer_count = layer_count_});
+  // Eyes are scored beside this instant, however late they look.
+  for (truth::PictureLayer& layer : picture.layers) {
+    std::fill(layer.motion_mps.begin(), layer.motion_mps.end(), glm::vec3(0));
+  }
+  return truth::frameOf(picture, layer_count_);
 }
 
 TrueEye HeadTruth::seenBy(const Camera& eye, SizePx eye_px) const {

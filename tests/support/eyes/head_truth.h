@@ -44,7 +44,7 @@ class HeadTruth {
  public:
   HeadTruth(const truth::Scene& scene, SizePx source_px, double focal_px, uint32_t layer_count);
 
-  // The source's layers, at time 0.
+  // The source's layers, at time 0, of things that stand.
   FramePtr frame() const;
   // Of a display in the source's place: the eye's camera is relative to that, as it was sent.
   TrueEye seenBy(const Camera& eye, SizePx eye_px) const;
