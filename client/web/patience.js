@@ -3,8 +3,8 @@
 import {notice, takeBack} from './notice.js';
 
 const kLong_ms = 2500;
-const kText = 'No picture so far: what is asked for takes the server long, or the stream has no ' +
-    'frame yet.';
+const kText = 'Still waiting for the picture: what is asked for takes the server long, ' +
+    'or the stream has no frame yet.';
 
 export class Patience {
   #timer = 0;

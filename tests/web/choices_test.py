@@ -169,7 +169,7 @@ class Choices(PageTest):
     def test_a_picture_that_is_long_in_coming_is_said_to_be(self):
         notice = "document.getElementById('notice').textContent"
         self.browser.open(self.server.url + "?stream=silent")
-        self.browser.wait_for(f"{notice}.includes('No picture so far')")
+        self.browser.wait_for(f"{notice}.includes('Still waiting for the picture')")
         self.browser.evaluate(
             "(s => { s.value = 'painted'; s.dispatchEvent(new Event('change')); })"
             "(document.getElementById('stream'))")
