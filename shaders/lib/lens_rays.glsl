@@ -6,6 +6,9 @@
 
 #include "shared/trace_abi.h"
 
+// 1/m: of planes no further than 1e20 m. No product with px overflows.
+const float kTowardsMin = 1e-20;
+
 // The plane of a sheet as a linear function g of homogeneous image coordinates: g(P) = 1 on it,
 // less in front of it. Of the parts of rays.
 struct PlaneParts {
@@ -39,13 +42,14 @@ vec3 directionOf(ViewParams view, vec3 direction, LensRay ray) {
 }
 
 // Depth along the view's axis at which the ray meets the plane from the front, m; < 0: nowhere.
+// What is infinitely far away, and planes that the ray never comes to, are met out there.
 float depthAt(PlaneParts parts, ViewParams view, LensRay ray) {
   const vec2 step_px =
       ray.beside_px - view.lens_inv_focus * vec2(ray.lens_px_m.x, -ray.lens_px_m.y);
   const float in_front =
       1.0 - parts.eye - (ray.lens_px_m.x * parts.dx - ray.lens_px_m.y * parts.dy);
   const float towards = parts.direction + step_px.x * parts.dx + step_px.y * parts.dy;
-  return in_front > 0.0 && towards > 0.0 ? in_front / towards : -1.0;
+  return in_front > 0.0 ? in_front / max(towards, kTowardsMin) : -1.0;
 }
 
 // Over the px, as the walked ones are: the first axes of Roberts' R4 sequence.

@@ -6,12 +6,14 @@
 #include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
-// 1/m: what moves a ray through the rim of the lens by kSheetReach_px in the source. A point of the
-// lens that is m beside its middle (homogeneous px) sees inv_z moved by m inv_z.
-float sheetReach(ViewParams view) {
+// 1/m: what moves a ray through the rim of the lens that meets the surface at px `at` of the source
+// by kSheetReach_px there. A ray whose eye is m (homogeneous px) meets what is d of 1/Z nearer
+// (m.xy - at m.z) d beside.
+float sheetReach(ViewParams view, vec2 at) {
   const float x_px_m = length(view.lens_px_m.x * view.direction_dx.xy);
   const float y_px_m = length(view.lens_px_m.y * view.direction_dy.xy);
-  return kSheetReach_px / max(max(x_px_m, y_px_m), 1e-30);
+  const float beside_px_m = length(view.eye.xy - at * view.eye.z);
+  return kSheetReach_px / max(beside_px_m + max(x_px_m, y_px_m), 1e-30);
 }
 
 #endif  // VIEWLOOM_LIB_MET_SHEETS_GLSL_

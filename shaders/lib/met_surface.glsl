@@ -4,7 +4,7 @@
 //
 //   bits 30..28 level | 27..26 layer | 25..13 row | 12..0 column of the px
 //
-// kMetNothing has bit 31 and is the name of none. Sides of up to 8192 px fit.
+// kMetBackground and kMetAssumed have bit 31 and are the names of none. Sides of up to 8192 px fit.
 #ifndef VIEWLOOM_LIB_MET_SURFACE_GLSL_
 #define VIEWLOOM_LIB_MET_SURFACE_GLSL_
 
@@ -19,10 +19,11 @@ struct MetSurface {
   ivec2 cell;  // the px
 };
 
-uint nameOfMet(Walk walk) {
+// `is_known`: the ray has a colour, be it an assumed one.
+uint nameOfMet(Walk walk, bool is_known) {
   const uvec2 cell = uvec2(walk.cell);
   const uint name = walk.level << 28 | walk.layer << 26 | cell.y << 13 | cell.x;
-  return walk.is_hit ? name : kMetNothing;
+  return walk.is_hit ? name : is_known ? kMetAssumed : kMetBackground;
 }
 
 MetSurface metSurface(uint name) {

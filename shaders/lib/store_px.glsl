@@ -45,7 +45,7 @@ void storeShown(uint index, ViewParams view, Seen seen, float inv_z) {
   storeCodes(index, shows_depth ? grey : codesOfBlend(seen.color));
 }
 
-void storeOthers(uint index, Walk walk, Ray ray, vec3 eye, vec3 direction) {
+void storeOthers(uint index, Walk walk, bool is_known, Ray ray, vec3 eye, vec3 direction) {
   if (kWanted == 0u) return;
   const vec3 point = ray.start + walk.t * ray.extent;
   const uint ray_class = classOf(walk);
@@ -53,7 +53,7 @@ void storeOthers(uint index, Walk walk, Ray ray, vec3 eye, vec3 direction) {
     FloatRef(extras.depth).at[index] = depthOf(walk, ray, eye, direction);
   }
   if ((kWanted & kWantMask) != 0u) Uint8Ref(extras.mask).at[index] = uint8_t(ray_class);
-  if ((kWanted & kWantMet) != 0u) UintRef(extras.met).at[index] = nameOfMet(walk);
+  if ((kWanted & kWantMet) != 0u) UintRef(extras.met).at[index] = nameOfMet(walk, is_known);
   if ((kWanted & kWantRecords) != 0u) {
     RecordsRef(extras.records).at[index] =
         RayRecord(point.x, point.y, point.z, ray_class, walk.layer, walk.visits);

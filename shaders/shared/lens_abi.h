@@ -44,10 +44,14 @@ VIEWLOOM_ABI_CONST float kSheetReach_px = 0.5f;
 // is: the count is kMetTooMany.
 struct MetList {
   uint count;
-  uint is_settled;  // the first rays of its px met one sheet, all of them: no more are walked
+  uint kinds;  // kMet...
   MetSheet sheets[kMetSheetMax];
 };
 VIEWLOOM_ABI_CONST uint kMetTooMany = 0xffu;
+// The first rays of its px met one sheet, or the background, all of them: no more are walked.
+VIEWLOOM_ABI_CONST uint kMetSettled = 1u;
+VIEWLOOM_ABI_CONST uint kMetSeesBackground = 2u;  // some ray
+VIEWLOOM_ABI_CONST uint kMetSeesAssumed = 4u;     // some ray, without having met it
 
 // The blocks of a band that are not settled, and how many groups of kTraceGroupSize invocations it
 // takes for one of each of their rows.
@@ -56,8 +60,9 @@ struct UnsettledHead {
   uint count;  // of the uints that follow: places of blocks in the lists
 };
 
-VIEWLOOM_ABI_CONST uint kMetNothing = 0xffffffffu;
-VIEWLOOM_ABI_CONST float kDepthMax = 1e30f;  // m: no surface is further away
+// In place of a surface: nothing, and what is assumed where rays pass behind what is known.
+VIEWLOOM_ABI_CONST uint kMetBackground = 0xfffffffeu;
+VIEWLOOM_ABI_CONST uint kMetAssumed = 0xffffffffu;
 VIEWLOOM_ABI_CONST uint kBindingMet = 17u;   // storage: lib/met_surface.glsl, [sample][row][width]
 VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: MetList per block
 // storage: vec2[kLensPatternArea_px]: where rays pass through the lens, by place in the pattern; of

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The second stage of a lens: more rays of each px, compared with the sheets that the walked rays
-// of its block met (shaders/README.md, A lens). In settled blocks the one sheet is what they see.
-// In mode exact it is the nearest that has a facet where the ray meets it, and rays that something
+// of its block met (shaders/README.md, A lens). In settled blocks the one sheet is what they see,
+// elsewhere the nearest that has a facet where the ray meets it. In mode exact rays that something
 // may stand in the way of are walked. Px are the mean of all rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -58,14 +58,24 @@ LensRay lensRay(ViewParams view, uint pattern_index, uint point) {
 
 // What a ray has met so far; no layer: nothing.
 struct Nearest {
-  float depth;
+  float inv_z;
   uint layer;
   ivec2 cell;
 };
 
+// Whether the layer has a surface there that the one before it has not.
+bool isOwnSurface(uint layer, Extent extent, ivec2 cell, vec2 at, float inv_z) {
+  if (layer == 0u) return true;
+  const uvec2 front = loadFacet(push.layers, layer - 1u, extent, cell);
+  const float apart =
+      connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, inv_z);
+  return facetAtPoint(front, cell, at) - inv_z > apart;
+}
+
 // Facets of the surface that a sheet stands for lie within its reach, and those beside them within
-// twice that.
-void compare(MetSheet sheet, float reach, Extent extent, ViewParams view, vec3 direction,
+// twice that. Which of two sheets is nearer only their facets tell: both may stand for surfaces
+// that lie closer than their reach.
+void compare(MetSheet sheet, Extent extent, ViewParams view, vec3 direction,
              LensRay rays[kAtOnce], inout Nearest nearest[kAtOnce]) {
   const PlaneParts parts = partsOf(sheet.plane, view, direction);
   for (uint i = 0u; i < kAtOnce; ++i) {
@@ -77,10 +87,11 @@ void compare(MetSheet sheet, float reach, Extent extent, ViewParams view, vec3 d
     const float inv_z = facetAtPoint(facet, cell, at);
     const bool is_inside = all(greaterThanEqual(at, vec2(0.0))) &&
                            all(lessThan(at, vec2(extent.size_px)));
-    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z >= 0.0 &&
-                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <= 2.0 * reach &&
-                       depth < nearest[i].depth;
-    nearest[i].depth = holds ? depth : nearest[i].depth;
+    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z > nearest[i].inv_z &&
+                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <=
+                           2.0 * sheetReach(view, at) &&
+                       isOwnSurface(sheet.layer, extent, cell, at, inv_z);
+    nearest[i].inv_z = holds ? inv_z : nearest[i].inv_z;
     nearest[i].layer = holds ? sheet.layer : nearest[i].layer;
     nearest[i].cell = holds ? cell : nearest[i].cell;
   }
@@ -102,6 +113,12 @@ vec3 lightOf(Nearest met, Extent extent) {
   return linearFromSrgb(codesOfBlend(texel) / 255.0);
 }
 
+// The light of rays, and how many they are.
+struct LightSum {
+  vec3 light;
+  uint count;
+};
+
 // The ray, walked: from as far along as nothing can be before.
 vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
   const WalkStart start = startOf(scene, ray, bound);
@@ -111,22 +128,35 @@ vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
   return linearFromSrgb(codesOfBlend(blend) / 255.0);
 }
 
-// What a ray sees, as light; a negative number if it is left out. A surface is what the ray sees if
-// nothing of the source stands nearer than that, and apart from it, all the way there.
-vec3 lightOfRay(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, Nearest met) {
+// In mode exact: what a ray sees that has met this, as light. It is this if nothing of the source
+// stands nearer, and apart from it, all the way there. Negative if it never comes to the source.
+vec3 exactLight(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, Nearest met) {
   const bool is_met = met.layer < kLayerCountMax;
   view.eye = eyeOf(view, lens_ray);
   const vec3 along = directionOf(view, direction, lens_ray);
   const Ray ray = makeAnyRay(view.eye * scene.inv_z_near, along, vec2(scene.extent.size_px),
                              scene.inv_z_near);
   if (ray.t_begin >= ray.t_end) return vec3(-1.0);
-  const vec3 point = view.eye + met.depth * along;
-  const vec2 end_px = is_met ? point.xy / point.z : (ray.start + ray.extent).xy;
+  const vec2 end_px = is_met ? vec2(met.cell) + 0.5 : (ray.start + ray.extent).xy;
   const float bound = startBound(scene, min(ray.start.xy, end_px), max(ray.start.xy, end_px));
-  const float inv_z = is_met ? 1.0 / point.z : 0.0;
-  const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, inv_z);
-  if (is_met && bound <= inv_z + apart) return lightOf(met, scene.extent);
+  const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, met.inv_z);
+  if (is_met && bound <= met.inv_z + apart) return lightOf(met, scene.extent);
   return lightOfWalk(scene, view, ray, bound);
+}
+
+// What a ray sees that has met this; negative if it is left out.
+vec3 lightOfRay(Scene scene, ViewParams view, vec3 direction, LensRay ray, Nearest met,
+                vec3 light_of_none) {
+  if (kIsExact) return exactLight(scene, view, direction, ray, met);
+  return met.layer < kLayerCountMax ? lightOf(met, scene.extent) : light_of_none;
+}
+
+// What rays see that meet no sheet: the background, if that is what walked ones without a surface
+// see. Else it is not known, and they are taken to be as the walked ones of the px.
+vec3 lightOfNone(uint kinds, LightSum walked) {
+  const uint both = kMetSeesBackground | kMetSeesAssumed;
+  if ((kinds & both) != kMetSeesBackground) return walked.light / float(walked.count);
+  return linearFromSrgb(codesOfBlend(blendOfBackground()) / 255.0);
 }
 
 Scene sceneOf(GatherPush given) {
@@ -140,12 +170,6 @@ Scene sceneOf(GatherPush given) {
   scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
   return scene;
 }
-
-// The light of rays, and how many they are.
-struct LightSum {
-  vec3 light;
-  uint count;
-};
 
 // Points of a lens: [first, end).
 struct PointRange {
@@ -164,7 +188,7 @@ LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_i
     const ivec2 cell = ivec2(floor(at.xy / at.z));
     const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
     const bool is_met = depth > 0.0 && cell == inside;
-    const vec3 light = lightOf(Nearest(depth, sheet.layer, inside), scene.extent);
+    const vec3 light = lightOf(Nearest(0.0, sheet.layer, inside), scene.extent);
     sum.light += is_met ? light : vec3(0.0);
     sum.count += is_met ? 1u : 0u;
   }
@@ -173,20 +197,20 @@ LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_i
 
 LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_index, uint list,
                      uint sheet_count, PointRange points, LightSum sum) {
-  const float reach = sheetReach(view);
+  const vec3 light_of_none = lightOfNone(lists[list].kinds, sum);
   for (uint point = points.first; point < points.end; point += kAtOnce) {
     LensRay rays[kAtOnce];
     Nearest nearest[kAtOnce];
     for (uint i = 0u; i < kAtOnce; ++i) {
       rays[i] = lensRay(view, pattern_index, min(point + i, points.end - 1u));
-      nearest[i] = Nearest(kDepthMax, kLayerCountMax, ivec2(0));
+      nearest[i] = Nearest(-1.0, kLayerCountMax, ivec2(0));
     }
     for (uint i = 0u; i < sheet_count; ++i) {
-      compare(lists[list].sheets[i], reach, scene.extent, view, direction, rays, nearest);
+      compare(lists[list].sheets[i], scene.extent, view, direction, rays, nearest);
     }
     for (uint i = 0u; i < kAtOnce; ++i) {
       if (point + i >= points.end) continue;
-      const vec3 seen = lightOfRay(scene, view, direction, rays[i], nearest[i]);
+      const vec3 seen = lightOfRay(scene, view, direction, rays[i], nearest[i], light_of_none);
       if (seen.r < 0.0) continue;
       sum.light += seen;
       ++sum.count;
@@ -197,7 +221,8 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
 
 // The mean of a px's walked rays and of those that are gathered.
 vec3 lightOfPx(Scene scene, ViewParams view, uvec2 px, uint list, vec3 walked_light) {
-  const bool is_settled = lists[list].is_settled != 0u;
+  const uint kinds = lists[list].kinds;
+  const bool is_settled = (kinds & kMetSettled) != 0u;
   const uint sheet_count = lists[list].count;
   const uint pattern_index = lensPatternIndex(px);
   const vec2 middle = vec2(px) + 0.5;
@@ -205,14 +230,15 @@ vec3 lightOfPx(Scene scene, ViewParams view, uvec2 px, uint list, vec3 walked_li
       view.direction + middle.x * view.direction_dx + middle.y * view.direction_dy;
   LightSum sum = LightSum(walked_light, is_settled ? push.probed_count : push.sample_count);
   const uint first = is_settled ? push.probed_count : push.walked_count;
-  if (kIsExact) {
-    const bool has_sheets = sheet_count > 0u && sheet_count != kMetTooMany;
-    sum = sumOnSheets(scene, view, direction, pattern_index, list, sheet_count,
-                      PointRange(first, has_sheets ? push.point_count : first), sum);
-  } else {
-    sum = sumOnSheet(scene, view, direction, pattern_index, lists[list].sheets[0],
-                     PointRange(first, is_settled ? push.point_count : first), sum);
-  }
+  // Exact rays of settled blocks are looked at as all others are.
+  const bool gathers = sheet_count > 0u && sheet_count != kMetTooMany;
+  const bool is_filled = is_settled && !kIsExact;
+  const PointRange points = PointRange(first, push.point_count);
+  const PointRange none = PointRange(first, first);
+  sum = sumOnSheet(scene, view, direction, pattern_index, lists[list].sheets[0],
+                   gathers && is_filled ? points : none, sum);
+  sum = sumOnSheets(scene, view, direction, pattern_index, list, sheet_count,
+                    gathers && !is_filled ? points : none, sum);
   return sum.light / float(sum.count);
 }
 

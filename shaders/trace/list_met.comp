@@ -64,18 +64,17 @@ void main() {
   const uint first_sample = kIsProbe ? 0u : push.probed_count;
   const uint end_sample = kIsProbe ? push.probed_count : push.sample_count;
   uint count = kIsProbe ? 0u : lists[list].count;
-  const bool is_done = !kIsProbe && (lists[list].is_settled != 0u || count == kMetTooMany);
+  uint kinds = kIsProbe ? 0u : lists[list].kinds;
+  const bool is_done = !kIsProbe && ((kinds & kMetSettled) != 0u || count == kMetTooMany);
   const MetBlock block = metBlock(grid, at_block);
   const uvec2 tile = tileOfBlock(grid, at_block);
   const ViewParams view = views[tile.y * grid.tile_count.x + tile.x];
-  const float reach = sheetReach(view);
   const Extent extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
   MetSheet last = MetSheet(vec3(0.0), kLayerCountMax);
   const uint width = block.end_x - block.first_x;
   const uint px_count = width * (block.end_row - block.first_row);
   const bool is_idle = is_done || view.is_used == 0u;
   const uint name_count = is_idle ? 0u : px_count * (end_sample - first_sample);
-  bool all_met = true;
   for (uint i = 0u; i < name_count; ++i) {
     const uint sample_index = i / px_count;
     const uint in_block = i - sample_index * px_count;
@@ -83,12 +82,14 @@ void main() {
     const uint x = block.first_x + in_block % width;
     const uint name =
         met[((first_sample + sample_index) * push.row_count + y) * push.atlas_width_px + x];
-    const bool is_met = name != kMetNothing;
-    all_met = all_met && is_met;
+    const bool is_met = name != kMetBackground && name != kMetAssumed;
+    kinds |= name == kMetBackground ? kMetSeesBackground : 0u;
+    kinds |= name == kMetAssumed ? kMetSeesAssumed : 0u;
     const MetSurface surface = metSurface(is_met ? name : 0u);
     const vec3 plane = planeOf(surface, loadSurface(push.layers, extent, surface));
     const vec3 at = vec3(vec2(surface.cell) + 0.5, 1.0);
     const float inv_z = dot(plane, at);
+    const float reach = sheetReach(view, at.xy);
     bool is_new = is_met && !isOf(last, surface.layer, at, inv_z, reach);
     // A loop is what a software device passes over where nobody needs it.
     for (uint k = 0u; is_new && k < min(count, kMetSheetMax); ++k) {
@@ -104,8 +105,8 @@ void main() {
   }
   if (is_done) return;
   lists[list].count = count > kMetSheetMax ? kMetTooMany : count;
-  if (!kIsProbe) return;
-  const bool is_settled = count == 1u && all_met;
-  lists[list].is_settled = is_settled ? 1u : 0u;
-  if (!is_settled) listUnsettled(list);
+  const bool is_settled = kIsProbe && (kinds == 0u ? count == 1u
+                                       : kinds == kMetSeesBackground && count == 0u);
+  lists[list].kinds = kinds | (is_settled ? kMetSettled : 0u);
+  if (kIsProbe && !is_settled) listUnsettled(list);
 }

@@ -197,7 +197,7 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
       const float inv_z =
           kShownBeside == 0u ? 0.0 : depthOf(px.walk, px.ray, px.view.eye, px.direction);
       storeShown(run.first_index + i, px.view, px.seen, inv_z);
-      storeOthers(run.first_index + i, px.walk, px.ray, px.view.eye, px.direction);
+      storeOthers(run.first_index + i, px.walk, px.is_known, px.ray, px.view.eye, px.direction);
       count(counts, classOf(px.walk));
     }
     const bool may_be_edge = !kIsOneOfSeveral && !kHasOwnEyes && i > 0u &&

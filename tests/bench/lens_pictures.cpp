@@ -22,7 +22,7 @@ struct Arguments {
   std::filesystem::path folder;
   std::string device;
   LensWay way{.layer_count = 3, .walked_count = 8, .gathered_count = 32};
-  LensScoring scoring{.source_width_px = 1200, .view_width_px = 400};
+  LensScoring scoring{.source_width_px = 1200, .view_width_px = 400, .radius_m = 0.06};
 };
 
 // Of samples in 0..1, as portable pixmap.
@@ -59,6 +59,8 @@ void addLensPicturesCommand(CLI::App& app) {
   command->add_option("--gathered", arguments->way.gathered_count, "Rays that are gathered");
   command->add_option("--layers", arguments->way.layer_count, "Of the source, 1 to 3");
   command->add_option("--width", arguments->scoring.view_width_px, "Of the pictures, px");
+  command->add_option("--radius", arguments->scoring.radius_m, "Of the lens, m");
+  command->add_option("--aside", arguments->scoring.aside_m, "Right of the source, m");
   command->callback([arguments] { writePictures(*arguments); });
 }
 

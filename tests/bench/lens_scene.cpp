@@ -31,12 +31,12 @@ glm::dvec2 onDisc(double share, double turn) {
 // The light of a px: of exact rays over its area and the lens, each of which goes to where the
 // middle's ray through the same place of the px is in focus.
 glm::dvec3 trueLight(const truth::Instant& instant, const Camera& camera, glm::dvec2 px,
-                     uint32_t ray_count) {
+                     double radius_m, uint32_t ray_count) {
   glm::dvec3 light(0.0);
   const Intrinsics& in = camera.intrinsics;
   for (uint32_t i = 0; i < ray_count; ++i) {
     const glm::dvec2 at = px + glm::dvec2(radicalInverse(i, 5), radicalInverse(i, 7));
-    const glm::dvec2 eye_m = kLensRadius_m * onDisc(radicalInverse(i, 2), radicalInverse(i, 3));
+    const glm::dvec2 eye_m = radius_m * onDisc(radicalInverse(i, 2), radicalInverse(i, 3));
     const glm::dvec2 slope = (at - in.principal_px) / in.focal_px;
     Camera moved = camera;
     moved.pose.position_m += glm::dvec3(eye_m, 0);
@@ -50,10 +50,10 @@ glm::dvec3 trueLight(const truth::Instant& instant, const Camera& camera, glm::d
 
 }  // namespace
 
-Camera lensCamera(uint32_t width_px) {
+Camera lensCamera(uint32_t width_px, double aside_m) {
   const double height_px = width_px * 9.0 / 16;
   const double focal_px = width_px / (2 * kSlope);
-  return {.pose = {},
+  return {.pose = {.position_m = {aside_m, 0, 0}, .orientation = {1, 0, 0, 0}},
           .intrinsics = {.focal_px = {focal_px, focal_px},
                          .principal_px = {width_px / 2.0, height_px / 2}}};
 }
@@ -62,15 +62,13 @@ SizePx lensPictureSize(uint32_t width_px) {
   return {width_px, width_px * 9 / 16};
 }
 
-std::vector<float> trueLensPicture(const truth::Instant& instant, uint32_t width_px,
-                                   uint32_t ray_count) {
-  const SizePx size_px = lensPictureSize(width_px);
-  const Camera camera = lensCamera(width_px);
+std::vector<float> trueLensPicture(const truth::Instant& instant, const Camera& camera,
+                                   SizePx size_px, double radius_m, uint32_t ray_count) {
   std::vector<float> light(3 * size_px.area());
   WorkerPool workers;
   workers.forEach(size_px.height, [&](uint32_t y, uint32_t) {
     for (uint32_t x = 0; x < size_px.width; ++x) {
-      const glm::dvec3 of_px = trueLight(instant, camera, {x, y}, ray_count);
+      const glm::dvec3 of_px = trueLight(instant, camera, {x, y}, radius_m, ray_count);
       for (int c = 0; c < 3; ++c) light[3 * (size_t{y} * size_px.width + x) + c] = float(of_px[c]);
     }
   });

@@ -10,16 +10,15 @@
 
 namespace viewloom::bench {
 
-inline constexpr double kLensRadius_m = 0.02;
 inline constexpr double kLensFocus_m = 2.4;
 
-// From the source's own place.
-Camera lensCamera(uint32_t width_px);
+// From the source's own place, or to the right of that.
+Camera lensCamera(uint32_t width_px, double aside_m = 0);
 SizePx lensPictureSize(uint32_t width_px);
 
 // Linear light, float[height][width][3]: the mean of so many exact rays a px, over its area and the
 // lens.
-std::vector<float> trueLensPicture(const truth::Instant& instant, uint32_t width_px,
-                                   uint32_t ray_count);
+std::vector<float> trueLensPicture(const truth::Instant& instant, const Camera& camera,
+                                   SizePx size_px, double radius_m, uint32_t ray_count);
 
 }  // namespace viewloom::bench

@@ -11,6 +11,7 @@
 #include "bench/lens_scene.h"
 #include "commands/offline_renderer.h"
 #include "scoring/image_score.h"
+#include "shared/lens_abi.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
@@ -20,12 +21,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 DisplaySpec displayOf(const LensScoring& scoring, const LensWay* way) {
-  const CamerasSpec camera{.cameras = {{Pose{}, lensCamera(scoring.view_width_px).intrinsics}},
+  const Camera view = lensCamera(scoring.view_width_px, scoring.aside_m);
+  const CamerasSpec camera{.cameras = {{view.pose, view.intrinsics}},
                            .tile_size_px = lensPictureSize(scoring.view_width_px),
                            .columns = 1};
   DisplaySpec spec{.kind = camera};
   if (way != nullptr) {
-    spec.lens = LensSpec{.aperture_radius_m = kLensRadius_m,
+    spec.lens = LensSpec{.aperture_radius_m = scoring.radius_m,
                          .focus_distance_m = kLensFocus_m,
                          .walked_count = way->walked_count,
                          .gathered_count = way->gathered_count,
@@ -87,6 +89,36 @@ void score(const RenderedAtlas& atlas, const std::vector<float>& truth, LensScor
   result.level_db = 10 * std::log10((lights + errors) / lights);
 }
 
+std::vector<float> truthOf(const truth::Instant& instant, const LensScoring& scoring) {
+  return trueLensPicture(instant, lensCamera(scoring.view_width_px, scoring.aside_m),
+                         lensPictureSize(scoring.view_width_px), scoring.radius_m,
+                         scoring.true_ray_count);
+}
+
+// The error's steps between px beside each other, at the sides of the blocks that the second stage
+// works in (shared/lens_abi.h), beside those of all other px.
+double seamsOf(const RenderedAtlas& atlas, const std::vector<float>& truth) {
+  const SizePx size_px = atlas.layout->size_px;
+  const auto errorOf = [&](uint32_t x, uint32_t y) {
+    const size_t px = size_t{y} * size_px.width + x;
+    return atlas.linear[4 * px + 1] - srgbFromLinear(truth[3 * px + 1]);
+  };
+  double steps[2] = {};
+  size_t counts[2] = {};
+  const auto add = [&](uint32_t before, double step) {
+    const bool is_seam = (before + 1) % abi::kMetBlockSide_px == 0;
+    steps[is_seam] += std::abs(step);
+    ++counts[is_seam];
+  };
+  for (uint32_t y = 0; y + 1 < size_px.height; ++y) {
+    for (uint32_t x = 0; x + 1 < size_px.width; ++x) {
+      add(x, errorOf(x + 1, y) - errorOf(x, y));
+      add(y, errorOf(x, y + 1) - errorOf(x, y));
+    }
+  }
+  return steps[1] / double(counts[1]) / (steps[0] / double(counts[0]));
+}
+
 FramePtr roomFrame(const truth::Instant& instant, uint32_t width_px, uint32_t layer_count) {
   const truth::Picture picture = truth::takePicture(
       instant, lensCamera(width_px), {.size_px = lensPictureSize(width_px), .layer_count = 3});
@@ -104,8 +136,7 @@ std::vector<float> withoutAlpha(const std::vector<float>& linear) {
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
-  const std::vector<float> truth =
-      trueLensPicture(instant, scoring.view_width_px, scoring.true_ray_count);
+  const std::vector<float> truth = truthOf(instant, scoring);
   OfflineRenderer renderer(device);
   std::vector<LensScore> scores;
   uint32_t built_layers = 0;
@@ -119,7 +150,9 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
     }
     const DisplaySpec spec = displayOf(scoring, &way);
     LensScore result{.way = way};
-    score(render(renderer, spec, true, 0).atlas, truth, result);
+    const RenderedAtlas atlas = render(renderer, spec, true, 0).atlas;
+    score(atlas, truth, result);
+    result.seams = seamsOf(atlas, truth);
     result.trace_ms = render(renderer, spec, false, scoring.round_count).trace_ms;
     result.pinholes = result.trace_ms / pinhole_ms;
     scores.push_back(result);
@@ -130,7 +163,7 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
 LensPictures lensPictures(const Device& device, const LensScoring& scoring, const LensWay& way) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
   LensPictures pictures{.size_px = lensPictureSize(scoring.view_width_px)};
-  pictures.truth = trueLensPicture(instant, scoring.view_width_px, scoring.true_ray_count);
+  pictures.truth = truthOf(instant, scoring);
   for (float& sample : pictures.truth) sample = float(srgbFromLinear(sample));
   OfflineRenderer renderer(device);
   renderer.build(*roomFrame(instant, scoring.source_width_px, way.layer_count));
@@ -163,6 +196,7 @@ Json qualityOfLens(const Device& device) {
                     {"psnr_db", score.psnr_db},
                     {"mean_error", score.mean_error},
                     {"level_db", score.level_db},
+                    {"seams", score.seams},
                     {"trace_ms", score.trace_ms},
                     {"pinhole_traces", score.pinholes}});
   }

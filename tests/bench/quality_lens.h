@@ -25,6 +25,7 @@ struct LensScore {
   double psnr_db = 0;     // sRGB, of all px that the source can show
   double mean_error = 0;  // signed, of linear light; 0..1
   double level_db = 0;    // all of the light, beside what is true
+  double seams = 0;       // steps of the error between blocks of px, beside those inside: 1 is none
   double trace_ms = 0;    // median
   double pinholes = 0;    // the same, in traces of the view without a lens
 };
@@ -34,9 +35,11 @@ struct LensScoring {
   uint32_t view_width_px = 320;
   uint32_t true_ray_count = 1024;  // a px
   uint32_t round_count = 5;        // of each trace, for the median
+  double radius_m = 0.02;          // of the lens
+  double aside_m = 0;              // of the view, to the right of the source
 };
 
-// The cluttered room, in focus at a third of its depth, seen from the source's own place.
+// The cluttered room, in focus at a third of its depth.
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways);
 

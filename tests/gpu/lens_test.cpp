@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Px seen through a lens, beside the mean of single rays, each a pinhole of its own that stands
 // where the ray passes through the lens.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -67,6 +68,18 @@ class Lens : public RenderedDisplay {
     }
     return {std::lround(255 * srgbFrom(light.x)), std::lround(255 * srgbFrom(light.y)),
             std::lround(255 * srgbFrom(light.z))};
+  }
+
+  // Codes, root mean square.
+  static double differenceOf(const RenderedAtlas& a, const RenderedAtlas& b) {
+    double squares = 0;
+    for (size_t px = 0; px < a.color.size(); ++px) {
+      for (int c = 0; c < 3; ++c) {
+        const int difference = channelOf(a.color[px], c) - channelOf(b.color[px], c);
+        squares += double(difference) * difference;
+      }
+    }
+    return std::sqrt(squares / double(3 * a.color.size()));
   }
 
   // The share of channels that differ, of every so many-th px of a view.
@@ -159,6 +172,31 @@ TEST_F(Lens, isTracedInPartsOfBoundedWork) {
   EXPECT_EQ(row, kRows.row_count);
   EXPECT_EQ(parts.count(), 4u + 32u);
   EXPECT_EQ(BandParts(jobOf(480, 8, 32), kRows).count(), 2u) << "the two stages";
+}
+
+// The second stage beside as many walked rays, where the source ends in the view: neither blur that
+// ends with it nor blocks.
+TEST_F(Lens, blursTheEndOfTheSourceIntoTheBackground) {
+  ViewCamera camera;
+  camera.pose.position_m = {0.1, 0, 0};
+  camera.projection = Fov{-0.6, 0.6, 0.4, -0.4};  // wider than the source
+  DisplaySpec spec{.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {320, 200}}};
+  spec.outside_fill = OutsideFill::kBackground;
+  spec.background_rgb = 0xff00ff;
+  spec.lens = walkedLens();
+  const RenderedAtlas few = render(spec);
+  spec.lens->gathered_count = 32;
+  const RenderedAtlas gathered = render(spec);
+  spec.lens->walked_count = kWalked + 32;
+  spec.lens->gathered_count = 0;
+  const RenderedAtlas walked = render(spec);
+  const double few_codes = differenceOf(few, walked);
+  const double gathered_codes = differenceOf(gathered, walked);
+  std::cout << "rms " << few_codes << " of few rays, " << gathered_codes << " codes with more\n";
+  EXPECT_LT(gathered_codes, 0.6 * few_codes);
+  const auto background_count = std::count(walked.color.begin(), walked.color.end(), 0xffff00ff);
+  EXPECT_GT(background_count, walked.color.size() / 10);
+  EXPECT_LT(background_count, walked.color.size() / 2);
 }
 
 TEST_F(Lens, leavesWhatNoViewCoversBlack) {
