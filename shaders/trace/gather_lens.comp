@@ -74,9 +74,11 @@ bool isOwnSurface(uint layer, Extent extent, ivec2 cell, vec2 at, float inv_z) {
 
 // Facets of the surface that a sheet stands for lie within its reach, and those beside them within
 // twice that. Which of two sheets is nearer only their facets tell: both may stand for surfaces
-// that lie closer than their reach.
-void compare(MetSheet sheet, Extent extent, ViewParams view, vec3 direction,
+// that lie closer than their reach. A ray that is behind a surface to its end has not met the sky:
+// where walked ones are, the sky holds none.
+void compare(MetSheet sheet, uint kinds, Extent extent, ViewParams view, vec3 direction,
              LensRay rays[kAtOnce], inout Nearest nearest[kAtOnce]) {
+  const float least_inv_z = (kinds & kMetSeesAssumed) != 0u ? 0.0 : -1.0;
   const PlaneParts parts = partsOf(sheet.plane, view, direction);
   for (uint i = 0u; i < kAtOnce; ++i) {
     const float depth = depthAt(parts, view, rays[i]);
@@ -87,7 +89,8 @@ void compare(MetSheet sheet, Extent extent, ViewParams view, vec3 direction,
     const float inv_z = facetAtPoint(facet, cell, at);
     const bool is_inside = all(greaterThanEqual(at, vec2(0.0))) &&
                            all(lessThan(at, vec2(extent.size_px)));
-    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z > nearest[i].inv_z &&
+    const float beyond_inv_z = max(nearest[i].inv_z, least_inv_z);
+    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z > beyond_inv_z &&
                        abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <=
                            2.0 * sheetReach(view, at) &&
                        isOwnSurface(sheet.layer, extent, cell, at, inv_z);
@@ -197,7 +200,8 @@ LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_i
 
 LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_index, uint list,
                      uint sheet_count, PointRange points, LightSum sum) {
-  const vec3 light_of_none = lightOfNone(lists[list].kinds, sum);
+  const uint kinds = lists[list].kinds;
+  const vec3 light_of_none = lightOfNone(kinds, sum);
   for (uint point = points.first; point < points.end; point += kAtOnce) {
     LensRay rays[kAtOnce];
     Nearest nearest[kAtOnce];
@@ -206,7 +210,7 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
       nearest[i] = Nearest(-1.0, kLayerCountMax, ivec2(0));
     }
     for (uint i = 0u; i < sheet_count; ++i) {
-      compare(lists[list].sheets[i], scene.extent, view, direction, rays, nearest);
+      compare(lists[list].sheets[i], kinds, scene.extent, view, direction, rays, nearest);
     }
     for (uint i = 0u; i < kAtOnce; ++i) {
       if (point + i >= points.end) continue;
