@@ -90,7 +90,7 @@ class BenchTest(unittest.TestCase):
         points = {}
         for point in report["points"]:
             points.setdefault(point["application"], {})[point["quality"]] = point
-        self.assertEqual(list(points), ["views", "stereo", "time", "reflections"])
+        self.assertEqual(list(points), ["views", "stereo", "lens", "time", "reflections"])
         for name, by_quality in points.items():
             self.assertEqual(list(by_quality), ["draft", "balanced", "best"])
             worse, better = (by_quality[quality]["psnr_db"] for quality in ("draft", "best"))

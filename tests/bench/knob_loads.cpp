@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "bench/eye_service.h"
+#include "bench/lens_scene.h"
 #include "bench/moving_frames.h"
 #include "support/srgb_transfer.h"
 #include "support/truth/mirror_scenes.h"
@@ -22,6 +23,8 @@ constexpr SizePx kSource_px{960, 720};
 constexpr SizePx kView_px{480, 360};
 constexpr double kFocalPerWidth = 0.9;
 constexpr uint32_t kEnvironment_rgb = 0x808080;
+constexpr double kLensRadius_m = 0.02;
+constexpr uint32_t kTrueLensRays = 256;  // a px
 
 struct Sight {
   Camera camera;
@@ -109,6 +112,39 @@ KnobLoad stereoLoad(uint32_t by) {
   return roomLoad("stereo", {eyes.eyes[0].pose, eyes.eyes[1].pose}, by);
 }
 
+// Blur reaches beyond the source in a margin of the view, which does not count.
+KnobLoad lensLoad(uint32_t by) {
+  const truth::Instant instant(truth::clutteredRoom(), 0);
+  const SizePx source_px = lensPictureSize(kSource_px.width / by);
+  const Sight sight{.camera = lensCamera(kView_px.width / by),
+                    .size_px = lensPictureSize(kView_px.width / by)};
+  const std::vector<float> samples =
+      trueLensPicture(instant, sight.camera, sight.size_px, kLensRadius_m, kTrueLensRays);
+  std::vector<glm::vec3> light;
+  std::vector<uint8_t> known;
+  const uint32_t margin_px = sight.size_px.width / 20;
+  for (uint32_t y = 0; y < sight.size_px.height; ++y) {
+    for (uint32_t x = 0; x < sight.size_px.width; ++x) {
+      const size_t px = light.size();
+      light.push_back({samples[3 * px], samples[3 * px + 1], samples[3 * px + 2]});
+      const bool is_inside = x >= margin_px && x + margin_px < sight.size_px.width &&
+                             y >= margin_px && y + margin_px < sight.size_px.height;
+      known.push_back(is_inside ? 0 : kLayers);
+    }
+  }
+  TrueAtlas atlas(sight.size_px, 1);
+  atlas.add(light, known);
+  KnobLoad load = atlas.take();
+  load.application = "lens";
+  load.frame = truth::frameOf(takePicture(instant, lensCamera(source_px.width),
+                                          {.size_px = source_px, .layer_count = kLayers}),
+                              kLayers);
+  load.display = displayOf({sight});
+  load.display.lens =
+      LensSpec{.aperture_radius_m = kLensRadius_m, .focus_distance_m = kLensFocus_m};
+  return load;
+}
+
 // Half way to the third frame of 30 Hz, as the first two tell that the camera moves.
 KnobLoad timeLoad() {
   const Sequence sequence = movingCamera();
@@ -164,7 +200,7 @@ KnobLoad reflectionsLoad(uint32_t by) {
 }  // namespace
 
 std::vector<KnobLoad> knobLoads(uint32_t by) {
-  return {viewsLoad(by), stereoLoad(by), timeLoad(), reflectionsLoad(by)};
+  return {viewsLoad(by), stereoLoad(by), lensLoad(by), timeLoad(), reflectionsLoad(by)};
 }
 
 }  // namespace viewloom::bench

@@ -20,8 +20,8 @@ struct KnobLoad {
   std::vector<uint8_t> is_known;  // [height][width]: 1 where the frame's layers hold what is seen
 };
 
-// Views beside the source, a tracked pair, an atlas between frames, a rough mirror. All of them
-// `by` times smaller on a side.
+// Views beside the source, a tracked pair, a view through a lens, an atlas between frames, a rough
+// mirror. All of them `by` times smaller on a side, but the atlas between frames.
 std::vector<KnobLoad> knobLoads(uint32_t by);
 
 }  // namespace viewloom::bench
