@@ -16,11 +16,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "bench/application_pictures.h"
 #include "bench/cpu/cpu_rivals.h"
 #include "bench/display_bench.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/knob.h"
-#include "bench/lens_pictures.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
 #include "bench/quality.h"
@@ -163,7 +163,7 @@ int runBench(int argc, char** argv) {
   addStereoCommand(app);
   addKnobCommand(app);
   addQualityCommand(app);
-  addLensPicturesCommand(app);
+  addPicturesCommand(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }

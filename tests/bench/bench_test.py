@@ -3,8 +3,10 @@
 """viewloom-bench prints what it promises, and its contestants mean the same surfaces."""
 
 import json
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 PROGRAM = ""
@@ -98,6 +100,23 @@ class BenchTest(unittest.TestCase):
             self.assertGreater(better, worse - 0.01, name)
             self.assertGreater(better, PSNR_MIN_DB, name)
             self.assertTrue(all(point["trace_ms"] > 0 for point in by_quality.values()))
+
+    def test_pictures_of_applications(self):
+        with tempfile.TemporaryDirectory() as folder:
+            finished = subprocess.run([PROGRAM, "pictures", folder, "--miniature", "8"],
+                                      capture_output=True, text=True, check=False)
+            self.assertEqual(finished.returncode, 0, finished.stderr)
+            for application in ("views", "stereo", "lens", "time", "reflections"):
+                sizes = {}
+                for what in ("input", "result", "truth"):
+                    picture = pathlib.Path(folder, f"{application}-{what}.ppm").read_bytes()
+                    magic, size, depth, codes = picture.split(b"\n", 3)
+                    width_px, height_px = map(int, size.split())
+                    self.assertEqual((magic, depth), (b"P6", b"255"))
+                    self.assertEqual(len(codes), 3 * width_px * height_px)
+                    self.assertGreater(len(set(codes)), 16, f"{application} {what} is a picture")
+                    sizes[what] = size
+                self.assertEqual(sizes["result"], sizes["truth"])
 
     def test_recorded_sets_that_are_not_there(self):
         report = run("trace", "--json", "--data", "/nowhere", "--only", "antinous")

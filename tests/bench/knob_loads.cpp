@@ -23,7 +23,7 @@ constexpr SizePx kSource_px{960, 720};
 constexpr SizePx kView_px{480, 360};
 constexpr double kFocalPerWidth = 0.9;
 constexpr uint32_t kEnvironment_rgb = 0x808080;
-constexpr double kLensRadius_m = 0.02;
+constexpr double kLensRadius_m = 0.05;
 constexpr uint32_t kTrueLensRays = 256;  // a px
 
 struct Sight {

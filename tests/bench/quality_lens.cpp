@@ -125,12 +125,6 @@ FramePtr roomFrame(const truth::Instant& instant, uint32_t width_px, uint32_t la
   return truth::frameOf(picture, layer_count);
 }
 
-std::vector<float> withoutAlpha(const std::vector<float>& linear) {
-  std::vector<float> srgb;
-  for (size_t i = 0; i < linear.size(); i += 4) srgb.insert(srgb.end(), &linear[i], &linear[i] + 3);
-  return srgb;
-}
-
 }  // namespace
 
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
@@ -158,21 +152,6 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
     scores.push_back(result);
   }
   return scores;
-}
-
-LensPictures lensPictures(const Device& device, const LensScoring& scoring, const LensWay& way) {
-  const truth::Instant instant(truth::clutteredRoom(), 0);
-  LensPictures pictures{.size_px = lensPictureSize(scoring.view_width_px)};
-  pictures.truth = truthOf(instant, scoring);
-  for (float& sample : pictures.truth) sample = float(srgbFromLinear(sample));
-  OfflineRenderer renderer(device);
-  renderer.build(*roomFrame(instant, scoring.source_width_px, way.layer_count));
-  const auto picture = [&](const LensWay* seen) {
-    return withoutAlpha(render(renderer, displayOf(scoring, seen), true, 0).atlas.linear);
-  };
-  pictures.sharp = picture(nullptr);
-  pictures.blurred = picture(&way);
-  return pictures;
 }
 
 Json qualityOfLens(const Device& device) {

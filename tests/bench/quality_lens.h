@@ -43,15 +43,6 @@ struct LensScoring {
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways);
 
-// sRGB, float[height][width][3].
-struct LensPictures {
-  SizePx size_px;
-  std::vector<float> sharp;  // without a lens
-  std::vector<float> blurred;
-  std::vector<float> truth;
-};
-LensPictures lensPictures(const Device& device, const LensScoring& scoring, const LensWay& way);
-
 nlohmann::ordered_json qualityOfLens(const Device& device);
 
 }  // namespace viewloom::bench

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// `viewloom-bench lens-pictures`: what a lens shows, beside the truth, as images.
+// `viewloom-bench pictures`: each application of the tracer in pictures.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace viewloom::bench {
 
-void addLensPicturesCommand(CLI::App& app);
+void addPicturesCommand(CLI::App& app);
 
 }  // namespace viewloom::bench
