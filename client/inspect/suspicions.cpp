@@ -105,8 +105,7 @@ class Rules {
 
   void suspectStepsAndNoise() {
     const float near = measures_.inv_z_near;
-    const bool is_stepped =
-        measures_.step > 0 && measures_.difference_median <= abi::kStepsMedian * measures_.step;
+    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, near);
     if (is_stepped && abi::kShownSteps * measures_.step > near) {
       say("quantised",
           strCat("depth has about ", std::round(near / measures_.step),

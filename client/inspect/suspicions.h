@@ -30,7 +30,8 @@ struct DepthFacts {
 //   flat        98 % of surfaces within a hundredth of each other in 1/Z, and no sky
 //   clipped     a hundredth of surfaces at the least or largest code, or a twentieth at the least
 //               or largest number there is
-//   quantised   half a step moves things by more than 0.25 px on a wide display
+//   quantised   half a step moves things by more than 0.25 px on a wide display; fewer than 32
+//               steps are none, but surfaces that end before others
 //   noisy       the noise does so by more than a px
 //   scale       the median lies beyond 200 m or nearer than 2 cm
 //   nothing     numbers of 1e9 and more, unless they are said to be far

@@ -65,12 +65,17 @@ VIEWLOOM_ABI_FUNCTION uint noiseBin(float difference) {
   return logBin(difference, kNoiseMantissaBits, kNoiseHistogramBinCount);
 }
 
-// How far smoothing may move a sample, 1/m; 0 = it does not. `step_median`: of differences that are
-// not 0.
+// Whether depth is rounded to steps; not where exact surfaces merely end before others.
+// `step_median`: of differences that are not 0.
+VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float inv_z_near) {
+  return depth_step > 0.0f && step_median <= kStepsMedian * depth_step &&
+         kFewestSteps * depth_step <= inv_z_near;
+}
+
+// How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped.
 VIEWLOOM_ABI_FUNCTION float smoothingReach(float depth_step, float step_median, float noise_sigma,
                                            float inv_z_near) {
-  const bool is_stepped = depth_step > 0.0f && step_median <= kStepsMedian * depth_step &&
-                          kFewestSteps * depth_step <= inv_z_near;
+  const bool is_stepped = isStepped(depth_step, step_median, inv_z_near);
   if (is_stepped) return kShownSteps * depth_step > inv_z_near ? 0.5f * depth_step : 0.0f;
   const bool is_noisy = noise_sigma > kStepsOfNoise * depth_step &&
                         kFewestSteps * noise_sigma <= inv_z_near &&

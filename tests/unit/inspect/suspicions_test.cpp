@@ -123,6 +123,44 @@ TEST(Suspicions, seeCoarseCodes) {
   EXPECT_THAT(kindsOf(fine, 65535), Not(Contains("quantised")));
 }
 
+// A board before a wall, both exact planes, in metres or in steps of 1/Z: all that differs from
+// px to px lies at the board's rim.
+struct Boards {
+  float slope = 0;        // of 1/Z along x, 1/m/px
+  float steps_per_m = 0;  // of 1/Z; 0: floats
+};
+
+DepthPlane boards(const Boards& kind) {
+  const auto invZ = [kind](uint32_t x, uint32_t y) {
+    const bool is_board = x >= 50 && x < 110 && y >= 30 && y < 90;
+    return is_board ? 0.5F - kind.slope * float(x) / 2 : 0.2F + kind.slope * float(x);
+  };
+  if (kind.steps_per_m == 0) {
+    return depthPlane<float>(kWidth, kHeight, v1::DEPTH_MEANING_PLANAR,
+                             [&](uint32_t x, uint32_t y) { return 1 / invZ(x, y); });
+  }
+  DepthPlane made = depthPlane<uint16_t>(
+      kWidth, kHeight, v1::DEPTH_MEANING_DISPARITY, [&](uint32_t x, uint32_t y) {
+        return static_cast<uint16_t>(std::lround(kind.steps_per_m * invZ(x, y)));
+      });
+  made.plane.mutable_depth()->set_scale(1 / double{kind.steps_per_m});
+  return made;
+}
+
+TEST(Suspicions, haveNothingAgainstExactPlanes) {
+  EXPECT_THAT(kindsOf(boards({})), Not(Contains("quantised"))) << "two distances";
+  EXPECT_THAT(kindsOf(boards({.slope = 0.0005F})), Not(Contains("quantised")));
+  EXPECT_THAT(kindsOf(boards({.slope = -0.0003F})), Not(Contains("quantised")));
+}
+
+// 8 bits over 0 .. 1 1/m, of which the board has 128.
+TEST(Suspicions, seeSlopesRoundedToEightBits) {
+  const DepthPlane coarse = boards({.slope = 0.0005F, .steps_per_m = 255});
+  EXPECT_THAT(kindsOf(coarse, 255), Contains("quantised"));
+  EXPECT_THAT(kindsOf(boards({.slope = 0.0005F, .steps_per_m = 65535}), 65535),
+              Not(Contains("quantised")));
+}
+
 TEST(Suspicions, seeNoise) {
   DepthPlane made = codes(1000, 200);  // 20 cm
   made.plane.mutable_depth()->set_scale(0.001);
