@@ -127,26 +127,6 @@ vec4 surfaceColorPerFacet(Address layers[kLayerCountMax], Address color[kLayerCo
   return sum * (1.0 / (taps.weights.x + taps.weights.y + taps.weights.z + taps.weights.w));
 }
 
-// The layer of a column that continues a facet there: the surface nearest to the facet's plane, if
-// it is within the connection tolerance for every px between. kLayerCountMax: none.
-uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent extent, uint layer,
-                     ivec2 cell, ivec2 column, vec2 kappa) {
-  if (column == cell) return layer;
-  const vec2 apart = vec2(column - cell);
-  const uvec2 facet = loadFacet(layers, layer, extent, cell);
-  const float expected = facetAt(facetInvZ(facet), unpackSlopes(facet.y), apart);
-  float distance_min =
-      connectionTolerance(kappa.x, kappa.y, expected) * max(abs(apart.x) + abs(apart.y), 1.0);
-  uint nearest = kLayerCountMax;
-  for (uint i = 0u; i < layer_count; ++i) {
-    const float inv_z = facetInvZ(loadFacet(layers, i, extent, column));
-    if (inv_z < 0.0 || abs(inv_z - expected) > distance_min) continue;
-    distance_min = abs(inv_z - expected);
-    nearest = i;
-  }
-  return nearest;
-}
-
 // Sizes of colour planes that are not all the depth's: width | height << 16 of each layer, and the
 // texels from layer to layer.
 struct ColorSizes {
@@ -159,42 +139,6 @@ ivec2 colorSize(ColorSizes sizes, uint layer) {
   const uint high = layer == 2u ? sizes.size_px[2] : sizes.size_px[3];
   const uint size_px = layer < 2u ? low : high;
   return ivec2(size_px & 0xffffu, size_px >> 16);
-}
-
-// The texel of a layer at a uv position.
-vec4 texelAtUv(Address color[kLayerCountMax], ColorSizes sizes, uint color_format, uint layer,
-               vec2 uv) {
-  const ivec2 size_px = colorSize(sizes, layer);
-  const ivec2 texel = clamp(ivec2(uv * vec2(size_px)), ivec2(0), size_px - 1);
-  return loadTexel(color, layer, sizes.stride, color_format, uint(texel.y * size_px.x + texel.x));
-}
-
-// Colour planes of another size, looked up by uv: bilinear over the texels around the point in the
-// hit's plane whose facet continues the hit's; what another layer continues is looked up in that
-// layer's plane. `kappa`: absolute, relative.
-vec4 surfaceColorScaled(Address layers[kLayerCountMax], Address color[kLayerCountMax],
-                        uint layer_count, Extent extent, ColorSizes sizes, uint color_format,
-                        uint layer, ivec2 cell, vec2 point, vec2 kappa) {
-  const vec2 color_size = vec2(colorSize(sizes, layer));
-  const vec2 uv_per_px = 1.0 / vec2(extent.size_px);
-  const vec2 position =
-      round((point * uv_per_px * color_size - 0.5) * kSubtexelSteps) / kSubtexelSteps;
-  const vec2 share = position - floor(position);
-  vec4 sum = vec4(0.0);
-  float weight = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const ivec2 corner = ivec2(i & 1, i >> 1);
-    const vec2 shares = mix(1.0 - share, share, equal(corner, ivec2(1)));
-    const vec2 texel = clamp(floor(position) + vec2(corner), vec2(0.0), color_size - 1.0);
-    const vec2 uv = (texel + 0.5) / color_size;
-    const ivec2 column = clamp(ivec2(uv / uv_per_px), ivec2(0), extent.size_px - 1);
-    const uint other = continuingLayer(layers, layer_count, extent, layer, cell, column, kappa);
-    if (other == kLayerCountMax) continue;
-    sum += shares.x * shares.y * texelAtUv(color, sizes, color_format, other, uv);
-    weight += shares.x * shares.y;
-  }
-  if (weight > 0.0) return sum / weight;
-  return texelAtUv(color, sizes, color_format, layer, (vec2(cell) + 0.5) * uv_per_px);
 }
 
 #endif  // VIEWLOOM_LIB_COLOR_GLSL_

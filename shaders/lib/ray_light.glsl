@@ -6,17 +6,22 @@
 
 #include "lib/color.glsl"
 #include "lib/ray.glsl"
+#include "lib/scaled_color.glsl"
 #include "lib/walk.glsl"
 
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
 
-// `clean`: of lib/color.glsl, where colour has the size of depth.
+// `clean`: of lib/color.glsl.
 vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point, vec2 clean) {
   if (kColorIsScaled) {
-    const ColorSizes sizes = ColorSizes(extras.color_size_px, extras.color_stride);
-    return surfaceColorScaled(scene.layers, push.color, scene.layer_count, scene.extent, sizes,
-                              kColorFormat, layer, cell, point, scene.kappa);
+    // By either axis: texels are no columns, and what a silhouette has mixed with one of them along
+    // one axis shows along the other.
+    const ScaledColor from =
+        ScaledColor(push.color, ColorSizes(extras.color_size_px, extras.color_stride), kColorFormat,
+                    scene.layer_count, scene.kappa, max(clean.x, clean.y));
+    return surfaceColorScaled(scene.layers, scene.extent, from,
+                              SurfacePlace(point, cell, layer, links));
   }
   return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
                               links, point, clean);
