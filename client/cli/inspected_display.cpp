@@ -51,7 +51,10 @@ absl::StatusOr<DisplayNeed> displayNeed(const v1::Display& display, const v1::So
   const absl::StatusOr<Camera> camera = cameraOf(inspected.camera, size_px);
   if (!camera.ok()) return camera.status();
   const InvZRange range = rangeOf(layer);
-  const SourceStats stats{.inv_z_near = range.near, .inv_z_far = range.far};
+  const SourceStats stats{.inv_z_min = range.far,
+                          .inv_z_max = range.near,
+                          .inv_z_near = range.near,
+                          .inv_z_far = range.far};
   const absl::StatusOr<AtlasLayout> layout =
       makeAtlasLayout(*spec, {.source_intrinsics = camera->intrinsics,
                               .source_size_px = size_px,

@@ -75,7 +75,9 @@ uint32_t AtlasLayout::viewAt(uint32_t column, uint32_t row_from_top) const {
 }
 
 double contentFocalDistance(const SourceStats& stats) {
-  const double mean_inv_z = (stats.inv_z_near + stats.inv_z_far) / 2;
+  // Percentiles lie somewhere in bins of a 32nd of an octave, which are wider than what is flat.
+  const double mean_inv_z =
+      std::clamp((stats.inv_z_near + stats.inv_z_far) / 2, stats.inv_z_min, stats.inv_z_max);
   return mean_inv_z > 0 ? 1 / mean_inv_z : StreamDefaults{}.focal_distance_m;
 }
 

@@ -109,8 +109,9 @@ struct StreamDefaults {
   bool operator==(const StreamDefaults&) const = default;
 };
 
-// A focal distance from content: the harmonic mean of the 2nd and 98th depth percentile. A stream
-// of sky alone has none; then the default of StreamDefaults.
+// A focal distance from content: the harmonic mean of the 2nd and 98th depth percentile, not beyond
+// the nearest or the furthest surface. A stream of sky alone has none; then the default of
+// StreamDefaults.
 double contentFocalDistance(const SourceStats& stats);
 // What such a source gives, `stats` being those of the stream's first frame.
 StreamDefaults streamDefaults(const Intrinsics& intrinsics, SizePx size_px,

@@ -69,8 +69,9 @@ std::optional<DepthBudget> depthBudget(const AtlasLayout& layout, const SourceSt
     return shareOutside(spread, {.low = focus - reach, .high = focus + reach});
   };
   const InvZStretch served = narrowestRange(spread, kServedShare);
-  const double suggested_m =
-      std::clamp(1 / served.middle(), kFocalDistanceMin_m, kFocalDistanceMax_m);
+  // Bins are wider than what is flat.
+  const double middle = std::clamp(served.middle(), stats.inv_z_min, stats.inv_z_max);
+  const double suggested_m = std::clamp(1 / middle, kFocalDistanceMin_m, kFocalDistanceMax_m);
   // The eyes of a cone stand on a line as much longer as the focal plane is further away. Tangents
   // grow faster than angles: a share of the cone is no more than that share of the line.
   const double served_px = per_inv_z * (suggested_m / layout.eye_focus_m) * served.width() / 2;

@@ -139,6 +139,16 @@ TEST(DepthBudget, neverSuggestsMoreThanTheDisplayHas) {
   EXPECT_NEAR(budget->disparity_max_px, 0, 1e-9);
 }
 
+TEST(DepthBudget, suggestsAFlatThingsOwnDistanceWhereverItsBinLies) {
+  const AtlasLayout layout = layoutOf({.kind = evenQuilt(3, 0.4)});
+  for (const double z_m : {3.0, 3.03, 3.06}) {
+    const std::vector<double> flat_m(100, z_m);
+    const auto budget = depthBudget(layout, statsOf(flat_m), spreadOf(flat_m, 32));
+    ASSERT_TRUE(budget);
+    EXPECT_DOUBLE_EQ(budget->suggested_focal_distance_m, z_m);
+  }
+}
+
 TEST(DepthBudget, countsSkyAsFarAway) {
   const AtlasLayout layout = layoutOf({.kind = evenQuilt(2.5, 0.7)});
   const DepthSpread sky{{.inv_z_low = 0, .inv_z_high = 1e-12, .count = 5}};
