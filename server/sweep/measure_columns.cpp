@@ -80,13 +80,14 @@ void ColumnHistograms::add(const ColumnHistograms& other) {
 
 MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCounts& counts,
                               float given_kappa) {
-  const float step = noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile);
   const float surface_count =
       float(std::accumulate(histograms.depth.begin(), histograms.depth.end(), uint64_t{0}));
   const auto quantile = [&](float share) {
     return depthQuantile(histograms.depth, surface_count, share);
   };
   const float inv_z_near = quantile(abi::kNearQuantile);
+  const float step =
+      abi::stepOfDepth(noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile), inv_z_near);
   const float surface_sigma = surfaceSigma(histograms);
   const Smoothing smoothing = {
       .reach = abi::smoothingReach(step, noiseQuantile(histograms.noise, 1, 0, 0.5F), surface_sigma,

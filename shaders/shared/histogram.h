@@ -65,11 +65,16 @@ VIEWLOOM_ABI_FUNCTION uint noiseBin(float difference) {
   return logBin(difference, kNoiseMantissaBits, kNoiseHistogramBinCount);
 }
 
+// The step that depth may be rounded to; 0 where it is too large for one.
+VIEWLOOM_ABI_FUNCTION float stepOfDepth(float least_difference, float inv_z_near) {
+  return kFewestSteps * least_difference <= inv_z_near ? least_difference : 0.0f;
+}
+
 // Whether depth is rounded to steps; not where exact surfaces merely end before others.
 // `step_median`: of differences that are not 0.
 VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float inv_z_near) {
-  return depth_step > 0.0f && step_median <= kStepsMedian * depth_step &&
-         kFewestSteps * depth_step <= inv_z_near;
+  const float step = stepOfDepth(depth_step, inv_z_near);
+  return step > 0.0f && step_median <= kStepsMedian * step;
 }
 
 // How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped.

@@ -71,7 +71,8 @@ void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const float surface_count = surfaceCount(measured);
   const float inv_z_near = depthQuantile(measured, surface_count, kNearQuantile);
-  const float depth_step = noiseQuantile(measured, 1u, 0.0, kStepQuantile);
+  const float depth_step =
+      stepOfDepth(noiseQuantile(measured, 1u, 0.0, kStepQuantile), inv_z_near);
   const float noise_sigma = max(noiseQuantile(measured, 0u, 0.0, 0.5) / kMedianPerSigma,
                                 settleSmoothing(measured, depth_step, inv_z_near));
   const float given = push.given_kappa;
