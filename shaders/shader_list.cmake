@@ -17,6 +17,9 @@ set(VIEWLOOM_SHADERS
   trace/join_faces.comp
   trace/merge_sources.comp
   trace/reflect.comp
+  trace/turn_paths.comp
+  trace/walk_paths.comp
+  trace/merge_paths.comp
   trace/add_reflections.comp
   trace/blend_samples.comp
   trace/list_met.comp

@@ -66,7 +66,7 @@ FrameShape shapeOf(const Frame& frame, const SourcePart& part) {
                         : all_opaque ? ColorStorage::kRgb16Root
                                      : ColorStorage::kRgba16fLinear;
   const std::vector<StagedLayer> staged = stagedLayers(frame, part);
-  shape.mirrors = source.mirrors() && !source.is_cube_map;
+  shape.mirrors = source.mirrors();
   shape.staged_before_color_bytes = staged.front().color.offset;
   shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
   return shape;
@@ -96,8 +96,9 @@ std::vector<StagedLayer> stagedLayers(const Frame& frame, const SourcePart& part
   for (size_t i = 0; i < layers.size(); ++i) {
     stage(staged[i].depth, layers[i].depth->size() / (part.face ? kCubeFaceCount : 1));
   }
-  for (size_t i = 0; i < layers.size() && !part.face; ++i) {
-    if (layers[i].surface) stage(staged[i].surface, layers[i].surface->size());
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const SizePx plane_px = frame.format.sources[part.source].layers[i].depth.size_px;
+    if (layers[i].surface) stage(staged[i].surface, surfaceBytes(structureSize(plane_px, part)));
   }
   for (size_t i = 0; i < layers.size(); ++i) {
     const SizePx plane_px = frame.format.sources[part.source].layers[i].color.size_px;

@@ -35,7 +35,7 @@ struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
   bool is_cube_face = false;
-  bool mirrors = false;  // layers say how they do (LayerPlanes::surface); never of a cube map
+  bool mirrors = false;  // layers say how they do (LayerPlanes::surface)
   ColorStorage color_storage = ColorStorage::kRgba8Srgb;
   // Decoded planes of all layers in the upload, each aligned: depth, how layers mirror, and colour
   // after it, which of a face has room for the apron. First without and then with colour.

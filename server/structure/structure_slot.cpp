@@ -31,6 +31,30 @@ void copyWithinApron(std::span<const uint8_t> faces, uint32_t face, SizePx with_
   }
 }
 
+// What lies there is like the nearest px of the face.
+void fillApronFromWithin(SizePx with_apron_px, abi::SurfaceTexel* texels) {
+  const uint32_t last_px = with_apron_px.width - abi::kCubeApron_px - 1;
+  const auto within = [&](uint32_t place) {
+    return std::clamp(place, abi::kCubeApron_px, last_px);
+  };
+  for (uint32_t y = 0; y < with_apron_px.height; ++y) {
+    for (uint32_t x = 0; x < with_apron_px.width; ++x) {
+      if (within(x) == x && within(y) == y) continue;
+      texels[y * with_apron_px.width + x] = texels[within(y) * with_apron_px.width + within(x)];
+    }
+  }
+}
+
+void copySurface(const std::vector<uint8_t>& surface, const SourcePart& part, SizePx size_px,
+                 std::byte* to) {
+  if (!part.face) {
+    std::memcpy(to, surface.data(), surface.size());
+    return;
+  }
+  copyWithinApron(surface, *part.face, size_px, to);
+  fillApronFromWithin(size_px, reinterpret_cast<abi::SurfaceTexel*>(to));
+}
+
 }  // namespace
 
 StructureSlot::StructureSlot(const Device& device, BuildMemoryPtr build_memory)
@@ -103,8 +127,7 @@ void StructureSlot::upload(const Frame& frame, const SourcePart& part) {
     std::memcpy(upload + staged_[i].depth.offset, planes.depth->data() + face * depth_bytes,
                 depth_bytes);
     if (staged_[i].surface.size_bytes > 0) {
-      std::memcpy(upload + staged_[i].surface.offset, planes.surface->data(),
-                  staged_[i].surface.size_bytes);
+      copySurface(*planes.surface, part, shape_.depth_px, upload + staged_[i].surface.offset);
     }
     if (part.face) {
       copyWithinApron(*planes.color, face, shape_.color_px[i], color);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "base/check.h"
 #include "frame/cube_map.h"
 #include "gpu/barrier.h"
 #include "shaders/join_faces.h"
@@ -20,16 +19,6 @@ constexpr DescriptorSlot kMergeSlots[] = {{abi::kBindingViews, DescriptorKind::k
                                           {abi::kBindingBand, DescriptorKind::kStorage},
                                           {abi::kBindingAnswers, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kJoinSlots[] = {{abi::kBindingAnswers, DescriptorKind::kStorage}};
-
-// 8 bits a source.
-abi::uvec2 packFirstWalks(const TraceJob& job) {
-  VIEWLOOM_CHECK(job.sources.size() <= kMergedSourcesMax && job.walk_count <= 64);
-  uint32_t words[2] = {};
-  for (size_t i = 0; i < job.sources.size(); ++i) {
-    words[i / 4] |= job.sources[i].first_walk << (8 * (i % 4));
-  }
-  return {words[0], words[1]};
-}
 
 }  // namespace
 

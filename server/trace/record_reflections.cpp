@@ -1,23 +1,149 @@
 // SPDX-License-Identifier: Apache-2.0
+// What comes to the px of a band by way of surfaces that mirror, in one source and in several.
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/barrier.h"
+#include "trace/band_params.h"
+#include "trace/ray_sources.h"
+#include "trace/reflection_settings.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
+namespace {
+
+// A bit for each source that has this.
+template <typename Has>
+uint32_t sourceBits(const TraceJob& job, const Has& has) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < job.sources.size(); ++i) bits |= uint32_t{has(job.sources[i])} << i;
+  return bits;
+}
+
+}  // namespace
+
+ReflectedTarget ViewTracer::reflectedTarget(const TraceJob& job, BandRows rows,
+                                            const TraceSlot& slot) {
+  // The mean of several samples is made of their codes.
+  const bool shows_linear = !slot.linear_.isEmpty() && job.sample_count == 1;
+  return {.rows = rows,
+          .reflected = slot.reflected_,
+          .rgba = slot.sampleTarget(job),
+          .linear_address = shows_linear ? slot.linear_.target().address() : 0};
+}
+
+std::vector<Descriptor> ViewTracer::describeReflected(const Walk& walk,
+                                                      const Camera& first_camera) {
+  const Descriptor settings = walk.slot.reflectionDescriptor(walk.index);
+  const abi::ReflectionSettings values =
+      reflectionSettings(walk.structure, walk.job, walk.index, first_camera);
+  std::memcpy(walk.slot.reflection_settings_.mapped().data() + settings.offset_bytes, &values,
+              sizeof values);
+  std::vector<Descriptor> params =
+      describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
+  params.push_back(settings);
+  return params;
+}
 
 void ViewTracer::recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
-  const std::vector<Descriptor> params =
-      describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
-  // The mean of several samples is made of their codes.
-  const bool shows_linear = !walk.slot.linear_.isEmpty() && walk.job.sample_count == 1;
-  reflector_.record(commands,
-                    {.structure = walk.structure,
-                     .job = walk.job,
-                     .rows = rows,
-                     .push = describeBand(walk, walk.structure.color(), rows),
-                     .params = params,
-                     .settings = walk.slot.reflection_settings_,
-                     .reflected = walk.slot.reflected_,
-                     .rgba = walk.slot.sampleTarget(walk.job),
-                     .linear_address = shows_linear ? walk.slot.linear_.target().address() : 0});
+  const std::vector<Descriptor> params = describeReflected(walk, walk.structure.sourceCamera());
+  reflector_.record(commands, {.structure = walk.structure,
+                               .job = walk.job,
+                               .push = describeBand(walk, walk.structure.color(), rows),
+                               .params = params,
+                               .target = reflectedTarget(walk.job, rows, walk.slot)});
+}
+
+// All rays of one sample that have met as many mirrors: turned where they are, then followed
+// through every source.
+void ViewTracer::recordBounce(vk::CommandBuffer commands, std::span<PathPiece> pieces,
+                              const TraceJob& job, const AnswersLayout& answers,
+                              const MergedPaths& merged, const TraceSlot& slot) {
+  bool is_first = true;
+  for (PathPiece& piece : pieces) {
+    piece.push.bounce = merged.push.bounce;
+    piece.push.sample_index = merged.push.sample_index;
+    if (!piece.mirrors()) continue;
+    abi::TracePush& push = piece.push;
+    push.fill = is_first ? push.fill | abi::kFillFirst : push.fill & ~abi::kFillFirst;
+    path_reflector_.recordTurns(commands, piece);
+    recordComputeBarrier(commands);
+    is_first = false;
+  }
+  for (const PathPiece& piece : pieces) path_reflector_.recordWalk(commands, piece);
+  recordComputeBarrier(commands);
+  const uint64_t all = (uint64_t{1} << job.walk_count) - 1;
+  recordJoins(commands, job, all, job.layout->size_px.width * merged.rows.row_count, answers, slot);
+  path_reflector_.recordMerge(commands, merged);
+  recordComputeBarrier(commands);
+}
+
+// Piece by piece of the band, as the views' own rays are traced.
+void ViewTracer::recordPaths(vk::CommandBuffer commands,
+                             std::span<const StructureSlot* const> structures, const TraceJob& job,
+                             BandRows rows, const Rays& rays, const TraceSlot& slot) {
+  const uint32_t width_px = job.layout->size_px.width;
+  const ReflectionSpec& spec = *job.reflection;
+  const AnswersLayout answers = reflectedAnswersLayout(width_px, rows.row_count, job.walk_count);
+  const auto mirrors = [&](const JobSource& source) {
+    return structures[source.first_walk]->surface() != nullptr;
+  };
+  abi::MergePathsPush push{
+      .counters = addressWords(slot.counters_.target().address()),
+      .atlas_width_px = width_px,
+      .band_row = 0,
+      .source_count = uint32_t(job.sources.size()),
+      .answers_stride = answers.stride,
+      .first_walks = packFirstWalks(job),
+      .cube_maps = sourceBits(job, [](const JobSource& source) { return source.isCubeMap(); }),
+      .mirrors = sourceBits(job, mirrors),
+      .bounce = 0,
+      .bounce_count = spec.bounce_count,
+      .sample_index = 0,
+      .sample_count = spec.sample_count,
+      .environment = environmentOf(spec)};
+  for (uint32_t row = 0; row < rows.row_count; row += answers.row_count) {
+    const BandRows piece{rows.first_row + row, std::min(answers.row_count, rows.row_count - row)};
+    push.band_row = row;
+    std::vector<PathPiece> pieces = describePaths(structures, job, piece, rays, answers, slot);
+    for (PathPiece& each : pieces) each.push.band_row = row;
+    for (push.sample_index = 0; push.sample_index < push.sample_count; ++push.sample_index) {
+      for (push.bounce = 0; push.bounce < push.bounce_count; ++push.bounce) {
+        recordBounce(commands, pieces, job, answers,
+                     {.push = push,
+                      .rows = piece,
+                      .answers = wholeBuffer(abi::kBindingAnswers, slot.answers_),
+                      .paths = wholeBuffer(abi::kBindingPaths, slot.paths_),
+                      .reflected = wholeBuffer(abi::kBindingReflected, slot.reflected_)},
+                     slot);
+      }
+    }
+  }
+  reflector_.recordAdd(commands, job, reflectedTarget(job, rows, slot));
+}
+
+std::vector<PathPiece> ViewTracer::describePaths(std::span<const StructureSlot* const> structures,
+                                                 const TraceJob& job, BandRows piece,
+                                                 const Rays& rays, const AnswersLayout& answers,
+                                                 const TraceSlot& slot) {
+  const uint64_t size_bytes = answers.stride * sizeof(abi::RayAnswer);
+  std::vector<PathPiece> pieces;
+  for (uint32_t index = 0; index < job.walk_count; ++index) {
+    const StructureSlot& structure = *structures[index];
+    const Walk walk{structure, job, index, rays, slot, {}};
+    pieces.push_back({.structure = structure,
+                      .rays = raySourceOf(*job.layout),
+                      .rows = piece,
+                      .push = describeBand(walk, structure.color(), piece),
+                      .params = describeReflected(walk, structures[0]->sourceCamera()),
+                      .paths = wholeBuffer(abi::kBindingPaths, slot.paths_),
+                      .answers = {.binding = abi::kBindingBand,
+                                  .kind = DescriptorKind::kStorage,
+                                  .buffer = slot.answers_.handle(),
+                                  .offset_bytes = index * size_bytes,
+                                  .size_bytes = size_bytes}});
+  }
+  return pieces;
 }
 
 }  // namespace viewloom

@@ -2,8 +2,6 @@
 #include "trace/reflector.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 
 #include "gpu/barrier.h"
 #include "shaders/add_reflections.h"
@@ -26,26 +24,6 @@ constexpr DescriptorSlot kReflectSlots[] = {{abi::kBindingStructure, DescriptorK
                                             {abi::kBindingReflected, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kAddSlots[] = {{abi::kBindingReflected, DescriptorKind::kStorage},
                                         {abi::kBindingBand, DescriptorKind::kStorage}};
-
-float linearFromCode(uint32_t code) {
-  const float srgb = float(code & 0xff) / 255;
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
-void fillSettings(const ReflectedBand& band) {
-  const ReflectionSpec& spec = *band.job.reflection;
-  abi::ReflectionSettings settings{.surfaces = {},
-                                   .environment = {linearFromCode(spec.environment_rgb >> 16),
-                                                   linearFromCode(spec.environment_rgb >> 8),
-                                                   linearFromCode(spec.environment_rgb)},
-                                   .tolerance_px = float(band.job.tolerance_px),
-                                   .bounce_count = spec.bounce_count,
-                                   .sample_count = spec.sample_count};
-  for (uint32_t i = 0; i < band.structure.shape().layerCount(); ++i) {
-    settings.surfaces[i] = addressWords(band.structure.surface()->address(i));
-  }
-  std::memcpy(band.settings.mapped().data(), &settings, sizeof settings);
-}
 
 float focalOf(const AtlasLayout& layout) {
   const Intrinsics& intrinsics = layout.views.front().camera.intrinsics;
@@ -83,26 +61,19 @@ const ComputePass& Reflector::addPass() {
 }
 
 void Reflector::record(vk::CommandBuffer commands, const ReflectedBand& band) {
-  fillSettings(band);
   const StructureSlot& structure = band.structure;
-  const AtlasLayout& layout = *band.job.layout;
   const ComputePass& reflect =
       reflectPass({.reads_by_address = structure.readsByAddress(),
                    .color_format = colorFormat(structure.shape().color_storage),
                    .color_is_scaled = structure.shape().colorIsScaled(),
-                   .rays = raySourceOf(layout)});
+                   .rays = raySourceOf(*band.job.layout)});
   std::vector<Descriptor> descriptors(band.params.begin(), band.params.end());
-  const Descriptor reflected = wholeBuffer(abi::kBindingReflected, band.reflected);
   for (const Descriptor& descriptor :
-       {structure.measuredDescriptor(), reflected,
+       {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, band.target.reflected),
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
         structure.color().asTexels(abi::kBindingColor),
-        structure.surface()->asTexels(abi::kBindingSurface),
-        Descriptor{.binding = abi::kBindingReflection,
-        .kind = DescriptorKind::kUniform,
-        .buffer = band.settings.handle(),
-        .size_bytes = band.settings.sizeBytes()}}) {
+        structure.surface()->asTexels(abi::kBindingSurface)}) {
     descriptors.push_back(descriptor);
   }
   abi::TracePush push = band.push;
@@ -111,21 +82,28 @@ void Reflector::record(vk::CommandBuffer commands, const ReflectedBand& band) {
   }
   recordComputeBarrier(commands);
   reflect.recordDescriptors(commands, descriptors);
-  reflect.record(commands, push, groupCount(layout.size_px.width), band.rows.row_count);
+  reflect.record(commands, push, groupCount(push.atlas_width_px), band.target.rows.row_count);
   recordComputeBarrier(commands);
-  const Descriptor targets[] = {reflected, wholeBuffer(abi::kBindingBand, band.rgba)};
+  recordAdd(commands, band.job, band.target);
+}
+
+void Reflector::recordAdd(vk::CommandBuffer commands, const TraceJob& job,
+                          const ReflectedTarget& target) {
+  const AtlasLayout& layout = *job.layout;
+  const Descriptor descriptors[] = {wholeBuffer(abi::kBindingReflected, target.reflected),
+                                    wholeBuffer(abi::kBindingBand, target.rgba)};
   const ComputePass& add = addPass();
-  add.recordDescriptors(commands, targets);
+  add.recordDescriptors(commands, descriptors);
   add.record(commands,
-             abi::AddReflectionsPush{.linear = addressWords(band.linear_address),
+             abi::AddReflectionsPush{.linear = addressWords(target.linear_address),
                                      .atlas_width_px = layout.size_px.width,
-                                     .first_row = band.rows.first_row,
-                                     .row_count = band.rows.row_count,
+                                     .first_row = target.rows.first_row,
+                                     .row_count = target.rows.row_count,
                                      .tile_size_px = packSize(layout.tile_size_px),
                                      .padding_top_px = layout.padding_top_px,
-                                     .is_filtered = band.job.reflection->is_filtered,
+                                     .is_filtered = job.reflection->is_filtered,
                                      .focal_px = focalOf(layout)},
-             groupCount(layout.size_px.width), band.rows.row_count);
+             groupCount(layout.size_px.width), target.rows.row_count);
   recordComputeBarrier(commands);
 }
 

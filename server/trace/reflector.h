@@ -14,17 +14,22 @@
 
 namespace viewloom {
 
+// Rows of a band, and what is added to them.
+struct ReflectedTarget {
+  BandRows rows;
+  const Buffer& reflected;      // abi::ReflectedLight per px
+  const Buffer& rgba;           // changed
+  uint64_t linear_address = 0;  // of TraceExtras::linear, changed too; 0 = not wanted
+};
+
 // One band of which each px is known: what it shows, and where its ray ended.
 struct ReflectedBand {
   const StructureSlot& structure;  // whose shape mirrors
   const TraceJob& job;             // that reflects
-  BandRows rows;
-  abi::TracePush push;                 // of the walk, but for its colour
-  std::span<const Descriptor> params;  // of the walk: its tiles, its extras with the records
-  const Buffer& settings;              // abi::ReflectionSettings; mapped, the band's own
-  const Buffer& reflected;             // abi::ReflectedLight per px, written
-  const Buffer& rgba;                  // changed
-  uint64_t linear_address = 0;         // of TraceExtras::linear, changed too; 0 = not wanted
+  abi::TracePush push;             // of the walk, but for its colour
+  // Of the walk: its tiles, its extras with the records, and abi::ReflectionSettings
+  std::span<const Descriptor> params;
+  ReflectedTarget target;  // all of it is written
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
@@ -32,8 +37,10 @@ class Reflector {
  public:
   explicit Reflector(const Device& device) : device_(&device) {}
 
-  // Waits for the compute work before it; what follows may read the band.
+  // Of one source. Waits for the compute work before it; what follows may read the band.
   void record(vk::CommandBuffer commands, const ReflectedBand& band);
+  // Of light that is there; what follows may read the band.
+  void recordAdd(vk::CommandBuffer commands, const TraceJob& job, const ReflectedTarget& target);
 
  private:
   struct Variant {

@@ -22,6 +22,7 @@ void ViewTracer::recordRays(vk::CommandBuffer commands,
     recordWalk(commands, {*structures[0], job, 0, rays, slot, band}, rows);
   } else {
     recordMerged(commands, structures, job, rows, rays, slot);
+    if (job.reflects()) recordPaths(commands, structures, job, rows, rays, slot);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/check.h"
 #include "base/str_cat.h"
 #include "display/ray_extent.h"
 #include "display/rgbd.h"
@@ -173,11 +174,13 @@ absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSour
                              ", accepted is one source that is no cube map"));
   }
   if (!spec.reflection || !haveMirrors(sources)) return absl::OkStatus();
-  if (is_one && !sources.front().is_see_through) return absl::OkStatus();
+  if (std::none_of(sources.begin(), sources.end(),
+                   [](const SeenSource& source) { return source.is_see_through; })) {
+    return absl::OkStatus();
+  }
   return fieldError(
       absl::StatusCode::kFailedPrecondition, "effects.reflection",
-      strCat("came for a stream with mirrors of ", is_one ? "colour that is seen through" : stream,
-             ", accepted is one source of opaque colour that is no cube map"));
+      "came for a stream with mirrors of colour that is seen through, accepted is opaque colour");
 }
 
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
@@ -188,6 +191,15 @@ TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {
   }
   if (!job.hasEyesBeside()) return {job.tilesOf(walk, sample), job.layout->tile_size_px};
   return {job.bounds[walk].extent, job.bounds[walk].extent_px, true};
+}
+
+abi::uvec2 packFirstWalks(const TraceJob& job) {
+  VIEWLOOM_CHECK(job.sources.size() <= kMergedSourcesMax && job.walk_count <= 64);
+  uint32_t words[2] = {};
+  for (size_t i = 0; i < job.sources.size(); ++i) {
+    words[i / 4] |= job.sources[i].first_walk << (8 * (i % 4));
+  }
+  return {words[0], words[1]};
 }
 
 bool eyesAreInPlane(std::span<const abi::ViewParams> tiles, double inv_z_max) {

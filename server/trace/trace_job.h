@@ -94,7 +94,7 @@ struct TraceJob {
   bool has_mirrors = false;                                 // some source mirrors
 
   // Whether reflected rays are to be traced.
-  bool reflects() const { return reflection.has_value() && has_mirrors && walk_count == 1; }
+  bool reflects() const { return reflection.has_value() && has_mirrors; }
   std::span<const abi::ViewParams> tilesOf(uint32_t walk, uint32_t sample = 0) const {
     const size_t count = tileCount();
     return {tiles.data() + (size_t{sample} * walk_count + walk) * count, count};
@@ -121,8 +121,11 @@ struct TileRays {
 };
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample);
 
-// What lies behind the first surface of a ray is known of one structure alone, and so is what
-// surfaces mirror: FAILED_PRECONDITION where a display asks for it of more.
+// The first walk of each source, 8 bits a source.
+abi::uvec2 packFirstWalks(const TraceJob& job);
+
+// What lies behind the first surface of a ray is known of one structure alone, and what surfaces
+// mirror where colour is not seen through: else FAILED_PRECONDITION where a display asks for it.
 absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources);
 
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,

@@ -30,6 +30,18 @@ uint64_t answersBytes(const TraceSlotShape& shape) {
          shape.walk_count * kAnswersStep * sizeof(abi::RayAnswer);
 }
 
+// A reflected ray takes as much memory as so many answers.
+constexpr uint32_t kPathAnswers =
+    (sizeof(abi::ReflectedPath) + sizeof(abi::RayAnswer) - 1) / sizeof(abi::RayAnswer);
+
+// Enough for every piece of every band that the slot holds, of two walks or more.
+uint64_t pathsBytes(const TraceSlotShape& shape) {
+  const uint64_t width_px = shape.width_px;
+  const uint64_t most = kAnswersBytesMax / ((2 + kPathAnswers) * sizeof(abi::RayAnswer));
+  return std::min(width_px * shape.row_count_max, std::max(width_px, most)) *
+         sizeof(abi::ReflectedPath);
+}
+
 template <typename T>
 std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
@@ -84,6 +96,10 @@ AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk
   const uint64_t rows = std::clamp<uint64_t>(kAnswersBytesMax / row_bytes, 1, row_count);
   const uint64_t steps = (rows * width_px + kAnswersStep - 1) / kAnswersStep;
   return {.row_count = uint32_t(rows), .stride = uint32_t(steps * kAnswersStep)};
+}
+
+AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
+  return answersLayout(width_px, row_count, walk_count + kPathAnswers);
 }
 
 static_assert(sizeof(abi::TraceExtras) <= kExtrasStride_bytes);
@@ -178,11 +194,24 @@ void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
   if (!shape_.outputs.records) {
     hits_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::RayRecord), .debug_name = "hits"});
   }
-  reflection_settings_ = Buffer(device, {.size_bytes = sizeof(abi::ReflectionSettings),
-                                         .intent = MemoryIntent::kUpload,
-                                         .debug_name = "reflection settings"});
+  static_assert(sizeof(abi::ReflectionSettings) <= kDescriptorAlignment_bytes);
+  reflection_settings_ =
+      Buffer(device, {.size_bytes = shape_.walk_count * kDescriptorAlignment_bytes,
+                      .intent = MemoryIntent::kUpload,
+                      .debug_name = "reflection settings"});
+  if (shape_.walk_count > 1) {
+    paths_ = Buffer(device, {.size_bytes = pathsBytes(shape_), .debug_name = "reflected rays"});
+  }
   reflected_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::ReflectedLight),
                                .debug_name = "reflected light"});
+}
+
+Descriptor TraceSlot::reflectionDescriptor(uint32_t walk) const {
+  return {.binding = abi::kBindingReflection,
+          .kind = DescriptorKind::kUniform,
+          .buffer = reflection_settings_.handle(),
+          .offset_bytes = walk * kDescriptorAlignment_bytes,
+          .size_bytes = sizeof(abi::ReflectionSettings)};
 }
 
 uint64_t TraceSlot::sizeBytes() const {
@@ -193,7 +222,7 @@ uint64_t TraceSlot::sizeBytes() const {
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
          sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
          unsettled_.sizeBytes() + hits_.sizeBytes() + reflected_.sizeBytes() +
-         reflection_settings_.sizeBytes();
+         reflection_settings_.sizeBytes() + paths_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {

@@ -71,6 +71,8 @@ struct AnswersLayout {
   uint32_t stride = 0;  // answers from one walk to the next
 };
 AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
+// The same of reflected rays, where what is known of them takes its part of the memory.
+AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
 
 // Owner decides when the slot is free. Thread-safety: none.
 class TraceSlot {
@@ -97,6 +99,8 @@ class TraceSlot {
   // Of abi::RayRecord per px; 0 = not wanted.
   vk::DeviceAddress recordsAddress() const;
   void addReflections(const Device& device, uint64_t area_px);
+  // Of a walk; abi::ReflectionSettings.
+  Descriptor reflectionDescriptor(uint32_t walk) const;
   uint64_t colorBytes() const;
   // How often it stands at this place in the sets of counters.
   uint32_t counted(uint32_t place) const;
@@ -139,8 +143,9 @@ class TraceSlot {
   Buffer met_lists_;
   Buffer unsettled_;  // blocks of px
   Buffer hits_;       // abi::RayRecord, where reflections begin; empty where records_ has them
-  Buffer reflection_settings_;
-  Buffer reflected_;  // abi::ReflectedLight
+  Buffer reflection_settings_;  // of each walk
+  Buffer paths_;                // abi::ReflectedPath, of several walks
+  Buffer reflected_;            // abi::ReflectedLight
 };
 
 }  // namespace viewloom

@@ -82,7 +82,8 @@ ViewTracer::ViewTracer(const Device& device)
       packer_(device),
       blender_(device),
       gatherer_(device),
-      reflector_(device) {}
+      reflector_(device),
+      path_reflector_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
 // costs the encoder (shaders/README.md, Bands for the encoder).
@@ -195,7 +196,10 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
                       .padding_top_px = layout.padding_top_px,
                       .fill = redFirst(walk.job.background_rgb) | border | first,
                       .row_count = rows.row_count,
-                      .first_block_row = metBlocks(layout, rows).first_row};
+                      .first_block_row = metBlocks(layout, rows).first_row,
+                      .band_row = 0,
+                      .bounce = 0,
+                      .sample_index = 0};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     push.color[i] = addressWords(color.address(i));
@@ -258,7 +262,7 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
         groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
         rows.row_count);
   }
-  if (walk.job.reflects()) recordReflections(commands, walk, rows);
+  if (walk.job.reflects() && !is_one_of_several) recordReflections(commands, walk, rows);
 }
 
 }  // namespace viewloom

@@ -16,6 +16,7 @@
 #include "trace/band_parts.h"
 #include "trace/color_averager.h"
 #include "trace/lens_gatherer.h"
+#include "trace/path_reflector.h"
 #include "trace/reflector.h"
 #include "trace/sample_blender.h"
 #include "trace/trace_job.h"
@@ -96,6 +97,15 @@ class ViewTracer {
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
+  static ReflectedTarget reflectedTarget(const TraceJob& job, BandRows rows, const TraceSlot& slot);
+  static std::vector<Descriptor> describeReflected(const Walk& walk, const Camera& first_camera);
+  static std::vector<PathPiece> describePaths(std::span<const StructureSlot* const> structures,
+                                              const TraceJob& job, BandRows piece, const Rays& rays,
+                                              const AnswersLayout& answers, const TraceSlot& slot);
+  void recordBounce(vk::CommandBuffer commands, std::span<PathPiece> pieces, const TraceJob& job,
+                    const AnswersLayout& answers, const MergedPaths& merged, const TraceSlot& slot);
+  void recordPaths(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+                   const TraceJob& job, BandRows rows, const Rays& rays, const TraceSlot& slot);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
   void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
@@ -124,6 +134,7 @@ class ViewTracer {
   SampleBlender blender_;
   LensGatherer gatherer_;
   Reflector reflector_;
+  PathReflector path_reflector_;
   // By abi::kWant... flags and abi::kRaysOf...
   std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ComputePass>> merge_passes_;
   std::unique_ptr<ComputePass> join_pass_;

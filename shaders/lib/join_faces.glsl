@@ -75,6 +75,7 @@ RayAnswer joinFaces() {
     if (takes_part) {
       const uvec2 fill = joined.light;
       joined = answer;
+      joined.layer |= stretch.face << kAnswerFaceShift;
       ends = hits && counts;
       joined.light = keeps_fill && !ends ? fill : answer.light;
       joined.ray_class = ends        ? (was_behind ? kClassHitAssumed : answer.ray_class)
@@ -90,7 +91,7 @@ RayAnswer joinFaces() {
     if (ends || stretch.face == kNoFace) break;
   }
   joined.visits = visits;
-  joined.layer &= kAnswerLayerMask;
+  joined.layer &= ~(kAnswerInSeam | kAnswerPassedEdge);
   joined.entry_inv_z = hasFault(kFaultCubeSawNothing) ? kNeverPassed : kKnownNowhere;
   joined.passed_inv_z = passed_inv_z;
   return joined;

@@ -4,12 +4,9 @@
 #ifndef VIEWLOOM_LIB_MET_BLOCKS_GLSL_
 #define VIEWLOOM_LIB_MET_BLOCKS_GLSL_
 
+#include "lib/tile_px.glsl"
 #include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
-
-uvec2 sizeOf(uint size_px) {
-  return uvec2(size_px & 0xffffu, size_px >> 16);
-}
 
 // Of a band. Block rows are counted from the first that the band has a part of.
 struct BlockGrid {

@@ -5,6 +5,7 @@
 #define VIEWLOOM_LIB_MIRROR_GLSL_
 
 #include "lib/color.glsl"
+#include "lib/face_ray.glsl"
 #include "lib/ray.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/walk.glsl"
@@ -76,8 +77,10 @@ Spot spotAt(Scene scene, vec3 point) {
   return spot;
 }
 
-// How it mirrors there: blended as its colour is. The sky mirrors nothing.
-Mirror mirrorAt(Scene scene, Pinhole pinhole, Address surfaces[kLayerCountMax], Spot spot) {
+// How it mirrors there: blended as its colour is. The sky mirrors nothing. `from_source`: from the
+// camera in which normals are given.
+Mirror mirrorAt(Scene scene, Pinhole pinhole, Address surfaces[kLayerCountMax], mat3 from_source,
+                Spot spot) {
   const uint links = loadLinks(scene.layers, spot.layer, scene.extent, spot.cell);
   const SurfaceTaps taps = surfaceTaps(scene.layers, scene.extent, spot.layer, spot.cell, links,
                                        spot.point.xy, vec2(0.0));
@@ -96,7 +99,7 @@ Mirror mirrorAt(Scene scene, Pinhole pinhole, Address surfaces[kLayerCountMax], 
     const vec3 at = vec3(vec2(cell) + 0.5, max(facetInvZ(facet), 0.0));
     normal += taps.weights[i] * (texel.normal == kNoNormal
                                      ? normalOfSlopes(pinhole, unpackSlopes(facet.y), at)
-                                     : normalOfTexel(texel.normal));
+                                     : from_source * normalOfTexel(texel.normal));
     light += taps.weights[i] * unpackUnorm4x8(texel.light);
   }
   const float sum = taps.weights.x + taps.weights.y + taps.weights.z + taps.weights.w;
@@ -114,7 +117,7 @@ vec3 metresOf(Pinhole pinhole, vec3 point) {
 // A reflected ray, as it is walked.
 struct Reflected {
   Ray ray;
-  WalkStart start;
+  vec3 along;  // its direction in homogeneous image coordinates, for a metre
   float inv_z_tolerance;
   float eye_z;  // of the eye behind the mirror
 };
@@ -128,24 +131,44 @@ float largestCross(Pinhole pinhole, Ray ray, vec3 eye) {
   return max(length(cross(from, eye)), length(cross(to, eye)));
 }
 
-// From a place on a surface, in a direction of unit length. `eye`: behind the mirror, in the middle
-// of what is seen in it, m. `moved_px`: of the view, that an error may move the picture by, over
-// the view's focal length. It begins in front of its own surface, and of what is one with it, by
-// what that may be off.
-Reflected reflectedRay(Scene scene, Pinhole pinhole, Spot spot, vec3 direction, vec3 eye,
-                       float moved_px, float surface_error) {
-  const vec3 along = vec3(direction.xy * pinhole.focal_px + direction.z * pinhole.principal_px,
-                          direction.z);
-  const float inv_z = spot.point.z + surface_error;
-  const float near = max(scene.inv_z_near, inv_z * kInvZNearMargin);
-  Reflected reflected;
-  reflected.ray = makeAnyRay(vec3(spot.point.xy, 1.0) * (near / inv_z), along,
-                             vec2(scene.extent.size_px), near);
-  const float cross = largestCross(pinhole, reflected.ray, eye);
-  reflected.inv_z_tolerance = min(moved_px / max(cross, 1e-30), 1e30);
-  reflected.eye_z = eye.z;
-  reflected.start = WalkStart(reflected.ray.t_begin, spot.cell, spot.layer);
-  return reflected;
+vec3 homogeneousPx(Pinhole pinhole, vec3 direction) {
+  return vec3(direction.xy * pinhole.focal_px + direction.z * pinhole.principal_px, direction.z);
+}
+
+// Where rays from a place begin at the latest, in front of all that is known.
+float nearOf(Scene scene, vec3 from) {
+  return from.z > 0.0 ? max(scene.inv_z_near, kInvZNearMargin / from.z) : scene.inv_z_near;
+}
+
+Reflected reflectedAlong(Pinhole pinhole, Ray ray, vec3 along, vec3 eye, float moved_px) {
+  const float cross = largestCross(pinhole, ray, eye);
+  return Reflected(ray, along, min(moved_px / max(cross, 1e-30), 1e30), eye.z);
+}
+
+// From a place (homogeneous image coordinates, m) in a direction of unit length. `eye`: behind the
+// mirror, in the middle of what is seen in it, m. `moved_px`: of the view, that an error may move
+// the picture by, over the view's focal length.
+Reflected reflectedRay(Scene scene, Pinhole pinhole, vec3 from, vec3 direction, vec3 eye,
+                       float moved_px) {
+  const vec3 along = homogeneousPx(pinhole, direction);
+  const float near = nearOf(scene, from);
+  const Ray ray = makeAnyRay(near * from, along, vec2(scene.extent.size_px), near);
+  return reflectedAlong(pinhole, ray, along, eye, moved_px);
+}
+
+// The same in a face of a cube map.
+Reflected reflectedFaceRay(Scene scene, Pinhole pinhole, vec3 from, vec3 direction, vec3 eye,
+                           float moved_px, out FaceStretch stretch) {
+  const vec3 along = homogeneousPx(pinhole, direction);
+  const float near = nearOf(scene, from);
+  const Ray ray = makeFaceRay(near * from, along, vec2(scene.extent.size_px), near, stretch);
+  return reflectedAlong(pinhole, ray, along, eye, moved_px);
+}
+
+// Where a ray starts from a spot: in front of its surface, and of what is one with it, by what that
+// may be off. Homogeneous image coordinates, m.
+vec3 startBefore(Spot spot, float surface_error) {
+  return vec3(spot.point.xy, 1.0) / (spot.point.z + surface_error);
 }
 
 #endif  // VIEWLOOM_LIB_MIRROR_GLSL_

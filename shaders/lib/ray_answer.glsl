@@ -58,17 +58,37 @@ float entryInvZ(ViewParams view, vec3 direction, vec2 size_px) {
   return min(min(entry.x, entry.y), min(entry.z, entry.w));
 }
 
+uint classOf(Walk walk) {
+  const uint hit = walk.is_assumed ? kClassHitAssumed : kClassHit;
+  const uint no_hit = walk.ends_behind ? kClassHidden : walk.leaves ? kClassOutside : kClassEmpty;
+  return walk.is_hit ? hit : no_hit;
+}
+
+// Where a ray hits, or its source knows it no further, and where it first passed behind a surface:
+// 1/Z of the view.
+struct Places {
+  float hit;
+  float passed;  // kNeverPassed
+};
+
+Places placesOf(ViewParams view, vec3 direction, Ray ray, Walk walk) {
+  const vec3 point = ray.start + walk.t * ray.extent;
+  const vec3 passed = ray.start + walk.passed_t * ray.extent;
+  return Places(viewInvZ(view.eye, direction, point),
+                walk.passed_t <= 1.0 ? viewInvZ(view.eye, direction, passed) : kNeverPassed);
+}
+
 // `light`: codes 0..255 before they are rounded, and whether they are known.
 RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 direction,
-                   Walk walk, uint ray_class, vec4 light) {
+                   Walk walk, Places places, vec4 light) {
   const vec3 point = ray.start + walk.t * ray.extent;
   const bool is_seen = ray.t_begin < ray.t_end;
   const uvec2 facet = loadFacet(scene.layers, walk.layer, scene.extent, walk.cell);
   RayAnswer answer;
-  answer.ray_class = ray_class;
+  answer.ray_class = classOf(walk);
   answer.layer = walk.layer;
   answer.visits = walk.visits;
-  answer.view_inv_z = viewInvZ(view.eye, direction, point);
+  answer.view_inv_z = places.hit;
   // What is off by kappa in the source's 1/Z is off by kappa Z^2 metres, and as far in the view.
   const float z_per_s = point.z > 0.0 ? answer.view_inv_z / point.z : abs(direction.z);
   const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, point.z);
@@ -76,8 +96,7 @@ RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 
   // A ray that is never seen is known nowhere.
   answer.entry_inv_z =
       is_seen ? entryInvZ(view, direction, vec2(scene.extent.size_px)) : kNeverPassed;
-  const vec3 passed = ray.start + walk.passed_t * ray.extent;
-  answer.passed_inv_z = walk.passed_t <= 1.0 ? viewInvZ(view.eye, direction, passed) : kNeverPassed;
+  answer.passed_inv_z = places.passed;
   if (!is_seen) answer.view_inv_z = kKnownNowhere;
   const float density = samplingDensity(view, direction, unpackSlopes(facet.y), point, z_per_s,
                                         answer.view_inv_z);

@@ -7,14 +7,9 @@
 #include "lib/edge_blend.glsl"
 #include "lib/met_surface.glsl"
 #include "lib/ray.glsl"
+#include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/walk.glsl"
-
-uint classOf(Walk walk) {
-  const uint hit = walk.is_assumed ? kClassHitAssumed : kClassHit;
-  const uint no_hit = walk.ends_behind ? kClassHidden : walk.leaves ? kClassOutside : kClassEmpty;
-  return walk.is_hit ? hit : no_hit;
-}
 
 void storeCodes(uint index, vec3 codes) {
   if ((kWanted & kWantSum) != 0u) {

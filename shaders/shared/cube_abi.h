@@ -44,7 +44,6 @@ VIEWLOOM_ABI_CONST float kSeamShare = 1e-4f;
 
 // Beside the layer in a face's RayAnswer: the hit lies beyond the seam; the ray passed behind a
 // silhouette.
-VIEWLOOM_ABI_CONST uint kAnswerLayerMask = 0xffu;
 VIEWLOOM_ABI_CONST uint kAnswerInSeam = 0x100u;
 VIEWLOOM_ABI_CONST uint kAnswerPassedEdge = 0x200u;
 

@@ -12,6 +12,7 @@ VIEWLOOM_ABI_BEGIN
 VIEWLOOM_ABI_CONST uint kBindingSurface = 20u;     // texels of two uints: SurfaceTexel, all layers
 VIEWLOOM_ABI_CONST uint kBindingReflection = 21u;  // uniform: ReflectionSettings
 VIEWLOOM_ABI_CONST uint kBindingReflected = 22u;   // storage: ReflectedLight per px of a band
+VIEWLOOM_ABI_CONST uint kBindingPaths = 24u;       // storage: ReflectedPath per px of a piece
 
 struct ReflectionSettings {
   Address surfaces[kLayerCountMax];  // SurfaceTexel of each layer
@@ -19,6 +20,68 @@ struct ReflectionSettings {
   float tolerance_px;                // of the display
   uint bounce_count;                 // along one ray
   uint sample_count;                 // rays a px of a rough surface
+  // Which of several walks it is that is told; and its source and face as in RayRecord.layer, from
+  // kRecordSourceShift on.
+  uint walk;
+  uint recorded_as;
+  // The first walk's camera as this one's sees it: axes to its right, down and forward, and place.
+  // Metres; x to the right, y down, z along the axis.
+  vec3 first_right;
+  vec3 first_down;
+  vec3 first_forward;
+  vec3 first_place;
+  // The same axes of the camera in which the surfaces' normals are told: of a cube map's.
+  vec3 source_right;
+  vec3 source_down;
+  vec3 source_forward;
+};
+
+// A reflected ray of a px that several walks are asked about, and what those before it found.
+// Metres of the first walk's camera.
+struct ReflectedPath {
+  uint sample_count;  // of the px's rays; 0 = what it shows mirrors nothing
+  uint is_on;         // whether there is a ray now
+  uint is_bent;       // along the surface that it starts from
+  // The surface that it starts from.
+  uint walk;
+  uint layer;
+  vec3 spot;            // x px, y px, inv_z of that walk
+  float surface_error;  // by which it starts in front of that, 1/m
+  float apart_m;        // what others have so far from there may be the same surface
+  vec3 start;
+  vec3 direction;  // unit length
+  vec3 eye;        // where it seems to come from, behind all mirrors so far
+  float px_angle;  // of the view
+  float moved_px;  // that an error may move the picture by, over the view's focal length
+  vec3 share;      // of the light that it finds
+  vec3 own_share;  // of that of this sample which the px's surface mirrors
+  vec3 light;      // that this sample has found
+  // Of all samples before.
+  vec3 light_sum;
+  vec3 reflectance_sum;
+  float distance_sum_m;
+  // Of the px's surface, as in ReflectedLight.
+  float roughness;
+  uint place;
+};
+
+// Push constants of merge_paths.comp.
+struct MergePathsPush {
+  Address counters;  // as in TraceExtras
+  uint atlas_width_px;
+  uint band_row;  // of the piece, in the band
+  // As in MergePush.
+  uint source_count;
+  uint answers_stride;
+  uvec2 first_walks;
+  // A bit for each source.
+  uint cube_maps;
+  uint mirrors;
+  uint bounce;        // of the ray's mirrors, from 0
+  uint bounce_count;
+  uint sample_index;  // of the px's rays
+  uint sample_count;  // of the px with the most
+  vec3 environment;   // linear light
 };
 
 // Where reflected rays ended; places in a set of the trace's counters, behind those of classes.
@@ -55,7 +118,9 @@ struct AddReflectionsPush {
 VIEWLOOM_ABI_CONST uint kFilterRows = 64u;
 
 #ifdef __cplusplus
-static_assert(sizeof(ReflectionSettings) == 56);
+static_assert(sizeof(ReflectionSettings) == 148);
+static_assert(sizeof(ReflectedPath) == 156);
+static_assert(sizeof(MergePathsPush) == 68);
 static_assert(sizeof(ReflectedLight) == 16);
 static_assert(sizeof(AddReflectionsPush) == 36);
 #endif

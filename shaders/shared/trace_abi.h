@@ -113,10 +113,11 @@ struct RayRecord {
   float y_px;
   float inv_z;     // of the hit, in the source; 1/m
   uint ray_class;  // kClass...
-  uint layer;      // of the hit; of several sources also which, above kRecordSourceShift
+  uint layer;      // of the hit; above it, of several sources, which, and which face
   uint visits;     // nodes and facets looked at
 };
 VIEWLOOM_ABI_CONST uint kRecordSourceShift = 8u;
+VIEWLOOM_ABI_CONST uint kRecordFaceShift = 12u;  // of a cube map
 
 // Where a band goes beside its colour, and what few rays need. Addresses of planes that are not
 // wanted are 0.
@@ -159,6 +160,10 @@ struct RayAnswer {
   float inv_z;  // of the hit, in the source; 1/m
 };
 
+// Beside the layer in RayAnswer.layer: a reflected ray came out through the surface from behind.
+VIEWLOOM_ABI_CONST uint kAnswerIsBack = 0x400u;
+VIEWLOOM_ABI_CONST uint kAnswerFaceShift = kRecordFaceShift;  // of a cube map's joined answer
+
 VIEWLOOM_ABI_CONST float kNeverPassed = -1.0f;
 // In place of a 1/Z: of who knows nothing of the ray.
 VIEWLOOM_ABI_CONST float kKnownNowhere = 1e30f;
@@ -194,6 +199,10 @@ struct TracePush {
   // Of rays whose light is summed, to find blocks of px by.
   uint row_count;        // of the band
   uint first_block_row;  // as in GatherPush
+  // Of reflected rays that several walks answer.
+  uint band_row;      // of the piece, in the band
+  uint bounce;        // of the ray's mirrors, from 0
+  uint sample_index;  // of the px's rays
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
@@ -260,7 +269,7 @@ static_assert(sizeof(DepthScale) == 12);
 static_assert(sizeof(TraceExtras) == 252);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
-static_assert(sizeof(TracePush) == 104);
+static_assert(sizeof(TracePush) == 116);
 static_assert(sizeof(AveragePush) == 104);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(BlendPush) == 32);

@@ -32,22 +32,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
   uint8_t at[];
 };
 
-uint answer_index;  // of the first source, for this invocation's px
-
-RayAnswer loadAnswer(uint source) {
-  const uint walks = source < 4u ? push.first_walks.x : push.first_walks.y;
-  const uint walk = walks >> (8u * (source & 3u)) & 255u;
-  return answers[walk * push.answers_stride + answer_index];
-}
-
 #include "lib/class_counts.glsl"
+#include "lib/load_answer.glsl"
 #include "lib/merge.glsl"
 #include "lib/ray_source.glsl"
 #include "lib/srgb.glsl"
-
-uvec2 unpackSize(uint size_px) {
-  return uvec2(size_px & 0xffffu, size_px >> 16);
-}
+#include "lib/tile_px.glsl"
 
 void store(uint index, Merged merged, uint shows) {
   const bool shows_depth = (shows & kShowsDepth) != 0u;
@@ -70,23 +60,16 @@ void store(uint index, Merged merged, uint shows) {
 }
 
 void main() {
-  const uvec2 tile_size = unpackSize(push.tile_size_px);
-  const uvec2 tile_grid = unpackSize(push.tile_grid);
   const uint row = push.first_row + gl_WorkGroupID.y;
   const uint x_px = gl_GlobalInvocationID.x;
-  const uint column = x_px / tile_size.x;
-  const uint tile_row =
-      row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
-  const bool exists = column < tile_grid.x && tile_row < tile_grid.y;
-  const uint tile = exists ? tile_row * tile_grid.x + column : 0u;
+  const TilePx at = tilePxAt(x_px, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
   uvec3 counts = uvec3(0u);
-  const uvec2 first_px = uvec2(column * tile_size.x, push.padding_top_px + tile_row * tile_size.y);
-  const Aim aim = aimOf(vec2(uvec2(x_px, row) - first_px) + 0.5);
-  if (exists && aim.is_used && views[tile].is_used != 0u) {
+  const Aim aim = aimOf(vec2(at.px) + 0.5);
+  if (at.exists && aim.is_used && views[at.tile].is_used != 0u) {
     answer_index = gl_WorkGroupID.y * push.atlas_width_px + x_px;
     const Merged merged = mergeAnswers(push.source_count);
     const uint band_row = push.band_row + gl_WorkGroupID.y;
-    store(band_row * push.atlas_width_px + x_px, merged, views[tile].shows);
+    store(band_row * push.atlas_width_px + x_px, merged, views[at.tile].shows);
     count(counts, merged.ray_class);
   }
   addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);

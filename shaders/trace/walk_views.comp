@@ -77,6 +77,7 @@ layout(set = 0, binding = kBindingUnsettled, scalar) readonly buffer Unsettled {
 #include "lib/edge_blend.glsl"
 #include "lib/face_ray.glsl"
 #include "lib/lens.glsl"
+#include "lib/pushed_scene.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_source.glsl"
@@ -186,9 +187,9 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
     const Traced px = tracePixel(scene, view, run, i, near_eye, bound, background);
     if (kIsOneOfSeveral) {
       const vec4 codes = vec4(codesOfBlend(px.seen.color), px.is_known ? 1.0 : 0.0);
-      RayAnswer answer =
-          answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), px.view, px.ray,
-                   px.direction, px.walk, classOf(px.walk), codes);
+      const Places places = placesOf(px.view, px.direction, px.ray, px.walk);
+      RayAnswer answer = answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), px.view,
+                                  px.ray, px.direction, px.walk, places, codes);
       if (kIsCubeFace) {
         markFaceAnswer(answer, px.stretch, px.walk, vec2(scene.extent.size_px));
       }
@@ -245,15 +246,7 @@ void main() {
   uvec3 counts = uvec3(0u);
   if (kEyesInPlane) view.eye.z = 0.0;
   if (task.exists && view.is_used != 0u) {
-    Scene scene;
-    scene.layers = push.layers;
-    scene.layer_count = push.layer_count;
-    scene.extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
-    // A little in front of everything; never 0, it is a divisor.
-    scene.inv_z_near =
-        max(uintBitsToFloat(measured_head.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
-    scene.fills_border = (push.fill & kFillBorder) != 0u;
-    scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
+    const Scene scene = pushedScene((push.fill & kFillBorder) != 0u);
     traceRun(scene, view, task.run, counts);
   }
   // All px have the rays that are counted.

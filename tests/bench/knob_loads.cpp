@@ -184,7 +184,7 @@ KnobLoad reflectionsLoad(uint32_t by) {
   atlas.add(
       takeMirrored(instant, beside.camera, beside.size_px,
                    {.bounce_count = 1, .sample_count = 128, .environment = glm::vec3(float(grey))}),
-      mirroredKnownFrom(instant, source.camera, source.size_px, beside.camera, beside.size_px));
+      mirroredKnownFrom(instant, {{source.camera, source.size_px}}, beside.camera, beside.size_px));
   KnobLoad load = atlas.take();
   load.application = "reflections";
   load.frame = truth::frameOf(

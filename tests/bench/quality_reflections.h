@@ -12,19 +12,25 @@
 
 namespace viewloom::bench {
 
-// PSNR of the px of mirrors, dB, sRGB: over those that mirror what some layer of the source holds,
-// and over all.
+// PSNR of the px of mirrors that the first source sees, dB, sRGB: over those that mirror what some
+// layer of it holds, over those that mirror what others hold alone, over the rest, and over all.
+// Not a number where there are none.
 struct MirrorPsnr {
   double known_db = 0;
+  double elsewhere_db = 0;
+  double unknown_db = 0;
   double all_db = 0;
 };
 
-// Of one view of a scene.
+// Of one view of a scene, by one set of sources.
 struct ReflectionScore {
   std::string scene;
+  std::string sources;
   std::string view;
-  double known_share = 0;  // of the px of mirrors
-  MirrorPsnr without;      // the effect
+  double known_share = 0;      // of the px of mirrors, by the first source
+  double elsewhere_share = 0;  // and by others alone
+  MirrorPsnr without;          // the effect
+  MirrorPsnr alone;            // the first source of several
   MirrorPsnr got;
   ReflectionCounts counts;
 };

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a mirror shows through a real server, beside what geometry says, and what is refused."""
 
+import dataclasses
 import unittest
 
 import viewloomd  # takes its argument
@@ -114,15 +115,28 @@ class Mirrors(unittest.TestCase):
         had = self.picture(room(color_has_reflections=True), bounces=1)
         np.testing.assert_array_equal(had.color, plain.color)
 
-    def test_are_refused_of_several_sources(self):
-        with self.server.publish("room") as publisher, \
-                self.server.watch("room", own_place(bounces=1)) as watcher:
-            publisher.send([room(), room()])
+    def test_show_what_another_source_holds(self):
+        expected, is_floor = mirrored()
+        halves = [room(), room()]
+        for source, is_kept in zip(halves, (is_floor, ~is_floor)):
+            source.depth[~is_kept] = 0  # nothing is there
+        atlas = self.picture(halves, bounces=1)
+        inner = is_floor & np.roll(is_floor, 2, axis=0)
+        apart = np.abs(atlas.color.astype(float) - expected).max(axis=-1)
+        self.assertLessEqual(apart[inner].max(), APART)
+        self.assertGreater(atlas.header.reflections.hit, 0.95)
+
+    def test_are_refused_of_colour_that_is_seen_through(self):
+        opaque = room()
+        half = np.full((HEIGHT_PX, WIDTH_PX), 128, np.uint8)
+        glass = dataclasses.replace(opaque, alpha="straight",
+                                    color=np.dstack([opaque.color, half]))
+        for sources in (glass, [opaque, glass]):
             with self.assertRaises(viewloom.ViewloomError) as refusal:
-                watcher.receive(viewloomd.PATIENCE_S)
-        self.assertEqual(refusal.exception.status.name, "FAILED_PRECONDITION")
-        self.assertIn("2 sources", refusal.exception.message)
-        self.assertIn("effects.reflection", str(refusal.exception))
+                self.picture(sources, bounces=1)
+            self.assertEqual(refusal.exception.status.name, "FAILED_PRECONDITION")
+            self.assertIn("seen through", refusal.exception.message)
+            self.assertIn("effects.reflection", str(refusal.exception))
 
 
 if __name__ == "__main__":

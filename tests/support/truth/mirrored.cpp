@@ -105,9 +105,11 @@ std::vector<glm::vec3> takeMirrored(const Instant& instant, const Camera& view, 
   return picture;
 }
 
-std::vector<uint8_t> mirroredKnownFrom(const Instant& instant, const Camera& source,
-                                       SizePx source_px, const Camera& view, SizePx view_px) {
-  std::vector<uint8_t> known = knownFrom(instant, source, source_px, view, view_px);
+std::vector<uint8_t> mirroredKnownFrom(const Instant& instant,
+                                       const std::vector<SourceCamera>& sources,
+                                       const Camera& view, SizePx view_px) {
+  const SourceCamera& first = sources.front();
+  std::vector<uint8_t> known = knownFrom(instant, first.camera, first.size_px, view, view_px);
   for (size_t i = 0; i < known.size(); ++i) {
     const Ray ray =
         rayThrough(view, {double(i % view_px.width) + 0.5, double(i / view_px.width) + 0.5});
@@ -120,7 +122,10 @@ std::vector<uint8_t> mirroredKnownFrom(const Instant& instant, const Camera& sou
     const Hit& hit = column.hits.front();
     const Ray mirrored{ray.origin_m + hit.depth * ray.direction + kAbove_m * hit.normal,
                        glm::reflect(glm::normalize(ray.direction), hit.normal)};
-    known[i] = knownAlong(instant, source, source_px, mirrored);
+    known[i] = kNoMirror;
+    for (const SourceCamera& source : sources) {
+      known[i] = std::min(known[i], knownAlong(instant, source.camera, source.size_px, mirrored));
+    }
   }
   return known;
 }

@@ -28,9 +28,16 @@ std::vector<glm::vec3> takeMirrored(const Instant& instant, const Camera& view, 
 
 inline constexpr uint8_t kNoMirror = kKnownCount;
 
+struct SourceCamera {
+  Camera camera;
+  SizePx size_px;
+};
+
 // Of each px that shows a mirror, which layer of a source holds what that mirrors, or why none does
-// (truth::Known); kNoMirror elsewhere, and where the source does not see the mirror.
-std::vector<uint8_t> mirroredKnownFrom(const Instant& instant, const Camera& source,
-                                       SizePx source_px, const Camera& view, SizePx view_px);
+// (truth::Known), the least of several; kNoMirror elsewhere, and where the first source does not
+// see the mirror.
+std::vector<uint8_t> mirroredKnownFrom(const Instant& instant,
+                                       const std::vector<SourceCamera>& sources,
+                                       const Camera& view, SizePx view_px);
 
 }  // namespace viewloom::truth

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surfaces mirror, as px keep it.
+#ifndef VIEWLOOM_LIB_REFLECTED_LIGHT_GLSL_
+#define VIEWLOOM_LIB_REFLECTED_LIGHT_GLSL_
+
+#include "shared/reflection_abi.h"
+
+const ReflectedLight kNothingReflected = ReflectedLight(uvec2(0u), 0u, 0u);
+// What binary16 holds: light, and how far what is mirrored lies behind the surface, m.
+const float kHalfMax = 65504.0;
+
+// How much a surface beyond another counts: the longer a ray went on unseen, the likelier it has
+// met what nobody knows of. `inv_z`: of the mirror.
+float certaintyOf(float unseen_m, float inv_z) {
+  return exp(-unseen_m * inv_z);
+}
+
+// The place of a mirror, by which px know their like.
+uint packedPlace(vec3 normal, float inv_z) {
+  const vec3 on = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+  return (packSnorm4x8(vec4(on.xy, 0.0, 0.0)) & 0xffffu) | (floatBitsToUint(inv_z) & 0xffff0000u);
+}
+
+// `light`: before the surface takes its `reflectance` of it.
+ReflectedLight packedLight(vec3 light, vec3 reflectance, float distance_m, float roughness,
+                           uint place) {
+  const vec3 bounded = min(light, vec3(kHalfMax));
+  return ReflectedLight(
+      uvec2(packHalf2x16(bounded.rg), packHalf2x16(vec2(bounded.b, distance_m))),
+      packUnorm4x8(vec4(reflectance, roughness)), place);
+}
+
+#endif  // VIEWLOOM_LIB_REFLECTED_LIGHT_GLSL_
