@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflections of several sources that hold the same, beside those of one of them, which other
+// kernels trace, in one piece.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "gpu/test_device.h"
+#include "gpu/world_views.h"
+#include "support/truth/mirror_scenes.h"
+#include "support/truth/picture_frame.h"
+
+namespace viewloom {
+namespace {
+
+constexpr SizePx kSource_px{160, 120};
+constexpr SizePx kView_px{128, 96};
+constexpr double kFocal_px = 120;
+constexpr uint32_t kLayers = 2;
+// Both round where a ray starts otherwise, so that a few rays at silhouettes see the other side.
+constexpr int kSameCodes = 2;
+constexpr double kOthersMax = 0.001;  // of the px
+constexpr double kSharesApart = 0.001;
+
+using ReflectedSourcesTest = GpuTest;
+
+Camera cameraAt(const glm::dvec3& eye_m, SizePx size_px) {
+  return {.pose = {.position_m = eye_m},
+          .intrinsics = {glm::dvec2(kFocal_px), 0.5 * glm::dvec2(size_px.width, size_px.height)}};
+}
+
+FramePtr twice(const Frame& one) {
+  auto both = std::make_shared<Frame>(one);
+  both->format.sources.push_back(one.format.sources.front());
+  both->sources.push_back(one.sources.front());
+  return both;
+}
+
+double otherShare(const RenderedAtlas& a, const RenderedAtlas& b) {
+  size_t others = 0;
+  for (size_t i = 0; i < a.color.size(); ++i) {
+    int apart = 0;
+    for (int shift = 0; shift < 24; shift += 8) {
+      const int code_a = int(a.color[i] >> shift & 255), code_b = int(b.color[i] >> shift & 255);
+      apart = std::max(apart, std::abs(code_a - code_b));
+    }
+    others += apart > kSameCodes;
+  }
+  return double(others) / double(a.color.size());
+}
+
+TEST_F(ReflectedSourcesTest, aSourceThatComesTwiceMirrorsAsOne) {
+  for (const double roughness : {0.0, 0.4}) {
+    const truth::Instant instant(truth::mirrorFloor(roughness), 0);
+    const FramePtr one = truth::frameOf(
+        truth::takePicture(
+            instant, cameraAt(glm::dvec3(0.0), kSource_px),
+            {.size_px = kSource_px, .layer_count = kLayers, .color = truth::ColorOver::kCenter}),
+        kLayers);
+    // From the source's place, so that no silhouette is blended.
+    const auto render = [&](const Frame& frame) {
+      return renderInWorld(device(), frame, {cameraAt(glm::dvec3(0.0), kView_px)}, kView_px, 1,
+                           ReflectionSpec{.bounce_count = 2, .is_filtered = false});
+    };
+    const RenderedAtlas of_one = render(*one);
+    const RenderedAtlas of_both = render(*twice(*one));
+    const double share = otherShare(of_one, of_both);
+    const auto hits = [](const RenderedAtlas& atlas) {
+      return double(atlas.reflections.hit) / double(atlas.reflections.rayCount());
+    };
+    std::cout << "roughness " << roughness << ": other px " << share << ", hits " << hits(of_one)
+              << " and " << hits(of_both) << "\n";
+    EXPECT_LE(share, kOthersMax);
+    EXPECT_NEAR(hits(of_both), hits(of_one), kSharesApart);
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
