@@ -43,6 +43,14 @@ export class AutoDetail {
     this.detail = kStart;
   }
 
+  // What is asked for from now on may take many times longer: its first atlas is to come soon.
+  startLow() {
+    this.detail = kDetails.at(-1);
+    this.#left = {size: this.#size, until_ms: performance.now() + kAnswer_ms};
+    this.#shown = [];
+    this.#isSettled = false;
+  }
+
   // Time that passed without the server being asked says nothing about it.
   restart() {
     this.#shown = [];

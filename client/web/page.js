@@ -42,10 +42,14 @@ const figures = new Figures();
 const commands = new Commands();
 const patience = new Patience();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
-const lists = new DisplayLists((parameters) => stream.change(parameters));
+const lists = new DisplayLists((parameters) => {
+  if (parameters.aperture_m) autoDetail.startLow();
+  stream.change({...parameters, ...display.size()});
+});
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(() => stream.change(display.size()));
+if (pageParameters().has('aperture_m')) autoDetail.startLow();
 const display = new DisplayChoice(autoDetail, () => {
   offerModes();
   if (watching) watch(watching);
