@@ -38,7 +38,7 @@ struct FrameShape {
   bool mirrors = false;  // layers say how they do (LayerPlanes::surface)
   ColorStorage color_storage = ColorStorage::kRgba8Srgb;
   // Decoded planes of all layers in the upload, each aligned: depth, how layers mirror, and colour
-  // after it, which of a face has room for the apron. First without and then with colour.
+  // after it; these two have room for the apron of a face. First without and then with colour.
   uint64_t staged_before_color_bytes = 0;
   uint64_t staged_bytes = 0;
 

@@ -45,13 +45,33 @@ std::vector<Descriptor> ViewTracer::describeReflected(const Walk& walk,
   return params;
 }
 
-void ViewTracer::recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
+// Of rows of a band whose px are known. The last of them adds all to the px.
+void ViewTracer::recordReflections(vk::CommandBuffer commands,
+                                   std::span<const StructureSlot* const> structures,
+                                   const TraceJob& job, BandRows rows, const BandPart& part,
+                                   TraceSlot& slot) {
+  if (job.walk_count == 1) {
+    recordMirrors(commands, {*structures[0], job, 0, {.sample = part.first_sample}, slot, {}}, rows,
+                  part);
+  } else {
+    recordPaths(commands, structures, job, rows, part, slot);
+  }
+  if (part.end_row < rows.row_count) return;
+  reflector_.recordAdd(commands, job, reflectedTarget(job, rows, slot));
+}
+
+void ViewTracer::recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
+                               const BandPart& part) {
   const std::vector<Descriptor> params = describeReflected(walk, walk.structure.sourceCamera());
+  const BandRows piece{rows.first_row + part.first_row, part.end_row - part.first_row};
+  abi::TracePush push = describeBand(walk, walk.structure.color(), piece);
+  push.band_row = part.first_row;
   reflector_.record(commands, {.structure = walk.structure,
                                .job = walk.job,
-                               .push = describeBand(walk, walk.structure.color(), rows),
+                               .row_count = piece.row_count,
+                               .push = push,
                                .params = params,
-                               .target = reflectedTarget(walk.job, rows, walk.slot)});
+                               .reflected = walk.slot.reflected_});
 }
 
 // All rays of one sample that have met as many mirrors: turned where they are, then followed
@@ -78,10 +98,11 @@ void ViewTracer::recordBounce(vk::CommandBuffer commands, std::span<PathPiece> p
   recordComputeBarrier(commands);
 }
 
-// Piece by piece of the band, as the views' own rays are traced.
+// Piece by piece of the rows, as the views' own rays are traced.
 void ViewTracer::recordPaths(vk::CommandBuffer commands,
                              std::span<const StructureSlot* const> structures, const TraceJob& job,
-                             BandRows rows, const Rays& rays, const TraceSlot& slot) {
+                             BandRows rows, const BandPart& part, const TraceSlot& slot) {
+  const Rays rays{.sample = part.first_sample};
   const uint32_t width_px = job.layout->size_px.width;
   const ReflectionSpec& spec = *job.reflection;
   const AnswersLayout answers = reflectedAnswersLayout(width_px, rows.row_count, job.walk_count);
@@ -102,8 +123,8 @@ void ViewTracer::recordPaths(vk::CommandBuffer commands,
       .sample_index = 0,
       .sample_count = spec.sample_count,
       .environment = environmentOf(spec)};
-  for (uint32_t row = 0; row < rows.row_count; row += answers.row_count) {
-    const BandRows piece{rows.first_row + row, std::min(answers.row_count, rows.row_count - row)};
+  for (uint32_t row = part.first_row; row < part.end_row; row += answers.row_count) {
+    const BandRows piece{rows.first_row + row, std::min(answers.row_count, part.end_row - row)};
     push.band_row = row;
     std::vector<PathPiece> pieces = describePaths(structures, job, piece, rays, answers, slot);
     for (PathPiece& each : pieces) each.push.band_row = row;
@@ -119,7 +140,6 @@ void ViewTracer::recordPaths(vk::CommandBuffer commands,
       }
     }
   }
-  reflector_.recordAdd(commands, job, reflectedTarget(job, rows, slot));
 }
 
 std::vector<PathPiece> ViewTracer::describePaths(std::span<const StructureSlot* const> structures,

@@ -60,31 +60,26 @@ const ComputePass& Reflector::addPass() {
   return *add_pass_;
 }
 
-void Reflector::record(vk::CommandBuffer commands, const ReflectedBand& band) {
-  const StructureSlot& structure = band.structure;
+void Reflector::record(vk::CommandBuffer commands, const ReflectedRows& rows) {
+  const StructureSlot& structure = rows.structure;
   const ComputePass& reflect =
       reflectPass({.reads_by_address = structure.readsByAddress(),
                    .color_format = colorFormat(structure.shape().color_storage),
                    .color_is_scaled = structure.shape().colorIsScaled(),
-                   .rays = raySourceOf(*band.job.layout)});
-  std::vector<Descriptor> descriptors(band.params.begin(), band.params.end());
+                   .rays = raySourceOf(*rows.job.layout)});
+  std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
   for (const Descriptor& descriptor :
-       {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, band.target.reflected),
+       {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
         structure.color().asTexels(abi::kBindingColor),
         structure.surface()->asTexels(abi::kBindingSurface)}) {
     descriptors.push_back(descriptor);
   }
-  abi::TracePush push = band.push;
-  for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
-    push.color[i] = addressWords(structure.color().address(i));
-  }
   recordComputeBarrier(commands);
   reflect.recordDescriptors(commands, descriptors);
-  reflect.record(commands, push, groupCount(push.atlas_width_px), band.target.rows.row_count);
+  reflect.record(commands, rows.push, groupCount(rows.push.atlas_width_px), rows.row_count);
   recordComputeBarrier(commands);
-  recordAdd(commands, band.job, band.target);
 }
 
 void Reflector::recordAdd(vk::CommandBuffer commands, const TraceJob& job,

@@ -22,14 +22,15 @@ struct ReflectedTarget {
   uint64_t linear_address = 0;  // of TraceExtras::linear, changed too; 0 = not wanted
 };
 
-// One band of which each px is known: what it shows, and where its ray ended.
-struct ReflectedBand {
+// Rows of a band of which each px is known: what it shows, and where its ray ended.
+struct ReflectedRows {
   const StructureSlot& structure;  // whose shape mirrors
   const TraceJob& job;             // that reflects
-  abi::TracePush push;             // of the walk, but for its colour
+  uint32_t row_count;
+  abi::TracePush push;  // of the walk and these rows, with the structure's own colour
   // Of the walk: its tiles, its extras with the records, and abi::ReflectionSettings
   std::span<const Descriptor> params;
-  ReflectedTarget target;  // all of it is written
+  const Buffer& reflected;  // abi::ReflectedLight per px of the band: that of the rows is written
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
@@ -37,8 +38,8 @@ class Reflector {
  public:
   explicit Reflector(const Device& device) : device_(&device) {}
 
-  // Of one source. Waits for the compute work before it; what follows may read the band.
-  void record(vk::CommandBuffer commands, const ReflectedBand& band);
+  // Of one source. Waits for the compute work before it; what follows may read what is written.
+  void record(vk::CommandBuffer commands, const ReflectedRows& rows);
   // Of light that is there; what follows may read the band.
   void recordAdd(vk::CommandBuffer commands, const TraceJob& job, const ReflectedTarget& target);
 

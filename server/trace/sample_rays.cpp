@@ -22,7 +22,6 @@ void ViewTracer::recordRays(vk::CommandBuffer commands,
     recordWalk(commands, {*structures[0], job, 0, rays, slot, band}, rows);
   } else {
     recordMerged(commands, structures, job, rows, rays, slot);
-    if (job.reflects()) recordPaths(commands, structures, job, rows, rays, slot);
   }
 }
 
@@ -47,13 +46,20 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
       .band = slot.rgba(),
       .linear_address = slot.linear_.isEmpty() ? 0 : slot.linear_.target().address(),
       .px_count = uint32_t(slot.band_px_.area())};
+  if (part.reflects) {
+    recordReflections(commands, structures, job, rows, part, slot);
+    if (part.end_row == rows.row_count && job.sumsLight()) {
+      blender_.record(commands, blended, job.layout->samples, part.first_sample);
+    }
+  }
   for (uint32_t sample = part.first_sample; sample < part.end_sample; ++sample) {
     const Rays rays{.sample = sample,
                     .through_lens = job.hasLens(),
                     .wanted = (sample == 0 && !has_middle_apart ? wanted : 0) |
                               (job.reflects() ? abi::kWantRecords : 0)};
     recordRays(commands, structures, job, rows, rays, slot);
-    if (job.sumsLight()) blender_.record(commands, blended, job.layout->samples, sample);
+    if (job.sumsLight() && !job.reflects())
+      blender_.record(commands, blended, job.layout->samples, sample);
   }
 }
 

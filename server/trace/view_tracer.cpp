@@ -262,7 +262,6 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
         groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
         rows.row_count);
   }
-  if (walk.job.reflects() && !is_one_of_several) recordReflections(commands, walk, rows);
 }
 
 }  // namespace viewloom

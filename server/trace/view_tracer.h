@@ -96,7 +96,11 @@ class ViewTracer {
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
-  void recordReflections(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
+  void recordReflections(vk::CommandBuffer commands,
+                         std::span<const StructureSlot* const> structures, const TraceJob& job,
+                         BandRows rows, const BandPart& part, TraceSlot& slot);
+  void recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
+                     const BandPart& part);
   static ReflectedTarget reflectedTarget(const TraceJob& job, BandRows rows, const TraceSlot& slot);
   static std::vector<Descriptor> describeReflected(const Walk& walk, const Camera& first_camera);
   static std::vector<PathPiece> describePaths(std::span<const StructureSlot* const> structures,
@@ -105,7 +109,7 @@ class ViewTracer {
   void recordBounce(vk::CommandBuffer commands, std::span<PathPiece> pieces, const TraceJob& job,
                     const AnswersLayout& answers, const MergedPaths& merged, const TraceSlot& slot);
   void recordPaths(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
-                   const TraceJob& job, BandRows rows, const Rays& rays, const TraceSlot& slot);
+                   const TraceJob& job, BandRows rows, const BandPart& part, const TraceSlot& slot);
   void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
   void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,

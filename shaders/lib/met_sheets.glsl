@@ -10,8 +10,10 @@
 // by kSheetReach_px there. A ray whose eye is m (homogeneous px) meets what is d of 1/Z nearer
 // (m.xy - at m.z) d beside.
 float sheetReach(ViewParams view, vec2 at) {
-  const float x_px_m = length(view.lens_px_m.x * view.direction_dx.xy);
-  const float y_px_m = length(view.lens_px_m.y * view.direction_dy.xy);
+  const vec2 along_x = view.direction_dx.xy - at * view.direction_dx.z;
+  const vec2 along_y = view.direction_dy.xy - at * view.direction_dy.z;
+  const float x_px_m = length(view.lens_px_m.x * along_x);
+  const float y_px_m = length(view.lens_px_m.y * along_y);
   const float beside_px_m = length(view.eye.xy - at * view.eye.z);
   return kSheetReach_px / max(beside_px_m + max(x_px_m, y_px_m), 1e-30);
 }

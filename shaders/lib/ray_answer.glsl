@@ -43,7 +43,9 @@ float samplingDensity(ViewParams view, vec3 direction, vec2 slope, vec3 point, f
 float colorWeight(Pinhole pinhole, ViewParams view, vec3 point, float density) {
   const vec3 from_source = metricPoint(pinhole, vec3(point.xy, 1.0));
   const vec3 from_view = from_source - point.z * metricPoint(pinhole, view.eye);
-  const vec3 turn = normalize(from_source) - normalize(from_view);
+  // A ray may hit where it begins.
+  const vec3 to_view = from_view * inversesqrt(max(dot(from_view, from_view), 1e-30));
+  const vec3 turn = normalize(from_source) - to_view;
   return clamp(density, kDensityMin, 1.0) / (dot(turn, turn) + kAngleMin_rad * kAngleMin_rad);
 }
 

@@ -15,10 +15,24 @@ float certaintyOf(float unseen_m, float inv_z) {
   return exp(-unseen_m * inv_z);
 }
 
+// An octahedron's corners folded onto its middle, or back: the half of normals that look away from
+// the camera, along which z goes.
+vec2 foldedOctahedron(vec2 across) {
+  return (1.0 - abs(across.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(across, vec2(0.0)));
+}
+
 // The place of a mirror, by which px know their like.
 uint packedPlace(vec3 normal, float inv_z) {
   const vec3 on = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-  return (packSnorm4x8(vec4(on.xy, 0.0, 0.0)) & 0xffffu) | (floatBitsToUint(inv_z) & 0xffff0000u);
+  const vec2 across = on.z > 0.0 ? foldedOctahedron(on.xy) : on.xy;
+  return (packSnorm4x8(vec4(across, 0.0, 0.0)) & 0xffffu) |
+         (floatBitsToUint(inv_z) & 0xffff0000u);
+}
+
+vec3 normalOfPlace(uint place) {
+  const vec2 across = unpackSnorm4x8(place & 0xffffu).xy;
+  const float z = abs(across.x) + abs(across.y) - 1.0;
+  return normalize(vec3(z > 0.0 ? foldedOctahedron(across) : across, z));
 }
 
 // `light`: before the surface takes its `reflectance` of it.

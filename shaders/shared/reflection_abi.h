@@ -42,7 +42,8 @@ struct ReflectedPath {
   uint sample_count;  // of the px's rays; 0 = what it shows mirrors nothing
   uint is_on;         // whether there is a ray now
   uint is_bent;       // along the surface that it starts from
-  // The surface that it starts from.
+  // The surface that it starts from; until it is turned there, all but the layer is of the one it
+  // met.
   uint walk;
   uint layer;
   vec3 spot;            // x px, y px, inv_z of that walk

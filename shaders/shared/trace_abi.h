@@ -199,14 +199,14 @@ struct TracePush {
   // Of rays whose light is summed, to find blocks of px by.
   uint row_count;        // of the band
   uint first_block_row;  // as in GatherPush
+  uint band_row;         // of rows that mirror, in the band
   // Of reflected rays that several walks answer.
-  uint band_row;      // of the piece, in the band
   uint bounce;        // of the ray's mirrors, from 0
   uint sample_index;  // of the px's rays
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
-VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin with these rays
+VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin here, or paths of mirrors
 
 // Means of colour along an axis; texels of the source's layers.
 struct AveragePush {

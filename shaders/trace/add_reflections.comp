@@ -19,6 +19,8 @@ layout(set = 0, binding = kBindingBand, scalar) buffer Band {
   uint band[];
 };
 
+#include "lib/reflected_light.glsl"
+
 const int kRadiusMax_px = 3;
 // Of the blur of what is mirrored: further, px show different things.
 const float kRadiusOfBlur = 0.5;
@@ -40,11 +42,8 @@ Px pxAt(uint index) {
   const ReflectedLight bits = reflected_band[index];
   const vec2 blue_distance = unpackHalf2x16(bits.light.y);
   const vec4 reflectance = unpackUnorm4x8(bits.reflectance);
-  const vec2 across = unpackSnorm4x8(bits.place & 0xffffu).xy;
-  // They all look to the source: the third part of their octahedron is what is left.
-  const vec3 normal = vec3(across, abs(across.x) + abs(across.y) - 1.0);
   return Px(vec3(unpackHalf2x16(bits.light.x), blue_distance.x), blue_distance.y, reflectance.rgb,
-            reflectance.a, normalize(normal), uintBitsToFloat(bits.place & 0xffff0000u));
+            reflectance.a, normalOfPlace(bits.place), uintBitsToFloat(bits.place & 0xffff0000u));
 }
 
 // How far around it a px is averaged, px of the view: half of the width that the blur of what is

@@ -50,17 +50,20 @@ vec3 linearLight(vec4 codes) {
   return linearFromSrgb(codes.rgb / 255.0);
 }
 
-// What is seen where a ray's own answer is not certain: the cube maps' others, then nothing.
+// What is seen where a ray's own answer is not certain: what the most certain of the other cube
+// maps has, then nothing.
 vec3 lightAround(uint main_source, float mirror_inv_z) {
   vec3 light = push.environment;
+  float most_certain = 0.0;
   uint source = 0u;
   for (;;) {
     const RayAnswer answer = loadAnswer(source);
     const bool counts = isOf(push.cube_maps, source) && source != main_source &&
                         (isHit(answer) || endsBehind(answer));
-    const vec3 seen = mix(push.environment, linearLight(lightOf(answer)),
-                          certaintyOf(answer, mirror_inv_z));
-    light = counts ? seen : light;
+    const float certainty = certaintyOf(answer, mirror_inv_z);
+    const bool is_taken = counts && certainty > most_certain;
+    light = is_taken ? mix(push.environment, linearLight(lightOf(answer)), certainty) : light;
+    most_certain = is_taken ? certainty : most_certain;
     ++source;
     if (source >= push.source_count) break;
   }
@@ -102,7 +105,13 @@ void main() {
   const uint x = gl_GlobalInvocationID.x;
   const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
   uvec3 counts = uvec3(0u);
-  if (x < push.atlas_width_px) {
+  const bool is_last =
+      push.bounce + 1u == push.bounce_count && push.sample_index + 1u == push.sample_count;
+  const uint band_index = (push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x;
+  const bool exists = x < push.atlas_width_px;
+  const bool mirrors = exists && paths[index].sample_count > 0u;
+  if (exists && !mirrors && is_last) reflected_band[band_index] = kNothingReflected;
+  if (mirrors) {
     answer_index = index;
     ReflectedPath path = paths[index];
     if (path.is_on != 0u) follow(path, counts);
@@ -111,12 +120,10 @@ void main() {
       path.reflectance_sum += path.own_share / float(path.sample_count);
     }
     paths[index] = path;
-    if (push.bounce + 1u == push.bounce_count && push.sample_index + 1u == push.sample_count) {
+    if (is_last) {
       const vec3 light = path.light_sum / max(path.reflectance_sum, vec3(1e-6));
-      const ReflectedLight reflected = packedLight(light, path.reflectance_sum,
-                                                   path.distance_sum_m, path.roughness, path.place);
-      const uint band_index = (push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x;
-      reflected_band[band_index] = path.sample_count > 0u ? reflected : kNothingReflected;
+      reflected_band[band_index] = packedLight(light, path.reflectance_sum, path.distance_sum_m,
+                                               path.roughness, path.place);
     }
   }
   addReflectionCounts(counts, UintRef(push.counters),

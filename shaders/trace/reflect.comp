@@ -186,7 +186,7 @@ void main() {
   const uint row = push.first_row + gl_WorkGroupID.y;
   const uint x = gl_GlobalInvocationID.x;
   const TilePx at = tilePxAt(x, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
-  const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
+  const uint index = (push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x;
   uvec3 counts = uvec3(0u);
   ReflectedLight light = kNothingReflected;
   if (at.exists) {

@@ -118,8 +118,8 @@ void main() {
   const Scene scene = pushedScene(false);
   const Pinhole pinhole = Pinhole(extras.focal_px, extras.principal_px);
   if (push.bounce > 0u) {
+    if (paths[index].is_on == 0u || paths[index].walk != settings.walk) return;
     ReflectedPath path = paths[index];
-    if (path.is_on == 0u || path.walk != settings.walk) return;
     bounce(scene, pinhole, at.px, path);
     paths[index] = path;
     return;

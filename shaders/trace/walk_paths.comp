@@ -146,8 +146,7 @@ void main() {
   const uint x = gl_GlobalInvocationID.x;
   if (x >= push.atlas_width_px) return;
   const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
-  const ReflectedPath path = paths[index];
-  if (path.is_on == 0u) return;
+  if (paths[index].is_on == 0u) return;
   answers[index] = answerTo(pushedScene(false), Pinhole(extras.focal_px, extras.principal_px),
-                            path);
+                            paths[index]);
 }

@@ -80,5 +80,31 @@ TEST_F(ReflectedSourcesTest, aSourceThatComesTwiceMirrorsAsOne) {
   }
 }
 
+// Many rays of rough px are found some rows at a time: the wider the atlas, the fewer.
+TEST_F(ReflectedSourcesTest, pxDoNotDependOnHowManyRowsAreReflectedAtATime) {
+  const truth::Instant instant(truth::mirrorFloor(0.4), 0);
+  const FramePtr one =
+      truth::frameOf(truth::takePicture(instant, cameraAt(glm::dvec3(0.0), kSource_px),
+                                        {.size_px = kSource_px, .layer_count = kLayers}),
+                     kLayers);
+  const Camera camera = cameraAt(glm::dvec3(0.0), kView_px);
+  for (const FramePtr& frame : {one, twice(*one)}) {
+    const auto render = [&](uint32_t count) {
+      return renderInWorld(device(), *frame, std::vector<Camera>(count, camera), kView_px, 1,
+                           ReflectionSpec{.bounce_count = 4, .sample_count = 32});
+    };
+    constexpr uint32_t kCount = 4;
+    const RenderedAtlas narrow = render(1);
+    const RenderedAtlas wide = render(kCount);
+    size_t others = 0;
+    for (size_t px = 0; px < wide.color.size(); ++px) {
+      const size_t column = px % (kCount * kView_px.width) % kView_px.width;
+      const size_t row = px / (kCount * kView_px.width);
+      others += wide.color[px] != narrow.color[row * kView_px.width + column];
+    }
+    EXPECT_EQ(others, 0U);
+  }
+}
+
 }  // namespace
 }  // namespace viewloom

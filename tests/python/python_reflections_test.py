@@ -64,14 +64,18 @@ def own_place(**reflection):
 
 class Mirrors(unittest.TestCase):
     def setUp(self):
+        self.stream_count = 0
         self.daemon = viewloomd.Viewloomd()
         self.server = viewloom.connect(self.daemon.address)
         self.addCleanup(self.daemon.stop)
         self.addCleanup(self.server.close)
 
     def picture(self, source, **reflection):
-        with self.server.publish("room") as publisher, \
-                self.server.watch("room", own_place(**reflection),
+        # Each in a stream of its own: one keeps the last frame of who published it before.
+        self.stream_count += 1
+        stream = f"room{self.stream_count}"
+        with self.server.publish(stream) as publisher, \
+                self.server.watch(stream, own_place(**reflection),
                                   encoding=viewloom.encoding(lossless=True)) as watcher:
             publisher.send(source)
             return watcher.receive(viewloomd.PATIENCE_S)

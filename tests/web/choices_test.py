@@ -141,7 +141,7 @@ class Choices(PageTest):
         self.assertEqual(self.browser.evaluate("document.getElementById('lens').value"), "0.03")
         # It takes long: with the least detail, an eighth of each side, it comes soon.
         self.open("?stream=painted&preset=portrait&aperture_m=0.03")
-        self.browser.wait_for(f"{WATCH}.includes('\"width\":420')")
+        self.browser.wait_for(f"{WATCH}.includes('--size 420x420')")
         self.assertEqual(self.browser.messages, [])
 
     def test_atlases_between_frames_and_quality_are_chosen_by_their_lists(self):

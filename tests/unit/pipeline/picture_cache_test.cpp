@@ -139,6 +139,8 @@ TEST_F(PictureCacheTest, followsWhatFramesShowOncePerFrameAndOnlyAsFarAsItShows)
   const auto show = [&](double time_s, double inv_z) {
     frame.built_at_ns = int64_t(time_s * 1e9);
     frame.depths = {{.inv_z_low = inv_z - 0.001, .inv_z_high = inv_z + 0.001, .count = 9}};
+    frame.stats.inv_z_min = inv_z - 0.001;
+    frame.stats.inv_z_max = inv_z + 0.001;
     return *cache_.get(following, frame, {frame.sources, {}});
   };
   const PicturePtr first = show(10, 1.5);
