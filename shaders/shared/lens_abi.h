@@ -38,7 +38,7 @@ struct MetSheet {
 
 VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
 VIEWLOOM_ABI_CONST uint kMetSheetMax = 12u;
-VIEWLOOM_ABI_CONST float kSheetReach_px = 0.5f;
+VIEWLOOM_ABI_CONST float kSheetReach_px = 0.25f;
 
 // What the walked rays of a block met. Of one that met more sheets, the walked rays are all there
 // is: the count is kMetTooMany.
