@@ -66,7 +66,7 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
     const float rank = 2 * fill.inv_z_max * (float(i) - float(abi::kLayerCountMax));
     for (uint32_t n = 0; n < swept.covering_count; ++n) {
       const size_t k = size_t(swept.covering[n]);
-      if (steps.texel[k] < 0) continue;
+      if (steps.texel[k] == kNoTexel) continue;
       const EdgeLine line(steps, k, view);
       const IntVec texel_at_low = hn::Set(kInts, steps.texel[k]);
       const Vec texel_per_inv_z = set(steps.texel_per_inv_z[k]);
@@ -152,13 +152,14 @@ HWY_INLINE void fillHoles(const SurfaceRow& row, const SweepView& view, const Sw
     const int32_t last = row.nearest_texel[ray_end.column];
     if (ray_end.ray_class == abi::kClassHidden) {
       ++coverage.hidden;
-      swept.texel[p] = swept.fill_texel[p] >= 0 ? swept.fill_texel[p] : last;
+      const int32_t fill_texel = swept.fill_texel[p];
+      swept.texel[p] = fill_texel == kNoTexel ? last : std::max(fill_texel, kNoTexel);
     } else if (ray_end.ray_class == abi::kClassOutside) {
       ++coverage.outside;
-      swept.texel[p] = fill.fills_border ? last : -1;
+      swept.texel[p] = fill.fills_border ? last : kNoTexel;
     } else {
       ++coverage.empty;
-      swept.texel[p] = -1;
+      swept.texel[p] = kNoTexel;
     }
   }
 }
@@ -172,7 +173,7 @@ HWY_INLINE void clearRow(uint32_t width_px, SweptRow& swept) {
 HWY_INLINE void clearFill(uint32_t width_px, SweptRow& swept) {
   for (size_t p = 0; p < width_px; p += hn::Lanes(kFloats)) {
     hn::Store(set(-3.4e38F), kFloats, swept.fill_rank.data() + p);
-    hn::Store(hn::Set(kInts, -1), kInts, swept.fill_texel.data() + p);
+    hn::Store(hn::Set(kInts, kNoTexel), kInts, swept.fill_texel.data() + p);
   }
 }
 

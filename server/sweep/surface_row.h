@@ -29,6 +29,10 @@ struct Runs {
   void reserve(uint32_t run_count);
 };
 
+// In place of a position among the texels.
+inline constexpr int32_t kNoTexel = -1;
+inline constexpr int32_t kBackgroundTexel = -2;
+
 // Edges between columns where surfaces end or step, as rays meet them that travel one way.
 // A ray that crosses an edge with an inv_z in (low, high] meets it.
 struct Steps {
@@ -36,7 +40,8 @@ struct Steps {
   AlignedArray<float> edge_px;
   AlignedArray<float> low_inv_z;
   AlignedArray<float> high_inv_z;
-  // Where the colour is: of bridges that of the edge; of silhouettes the far side's, -1 = none.
+  // Where the colour is: of bridges that of the edge; of silhouettes the far side's, the background
+  // where that is nothing, kNoTexel where another silhouette says.
   AlignedArray<int32_t> texel;
   // How far it moves from there with the inv_z above `low`.
   AlignedArray<float> texel_per_inv_z;
@@ -54,7 +59,7 @@ struct Step {
   float edge_px = 0;
   float low_inv_z = 0;
   float high_inv_z = 0;
-  int32_t texel = -1;
+  int32_t texel = kNoTexel;
   float texel_per_inv_z = 0;
   int32_t near_texel = -1;
   float behind_px = -1;

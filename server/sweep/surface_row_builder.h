@@ -52,6 +52,7 @@ class SurfaceRowBuilder {
   bool isKnownBehind(uint32_t layer, Travel travel, uint32_t column) const;
   float goesOnInFront(uint32_t layer, Travel travel, uint32_t column, float far_inv_z,
                       float reach_px) const;
+  int32_t texelBeyondNothing(Travel travel, uint32_t column) const;
   int32_t addBetween(int32_t far_texel, int32_t near_texel);
 
   uint32_t width_ = 0;

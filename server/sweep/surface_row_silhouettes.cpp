@@ -26,7 +26,7 @@ void SurfaceRowBuilder::addSilhouettes(uint32_t layer) {
 }
 
 // Rays that enter `column` pass behind its facet. Their far side is the surface that they were over
-// before; at the border of the image, the facet itself.
+// before; at the border of the image, the facet itself; where there was nothing, what lies beyond.
 void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t column,
                                       uint8_t link) {
   const bool goes_left = travel == Travel::kLeft;
@@ -57,6 +57,8 @@ void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t co
     step.texel_per_inv_z = kSubtexelSteps / (high - low);
   } else if (has_far_side) {
     step.texel = texelOf(is_border ? column : size_t(before));
+  } else if (link == 0 && layer == 0) {
+    step.texel = texelBeyondNothing(travel, column);
   }
   const bool goes_on = link == 0 && is_over && 0 < low && low < high;
   if (goes_on && !isKnownBehind(layer, travel, column) && !hasFault(SweepFault::kFarSideEnds)) {
@@ -108,6 +110,22 @@ float SurfaceRowBuilder::goesOnInFront(uint32_t layer, Travel travel, uint32_t c
     }
   }
   return float(column_count);
+}
+
+// What shows of rays that come from a column without a surface: of the first one further back, at
+// distances that double. As findFarSide in shaders/lib/far_side.glsl.
+int32_t SurfaceRowBuilder::texelBeyondNothing(Travel travel, uint32_t column) const {
+  const float near = inv_z_[0][column];
+  const float deep = near * (1.0F - abi::kDeepStep);
+  const int64_t back = travel == Travel::kLeft ? 1 : -1;
+  for (uint32_t probe = 0; probe < abi::kFarSideProbes; ++probe) {
+    const int64_t x = int64_t{column} + back * (1 + (int64_t{1} << probe));
+    const size_t inside = size_t(std::clamp<int64_t>(x, 0, int64_t{width_} - 1));
+    const float inv_z = inv_z_[0][inside];
+    if (inv_z < 0 || inv_z >= near / (1.0F - abi::kDeepStep)) continue;
+    return made_.nearest_texel[inv_z < deep ? inside : column];
+  }
+  return kBackgroundTexel;
 }
 
 // Texels from that of a far side to that of the near one.

@@ -78,7 +78,7 @@ Ray makeFaceRay(vec3 near_eye, vec3 direction, vec2 size_px, float inv_z_near,
 void markFaceAnswer(inout RayAnswer answer, FaceStretch stretch, Walk walk, vec2 size_px) {
   const vec4 inside = insideOf(vec3(answer.x_px, answer.y_px, 1.0), size_px,
                                float(kCubeApron_px) - kSeamOverlap_px);
-  const bool passed_edge = walk.has_far_side && walk.far_axis != kAxisNone;
+  const bool passed_edge = walk.far_axis != kAxisNone;
   // What is passed where something is hit is not passed before.
   const bool passes = walk.passed_t <= 1.0 && (walk.is_assumed || !walk.is_hit);
   answer.entry_inv_z = stretch.begin_inv_z;

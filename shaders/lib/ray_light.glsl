@@ -5,6 +5,7 @@
 #define VIEWLOOM_LIB_RAY_LIGHT_GLSL_
 
 #include "lib/color.glsl"
+#include "lib/far_side.glsl"
 #include "lib/ray.glsl"
 #include "lib/scaled_color.glsl"
 #include "lib/walk.glsl"
@@ -53,17 +54,6 @@ vec2 cleanShare(Ray ray) {
   return min(abs(ray.extent.xy), vec2(1.0));
 }
 
-// Where the far side of a silhouette is looked up: in the middle of its column, towards the near
-// side as far as the ray was up the step, if that is not deep.
-vec2 farPoint(Ray ray, Walk walk) {
-  const vec2 passed = (ray.start + walk.far_t * ray.extent).xy;
-  const vec2 middle = vec2(walk.far_cell) + 0.5;
-  const vec2 along = middle + walk.far_share * sign(ray.extent.xy);
-  return walk.far_axis == kAxisX   ? vec2(along.x, passed.y)
-         : walk.far_axis == kAxisY ? vec2(passed.x, along.y)
-                                   : middle;
-}
-
 // The next surface behind the one that a ray hit. Where that is rough its own facets may be met
 // again, so what lies behind is further from it than what would be connected. Where there is none,
 // or nothing was hit, the first answer.
@@ -82,9 +72,10 @@ Walk walkBehind(Scene scene, ViewParams view, Ray ray, Walk first) {
   return first;
 }
 
-// Opaque sources end at the first surface. Without one, the far side of the silhouette the ray
-// passed behind, or the image's border, goes on; else there is nothing.
-Light opaqueLight(Scene scene, Ray ray, Walk walk) {
+// Of the surface that is hit. Without one, the far side of the silhouette the ray passed behind, or
+// the image's border, goes on; else there is nothing. The far side may be found only now.
+Light surfaceLight(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
+  findFarSide(scene, ray, start, walk);
   const vec3 point = ray.start + walk.t * ray.extent;
   const bool is_far_side = !walk.is_hit && walk.ends_behind && walk.has_far_side;
   const bool is_border = walk.leaves && scene.fills_border;
@@ -99,40 +90,15 @@ Light opaqueLight(Scene scene, Ray ray, Walk walk) {
   const uint links = is_far_side && walk.far_share > 0.0
                          ? withLink(own_links, near_edge, layer + 1u)
                          : own_links;
-  const bool is_known = walk.is_hit || walk.ends_behind || is_border;
+  const bool goes_on = walk.ends_behind && !lacksFarSide(walk, start);
+  const bool is_known = walk.is_hit || goes_on || is_border;
   const vec4 color = surfaceColor(scene, layer, cell, links, at, cleanShare(ray));
   return Light(color, is_known && (own_links & kFacetExists) != 0u);
 }
 
-// A walk that went through a surface and ended behind it passed no silhouette. Its far side is the
-// furthest surface at distances that double, both ways along the ray: soft edges may be wide.
-const uint kFarSideProbes = 8u;  // up to 128 px away
-
-void findFarSide(Scene scene, Ray ray, WalkStart behind, inout Walk walk) {
-  const bool has_none = !walk.is_hit && walk.ends_behind && !walk.has_far_side;
-  const bool is_sought = has_none && behind.behind_count > 0u;
-  const uint layer = is_sought ? behind.behind_count - 1u : 0u;
-  const vec2 along = ray.extent.xy * min(ray.pace.x, ray.pace.y);
-  const vec2 from = vec2(behind.cell) + 0.5;
-  float furthest = scene.inv_z_near;
-  uint probe = 0u;
-  for (;;) {
-    if (isNever(scene, 6u)) break;
-    for (int side = -1; side <= 1; side += 2) {
-      const ivec2 cell = ivec2(floor(from + float(side * (1 << int(probe))) * along));
-      const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
-      const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
-      const bool is_further = is_sought && inv_z >= 0.0 && inv_z < furthest;
-      walk.far_cell = is_further ? inside : walk.far_cell;
-      walk.far_layer = is_further ? layer : walk.far_layer;
-      walk.has_far_side = is_further || walk.has_far_side;
-      walk.far_axis = is_further ? kAxisNone : walk.far_axis;
-      walk.far_share = is_further ? 0.0 : walk.far_share;
-      furthest = is_further ? inv_z : furthest;
-    }
-    ++probe;
-    if (!is_sought || probe == kFarSideProbes) break;
-  }
+// Opaque sources end at the first surface.
+Light opaqueLight(Scene scene, Ray ray, inout Walk walk) {
+  return surfaceLight(scene, ray, WalkStart(0.0, walk.cell, 0u), walk);
 }
 
 // Semitransparent ones are composited front to back: each surface is walked on from, behind it.
@@ -143,8 +109,7 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   Walk walk = first;
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
   for (;;) {
-    findFarSide(scene, ray, behind, walk);
-    const Light seen = opaqueLight(scene, ray, walk);
+    const Light seen = surfaceLight(scene, ray, behind, walk);
     const vec4 last = vec4(seen.is_known ? seen.color.rgb : background, 1.0);
     const vec4 color = walk.is_hit ? seen.color : last;
     light += transmittance * color.rgb;

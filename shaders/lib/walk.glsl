@@ -205,9 +205,10 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     bool goes_on = (event == kMeetsEdge || event == kComesForward) && !hits_edge;
     if (event == kMeetsEdge && !hits_edge) {
       if (!has_passed) passed = at;
-      // The last one that it passes is the one that it ends behind, and the deepest layer the best.
-      if (crossing.has_far_side) {
-        result.has_far_side = true;
+      // The last one that it passes is the one that it ends behind, and the deepest layer the best
+      // that has a surface there.
+      if (crossing.has_far_side || (crossing.is_from_nothing && layer == 0u)) {
+        result.has_far_side = crossing.has_far_side;
         result.far_cell = (at.cell ^ flip) - stepOfAxis(at.axis, direction);
         result.far_layer = layer;
         result.far_t = at.t;

@@ -57,6 +57,7 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
 struct Crossing {
   uint hit_layer;     // whose surface it hits; kNoLayer
   bool has_far_side;  // passes behind `layer`, from over a surface of it or from the beginning
+  bool is_from_nothing;  // passes behind `layer`, from over no surface of it
   float far_share;    // how far up the step from that surface, 0..1; 0 if it is deep
   // Of that surface here, if it is behind the ray, and nothing says that it ends here; else
   // kNoSurface.
@@ -78,7 +79,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
   const uint edge = edgeOfAxis(at.axis, direction, leaving);
   const ivec2 from_cell = leaving ? before : at.cell;
   const ivec2 to_cell = leaving ? at.cell : before;
-  Crossing result = Crossing(kNoLayer, false, 0.0, kNoSurface);
+  Crossing result = Crossing(kNoLayer, false, false, 0.0, kNoSurface);
   uint from = layer;
   for (;;) {
     if (isNever(scene, 3u)) break;
@@ -100,6 +101,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
       const bool is_hit = is_linked && (!leads_forward || front > -slack);
       if (is_hit || (crosses && hasFault(kFaultBehindIsHit))) result.hit_layer = layer;
       result.has_far_side = !is_linked && facet.x != kNoFacet;
+      result.is_from_nothing = !is_linked && facet.x == kNoFacet;
       const float far = point.z - front;
       const bool goes_on = result.has_far_side && crosses && front > 0.0 &&
                            !isKnownBehind(links, edge);

@@ -26,7 +26,8 @@ struct Walk {
   uint level;         // of the plane hit; kLevelFacets: of one facet, or an edge
   float passed_t;     // where it first passed behind known surface; 2 = never
   // Passed behind a silhouette: the column before the last one, and the layer there, whose surface
-  // the ray was in front of. Behind that layer from the beginning: the first column.
+  // the ray was in front of. Behind that layer from the beginning: the first column. From over no
+  // surface at all: the column without one, and has_far_side is false.
   bool has_far_side;
   ivec2 far_cell;
   uint far_layer;

@@ -90,6 +90,8 @@ VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
 // both; what steps by less may be one that is steep.
 VIEWLOOM_ABI_CONST uint kDeepEdge = 7u;
 VIEWLOOM_ABI_CONST float kDeepStep = 0.15f;
+// Beside nothing a far side is looked for at distances that double: up to 128 px away.
+VIEWLOOM_ABI_CONST uint kFarSideProbes = 8u;
 // The near side of a silhouette, if a deeper layer holds on this side of the edge what is as far
 // back as the far side, or further: so that is known, and need not be thought to go on.
 VIEWLOOM_ABI_CONST uint kKnownBehind = 6u;

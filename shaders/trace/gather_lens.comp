@@ -125,7 +125,7 @@ struct LightSum {
 // The ray, walked: from as far along as nothing can be before.
 vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
   const WalkStart start = startOf(scene, ray, bound);
-  const Walk walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
+  Walk walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
   const Light seen = opaqueLight(scene, ray, walk);
   const vec3 blend = seen.is_known ? seen.color.rgb : blendOfBackground();
   return linearFromSrgb(codesOfBlend(blend) / 255.0);

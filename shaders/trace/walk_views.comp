@@ -161,8 +161,11 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   Walk walk = walkBeside(start);
   if (ray.t_begin < ray.t_end) walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
   if (kLooksBehind && (view.shows & kShowsBehind) != 0u) walk = walkBehind(scene, view, ray, walk);
-  const Light light =
-      kIsLayered ? layeredLight(scene, view, ray, walk) : opaqueLight(scene, ray, walk);
+  Light light;
+  if (kIsLayered)
+    light = layeredLight(scene, view, ray, walk);
+  else
+    light = opaqueLight(scene, ray, walk);
   traced.ray = ray;
   traced.walk = walk;
   traced.seen = seenOf(ray, walk, light, background);

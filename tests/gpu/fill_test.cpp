@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/sweep_under_test.h"
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
@@ -59,10 +60,25 @@ class FillTest : public GpuTest {
 
   TracedView trace(const oracle::Scene& scene, const ColorOf& color_of, double eye_x_m,
                    bool is_opaque = true) {
+    return walk_
+        .trace(*walk_.build(painted(scene, color_of, is_opaque)), {viewFrom(scene, eye_x_m)},
+               kTolerance_px)
+        .front();
+  }
+
+  // The same, opaque, by the walk and by the sweep.
+  std::array<TracedView, 2> traceBoth(const oracle::Scene& scene, const ColorOf& color_of,
+                                      double eye_x_m) {
+    SweepUnderTest sweep;
+    sweep.prepare(std::make_shared<Frame>(painted(scene, color_of, true)));
+    return {trace(scene, color_of, eye_x_m),
+            sweep.trace({viewFrom(scene, eye_x_m)}, kTolerance_px).front()};
+  }
+
+  static oracle::OutputView viewFrom(const oracle::Scene& scene, double eye_x_m) {
     oracle::OutputView view = oracle::ownView(scene);
     view.position_m.x = eye_x_m;
-    return walk_.trace(*walk_.build(painted(scene, color_of, is_opaque)), {view}, kTolerance_px)
-        .front();
+    return view;
   }
 
   WalkUnderTest walk_;
@@ -182,6 +198,61 @@ TEST_F(FillTest, whoEntersTheImageBehindTheGroundSeesTheGroundAtItsBorder) {
   forEachHidden(view, [&](int column, const LinearColor& srgb) {
     EXPECT_TRUE(isAlike(srgb, kBlue)) << "column " << column;
   });
+}
+
+// The first pole alone, with nothing around it as far as `hole_px`; then the wall.
+oracle::Scene poleInAHole(int hole_px) {
+  oracle::Scene scene = oracle::planeScene({0, 0, kWall}, kWidth, kHeight);
+  for (int row = 0; row < kHeight; ++row) {
+    for (int column = 0; column < kWidth; ++column) {
+      const bool is_pole = column >= kFirstPole && column < kSecondPole;
+      const bool is_hole = column >= kFirstPole - hole_px && column < kSecondPole + hole_px;
+      if (is_hole) scene.planes.at(0, column, row) = is_pole ? 1 : -1;
+    }
+  }
+  return scene;
+}
+
+LinearColor colorAroundAHole(int column, int) {
+  if (column >= kFirstPole && column < kSecondPole) return {1, 1, 1, 1};
+  return column < kFirstPole ? kRed : kBlue;
+}
+
+TEST_F(FillTest, behindWhatStandsInNothingIsTheBackground) {
+  for (const double eye_x_m : {0.3, -0.3}) {
+    for (const TracedView& view : traceBoth(poleInAHole(kWidth), colorAroundAHole, eye_x_m)) {
+      forEachHidden(view, [&](int column, const LinearColor& srgb) {
+        EXPECT_TRUE(isAlike(srgb, {0, 0, 0, 1})) << "eye " << eye_x_m << " m, column " << column;
+      });
+    }
+  }
+}
+
+// Rays end behind the pole, which they came to over the hole before it, and behind the wall, which
+// they came to over the hole beyond it.
+TEST_F(FillTest, besideHolesTheWallGoesOn) {
+  for (const double eye_x_m : {0.3, -0.3}) {
+    for (const TracedView& view : traceBoth(poleInAHole(6), colorAroundAHole, eye_x_m)) {
+      int behind_pole_count = 0;
+      forEachHidden(view, [&](int column, const LinearColor& srgb) {
+        const bool is_behind_pole = column >= kFirstPole && column < kSecondPole;
+        behind_pole_count += is_behind_pole ? 1 : 0;
+        const bool is_right = is_behind_pole ? eye_x_m > 0 : column >= kSecondPole;
+        EXPECT_TRUE(isAlike(srgb, is_right ? kBlue : kRed))
+            << "eye " << eye_x_m << " m, column " << column;
+      });
+      EXPECT_GT(behind_pole_count, 0);
+    }
+  }
+}
+
+TEST_F(FillTest, throughWhatStandsInNothingIsTheBackground) {
+  const LinearColor glass = {0.25f, 0.125f, 0.5f, 0.5f};
+  const TracedView view = trace(
+      poleInAHole(kWidth), [&](int, int) { return glass; }, 0, false);
+  for (int column = kFirstPole; column < kSecondPole; ++column) {
+    EXPECT_TRUE(isAlike(view.srgb[view.index(column, kHeight / 2)], glass)) << "column " << column;
+  }
 }
 
 TEST_F(FillTest, behindASoftEdgeIsTheFarSideAndNotTheSurfaceItself) {
