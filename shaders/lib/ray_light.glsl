@@ -101,19 +101,29 @@ Light opaqueLight(Scene scene, Ray ray, inout Walk walk) {
   return surfaceLight(scene, ray, WalkStart(0.0, walk.cell, 0u), walk);
 }
 
-// Semitransparent ones are composited front to back: each surface is walked on from, behind it.
+// Semitransparent ones are composited front to back: each surface is walked on from, behind it. One
+// that is rough may be met again, in the same layer and no further on than what would be connected:
+// it counts once.
 Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
   vec3 light = vec3(0.0);
   const vec3 background = blendOfBackground();
   float transmittance = 1.0;
   Walk walk = first;
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
+  uint counted_layer = kNoLayer;
+  float counted_inv_z = 0.0;
   for (;;) {
     const Light seen = surfaceLight(scene, ray, behind, walk);
     const vec4 last = vec4(seen.is_known ? seen.color.rgb : background, 1.0);
     const vec4 color = walk.is_hit ? seen.color : last;
-    light += transmittance * color.rgb;
-    transmittance *= 1.0 - color.a;
+    const float inv_z = ray.start.z + walk.t * ray.extent.z;
+    const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, counted_inv_z);
+    const bool is_counted =
+        walk.is_hit && walk.layer == counted_layer && abs(counted_inv_z - inv_z) <= apart;
+    light += is_counted ? vec3(0.0) : transmittance * color.rgb;
+    transmittance *= is_counted ? 1.0 : 1.0 - color.a;
+    counted_inv_z = is_counted ? counted_inv_z : inv_z;
+    counted_layer = walk.layer;
     if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(vec4(light, 1.0), true);
     behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
     walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);

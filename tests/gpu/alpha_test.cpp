@@ -3,6 +3,7 @@
 // back.
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
@@ -87,6 +88,35 @@ TEST_F(AlphaTest, fourCurvedLayersAddUpExceptAtSilhouettes) {
   oracle::OutputView view = oracle::ownView(scene);
   view.position_m = {-0.08, 0.03, 0};
   EXPECT_GE(agreeingShare(scene, colors, view), 0.99);
+}
+
+// One layer of which single samples stand out, by less than what is connected: rays from beside
+// meet them and, behind them, the samples around.
+TEST_F(AlphaTest, aRoughSurfaceCountsOnce) {
+  constexpr float kStandsOut = 0.06f;  // 1/m
+  constexpr double kConnected = 0.1;
+  oracle::Scene scene = oracle::planeScene({0, 0, 0.5}, 64, 48);
+  std::mt19937 random(1);
+  for (int row = 0; row < 48; ++row) {
+    for (int column = 0; column < 64; ++column) {
+      if (random() % 8 == 0) scene.planes.at(0, column, row) += kStandsOut;
+    }
+  }
+  const LinearColor glass = {0.3f, 0.0f, 0.1f, 0.5f};
+  Frame frame = *frameOf(scene, {glass});
+  frame.format.sources[0].connection_tolerance = kConnected;
+  oracle::OutputView view = oracle::ownView(scene);
+  view.position_m = {0.6, 0, 0};
+  const TracedView traced = walk_.trace(*walk_.build(frame), {view}, kTolerance_px).front();
+  int hit_count = 0;
+  for (size_t px = 0; px < traced.srgb.size(); ++px) {
+    if (traced.records[px].ray_class > abi::kClassHitAssumed) continue;
+    for (size_t i = 0; i < 3; ++i) {
+      ASSERT_NEAR(traced.srgb[px][i], srgbFrom(glass[i]), kColorTolerance) << "px " << px;
+    }
+    ++hit_count;
+  }
+  EXPECT_GT(hit_count, 500);
 }
 
 }  // namespace
