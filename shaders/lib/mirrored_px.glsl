@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes to the px of a band by way of the surfaces of one source: an invocation a px. The
+// includer has the constants of trace/reflect.comp, `push`, a TracePush, and follow(), which says
+// what a reflected ray meets.
+#ifndef VIEWLOOM_LIB_MIRRORED_PX_GLSL_
+#define VIEWLOOM_LIB_MIRRORED_PX_GLSL_
+
+#include "lib/memory.glsl"
+#include "shared/reflection_abi.h"
+
+layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
+  ViewParams views[];
+};
+layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
+  TraceExtras extras;
+};
+layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
+  ReflectionSettings settings;
+};
+layout(set = 0, binding = kBindingReflected, scalar) writeonly buffer ReflectedBand {
+  ReflectedLight reflected_band[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RecordsRef {
+  RayRecord at[];
+};
+
+#include "lib/first_camera.glsl"
+#include "lib/mirrored_path.glsl"
+#include "lib/pushed_scene.glsl"
+#include "lib/ray_light.glsl"
+#include "lib/ray_source.glsl"
+#include "lib/reflected_light.glsl"
+#include "lib/reflection_counts.glsl"
+#include "lib/tile_px.glsl"
+
+vec3 linearOfBlend(vec3 blend) {
+  if (holdsCodes(kColorFormat)) return linearFromSrgb(blend / 255.0);
+  return kColorFormat == kColorRgb16 ? pow(blend, vec3(2.4)) : blend;
+}
+
+// What a reflected ray found.
+struct Found {
+  vec3 light;
+  uint ending;        // kReflection...
+  bool meets_surface;
+  Spot spot;          // then
+  float certainty;    // of light that does not come from the environment
+};
+
+Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected);
+
+// All rays of a px.
+struct Gathered {
+  vec3 light;        // without what the first surface takes of it
+  vec3 reflectance;  // what that takes
+  float distance_m;
+};
+
+Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, Path first_path,
+                float px_angle, uvec2 px, inout uvec3 counts) {
+  const uint count = first_mirror.roughness > kMirrorRoughness ? settings.sample_count : 1u;
+  Gathered sum = Gathered(vec3(0.0), vec3(0.0), 0.0);
+  uint i = 0u;
+  uint bounce = 0u;
+  Spot spot = first;
+  Mirror mirror = first_mirror;
+  Path path = first_path;
+  vec3 light = vec3(0.0);
+  vec3 own_share = vec3(1.0);
+  for (;;) {
+    if (isNever(scene, 11u)) break;
+    turn(mirror, spot, pinhole, samplePlace(i * settings.bounce_count + bounce,
+                                            count * settings.bounce_count, px), path);
+    const bool is_first = bounce == 0u;
+    own_share = is_first ? path.share : own_share;
+    path.share = is_first ? vec3(1.0) : path.share;
+    const float moved_px = movedBy(mirror, settings.tolerance_px, px_angle);
+    const float error = surfaceError(scene, pinhole, spot, path.eye, moved_px);
+    const Reflected reflected =
+        reflectedRay(scene, pinhole, startBefore(spot, error), path.direction, path.eye, moved_px);
+    const Found found = follow(scene, pinhole, spot, reflected);
+    light += path.share * found.light;
+    countReflection(counts, found.ending, path.is_bent);
+    const float way_m = found.spot.point.z > 0.0
+                            ? distance(metresOf(pinhole, found.spot.point),
+                                       metresOf(pinhole, spot.point))
+                            : kHalfMax;
+    sum.distance_m += is_first ? min(way_m, kHalfMax) / float(count) : 0.0;
+    ++bounce;
+    bool goes_on = found.meets_surface && bounce < settings.bounce_count;
+    if (goes_on) {
+      spot = spotAt(scene, found.spot.point);
+      mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);
+      goes_on = any(greaterThan(mirror.light, vec3(0.0)));
+      path.share *= found.certainty;
+      path.is_bent = false;
+    }
+    if (!goes_on) {
+      sum.light += own_share * light / float(count);
+      sum.reflectance += own_share / float(count);
+      ++i;
+      bounce = 0u;
+      spot = first;
+      mirror = first_mirror;
+      path = first_path;
+      light = vec3(0.0);
+    }
+    if (!goes_on && i >= count) break;
+  }
+  sum.light /= max(sum.reflectance, vec3(1e-6));
+  return sum;
+}
+
+ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams view,
+                              inout uvec3 counts) {
+  const RayRecord record = RecordsRef(extras.records).at[index];
+  const Aim aim = aimOf(vec2(tile_px) + 0.5);
+  const bool is_hit = record.ray_class == kClassHit || record.ray_class == kClassHitAssumed;
+  const bool is_shown = is_hit && aim.is_used && record.inv_z > 0.0 &&
+                        (view.shows & kShowsDepth) == 0u;
+  if (!is_shown) return kNothingReflected;
+  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  const Pinhole pinhole = Pinhole(extras.focal_px, extras.principal_px);
+  const Spot spot = spotAt(scene, vec3(record.x_px, record.y_px, record.inv_z));
+  const Mirror mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);
+  if (all(lessThanEqual(mirror.light, vec3(0.0)))) return kNothingReflected;
+  const vec3 eye = metricPoint(pinhole, view.eye);
+  Path path;
+  path.direction = normalize(metresOf(pinhole, spot.point) - eye);
+  path.eye = eye;
+  path.share = vec3(1.0);
+  path.is_bent = false;
+  // Of a px of the view, as what it sees stands on its axis.
+  const float px_angle = length(metricPoint(pinhole, view.direction_dx));
+  const Gathered gathered =
+      gather(scene, pinhole, spot, mirror, path, px_angle, tile_px, counts);
+  return packedLight(gathered.light, gathered.reflectance, gathered.distance_m, mirror.roughness,
+                     packedPlace(mirror.normal, spot.point.z));
+}
+
+void main() {
+  const uint row = push.first_row + gl_WorkGroupID.y;
+  const uint x = gl_GlobalInvocationID.x;
+  const TilePx at = tilePxAt(x, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
+  const uint index = (push.band_row + gl_WorkGroupID.y) * push.atlas_width_px + x;
+  uvec3 counts = uvec3(0u);
+  ReflectedLight light = kNothingReflected;
+  if (at.exists) {
+    const ViewParams view = views[at.tile];
+    if (view.is_used != 0u) {
+      light = reflectedLight(pushedScene(false), index, at.px, view, counts);
+    }
+  }
+  if (x < push.atlas_width_px) reflected_band[index] = light;
+  addReflectionCounts(counts, UintRef(extras.counters),
+                      gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);
+}
+
+#endif  // VIEWLOOM_LIB_MIRRORED_PX_GLSL_
