@@ -23,6 +23,7 @@
 #include "bench/knob.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
+#include "bench/mirrors_bench.h"
 #include "bench/quality.h"
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
@@ -162,6 +163,7 @@ int runBench(int argc, char** argv) {
   addUplinkCommand(app);
   addStereoCommand(app);
   addKnobCommand(app);
+  addMirrorsCommand(app);
   addQualityCommand(app);
   addPicturesCommand(app);
   CLI11_PARSE(app, argc, argv);

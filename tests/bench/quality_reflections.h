@@ -7,20 +7,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "bench/mirror_loads.h"
 #include "frame/stage_times.h"
 #include "gpu/device.h"
 
 namespace viewloom::bench {
-
-// PSNR of the px of mirrors that the first source sees, dB, sRGB: over those that mirror what some
-// layer of it holds, over those that mirror what others hold alone, over the rest, and over all.
-// Not a number where there are none.
-struct MirrorPsnr {
-  double known_db = 0;
-  double elsewhere_db = 0;
-  double unknown_db = 0;
-  double all_db = 0;
-};
 
 // Of one view of a scene, by one set of sources.
 struct ReflectionScore {

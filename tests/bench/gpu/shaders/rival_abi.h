@@ -57,8 +57,17 @@ struct CopyPush {
   uint row_count;  // invocations along x
 };
 
+// How reflected rays are marched, beside a TracePush.
+struct MarchKnobs {
+  uint layer_stride;    // px from place to place, and above them, from kMarchLayerShift on, layers
+  uint step_count_max;  // places that are looked at
+  float thickness_m;    // of a sample
+};
+VIEWLOOM_ABI_CONST uint kMarchLayerShift = 16u;
+
 #ifdef __cplusplus
 static_assert(sizeof(RivalPush) == 48);
+static_assert(sizeof(MarchKnobs) == 12);
 static_assert(sizeof(CopyPush) == 16);
 static_assert(sizeof(BoxesPush) == 24);
 #endif
