@@ -168,7 +168,8 @@ Reflected reflectedFaceRay(Scene scene, Pinhole pinhole, vec3 from, vec3 directi
 // Where a ray starts from a spot: in front of its surface, and of what is one with it, by what that
 // may be off. Homogeneous image coordinates, m.
 vec3 startBefore(Spot spot, float surface_error) {
-  return vec3(spot.point.xy, 1.0) / (spot.point.z + surface_error);
+  const float before = hasFault(kFaultStartsOnSurface) ? 0.0 : surface_error;
+  return vec3(spot.point.xy, 1.0) / (spot.point.z + before);
 }
 
 #endif  // VIEWLOOM_LIB_MIRROR_GLSL_

@@ -31,10 +31,12 @@ void turn(Mirror mirror, Spot spot, Pinhole pinhole, vec2 place, inout Path path
   const bool is_rough = mirror.roughness > kMirrorRoughness && towards.z > 1e-4;
   const vec3 halfway =
       is_rough ? basis * visibleNormal(towards, alpha, place) : mirror.normal;
-  vec3 direction = reflect(path.direction, halfway);
+  const vec3 facing = hasFault(kFaultNormalTurned) ? vec3(-1.0, 1.0, 1.0) : vec3(1.0);
+  vec3 direction = reflect(path.direction, facing * halfway);
   const float above = dot(direction, mirror.facet_normal);
   path.is_bent = path.is_bent || above <= 0.0;
-  direction = normalize(direction + max(-above, 0.0) * mirror.facet_normal);
+  const float below = hasFault(kFaultNotBent) ? 0.0 : max(-above, 0.0);
+  direction = normalize(direction + below * mirror.facet_normal);
   path.share *= fresnel(mirror.light, dot(direction, halfway));
   const float cosine_out = max(dot(direction, mirror.normal), 1e-4);
   if (is_rough) path.share *= unshadowed(cosine_out, max(towards.z, 1e-4), alpha);

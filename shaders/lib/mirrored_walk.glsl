@@ -16,7 +16,8 @@ float certainty(Pinhole pinhole, Spot from, Ray ray, float passed_t, float hit_t
 
 Walk walkMirrored(Scene scene, Spot from, Reflected reflected) {
   const Ray ray = reflected.ray;
-  const WalkStart start = WalkStart(ray.t_begin, from.cell, from.layer);
+  const uint behind_count = from.layer + (hasFault(kFaultBeginsBehind) ? 1u : 0u);
+  const WalkStart start = WalkStart(ray.t_begin, from.cell, behind_count);
   if (ray.t_begin >= ray.t_end) return walkBeside(start);
   return walkRay(scene, ray, start, reflected.inv_z_tolerance, reflected.eye_z);
 }

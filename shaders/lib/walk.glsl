@@ -158,7 +158,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
                 front_from * far_to + front_at_end * from_far <= 0.0;
       const bool hits =
           passes && !met_far && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
-      const bool comes_out = kMeetsBacks && passes && !met_far && !in_front && !still_behind &&
+      const bool meets_backs = kMeetsBacks && !hasFault(kFaultBacksPassed);
+      const bool comes_out = meets_backs && passes && !met_far && !in_front && !still_behind &&
                              (front_from > 0.0 || front_to > 0.0);
       // Who comes out by less than rounding might meet the next facet as a step up.
       const float least_front = front_from > 0.0 ? 0.0 : kRounding * max(from_inv_z, to_inv_z);
@@ -228,7 +229,8 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
     in_front = in_front || passes_end;
     goes_on = goes_on || passes_end;
     // Where in the last block the ray hits, or ends.
-    const bool crosses_inside = (front_from > 0.0) != (front_to > 0.0);
+    const bool is_out_already = leaves_surface && front_from > 0.0;
+    const bool crosses_inside = !is_out_already && (front_from > 0.0) != (front_to > 0.0);
     const float inside_share = crosses_inside ? front_from / (front_from - front_to) : 0.0;
     const float share = event == kHits && front_from <= 0.0 ? 1.0 : inside_share;
     const float last_t = event == kEnds ? end_t : at.t + (end_t - at.t) * share;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mistakes that tests plant in the build and the walk, to prove that they would be found. Every
-// product kernel is compiled with none: the constant folds the branches away.
+// Mistakes that tests plant in the build, the walk and reflections, to prove that they would be
+// found. Every product kernel is compiled with none: the constant folds the branches away.
 #ifndef VIEWLOOM_SHADERS_SHARED_FAULT_H_
 #define VIEWLOOM_SHADERS_SHARED_FAULT_H_
 
@@ -44,6 +44,12 @@ VIEWLOOM_ABI_CONST uint kFaultFirstFaceEnds = 48u;  // the face that a ray begin
 VIEWLOOM_ABI_CONST uint kFaultSeamPassed = 49u;     // what is hit in the seam never counts
 VIEWLOOM_ABI_CONST uint kFaultSeamForgets = 50u;    // who was behind a surface is not any more
 VIEWLOOM_ABI_CONST uint kFaultCubeSawNothing = 51u;  // nor is what is free told to other sources
+// In reflections.
+VIEWLOOM_ABI_CONST uint kFaultStartsOnSurface = 64u;  // rays start where they are mirrored
+VIEWLOOM_ABI_CONST uint kFaultNormalTurned = 65u;     // mirrors face the other way along x
+VIEWLOOM_ABI_CONST uint kFaultNotBent = 66u;          // who goes below its own facet stays there
+VIEWLOOM_ABI_CONST uint kFaultBacksPassed = 67u;      // who comes out through a surface goes on
+VIEWLOOM_ABI_CONST uint kFaultBeginsBehind = 68u;     // rays begin behind their own surface
 
 VIEWLOOM_ABI_END
 

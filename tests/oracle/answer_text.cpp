@@ -10,8 +10,8 @@ std::string describe(const OracleAnswer& answer) {
   text << nameOf(answer.ray_class);
   if (!answer.hits.empty()) {
     const OracleHit& hit = answer.hits.front();
-    text << " layer " << hit.facet.layer << " at (" << hit.x_px << ", " << hit.y_px << ", "
-         << hit.inv_z << ")";
+    text << (hit.is_back ? " of the back of layer " : " layer ") << hit.facet.layer << " at ("
+         << hit.x_px << ", " << hit.y_px << ", " << hit.inv_z << ")";
   }
   return text.str();
 }
@@ -20,8 +20,8 @@ std::string describe(const TestedAnswer& answer) {
   std::ostringstream text;
   text << nameOf(answer.ray_class);
   if (answer.ray_class == RayClass::kHit || answer.ray_class == RayClass::kHitAssumed) {
-    text << " layer " << answer.layer << " at (" << answer.x_px << ", " << answer.y_px << ", "
-         << answer.inv_z << ")";
+    text << (answer.is_back ? " of the back of layer " : " layer ") << answer.layer << " at ("
+         << answer.x_px << ", " << answer.y_px << ", " << answer.inv_z << ")";
   }
   return text.str();
 }

@@ -79,10 +79,26 @@ std::string Verdict::summary() const {
   return text.str();
 }
 
+OracleAnswer Judge::answerFrom(const ProjectedRay& ray) const {
+  return traceFromSurface(source_, ray, *surface_layer_);
+}
+
+OracleAnswer Judge::answerFrom(const Ray& ray) const {
+  return answerFrom(projectRay(source_.pinhole(), ray));
+}
+
 template <typename AnyRay>
 OracleAnswer Judge::answerOf(const AnyRay& ray) const {
+  if (surface_layer_) return answerFrom(ray);
   if (asked_ == AskedSurface::kFirst) return traceOracle(source_, ray);
   return behindFirst(source_, traceOracle(source_, ray, kThroughMax));
+}
+
+void Judge::considerFrom(int surface_layer, const ViewRay& ray, const TestedAnswer& tested,
+                         const std::string& where) {
+  surface_layer_ = surface_layer;
+  consider(ray, tested, where);
+  surface_layer_.reset();
 }
 
 void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where) {
@@ -116,7 +132,7 @@ bool Judge::matches(const OracleAnswer& oracle, const TestedAnswer& tested) cons
   if (oracle.ray_class != tested.ray_class) return false;
   if (!isHit(oracle.ray_class)) return true;
   const OracleHit& hit = oracle.hits.front();
-  return namesLayer(hit, tested.layer) &&
+  return namesLayer(hit, tested.layer) && hit.is_back == tested.is_back &&
          std::abs(hit.x_px - tested.x_px) <= tolerance_.source_px &&
          std::abs(hit.y_px - tested.y_px) <= tolerance_.source_px &&
          std::abs(hit.inv_z - tested.inv_z) <= tolerance_.inv_z;
@@ -145,7 +161,8 @@ bool Judge::agreeing(const std::vector<OracleAnswer>& answers) const {
   return std::all_of(answers.begin(), answers.end(), [&](const OracleAnswer& moved) {
     if (moved.ray_class != own.ray_class) return false;
     return own.hits.empty() ||
-           onOneSurface(source_, own.hits.front().facet, moved.hits.front().facet);
+           (own.hits.front().is_back == moved.hits.front().is_back &&
+            onOneSurface(source_, own.hits.front().facet, moved.hits.front().facet));
   });
 }
 
@@ -213,6 +230,7 @@ bool Judge::liesOn(const ProjectedRay& ray, const glm::dvec3& position) const {
 // and on a surface within the tolerance; beyond the true hit, so does all the way there.
 bool Judge::skims(const OracleAnswer& own, const ViewRay& ray, const TestedAnswer& tested) const {
   if (!isHit(own.ray_class) || own.ray_class != tested.ray_class) return false;
+  if (own.hits.front().is_back != tested.is_back) return false;
   const ProjectedRay projected = projectRay(source_.pinhole(), ray.ray);
   const double inv_z_tolerance = tolerance_.inv_z + invZTolerance(ray, tested);
   const glm::dvec3 answer(tested.x_px, tested.y_px, tested.inv_z);
@@ -241,6 +259,7 @@ bool Judge::amongThem(const std::vector<OracleAnswer>& answers, const ViewRay& r
   if (!isHit(tested.ray_class)) return true;
   Range x_px, y_px, inv_z;
   const double inv_z_tolerance = tolerance_.inv_z + invZTolerance(ray, tested);
+  if (answers.front().hits.front().is_back != tested.is_back) return false;
   bool layer_named = standsThere(tested, inv_z_tolerance);
   for (const OracleAnswer& answer : answers) {
     const OracleHit& hit = answer.hits.front();

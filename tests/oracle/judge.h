@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct TestedAnswer {
   double x_px = 0;
   double y_px = 0;
   double inv_z = 0;
+  bool is_back = false;  // OracleHit::is_back
 };
 
 struct JudgeTolerance {
@@ -57,11 +59,16 @@ class Judge {
 
   // `where` names the ray in messages.
   void consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where);
+  // Of a ray that goes on from a surface of this layer (traceFromSurface).
+  void considerFrom(int surface_layer, const ViewRay& ray, const TestedAnswer& tested,
+                    const std::string& where);
   const Verdict& verdict() const { return verdict_; }
 
  private:
   template <typename AnyRay>
   OracleAnswer answerOf(const AnyRay& ray) const;
+  OracleAnswer answerFrom(const ProjectedRay& ray) const;
+  OracleAnswer answerFrom(const Ray& ray) const;
   bool matches(const OracleAnswer& oracle, const TestedAnswer& tested) const;
   std::vector<OracleAnswer> answersOfMovedRays(const ViewRay& ray) const;
   bool agreeing(const std::vector<OracleAnswer>& answers) const;
@@ -76,6 +83,7 @@ class Judge {
   const OracleSource& source_;
   const JudgeTolerance tolerance_;
   const AskedSurface asked_;
+  std::optional<int> surface_layer_;  // that the ray under judgement goes on from
   Verdict verdict_;
 };
 

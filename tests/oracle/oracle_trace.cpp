@@ -6,74 +6,21 @@
 #include <optional>
 #include <ostream>
 
+#include "oracle/ray_columns.h"
+
 namespace viewloom::oracle {
 namespace {
-
-glm::dvec2 imageOf(const HomogeneousPoint& point) {
-  return {point.u / point.z, point.v / point.z};
-}
-
-// Where a ray leaves one column for the next.
-struct Crossing {
-  double s = 0;
-  int step_x = 0;
-  int step_y = 0;
-};
-
-struct Column {
-  int column = 0;
-  int row = 0;
-};
-
-int clampedFloor(double value, int count) {
-  return std::clamp(int(std::floor(value)), 0, count - 1);
-}
-
-Column columnAt(const OracleSource& source, const HomogeneousPoint& point) {
-  const glm::dvec2 at_px = imageOf(point);
-  return {clampedFloor(at_px.x, source.width()), clampedFloor(at_px.y, source.height())};
-}
-
-// Adds the crossings of the lines x = 1, 2, ... (or y) strictly inside the seen part.
-void addCrossings(double u_a, double z_a, double u_b, double z_b, int line_count,
-                  const SeenPart& seen, Crossing step, std::vector<Crossing>& crossings) {
-  // x = u / z changes with the sign of u' z - u z' along the whole ray.
-  const int direction = (u_b - u_a) * z_a - u_a * (z_b - z_a) > 0 ? 1 : -1;
-  const auto clampedAt = [&](double s) {
-    const double at = (u_a + s * (u_b - u_a)) / (z_a + s * (z_b - z_a));
-    return std::isnan(at) ? 0.0 : std::clamp(at, 0.0, double(line_count));
-  };
-  const auto [low, high] = std::minmax({clampedAt(seen.begin), clampedAt(seen.end)});
-  const int first = std::max(1, int(low)), last = std::min(line_count - 1, int(high) + 1);
-  for (int line = first; line <= last; ++line) {
-    const double at_a = u_a - line * z_a;
-    const double at_b = u_b - line * z_b;
-    if (at_a == at_b) continue;  // never crosses, or runs along the line
-    const double s = at_a / (at_a - at_b);
-    if (!(s > seen.begin && s < seen.end)) continue;
-    crossings.push_back({s, step.step_x * direction, step.step_y * direction});
-  }
-}
-
-std::vector<Crossing> crossingsOf(const OracleSource& source, const ProjectedRay& ray,
-                                  const SeenPart& seen) {
-  const auto& [a, b] = ray;
-  std::vector<Crossing> crossings;
-  addCrossings(a.u, a.z, b.u, b.z, source.width(), seen, {0, 1, 0}, crossings);
-  addCrossings(a.v, a.z, b.v, b.z, source.height(), seen, {0, 0, 1}, crossings);
-  std::stable_sort(crossings.begin(), crossings.end(),
-                   [](const Crossing& one, const Crossing& other) { return one.s < other.s; });
-  return crossings;
-}
 
 // One ray on its way; hits are collected until the limit.
 class Travel {
  public:
-  Travel(const OracleSource& source, const ProjectedRay& ray, const SeenPart& seen, size_t limit)
+  Travel(const OracleSource& source, const ProjectedRay& ray, const SeenPart& seen, size_t limit,
+         std::optional<int> surface_layer = {})
       : source_(source),
         ray_(ray),
         seen_(seen),
         limit_(limit),
+        surface_layer_(surface_layer),
         behind_(size_t(source.layerCount())) {}
 
   OracleAnswer run() {
@@ -81,8 +28,7 @@ class Travel {
     const double first_end = crossings.empty() ? seen_.end : crossings.front().s;
     Column column = columnAt(source_, ray_.at(0.5 * (seen_.begin + first_end)));
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
-      const FacetAt at{layer, column.column, column.row};
-      if (isBehind(at, seen_.begin)) {
+      if (beginsBehind({layer, column.column, column.row})) {
         noteBehind(seen_.begin);
         passBehind(layer);
       }
@@ -90,6 +36,7 @@ class Travel {
     double begin = seen_.begin;
     for (const Crossing& crossing : crossings) {
       crossColumn(column, begin, crossing.s, false);
+      is_first_column_ = false;
       const Column next{column.column + crossing.step_x, column.row + crossing.step_y};
       crossEdge(column, next, crossing.s);
       column = next;
@@ -119,6 +66,13 @@ class Travel {
   bool isBehind(const FacetAt& at, double s) const {
     return at.layer <= behind_count_ && source_.exists(at) && front(at, s) <= 0;
   }
+  bool beginsBehind(const FacetAt& at) const {
+    return surface_layer_ ? at.layer < *surface_layer_ : isBehind(at, seen_.begin);
+  }
+  // In the column where it begins, it does not come out from behind what it begins behind.
+  bool staysBehind(int layer) const {
+    return is_first_column_ && surface_layer_ && layer < *surface_layer_;
+  }
   void noteBehind(double s) {
     been_behind_ = true;
     if (answer_.hits.empty()) answer_.passed_s = std::min(answer_.passed_s, s);
@@ -131,12 +85,18 @@ class Travel {
       const FacetAt at{layer, column.column, column.row};
       goOnBehind(at, begin, end);
       if (!source_.exists(at)) continue;
-      const double at_begin = front(at, begin);
+      const double at_begin =
+          staysBehind(layer) ? std::min(front(at, begin), 0.0) : front(at, begin);
       const double at_end = front(at, end);
+      const double crosses_s = begin + (end - begin) * (at_begin / (at_begin - at_end));
+      const bool comes_out = at_begin <= 0 && at_end > 0;
       // A facet is never below 0: whoever arrives at 1/Z = 0 in front of its plane hits it there,
       // also after having come out from behind it.
+      if (surface_layer_ && comes_out && !ends_at_infinity && !staysBehind(layer)) {
+        events.emplace_back(crosses_s, backAt(crosses_s, at));
+      }
       if (at_end > 0 ? !ends_at_infinity : at_begin <= 0) continue;
-      const double s = at_end > 0 ? end : begin + (end - begin) * (at_begin / (at_begin - at_end));
+      const double s = at_end > 0 ? end : crosses_s;
       events.emplace_back(s, hitAt(s, at, {}));
     }
     std::stable_sort(events.begin(), events.end(),
@@ -189,11 +149,19 @@ class Travel {
     behind.far_inv_z = source_.planeInvZ(before, behind.passed_px.x, behind.passed_px.y);
   }
 
+  // From behind one facet of a surface to before the next one.
+  void comeOutBetween(const FacetAt& from, const FacetAt& to, double s) {
+    const bool comes_out = surface_layer_ && isBehind(from, s) && source_.linked(from, to) &&
+                           front(to, s) > 0 && !isOver(from.layer);
+    if (comes_out) record(backAt(s, to));
+  }
+
   void crossEdge(const Column& from, const Column& to, double s) {
     bool passes_behind = false;  // from here on: not before what is hit at this very edge
     const int behind_count = behind_count_;  // before the edge
     for (int layer = 0; layer < source_.layerCount(); ++layer) {
       const FacetAt next{layer, to.column, to.row};
+      comeOutBetween({layer, from.column, from.row}, next, s);
       if (!isBehind(next, s)) continue;
       bool connected_behind = false;
       bool connected_in_front = false;
@@ -217,7 +185,14 @@ class Travel {
 
   OracleHit hitAt(double s, const FacetAt& facet, const FacetAt& linked) const {
     const HomogeneousPoint point = ray_.at(s);
-    return {point.u / point.z, point.v / point.z, point.h / point.z, s, false, facet, linked};
+    return {
+        point.u / point.z, point.v / point.z, point.h / point.z, s, false, false, facet, linked};
+  }
+
+  OracleHit backAt(double s, const FacetAt& facet) const {
+    OracleHit hit = hitAt(s, facet, {});
+    hit.is_back = true;
+    return hit;
   }
 
   void record(OracleHit hit) {
@@ -246,6 +221,8 @@ class Travel {
   const ProjectedRay& ray_;
   const SeenPart seen_;
   const size_t limit_;
+  const std::optional<int> surface_layer_;  // that it goes on from
+  bool is_first_column_ = true;
   bool been_behind_ = false;
   int behind_count_ = 0;        // of layers, from the first on, that the ray has been behind
   std::vector<Behind> behind_;  // by layer
@@ -287,6 +264,13 @@ OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, co
 
 OracleAnswer traceOracle(const OracleSource& source, const Ray& ray, size_t hit_limit) {
   return traceOracle(source, projectRay(source.pinhole(), ray), hit_limit);
+}
+
+OracleAnswer traceFromSurface(const OracleSource& source, const ProjectedRay& ray,
+                              int surface_layer) {
+  const SeenPart seen = seenPart(source, ray);
+  if (seen.empty()) return {};
+  return Travel(source, ray, seen, 1, surface_layer).run();
 }
 
 }  // namespace viewloom::oracle

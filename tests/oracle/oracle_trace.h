@@ -25,6 +25,7 @@ struct OracleHit {
   double inv_z = 0;  // 1/m
   double s = 0;      // along the projected ray
   bool assumed = false;
+  bool is_back = false;  // it came out through the surface, from behind
   FacetAt facet;
   // The facet on this side of the edge when a connected surface was crossed at an edge: an answer
   // may name either. layer -1 otherwise.
@@ -45,5 +46,11 @@ OracleAnswer traceOracle(const OracleSource& source, const Ray& ray, size_t hit_
 // Of a part of it alone, inside the image and not empty.
 OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, const SeenPart& part,
                          size_t hit_limit = 1);
+
+// Of a ray that goes on from the front of a surface, as off a mirror: behind the layers before that
+// one, in front of it and of those behind. Who comes out through a surface from behind it has met
+// what no source has seen, and ends there.
+OracleAnswer traceFromSurface(const OracleSource& source, const ProjectedRay& ray,
+                              int surface_layer);
 
 }  // namespace viewloom::oracle

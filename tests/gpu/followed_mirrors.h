@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflected rays of the px of random scenes, as the server traces them, before the oracle's judge.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/mirror_stage.h"
+#include "gpu/shaders/followed_abi.h"
+#include "oracle/judge.h"
+
+namespace viewloom {
+
+// The frame of a scene all of whose surfaces mirror, by their own slopes.
+FramePtr mirroringFrameOf(const oracle::Scene& scene);
+
+// What the rays met that px of these views send on, once: [view][row][column].
+struct FollowedViews {
+  SourceStats stats;
+  std::vector<abi::RayRecord> records;  // of the px's own rays; as what follows
+  std::vector<abi::FollowedRay> followed;
+};
+FollowedViews followMirrors(const Device& device, const oracle::Scene& scene,
+                            const std::vector<oracle::OutputView>& views, double tolerance_px);
+
+// Of all px of an atlas.
+std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage);
+
+// What the judge says of them all.
+struct JudgedMirrors {
+  oracle::Verdict verdict;
+  uint64_t bent_count = 0;    // rays along their own facet
+  uint64_t back_count = 0;    // that came out through a surface
+  uint64_t deeper_count = 0;  // from layers behind the first
+
+  void add(const JudgedMirrors& other);
+  std::string summary() const;
+};
+JudgedMirrors judgeMirrors(const Device& device, const oracle::Scene& scene,
+                           const std::vector<oracle::OutputView>& views, double tolerance_px,
+                           const std::string& where);
+
+}  // namespace viewloom

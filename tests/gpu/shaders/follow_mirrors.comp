@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// As trace/reflect.comp, and writes down what the last ray of each px met.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "followed_abi.h"
+#include "lib/memory.glsl"
+
+layout(local_size_x = kTraceGroupSize) in;
+const uint kColorFormat = kColorRgba8;
+const bool kColorIsScaled = false;
+const uint kRays = kRaysOfPinholes;
+const bool kRaysArePlain = false;
+const bool kSeesThrough = true;
+const bool kMeetsBacks = true;
+layout(push_constant, scalar) uniform Push {
+  TracePush push;
+};
+layout(set = 0, binding = kBindingFollowed, scalar) writeonly buffer FollowedBand {
+  FollowedRay followed[];
+};
+
+#include "lib/mirrored_walk.glsl"
+
+Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
+  const Ray ray = reflected.ray;
+  const Walk walk = walkMirrored(scene, from, reflected);
+  const vec3 point = ray.start + walk.t * ray.extent;
+  const uint row = push.band_row + gl_WorkGroupID.y;
+  followed[row * push.atlas_width_px + gl_GlobalInvocationID.x] =
+      FollowedRay(1u, from.layer, classOf(walk), walk.is_back ? 1u : 0u, walk.layer, point.x,
+                  point.y, point.z);
+  return foundBy(scene, pinhole, from, ray, walk);
+}

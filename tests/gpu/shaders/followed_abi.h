@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tests learn of a reflected ray.
+#ifndef VIEWLOOM_GPU_SHADERS_FOLLOWED_ABI_H_
+#define VIEWLOOM_GPU_SHADERS_FOLLOWED_ABI_H_
+
+#include "shared/trace_abi.h"
+
+VIEWLOOM_ABI_BEGIN
+
+VIEWLOOM_ABI_CONST uint kBindingFollowed = 30u;  // storage, written: FollowedRay per px
+
+struct FollowedRay {
+  uint is_traced;  // 0: the px mirrors nothing, and what follows is not told
+  uint surface_layer;
+  uint ray_class;  // kClass...
+  uint is_back;
+  uint layer;  // of the hit; as what follows
+  float x_px;
+  float y_px;
+  float inv_z;  // 1/m
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(FollowedRay) == 32);
+#endif
+
+VIEWLOOM_ABI_END
+
+#endif  // VIEWLOOM_GPU_SHADERS_FOLLOWED_ABI_H_
