@@ -101,6 +101,20 @@ class BenchTest(unittest.TestCase):
             self.assertGreater(better, PSNR_MIN_DB, name)
             self.assertTrue(all(point["trace_ms"] > 0 for point in by_quality.values()))
 
+    def test_mirrors(self):
+        report = run("mirrors", "--json", "--rounds", "1", "--only", "mirror floor")
+        self.assertEqual([duel["view"] for duel in report["duels"]], ["of the source", "beside it"])
+        for duel in report["duels"]:
+            self.assertEqual(duel["walk"], duel["walks"][0])
+            best = max(duel["marches"], key=lambda march: march["all_db"])
+            self.assertEqual(duel["best_march"]["all_db"], best["all_db"])
+            at_equal_time = duel["march_at_equal_time"]
+            if at_equal_time:
+                self.assertLessEqual(at_equal_time["ms"], duel["walk"]["ms"])
+            for way in (*duel["walks"], *duel["marches"]):
+                self.assertGreater(way["ms"], 0)
+                self.assertGreater(way["all_db"], duel["without_all_db"], way["name"])
+
     def test_pictures_of_applications(self):
         with tempfile.TemporaryDirectory() as folder:
             finished = subprocess.run([PROGRAM, "pictures", folder, "--miniature", "8"],
