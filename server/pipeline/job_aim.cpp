@@ -2,14 +2,29 @@
 #include "pipeline/job_aim.h"
 
 namespace viewloom {
+namespace {
+
+// Adds the sources of a structure, with those that show things that move where these are by then.
+void addSources(const ResidentStructure& structure, const std::optional<OutputTick>& tick,
+                std::vector<SeenSource>& sources) {
+  const size_t first = sources.size();
+  sources.insert(sources.end(), structure.sources.begin(), structure.sources.end());
+  if (!tick) return;
+  for (const ThingPose& thing : tick->shown.things) {
+    if (thing.source < structure.sources.size()) {
+      sources[first + thing.source].camera.pose = thing.pose;
+    }
+  }
+}
+
+}  // namespace
 
 Aim aimOf(const ActiveDisplay& display, const AtlasJob& job) {
   Camera camera = job.structure->sources.front().camera;
   if (job.tick) camera.pose = job.tick->shown.source_pose;
-  Aim aim{.sources = job.structure->sources, .display_pose = displayPose(display.spec, camera)};
-  if (!job.before) return aim;
-  const std::vector<SeenSource>& before = job.before->sources;
-  aim.sources.insert(aim.sources.end(), before.begin(), before.end());
+  Aim aim{.sources = {}, .display_pose = displayPose(display.spec, camera)};
+  addSources(*job.structure, job.tick, aim.sources);
+  if (job.before) addSources(*job.before, job.tick, aim.sources);
   return aim;
 }
 

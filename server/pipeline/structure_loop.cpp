@@ -11,13 +11,35 @@
 namespace viewloom {
 namespace {
 
-TrackedFrame trackedFrame(const Frame& frame, const SourceStats& stats, int64_t now_ns) {
+bool hasMotion(const std::vector<LayerPlanes>& layers) {
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const LayerPlanes& layer) { return layer.motion != nullptr; });
+}
+
+// Where sources that are not the first say themselves how their surfaces move, their cameras don't.
+std::vector<TrackedSource> otherSources(const Frame& frame, const Frame* before) {
+  std::vector<TrackedSource> others;
+  for (size_t i = 1; i < frame.sources.size(); ++i) {
+    TrackedSource& other = others.emplace_back();
+    other.pose = frame.format.sources[i].camera.pose;
+    if (hasMotion(frame.sources[i])) {
+      other.content = ContentMotion::kStands;
+    } else if (before != nullptr && i < before->sources.size()) {
+      other.content = contentMotion(*before, frame, i);
+    }
+  }
+  return others;
+}
+
+TrackedFrame trackedFrame(const Frame& frame, const Frame* before, const SourceStats& stats,
+                          int64_t now_ns) {
   return {.pose = frame.format.sources.front().camera.pose,
           .captured_ns = frame.format.capture_time_ns,
           .arrived_ns = frame.times.first_chunk_ns,
           .built_ns = now_ns,
           .inv_z_near = stats.inv_z_near,
-          .things_move = movesByItself(frame)};
+          .things_move = movesByItself(frame),
+          .others = otherSources(frame, before)};
 }
 
 // What the frame itself says.
@@ -96,8 +118,8 @@ bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   links_.metrics.frames_unchanged.add();
   stream.next->ticket->noteUnchanged(resident->stats);
   const bool was_moving = stream.newest().motion.isMoving();
-  stream.setMotion(
-      stream.track.add(trackedFrame(*stream.next->frame, resident->stats, links_.clock.nowNs())));
+  stream.setMotion(stream.track.add(trackedFrame(*stream.next->frame, stream.resident_frame.get(),
+                                                 resident->stats, links_.clock.nowNs())));
   stream.next.reset();
   if (was_moving) on_resident_(stream, nullptr);
   return true;
@@ -134,8 +156,8 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   }
 
   count(*structure);
-  const CameraMotion& motion =
-      stream.track.add(trackedFrame(*offered.frame, structure->stats, structure->built_at_ns));
+  const CameraMotion& motion = stream.track.add(trackedFrame(
+      *offered.frame, stream.resident_frame.get(), structure->stats, structure->built_at_ns));
   // A camera that stands has seen nothing else a frame ago.
   const bool keeps_before = motion.isMoving() && motion.interval_ns > 0 && isInterpolated(stream);
   stream.setNewest({std::move(structure), motion, keeps_before ? stream.resident() : nullptr});

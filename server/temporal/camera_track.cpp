@@ -23,9 +23,25 @@ glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) {
   return 2 * std::atan2(sine, turn.w) / sine * axis;
 }
 
+// nullopt: a cut.
+std::optional<PoseMotion> motionBetween(const Pose& before, const Pose& pose, int64_t interval_ns,
+                                        double inv_z_near) {
+  const glm::dvec3 way_m = pose.position_m - before.position_m;
+  const glm::dvec3 turn_rad = turnBetween(before.orientation, pose.orientation);
+  if (glm::length(way_m) * inv_z_near > 1 || glm::length(turn_rad) > kCutTurn_rad) {
+    return std::nullopt;
+  }
+  const double interval_s = 1e-9 * double(interval_ns);
+  return PoseMotion{.pose = pose,
+                    .before = before,
+                    .velocity_mps = way_m / interval_s,
+                    .turn_rad_per_s = turn_rad / interval_s};
+}
+
 }  // namespace
 
 const CameraMotion& CameraTrack::add(const TrackedFrame& frame) {
+  are_things_.resize(frame.others.size());
   if (last_ && isTimed(frame) && isTimed(*last_) && frame.captured_ns > last_->captured_ns) {
     measure(frame);
   } else {
@@ -37,7 +53,8 @@ const CameraMotion& CameraTrack::add(const TrackedFrame& frame) {
 }
 
 void CameraTrack::begin(const TrackedFrame& frame) {
-  motion_ = {.pose = frame.pose, .captured_ns = frame.captured_ns};
+  motion_ = {.camera = {.pose = frame.pose, .before = frame.pose},
+             .captured_ns = frame.captured_ns};
   if (isTimed(frame)) motion_.least_delay_ns = frame.arrived_ns - frame.captured_ns;
 }
 
@@ -52,23 +69,34 @@ void CameraTrack::measure(const TrackedFrame& frame) {
   const int64_t lag_ns = motion_.lag_ns == 0
                              ? asked_lag_ns
                              : motion_.lag_ns + (asked_lag_ns - motion_.lag_ns) / kLagStepsPerFrame;
-  motion_ = {.pose = frame.pose,
+  motion_ = {.camera = {.pose = frame.pose, .before = last_->pose},
              .captured_ns = frame.captured_ns,
              .least_delay_ns = least_delay_ns,
-             .interval_ns = interval_ns,
-             .before = last_->pose,
              .lag_ns = lag_ns};
-  const glm::dvec3 way_m = frame.pose.position_m - last_->pose.position_m;
-  const glm::dvec3 turn_rad = turnBetween(last_->pose.orientation, frame.pose.orientation);
-  const double nearest = std::max(frame.inv_z_near, last_->inv_z_near);
-  if (interval_ns > kTrackedIntervalMax_ns || glm::length(way_m) * nearest > 1 ||
-      glm::length(turn_rad) > kCutTurn_rad) {
-    motion_.interval_ns = 0;
-    return;
+  if (interval_ns > kTrackedIntervalMax_ns) return;
+  const double inv_z_near = std::max(frame.inv_z_near, last_->inv_z_near);
+  const auto camera = motionBetween(last_->pose, frame.pose, interval_ns, inv_z_near);
+  if (!camera) return;
+  motion_.interval_ns = interval_ns;
+  motion_.camera = *camera;
+  noteThings(frame, interval_ns, inv_z_near);
+}
+
+// Of those that are elsewhere than a frame ago. One that was put there has not moved.
+void CameraTrack::noteThings(const TrackedFrame& frame, int64_t interval_ns, double inv_z_near) {
+  const size_t count = std::min(frame.others.size(), last_->others.size());
+  for (size_t i = 0; i < count; ++i) {
+    const TrackedSource& source = frame.others[i];
+    const Pose& before = last_->others[i].pose;
+    if (source.content != ContentMotion::kUnclear) {
+      are_things_[i] = source.content == ContentMotion::kWithCamera;
+    }
+    if (!are_things_[i] || source.pose == before) continue;
+    const PoseMotion stands{.pose = source.pose, .before = source.pose};
+    motion_.things.push_back(
+        {.source = i + 1,
+         .motion = motionBetween(before, source.pose, interval_ns, inv_z_near).value_or(stands)});
   }
-  const double interval_s = 1e-9 * double(interval_ns);
-  motion_.velocity_mps = way_m / interval_s;
-  motion_.turn_rad_per_s = turn_rad / interval_s;
 }
 
 }  // namespace viewloom

@@ -25,6 +25,9 @@ constexpr double kPlateWidth_px = 12;
 // Of the middle of what is white: its edges are those of whole px.
 constexpr double kMiddleError_px = 0.55;
 
+// Where the edges are those that rays meet, at whole px of the display.
+constexpr double kOwnMiddleError_px = 0.55;
+
 bool isPlate(double left_px, uint32_t x, uint32_t y) {
   return x >= left_px && x < left_px + kPlateWidth_px && y >= 16 && y < 32;
 }
@@ -81,6 +84,26 @@ FramePtr plateFrame(uint64_t number, int64_t now_ns, bool tells_motion) {
     frame->sources.front().push_back(
         layerAt(std::round(plateLeft(1e-9 * double(now_ns))), layer, tells_motion));
   }
+  return frame;
+}
+
+// The wall, and the plate as a source of its own, whose camera goes with it: to that nothing moves.
+FramePtr wallAndPlate(uint64_t number, int64_t now_ns) {
+  auto frame = std::make_shared<Frame>(*plateFrame(number, now_ns, false));
+  frame->sources.front()[0] = layerAt(kPicture_px.width, 0, false);
+  frame->format.sources.front().layers.resize(1);
+  frame->sources.front().resize(1);
+  LayerPlanes plate = layerAt(kPlateLeft_px, 0, false);
+  std::vector<float> depth_m;
+  for (uint32_t y = 0; y < kPicture_px.height; ++y) {
+    for (uint32_t x = 0; x < kPicture_px.width; ++x) {
+      depth_m.push_back(isPlate(kPlateLeft_px, x, y) ? kPlate_m : 0);
+    }
+  }
+  plate.depth = bytesOf(depth_m);
+  frame->format.sources.push_back(frame->format.sources.front());
+  frame->format.sources.back().camera.pose.position_m.x = kPlateSpeed_mps * 1e-9 * double(now_ns);
+  frame->sources.push_back({plate});
   return frame;
 }
 
@@ -195,6 +218,38 @@ TEST_F(PipelineMotionTest, buildsNothingBetweenFramesWithoutMotion) {
   server.pipeline.drain();
   EXPECT_EQ(server.metrics.structures_built.value(), 2);
   EXPECT_EQ(server.metrics.structures_retimed.value(), 0);
+}
+
+TEST_F(PipelineMotionTest, carriesASourceThatGoesWithItsThingAndBuildsNothing) {
+  for (const bool is_between : {false, true}) {
+    Server server(device());
+    DisplaySpec spec = ownPlace();
+    if (is_between) spec.temporal->mode = TemporalMode::kInterpolate;
+    const Viewer viewer = watch(server, spec, kRaw);
+    const auto offer = [&](uint64_t number) {
+      server.offer(wallAndPlate(number, server.clock.nowNs()));
+      while (server.metrics.structures_built.value() < double(number)) std::this_thread::yield();
+    };
+    offer(1);
+    viewer.subscriber->waitForAtlases(1);
+    int shown_count = 0;
+    for (uint64_t number = 2; number <= 5; ++number) {
+      server.clock.advance(kFrame_ns - (number == 2 ? 0 : 2 * kTick_ns));
+      offer(number);
+      for (int i = 0; i < 2; ++i) {
+        const AtlasPtr atlas = next(server, viewer);
+        if (atlas->timing != (is_between ? Timing::kInterpolated : Timing::kPredicted)) continue;
+        // From there on it slows down.
+        if (atlas->shown_time_ns > atlas->capture_time_ns + kFrame_ns) continue;
+        ++shown_count;
+        EXPECT_NEAR(middleOfPlate(*atlas), expectedMiddle(*atlas), kOwnMiddleError_px);
+      }
+    }
+    EXPECT_GE(shown_count, 2);
+    server.pipeline.drain();
+    EXPECT_EQ(server.metrics.structures_built.value(), 5) << "of frames alone";
+    EXPECT_EQ(server.metrics.structures_retimed.value(), 0);
+  }
 }
 
 TEST_F(PipelineMotionTest, standsBetweenTwoFramesWithThingsWhereTheyWereThen) {

@@ -56,8 +56,8 @@ TEST(CameraMotion, slowsDownEvenlyThenHoldsAndSaysSo) {
   const auto wayAt = [&](int64_t age_ms) {
     const ShownInstant shown = predicted(motion, (1100 + age_ms) * kMs_ns + kDelay_ns, kBridge_ns);
     EXPECT_EQ(shown.timing, age_ms < 250 ? Timing::kPredicted : Timing::kHeld) << age_ms;
-    return glm::length(shown.source_pose.position_m - motion.pose.position_m) /
-           glm::length(motion.velocity_mps);
+    return glm::length(shown.source_pose.position_m - motion.camera.pose.position_m) /
+           glm::length(motion.camera.velocity_mps);
   };
   // Full speed to 0.1 s; half of it, on the mean, to 0.25 s.
   EXPECT_NEAR(wayAt(100), 0.1, 1e-9);
