@@ -32,15 +32,20 @@ class FreshGrid {
 
   // Of the layer drawn last: 1/m, abi::kNoSurface where nothing is.
   float invZ(uint32_t px) const;
+  // Of the layer drawn last, the sample whose px it is and that has not moved.
+  std::optional<uint32_t> stillSample(uint32_t px) const;
   // Where something is.
   Blend blend(const MovedSurfaces& surfaces, uint32_t px) const;
 
  private:
   void draw(const MovedSurfaces& surfaces, WorkerPool& workers);
+  void drawStillRow(const MovedSurfaces& surfaces, uint32_t y);
   void drawSample(const MovedSurfaces& surfaces, uint32_t sample);
+  template <typename BlendAt>
   void drawPiece(const MovedSurfaces& surfaces, uint32_t piece, const glm::dvec2& low_px,
-                 const glm::dvec2& high_px);
-  void offer(uint32_t px, float inv_z, uint32_t piece, bool is_still);
+                 const glm::dvec2& high_px, const BlendAt& blendAt);
+  bool isBehind(uint32_t px, float inv_z, float apart) const;
+  void offer(uint32_t px, float inv_z, uint32_t piece);
 
   SizePx size_px_;
   Kappa kappa_;

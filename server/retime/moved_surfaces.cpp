@@ -62,13 +62,15 @@ void MovedSurfaces::prepare(FramePtr frame, WorkerPool& workers) {
   frame_ = std::move(frame);
   columns_.prepare(frame_, workers);
   size_px_ = columns_.sizePx();
-  layer_count_ = columns_.rowSource().columns->layerCount();
+  held_inv_z_ = columns_.rowSource().columns;
+  layer_count_ = held_inv_z_->layerCount();
   kappa_ = columns_.measured().kappa;
   const size_t sample_count = size_px_.area() * layer_count_;
   to_right_.resize(sample_count);
   to_below_.resize(sample_count);
   moved_.resize(sample_count);
   in_quads_.resize(sample_count);
+  moving_columns_.resize(size_px_.height);
   std::vector<LinkScratch> scratch;
   for (uint32_t worker = 0; worker < workers.workerCount(); ++worker) {
     scratch.emplace_back(size_px_.width, layer_count_);
@@ -76,8 +78,31 @@ void MovedSurfaces::prepare(FramePtr frame, WorkerPool& workers) {
   workers.forEach(retimedPieceCount(size_px_), [&](uint32_t piece, uint32_t worker) {
     const uint32_t first = piece * kRetimedRowsPerPiece;
     const uint32_t end = std::min(first + kRetimedRowsPerPiece, size_px_.height);
-    for (uint32_t y = first; y < end; ++y) linkRow(int(y), scratch[worker]);
+    for (uint32_t y = first; y < end; ++y) {
+      linkRow(int(y), scratch[worker]);
+      standRow(y);
+    }
   });
+}
+
+// Where the row's samples are before anything moves, and which of them will.
+void MovedSurfaces::standRow(uint32_t y) {
+  Columns& columns = moving_columns_[y];
+  columns = {.first = size_px_.width, .end = 0};
+  for (uint32_t layer = 0; layer < layer_count_; ++layer) {
+    const float* const inv_z = heldRow(layer, y);
+    const uint32_t row = sampleAt(layer, 0, y);
+    for (uint32_t x = 0; x < size_px_.width; ++x) moved_[row + x] = {.inv_z = inv_z[x]};
+    const SharedBytes& motion = frame_->sources.front()[layer].motion;
+    if (motion == nullptr) continue;
+    const uint8_t* const halves = motion->data() + size_t{6} * size_px_.width * y;
+    for (uint32_t x = 0; x < size_px_.width; ++x) {
+      if (motionAt(halves + size_t{6} * x) == glm::dvec3(0)) continue;
+      columns.first = std::min(columns.first, x);
+      columns.end = std::max(columns.end, x + 1);
+    }
+  }
+  if (columns.end == 0) columns.first = 0;
 }
 
 void MovedSurfaces::linkRow(int y, LinkScratch& scratch) {
@@ -117,7 +142,6 @@ void MovedSurfaces::move(double seconds, WorkerPool& workers) {
     axis[i] = seconds;
     axes[i] = glm::conjugate(camera_from_world) * axis;
   }
-  std::fill(in_quads_.begin(), in_quads_.end(), uint8_t{0});
   const auto overRows = [&](const auto& work) {
     workers.forEach(retimedPieceCount(size_px_), [&](uint32_t piece, uint32_t) {
       const uint32_t first = piece * kRetimedRowsPerPiece;
@@ -127,7 +151,12 @@ void MovedSurfaces::move(double seconds, WorkerPool& workers) {
       }
     });
   };
-  overRows([&](uint32_t layer, uint32_t y) { moveRow(layer, y, axes[0], axes[1], axes[2]); });
+  overRows([&](uint32_t layer, uint32_t y) {
+    const Columns columns = moving_columns_[y];
+    const auto in_quads = in_quads_.begin() + sampleAt(layer, 0, y);
+    std::fill(in_quads + columns.first, in_quads + columns.end, uint8_t{0});
+    moveRow(layer, y, axes[0], axes[1], axes[2]);
+  });
   overRows([&](uint32_t layer, uint32_t y) { noteQuads(layer, y); });
 }
 
@@ -138,13 +167,13 @@ void MovedSurfaces::move(double seconds, WorkerPool& workers) {
 void MovedSurfaces::moveRow(uint32_t layer, uint32_t y, const glm::dvec3& to_camera_x,
                             const glm::dvec3& to_camera_y, const glm::dvec3& to_camera_z) {
   const Intrinsics& lens = frame_->format.sources.front().camera.intrinsics;
-  const float* const inv_z = columns_.rowSource().columns->row(layer, int(y));
+  const float* const inv_z = heldRow(layer, y);
   const SharedBytes& motion = frame_->sources.front()[layer].motion;
   const double down_px = y + 0.5 - lens.principal_px.y;
-  for (uint32_t x = 0; x < size_px_.width; ++x) {
+  if (motion == nullptr) return;
+  for (uint32_t x = moving_columns_[y].first; x < moving_columns_[y].end; ++x) {
     Moved& moved = moved_[sampleAt(layer, x, y)];
-    moved = {.dx_px = 0, .dy_px = 0, .inv_z = inv_z[x], .is_still = true};
-    if (motion == nullptr || !(inv_z[x] > 0)) continue;
+    if (!(inv_z[x] > 0)) continue;
     const glm::dvec3 speed = motionAt(motion->data() + 6 * (size_t{y} * size_px_.width + x));
     if (speed == glm::dvec3(0)) continue;
     const glm::dvec3 way(glm::dot(to_camera_x, speed), glm::dot(to_camera_y, speed),
@@ -193,10 +222,36 @@ std::optional<std::array<uint32_t, 4>> MovedSurfaces::quadFrom(uint32_t sample) 
   return std::array{sample, top_right, bottom_right, bottom_left};
 }
 
+std::optional<uint32_t> MovedSurfaces::joinedBehind(uint32_t px, uint32_t other) const {
+  const uint32_t first = std::min(px, other), second = std::max(px, other);
+  const std::vector<uint8_t>& links = second - first == 1 ? to_right_ : to_below_;
+  const auto px_count = uint32_t(size_px_.area());
+  for (uint32_t layer = 1; layer < layer_count_; ++layer) {
+    const uint32_t sample = layer * px_count + px;
+    const bool is_joined =
+        px == second ? links[other] == layer + 1 : links[sample] == 1 && links[px] != 1;
+    if (is_joined && heldRow(layer, px / size_px_.width)[px % size_px_.width] >= 0) return sample;
+  }
+  return std::nullopt;
+}
+
+MovedSurfaces::Columns MovedSurfaces::quadColumns(uint32_t y) const {
+  Columns columns = moving_columns_[y];
+  if (y + 1 < size_px_.height) {
+    const Columns below = moving_columns_[y + 1];
+    if (columns.end == 0) columns = below;
+    if (below.end > 0) columns.first = std::min(columns.first, below.first);
+    columns.end = std::max(columns.end, below.end);
+  }
+  if (columns.first > 0) --columns.first;
+  return columns;
+}
+
 void MovedSurfaces::noteQuads(uint32_t layer, uint32_t y) {
   // The corner of the quad that a sample is, is the other side of the sample's own footprint.
   constexpr std::array<uint8_t, 4> kSides{kBottomRight, kBottomLeft, kTopLeft, kTopRight};
-  for (uint32_t x = 0; x < size_px_.width; ++x) {
+  const Columns columns = quadColumns(y);
+  for (uint32_t x = columns.first; x < columns.end; ++x) {
     const auto quad = quadFrom(sampleAt(layer, x, y));
     if (!quad) continue;
     for (size_t i = 0; i < 4; ++i) {

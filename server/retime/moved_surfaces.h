@@ -47,9 +47,32 @@ class MovedSurfaces {
   uint32_t layerOf(uint32_t sample) const { return sample / uint32_t(size_px_.area()); }
   uint32_t pxOf(uint32_t sample) const { return sample % uint32_t(size_px_.area()); }
   const Kappa& kappa() const { return kappa_; }
-  bool hadSurface(uint32_t x, uint32_t y) const {
-    return columns_.rowSource().columns->row(0, int(y))[x] >= 0;
+  bool hadSurface(uint32_t x, uint32_t y) const { return heldRow(0, y)[x] >= 0; }
+  // Columns of a row outside of which nothing moves in it, on no layer.
+  struct Columns {
+    uint32_t first = 0;
+    uint32_t end = 0;
+  };
+  Columns movingColumns(uint32_t y) const { return moving_columns_[y]; }
+  // Those of samples from which quads may go that move.
+  Columns quadColumns(uint32_t y) const;
+
+  // Of the first layer, as the frame has it: 1/m, abi::kNoSurface where nothing is.
+  float frontInvZ(uint32_t px) const {
+    return heldRow(0, px / size_px_.width)[px % size_px_.width];
   }
+  // Whether surfaces of the first layer are connected to the next px in the row, and in the column.
+  bool joinsRight(uint32_t px) const { return to_right_[px] == 1; }
+  bool joinsBelow(uint32_t px) const { return to_below_[px] == 1; }
+  // False only where it is connected on all sides.
+  bool isBesideEdge(uint32_t px) const {
+    const uint32_t width = size_px_.width;
+    return !joinsRight(px) || !joinsBelow(px) || px < width || !joinsBelow(px - width) ||
+           !joinsRight(px - 1);
+  }
+  // The sample of a deeper layer at `px` that is connected to the first layer's in `other`, which
+  // is beside it.
+  std::optional<uint32_t> joinedBehind(uint32_t px, uint32_t other) const;
 
   // 1/m, after the move; abi::kNoSurface also for what has come behind the camera.
   float invZ(uint32_t sample) const { return moved_[sample].inv_z; }
@@ -57,6 +80,8 @@ class MovedSurfaces {
   bool isStill(uint32_t sample) const { return moved_[sample].is_still; }
   // px, after the move.
   glm::dvec2 place(uint32_t sample) const;
+  // px, from where the frame has it.
+  glm::dvec2 way(uint32_t sample) const { return {moved_[sample].dx_px, moved_[sample].dy_px}; }
   // The connected surface between a sample, the next in its row and the two below them, in the
   // order of Quadrant; none where it is not connected all around, or has been torn apart.
   std::optional<std::array<uint32_t, 4>> quadFrom(uint32_t sample) const;
@@ -72,7 +97,10 @@ class MovedSurfaces {
   };
   struct LinkScratch;
 
+  // As the frame has it.
+  const float* heldRow(uint32_t layer, uint32_t y) const { return held_inv_z_->row(layer, int(y)); }
   void linkRow(int y, LinkScratch& scratch);
+  void standRow(uint32_t y);
   void moveRow(uint32_t layer, uint32_t y, const glm::dvec3& to_camera_x,
                const glm::dvec3& to_camera_y, const glm::dvec3& to_camera_z);
   void noteQuads(uint32_t layer, uint32_t y);
@@ -82,9 +110,11 @@ class MovedSurfaces {
   SizePx size_px_;
   uint32_t layer_count_ = 0;
   SweepSource columns_;
+  const DepthColumns* held_inv_z_ = nullptr;  // its
   Kappa kappa_;
   std::vector<uint8_t> to_right_;  // [sample], as sweep/link_kernels.h
   std::vector<uint8_t> to_below_;
+  std::vector<Columns> moving_columns_;  // [row]
   std::vector<Moved> moved_;
   std::vector<uint8_t> in_quads_;
 };

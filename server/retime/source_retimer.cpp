@@ -2,37 +2,15 @@
 #include "retime/source_retimer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <utility>
-
-#include <glm/gtc/packing.hpp>
 
 #include "frame/limits.h"
 
 namespace viewloom {
 namespace {
 
-constexpr size_t kChannels = 4;
-
 size_t texelBytes(PlaneEncoding encoding) {
   return encoding == PlaneEncoding::kRgba16f ? 8 : 4;
-}
-
-double channelAt(PlaneEncoding encoding, const uint8_t* texel, size_t channel) {
-  if (encoding != PlaneEncoding::kRgba16f) return texel[channel];
-  uint16_t half = 0;
-  std::memcpy(&half, texel + 2 * channel, sizeof half);
-  return double{glm::unpackHalf1x16(half)};
-}
-
-void storeChannel(PlaneEncoding encoding, double value, size_t channel, uint8_t* texel) {
-  if (encoding != PlaneEncoding::kRgba16f) {
-    texel[channel] = uint8_t(std::clamp(value + 0.5, 0.0, 255.0));
-    return;
-  }
-  const uint16_t half = glm::packHalf1x16(float(value));
-  std::memcpy(texel + 2 * channel, &half, sizeof half);
 }
 
 // The sample that most of the px is.
@@ -51,8 +29,11 @@ bool mirrors(const std::vector<LayerPlanes>& layers) {
 std::vector<LayerPlanes> SourceRetimer::retime(double seconds, BytePool& pool,
                                                WorkerPool& workers) {
   surfaces_.move(seconds, workers);
+  edges_.find(surfaces_, workers);
   const SizePx size_px = surfaces_.sizePx();
   std::vector<LayerPlanes> layers;
+  std::vector<Written> written;
+  front_samples_.assign(size_px.area(), kNoSample);
   for (uint32_t layer = 0; layer < surfaces_.layerCount(); ++layer) {
     if (layer == 0) {
       grid_.drawFirst(surfaces_, workers);
@@ -61,15 +42,26 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, BytePool& pool,
     }
     Written to;
     layers.push_back(takeLayer(pool, to));
+    written.push_back(to);
     workers.forEach(retimedPieceCount(size_px), [&](uint32_t piece, uint32_t) {
       const uint32_t first = piece * kRetimedRowsPerPiece;
       const uint32_t end = std::min(first + kRetimedRowsPerPiece, size_px.height);
       for (uint32_t y = first; y < end; ++y) {
-        for (uint32_t x = 0; x < size_px.width; ++x) writePx(y * size_px.width + x, to);
+        for (uint32_t x = 0; x < size_px.width; ++x) {
+          const uint32_t main = writePx(y * size_px.width + x, to);
+          if (layer == 0) front_samples_[y * size_px.width + x] = main;
+        }
         if (layer == 0) fillRow(y, to);
       }
     });
   }
+  EdgeLight::Drawn drawn{
+      .inv_z = written[0].inv_z, .sample = front_samples_.data(), .color = written[0].color};
+  if (written.size() > 1) {
+    drawn.inv_z_behind = written[1].inv_z;
+    drawn.behind = {written[1].color, layers[1].color_encoding};
+  }
+  edges_.blendInto(surfaces_, drawn, workers);
   return layers;
 }
 
@@ -96,43 +88,52 @@ LayerPlanes SourceRetimer::takeLayer(BytePool& pool, Written& to) const {
   return layer;
 }
 
-void SourceRetimer::writePx(uint32_t px, const Written& to) const {
+uint32_t SourceRetimer::writePx(uint32_t px, const Written& to) const {
   const std::vector<LayerPlanes>& from = surfaces_.frame().sources.front();
-  const PlaneEncoding encoding = from.front().color_encoding;
-  const size_t texel_bytes = texelBytes(encoding);
-  uint8_t* const color = to.color + px * texel_bytes;
+  const size_t texel_bytes = texelBytes(from.front().color_encoding);
   to.inv_z[px] = grid_.invZ(px);
   if (to.surface != nullptr) {
     std::fill_n(to.surface + px * kSurfaceTexelBytes, kSurfaceTexelBytes, uint8_t{0});
   }
   if (to.inv_z[px] < 0) {
-    std::fill_n(color, texel_bytes, uint8_t{0});
-    return;
+    std::fill_n(to.color + px * texel_bytes, texel_bytes, uint8_t{0});
+    return kNoSample;
   }
-  const Blend blend = grid_.blend(surfaces_, px);
-  const auto texelOf = [&](uint32_t sample) {
-    return from[surfaces_.layerOf(sample)].color->data() + surfaces_.pxOf(sample) * texel_bytes;
-  };
-  if (blend.count == 1) {
-    std::copy_n(texelOf(blend.samples[0]), texel_bytes, color);
+  uint32_t main = 0;
+  const std::optional<uint32_t> still = grid_.stillSample(px);
+  if (still && edges_.cleanAt(*still) == nullptr) {
+    main = *still;
+    const LayerPlanes& layer = from[surfaces_.layerOf(main)];
+    std::copy_n(layer.color->data() + px * texel_bytes, texel_bytes, to.color + px * texel_bytes);
   } else {
-    for (size_t channel = 0; channel < kChannels; ++channel) {
-      double value = 0;
-      for (uint32_t i = 0; i < blend.count; ++i) {
-        value += blend.shares[i] * channelAt(encoding, texelOf(blend.samples[i]), channel);
-      }
-      storeChannel(encoding, value, channel, color);
-    }
+    main = blendPx(px, to);
   }
-  const uint32_t main = mainSample(blend);
   const SharedBytes& surface = from[surfaces_.layerOf(main)].surface;
-  if (surface == nullptr) return;
+  if (surface == nullptr) return main;
   std::copy_n(surface->data() + surfaces_.pxOf(main) * kSurfaceTexelBytes, kSurfaceTexelBytes,
               to.surface + px * kSurfaceTexelBytes);
+  return main;
+}
+
+// Returns the sample that most of it is.
+uint32_t SourceRetimer::blendPx(uint32_t px, const Written& to) const {
+  const std::vector<LayerPlanes>& from = surfaces_.frame().sources.front();
+  const PlaneEncoding encoding = from.front().color_encoding;
+  const Blend blend = grid_.blend(surfaces_, px);
+  Texel sum{};
+  for (uint32_t i = 0; i < blend.count; ++i) {
+    const uint32_t sample = blend.samples[i];
+    const Texel* const clean = edges_.cleanAt(sample);
+    const ColorPlane plane{from[surfaces_.layerOf(sample)].color->data(), encoding};
+    const Texel texel = clean != nullptr ? *clean : plane.at(surfaces_.pxOf(sample));
+    for (size_t c = 0; c < sum.size(); ++c) sum[c] += float(blend.shares[i]) * texel[c];
+  }
+  storeTexel(encoding, sum, px, to.color);
+  return mainSample(blend);
 }
 
 // Of px at which the frame has a surface, and nothing is any more.
-void SourceRetimer::fillRow(uint32_t y, const Written& to) const {
+void SourceRetimer::fillRow(uint32_t y, const Written& to) {
   const uint32_t width = surfaces_.sizePx().width;
   const size_t texel_bytes = texelBytes(surfaces_.frame().sources.front().front().color_encoding);
   const uint32_t row = y * width;
@@ -152,6 +153,7 @@ void SourceRetimer::fillRow(uint32_t y, const Written& to) const {
       if ((!has_left && !has_right) || !surfaces_.hadSurface(x, y)) continue;
       const uint32_t px = row + x;
       to.inv_z[px] = grid_.invZ(from);
+      front_samples_[px] = front_samples_[from];
       std::copy_n(to.color + from * texel_bytes, texel_bytes, to.color + px * texel_bytes);
       if (to.surface == nullptr) continue;
       std::copy_n(to.surface + from * kSurfaceTexelBytes, kSurfaceTexelBytes,

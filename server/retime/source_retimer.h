@@ -7,6 +7,7 @@
 #include "base/byte_pool.h"
 #include "base/worker_pool.h"
 #include "frame/frame.h"
+#include "retime/edge_light.h"
 #include "retime/fresh_grid.h"
 #include "retime/moved_surfaces.h"
 
@@ -34,11 +35,15 @@ class SourceRetimer {
   };
 
   LayerPlanes takeLayer(BytePool& pool, Written& to) const;
-  void writePx(uint32_t px, const Written& to) const;
-  void fillRow(uint32_t y, const Written& to) const;
+  // Returns the sample that most of it is.
+  uint32_t writePx(uint32_t px, const Written& to) const;
+  uint32_t blendPx(uint32_t px, const Written& to) const;
+  void fillRow(uint32_t y, const Written& to);
 
   MovedSurfaces surfaces_;
   FreshGrid grid_;
+  EdgeLight edges_;
+  std::vector<uint32_t> front_samples_;  // [px], of the first layer
 };
 
 }  // namespace viewloom

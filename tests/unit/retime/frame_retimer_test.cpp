@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <vector>
 
 #include "unit/retime/moved_frames.h"
 
@@ -35,6 +37,18 @@ MovingPx plateAt(uint32_t x, uint32_t y) {
 }
 MovingPx behindPlateAt(uint32_t x, uint32_t y) {
   return isPlate(x, y) ? wallAt(x, y) : MovingPx{};
+}
+
+glm::u8vec3 mixOf(const MovingPx& a, const MovingPx& b, float share_of_a) {
+  return {glm::round(glm::mix(glm::vec3(b.color), glm::vec3(a.color), share_of_a))};
+}
+
+// Light that is carried on to an edge is that of half a px further, of 10 a px at most here; less
+// than that are roundings.
+constexpr int kColorError = 5;
+
+void expectNear(const glm::u8vec3& got, const glm::u8vec3& wanted) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], kColorError) << "channel " << i;
 }
 
 class FrameRetimerTest : public testing::Test {
@@ -88,15 +102,75 @@ TEST_F(FrameRetimerTest, leavesHolesThatTheFrameHas) {
   EXPECT_EQ(invZAt(*later, 0, 5, 12), kFar);
 }
 
-TEST_F(FrameRetimerTest, blendsColoursOfConnectedSamplesBetweenPx) {
+TEST_F(FrameRetimerTest, blendsColoursBetweenPx) {
   const FramePtr later =
       retimed(movingFrame({plateAt, behindPlateAt}, kTolerance), 0.5 * kPxTime_s);
   const glm::u8vec3 left = plateAt(12, 12).color, right = plateAt(13, 12).color;
   const glm::u8vec3 between = colorAt(*later, 0, 13, 12);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(between[i], 0.5 * (left[i] + right[i]), 1) << i;
-  // Its edges are not mixed with the wall: of two px that are half covered, one has the plate.
-  EXPECT_EQ(colorAt(*later, 0, 10, 12), plateAt(10, 12).color);
-  EXPECT_EQ(colorAt(*later, 0, 18, 12), wallAt(18, 12).color);
+  // Half covered; of two such px one has the plate's depth.
+  expectNear(colorAt(*later, 0, 10, 12), mixOf(plateAt(10, 12), wallAt(10, 12), 0.5));
+  expectNear(colorAt(*later, 0, 18, 12), mixOf(plateAt(17, 12), wallAt(18, 12), 0.5));
+  EXPECT_NEAR(invZAt(*later, 0, 10, 12) + invZAt(*later, 0, 18, 12), kNear + kFar, kInvZError);
+}
+
+// As antialiased: of px at the right edge, the plate has some of the one beside it; of its own at
+// the left edge it has the less.
+constexpr float kShareBeside = 0.3F, kShareOfOwn = 0.6F;
+
+MovingPx smoothPlateAt(uint32_t x, uint32_t y) {
+  MovingPx px = plateAt(x, y);
+  if (y < 8 || y >= 16) return px;
+  const MovingPx plate{.color = colorOfPx(x, y, 200)};
+  if (x == 18) px.color = mixOf(plate, wallAt(x, y), kShareBeside);
+  if (x == 10) px.color = mixOf(plate, wallAt(x, y), kShareOfOwn);
+  return px;
+}
+
+TEST_F(FrameRetimerTest, takesTheLightOfEdgesApartAndPutsItTogetherWhereTheyHaveGone) {
+  for (const bool has_layer_behind : {true, false}) {
+    std::vector<MovingLayer> layers{smoothPlateAt};
+    if (has_layer_behind) layers.push_back(behindPlateAt);
+    for (const int gone_px : {-4, 3}) {
+      SCOPED_TRACE(testing::Message() << gone_px << ", " << has_layer_behind);
+      const FramePtr later = retimed(movingFrame(layers, kTolerance), gone_px * kPxTime_s);
+      const auto plateOf = [](uint32_t x) { return MovingPx{.color = colorOfPx(x, 12, 200)}; };
+      const auto wasAt = [&](uint32_t x) { return uint32_t(int(x) + gone_px); };
+      // What nobody knows is as beside it.
+      const uint32_t right = !has_layer_behind && gone_px < 0 ? 18 : wasAt(18);
+      expectNear(colorAt(*later, 0, wasAt(18), 12),
+                 mixOf(plateOf(18), wallAt(right, 12), kShareBeside));
+      if (has_layer_behind) {
+        expectNear(colorAt(*later, 0, wasAt(10), 12),
+                   mixOf(plateOf(10), wallAt(wasAt(10), 12), kShareOfOwn));
+      }
+      // Nothing of it is left where it was.
+      if (gone_px < 0) expectNear(colorAt(*later, 0, 18, 12), wallAt(18, 12).color);
+      expectNear(colorAt(*later, 0, gone_px < 0 ? 19 : 9, 12),
+                 wallAt(gone_px < 0 ? 19 : 9, 12).color);
+    }
+  }
+}
+
+TEST_F(FrameRetimerTest, leavesEdgesOfWhatIsBeforeItAlone) {
+  // The wall goes, the plate stands: its edges stay, over another piece of the wall.
+  const auto front = [](uint32_t x, uint32_t y) {
+    MovingPx px = smoothPlateAt(x, y);
+    px.motion_mps = isPlate(x, y) ? glm::vec3(0) : glm::vec3(1, 0, 0);
+    return px;
+  };
+  const auto behind = [](uint32_t x, uint32_t y) {
+    MovingPx px = behindPlateAt(x, y);
+    if (px.inv_z >= 0) px.motion_mps = {1, 0, 0};
+    return px;
+  };
+  constexpr uint32_t kGone_px = 2;
+  const FramePtr later =
+      retimed(movingFrame({front, behind}, kTolerance), kGone_px * 2 * kPxTime_s);
+  EXPECT_EQ(colorAt(*later, 0, 14, 12), plateAt(14, 12).color);
+  expectNear(colorAt(*later, 0, 18, 12), mixOf(MovingPx{.color = colorOfPx(18, 12, 200)},
+                                               wallAt(18 - kGone_px, 12), kShareBeside));
+  expectNear(colorAt(*later, 0, 20, 12), wallAt(18, 12).color);
 }
 
 TEST_F(FrameRetimerTest, tearsWhatOnlyTouched) {

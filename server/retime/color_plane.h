@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texels of colour planes, whatever they are stored as.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "frame/frame.h"
+
+namespace viewloom {
+
+// A texel's channels, in the codes it came in.
+using Texel = std::array<float, 4>;
+
+// Colour planes of one encoding: RGBA8 or RGBA16F.
+struct ColorPlane {
+  const uint8_t* texels = nullptr;
+  PlaneEncoding encoding = PlaneEncoding::kRgba8;
+
+  Texel at(uint32_t px) const;
+};
+void storeTexel(PlaneEncoding encoding, const Texel& texel, uint32_t px, uint8_t* texels);
+
+}  // namespace viewloom
