@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/moving_frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include <glm/geometric.hpp>
+
 #include "support/srgb_transfer.h"
+#include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
 namespace viewloom::bench {
@@ -21,6 +25,32 @@ Pose handheld(double time_s) {
               glm::dvec3(0.03 * wave(0.8, 0.3), 0.08 * wave(0.6, 0.05), 0.02 * wave(0.7, 0.5)))};
 }
 
+bool moves(const truth::Body& body) {
+  return body.velocity_mps != glm::dvec3(0) || body.spin_rad_per_s != glm::dvec3(0);
+}
+
+// Of a camera that looks at the body from the origin, and goes and turns with it.
+truth::Picture pictureBeside(const truth::Body& body, double time_s, uint32_t layer_count) {
+  constexpr SizePx kThing_px{160, 160};
+  constexpr double kThingFocal_px = 600;  // 15 degrees
+  const Pose at_first{
+      .orientation = glm::quatLookAt(glm::normalize(body.pose.position_m), glm::dvec3(0, 1, 0))};
+  const Pose gone = compose(body.poseAt(time_s), inverse(body.pose));
+  truth::Scene alone;
+  alone.add(body);
+  truth::Picture picture =
+      takePicture(truth::Instant(alone, time_s),
+                  {.pose = compose(gone, at_first),
+                   .intrinsics = {.focal_px = glm::dvec2(kThingFocal_px),
+                                  .principal_px = {0.5 * kThing_px.width, 0.5 * kThing_px.height}}},
+                  {.size_px = kThing_px, .layer_count = layer_count});
+  // The camera says it.
+  for (truth::PictureLayer& layer : picture.layers) {
+    std::fill(layer.motion_mps.begin(), layer.motion_mps.end(), glm::vec3(0));
+  }
+  return picture;
+}
+
 }  // namespace
 
 Sequence movingCamera() {
@@ -34,13 +64,27 @@ Sequence movingCamera() {
 }
 
 Sequence movingThings() {
-  constexpr double kFaster = 2;  // than in the room, as the camera's hand is than any
-  Sequence sequence{.name = "object motion",
-                    .scene = truth::clutteredRoom(),
-                    .camera_at = [](double) { return Pose{}; }};
+  return {.name = "object motion", .scene = truth::clutteredRoom(), .camera_at = [](double) {
+            return Pose{};
+          }};
+}
+
+Sequence fastThings() {
+  constexpr double kFaster = 2;  // as the camera's hand is than any
+  Sequence sequence = movingThings();
+  sequence.name = "fast object motion";
   for (truth::Body& body : sequence.scene.bodies) {
     body.velocity_mps *= kFaster;
     body.spin_rad_per_s *= kFaster;
+  }
+  return sequence;
+}
+
+Sequence movingSources() {
+  Sequence sequence = movingThings();
+  sequence.name = "sources of their own";
+  for (uint32_t i = 0; i < sequence.scene.bodies.size(); ++i) {
+    if (moves(sequence.scene.bodies[i])) sequence.things.push_back(i);
   }
   return sequence;
 }
@@ -55,6 +99,19 @@ truth::Picture pictureOf(const Sequence& sequence, uint32_t index, uint32_t laye
   return takePicture(truth::Instant(sequence.scene, time_s),
                      {.pose = sequence.camera_at(time_s), .intrinsics = sequenceIntrinsics()},
                      {.size_px = kSequence_px, .layer_count = layer_count});
+}
+
+FramePtr frameOf(const Sequence& sequence, const truth::Picture& picture, uint32_t index,
+                 uint32_t layer_count) {
+  if (sequence.things.empty()) return truth::frameOf(picture, layer_count);
+  const double time_s = index / kSequenceRate_hz;
+  Sequence room = sequence;
+  std::erase_if(room.scene.bodies, moves);
+  std::vector<truth::Picture> pictures{pictureOf(room, index, layer_count)};
+  for (const uint32_t thing : sequence.things) {
+    pictures.push_back(pictureBeside(sequence.scene.bodies[thing], time_s, layer_count));
+  }
+  return truth::frameOf(pictures, layer_count);
 }
 
 ScoredImage imageOf(const truth::Picture& picture) {

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "frame/frame.h"
 #include "scoring/image_score.h"
 #include "support/truth/picture.h"
 
@@ -17,19 +19,28 @@ struct Sequence {
   std::string name;
   truth::Scene scene;
   Pose (*camera_at)(double time_s);
+  // Bodies of the scene that have sources of their own, whose cameras go with them.
+  std::vector<uint32_t> things = {};
 };
 
 // A room in which nothing moves, seen by a camera in a hand.
 Sequence movingCamera();
-// The same room with things that fly, roll and turn, seen by a camera that stands.
+// The room with its things that fly, roll and turn, seen by a camera that stands.
 Sequence movingThings();
+// These things twice as fast.
+Sequence fastThings();
+// As movingThings, but the camera sees the room alone, and each thing is a source of its own.
+Sequence movingSources();
 
 inline constexpr SizePx kSequence_px{320, 240};
 
 Intrinsics sequenceIntrinsics();
 
-// Frame `index` of the sequence, with so many layers.
+// Frame `index` of the sequence, with so many layers, as it truly is.
 truth::Picture pictureOf(const Sequence& sequence, uint32_t index, uint32_t layer_count);
+// What a stream has of it: that picture, or the room's and the things'.
+FramePtr frameOf(const Sequence& sequence, const truth::Picture& picture, uint32_t index,
+                 uint32_t layer_count);
 
 // The first layer, sRGB-encoded.
 ScoredImage imageOf(const truth::Picture& picture);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -29,37 +30,58 @@ int64_t timeNs(uint32_t index) {
 struct TrueSequence {
   std::string name;
   std::vector<truth::Picture> pictures;
-  bool things_move = false;
+  std::vector<FramePtr> frames;
 };
 
-TrueSequence takeAll(const Sequence& sequence) {
-  TrueSequence taken{.name = sequence.name, .pictures = {}};
-  for (uint32_t index = 0; index < kFrameCount; ++index) {
-    taken.pictures.push_back(pictureOf(sequence, index, kLayers));
-  }
-  taken.things_move = movesByItself(*truth::frameOf(taken.pictures.front(), kLayers));
+// `pictures`: of the sequence, if they were taken already.
+TrueSequence takeAll(const Sequence& sequence, std::vector<truth::Picture> pictures = {}) {
+  const bool are_taken = !pictures.empty();
+  TrueSequence taken{.name = sequence.name,
+                     .pictures = std::move(pictures),
+                     .frames = std::vector<FramePtr>(kFrameCount)};
+  taken.pictures.resize(kFrameCount);
+  WorkerPool workers;
+  workers.forEach(kFrameCount, [&](uint32_t index, uint32_t) {
+    if (!are_taken) taken.pictures[index] = pictureOf(sequence, index, kLayers);
+    taken.frames[index] = frameOf(sequence, taken.pictures[index], index, kLayers);
+  });
   return taken;
 }
 
-// What the frame says of its camera, at once.
-TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index) {
-  return {.pose = sequence.pictures[index].camera.pose,
-          .captured_ns = timeNs(index),
-          .arrived_ns = timeNs(index),
-          .inv_z_near = 0.5,
-          .things_move = sequence.things_move};
+// What the frame says of its cameras, at once. `before`: the one that was kept before it.
+TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index, uint32_t before) {
+  const Frame& frame = *sequence.frames[index];
+  TrackedFrame tracked{.pose = frame.format.sources.front().camera.pose,
+                       .captured_ns = timeNs(index),
+                       .arrived_ns = timeNs(index),
+                       .inv_z_near = 0.5,
+                       .things_move = movesByItself(frame)};
+  for (size_t i = 1; i < frame.sources.size(); ++i) {
+    tracked.others.push_back({.pose = frame.format.sources[i].camera.pose,
+                              .content = contentMotion(*sequence.frames[before], frame, i)});
+  }
+  return tracked;
 }
 
-// Both sources, one after the other.
+// The frame with its things where they are by then.
+FramePtr shownFrame(FrameRetimer& retimer, const FramePtr& frame, int64_t carried_ns,
+                    const std::vector<ThingPose>& things) {
+  auto shown = std::make_shared<Frame>(*retimer.retime(frame, 1e-9 * double(carried_ns)));
+  for (const ThingPose& thing : things) {
+    shown->format.sources[thing.source].camera.pose = thing.pose;
+  }
+  return shown;
+}
+
+// All sources, one after the other.
 FramePtr joined(const Frame& newest, const Frame& before) {
   auto both = std::make_shared<Frame>(newest);
-  both->format.sources.push_back(before.format.sources.front());
-  both->sources.push_back(before.sources.front());
+  const auto append = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(before.format.sources, both->format.sources);
+  append(before.sources, both->sources);
   return both;
-}
-
-double secondsOf(int64_t time_ns) {
-  return 1e-9 * double(time_ns);
 }
 
 // One view, of the sequence's size, from a place in the world.
@@ -110,15 +132,14 @@ TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
   WorkerPool workers;
   FrameRetimer retimer(workers);
   CameraTrack track;
-  track.add(trackedFrame(sequence, 0));
+  track.add(trackedFrame(sequence, 0, 0));
   for (uint32_t kept = kept_one_of; kept + kept_one_of < kFrameCount; kept += kept_one_of) {
     const truth::Picture& picture = sequence.pictures[kept];
-    const CameraMotion motion = track.add(trackedFrame(sequence, kept));
-    const FramePtr frame = truth::frameOf(picture, kLayers);
+    const CameraMotion motion = track.add(trackedFrame(sequence, kept, kept - kept_one_of));
     for (uint32_t index = kept + 1; index < kept + kept_one_of; ++index) {
       const ShownInstant shown = predicted(motion, timeNs(index), kBridge_ns);
-      if (index == kept + 1 || sequence.things_move) {
-        renderer.build(*retimer.retime(frame, secondsOf(shown.carried_ns)));
+      if (index == kept + 1 || motion.movesThings()) {
+        renderer.build(*shownFrame(retimer, sequence.frames[kept], shown.carried_ns, shown.things));
       }
       scores.add(imageOf(sequence.pictures[index]), imageOf(picture),
                  rowWarp(picture, shown.source_pose), viewFrom(renderer, shown.source_pose));
@@ -135,18 +156,18 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
   WorkerPool workers;
   FrameRetimer newest_retimer(workers), before_retimer(workers);
   CameraTrack track;
-  track.add(trackedFrame(sequence, 0));
+  track.add(trackedFrame(sequence, 0, 0));
   for (uint32_t kept = kept_one_of; kept < kFrameCount; kept += kept_one_of) {
     const truth::Picture& picture = sequence.pictures[kept];
     const truth::Picture& before = sequence.pictures[kept - kept_one_of];
-    const CameraMotion motion = track.add(trackedFrame(sequence, kept));
-    const FramePtr newest_frame = truth::frameOf(picture, kLayers);
-    const FramePtr before_frame = truth::frameOf(before, kLayers);
+    const CameraMotion motion = track.add(trackedFrame(sequence, kept, kept - kept_one_of));
     for (uint32_t index = kept + 1 - kept_one_of; index < kept; ++index) {
       const ShownInstant shown = interpolated(motion, timeNs(index) + motion.lag_ns, kBridge_ns);
       const int64_t from_before_ns = shown.carried_ns + motion.interval_ns;
-      renderer.build(*joined(*newest_retimer.retime(newest_frame, secondsOf(shown.carried_ns)),
-                             *before_retimer.retime(before_frame, secondsOf(from_before_ns))));
+      renderer.build(*joined(
+          *shownFrame(newest_retimer, sequence.frames[kept], shown.carried_ns, shown.things),
+          *shownFrame(before_retimer, sequence.frames[kept - kept_one_of], from_before_ns,
+                      shown.things)));
       const bool is_later_nearer = 2 * (kept - index) <= kept_one_of;
       scores.add(imageOf(sequence.pictures[index]), imageOf(before),
                  rowWarp(is_later_nearer ? picture : before, shown.source_pose),
@@ -156,17 +177,37 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
   return scores.means(sequence, "interpolate", kept_one_of);
 }
 
+// Every frame that is dropped, traced from what a stream has of it: no prediction can be better.
+double scoreTraced(const Device& device, const TrueSequence& sequence, uint32_t kept_one_of) {
+  OfflineRenderer renderer(device);
+  double sum_db = 0;
+  uint32_t count = 0;
+  for (uint32_t index = 1; index < kFrameCount; ++index) {
+    if (index % kept_one_of == 0) continue;
+    renderer.build(*sequence.frames[index]);
+    const truth::Picture& truth = sequence.pictures[index];
+    sum_db += psnrDb(viewFrom(renderer, truth.camera.pose), imageOf(truth));
+    ++count;
+  }
+  return sum_db / count;
+}
+
 }  // namespace
 
 std::vector<TimeScore> timeScores(const Device& device) {
   std::vector<TimeScore> scores;
-  for (const Sequence& scene : {movingCamera(), movingThings()}) {
-    const TrueSequence sequence = takeAll(scene);
-    for (const uint32_t kept_one_of : {2U, 4U}) {
-      scores.push_back(scorePrediction(device, sequence, kept_one_of));
-      scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
-    }
+  const auto addScores = [&](const TrueSequence& sequence, uint32_t kept_one_of) {
+    scores.push_back(scorePrediction(device, sequence, kept_one_of));
+    scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
+  };
+  const TrueSequence things = takeAll(movingThings());
+  for (const TrueSequence& sequence : {takeAll(movingCamera()), things, takeAll(fastThings())}) {
+    for (const uint32_t kept_one_of : {2U, 4U}) addScores(sequence, kept_one_of);
   }
+  const TrueSequence sources = takeAll(movingSources(), things.pictures);
+  addScores(sources, 4);
+  const double traced_db = scoreTraced(device, sources, 4);
+  for (size_t i = scores.size() - 2; i < scores.size(); ++i) scores[i].traced_db = traced_db;
   return scores;
 }
 
@@ -179,6 +220,7 @@ Json qualityOfTime(const Device& device) {
                     {"repeated_db", score.repeated_db},
                     {"warped_db", score.warped_db},
                     {"got_db", score.got_db}});
+    if (score.traced_db) rows.back()["traced_db"] = *score.traced_db;
   }
   return rows;
 }

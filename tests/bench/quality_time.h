@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct TimeScore {
   double repeated_db = 0;  // the last frame once more
   double warped_db = 0;    // its px moved to where the display stands, holes filled along rows
   double got_db = 0;
+  // The dropped frames themselves, traced: of sequences of several sources.
+  std::optional<double> traced_db = std::nullopt;
 };
 
 std::vector<TimeScore> timeScores(const Device& device);
