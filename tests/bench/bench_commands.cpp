@@ -27,6 +27,7 @@
 #include "bench/quality.h"
 #include "bench/recorded_loads.h"
 #include "bench/report.h"
+#include "bench/retime_bench.h"
 #include "bench/side_by_side.h"
 #include "bench/stereo_bench.h"
 #include "bench/targets.h"
@@ -164,6 +165,7 @@ int runBench(int argc, char** argv) {
   addStereoCommand(app);
   addKnobCommand(app);
   addMirrorsCommand(app);
+  addRetimeCommand(app);
   addQualityCommand(app);
   addPicturesCommand(app);
   CLI11_PARSE(app, argc, argv);

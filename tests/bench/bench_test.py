@@ -115,6 +115,14 @@ class BenchTest(unittest.TestCase):
                 self.assertGreater(way["ms"], 0)
                 self.assertGreater(way["all_db"], duel["without_all_db"], way["name"])
 
+    def test_frames_between_frames(self):
+        report = run("retime", "--json", "--rounds", "1", "--miniature", "8")
+        self.assertEqual(report["source"], {"width_px": 240, "height_px": 135, "layers": 2})
+        self.assertEqual([share["moving_share"] for share in report["shares"]], [0, 0.1, 1])
+        for share in report["shares"]:
+            self.assertLessEqual({"first_time_ms", "next_time_ms", "sweep_ms"}, set(share))
+            self.assertGreater(share["walk_ms"], 0)
+
     def test_pictures_of_applications(self):
         with tempfile.TemporaryDirectory() as folder:
             finished = subprocess.run([PROGRAM, "pictures", folder, "--miniature", "8"],
