@@ -43,7 +43,7 @@ void addPlane(LoadedPlane loaded, v1::Layer& layer, WireFrame& frame) {
   frame.planes.push_back(std::move(loaded.bytes));
 }
 
-// How the layer mirrors, where there are files that say so.
+// How the layer mirrors and moves, where there are files that say so.
 absl::Status loadSurface(const v1::LayerFiles& files, const std::filesystem::path& folder,
                          v1::Layer& layer, LoadedFrame& frame) {
   struct SurfaceFile {
@@ -54,7 +54,8 @@ absl::Status loadSurface(const v1::LayerFiles& files, const std::filesystem::pat
   const SurfaceFile surface[] = {
       {"normal", files.has_normal() ? &files.normal() : nullptr, v1::PLANE_KIND_NORMAL},
       {"roughness", files.has_roughness() ? &files.roughness() : nullptr, v1::PLANE_KIND_ROUGHNESS},
-      {"specular", files.has_specular() ? &files.specular() : nullptr, v1::PLANE_KIND_SPECULAR}};
+      {"specular", files.has_specular() ? &files.specular() : nullptr, v1::PLANE_KIND_SPECULAR},
+      {"motion", files.has_motion() ? &files.motion() : nullptr, v1::PLANE_KIND_MOTION}};
   for (const auto& [field, file, kind] : surface) {
     if (file == nullptr) continue;
     absl::StatusOr<LoadedPlane> plane = loadSurfacePlane(*file, folder, kind);

@@ -20,10 +20,13 @@ bool isNamed(const v1::PlaneFile& file, const char* extension) {
   return absl::EndsWithIgnoreCase(file.file(), extension);
 }
 
-absl::Status checkFile(const v1::PlaneFile& file) {
+absl::Status checkFile(const v1::PlaneFile& file, v1::PlaneKind kind) {
   if (!isNamed(file, ".exr") && !isNamed(file, ".png") && !isNamed(file, ".pfm")) {
     return invalidField(
         "file", absl::StrCat("is ", file.file(), "; accepted here are .exr, .png and .pfm"));
+  }
+  if (kind == v1::PLANE_KIND_MOTION && isNamed(file, ".png")) {
+    return invalidField("file", absl::StrCat("is ", file.file(), "; accepted are .exr and .pfm"));
   }
   const char* const foreign = file.transfer() != v1::COLOR_TRANSFER_UNSPECIFIED     ? "transfer"
                               : file.primaries() != v1::COLOR_PRIMARIES_UNSPECIFIED ? "primaries"
@@ -61,7 +64,7 @@ std::vector<uint8_t> bytesOf(const PlaneImage& image, size_t channel_count) {
 }
 
 // `is_unsigned`: 0..1 stands for -1..1.
-std::vector<uint8_t> halfNormals(const PlaneImage& image, bool is_unsigned) {
+std::vector<uint8_t> halfVectors(const PlaneImage& image, bool is_unsigned) {
   const size_t px_count = size_t{image.width_px} * image.height_px;
   std::vector<uint8_t> bytes(6 * px_count);
   for (size_t i = 0; i < 3 * px_count; ++i) {
@@ -77,22 +80,22 @@ std::vector<uint8_t> halfNormals(const PlaneImage& image, bool is_unsigned) {
 absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
                                              const std::filesystem::path& folder,
                                              v1::PlaneKind kind) {
-  VIEWLOOM_RETURN_IF_ERROR(checkFile(file));
+  VIEWLOOM_RETURN_IF_ERROR(checkFile(file, kind));
   v1::PlaneFile as_stored = file;
   as_stored.set_transfer(v1::COLOR_TRANSFER_LINEAR);
   absl::StatusOr<PlaneImage> image = readColorImage(as_stored, folder);
   if (!image.ok()) return image.status();
   const bool is_half = image->encoding == v1::PLANE_ENCODING_RGBA16F;
   PlaneImage plane{.width_px = image->width_px, .height_px = image->height_px, .bytes = {}};
-  if (kind == v1::PLANE_KIND_NORMAL && is_half) {
+  const bool is_normal = kind == v1::PLANE_KIND_NORMAL;
+  if (kind == v1::PLANE_KIND_MOTION || (is_normal && is_half)) {
     plane.encoding = v1::PLANE_ENCODING_XYZ16F;
-    plane.bytes = halfNormals(*image, isNamed(file, ".png"));
+    plane.bytes = halfVectors(*image, isNamed(file, ".png"));
   } else if (kind == v1::PLANE_KIND_ROUGHNESS) {
     plane.encoding = v1::PLANE_ENCODING_R8;
     plane.bytes = bytesOf(*image, 1);
   } else {
-    plane.encoding =
-        kind == v1::PLANE_KIND_NORMAL ? v1::PLANE_ENCODING_XYZ8 : v1::PLANE_ENCODING_RGB8;
+    plane.encoding = is_normal ? v1::PLANE_ENCODING_XYZ8 : v1::PLANE_ENCODING_RGB8;
     plane.bytes = bytesOf(*image, 3);
   }
   return withBytes(std::move(plane), kind);

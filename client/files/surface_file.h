@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planes that say how a surface mirrors, as a manifest names them.
+// Planes that say how a surface mirrors and moves, as a manifest names them.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,9 @@
 
 namespace viewloom::files {
 
-// `kind`: NORMAL, ROUGHNESS or SPECULAR. Normals come as XYZ16F, or XYZ8 of PNG with 8 bits; the
-// others as R8 and RGB8, for which samples are brought into 0..1. Relative names begin at `folder`.
+// `kind`: NORMAL, ROUGHNESS, SPECULAR or MOTION. Normals come as XYZ16F, or XYZ8 of PNG with 8
+// bits; motion, of which PNG is refused, as XYZ16F; the others as R8 and RGB8, for which samples
+// are brought into 0..1. Relative names begin at `folder`.
 // INVALID_ARGUMENT with the field of the PlaneFile.
 absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
                                              const std::filesystem::path& folder,

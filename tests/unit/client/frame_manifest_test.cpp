@@ -147,23 +147,29 @@ TEST_F(FrameManifestTest, takesPlanesThatSayHowALayerMirrors) {
   EXPECT_EQ(taken.planes(4).bytes_count(), 6U);
 }
 
-TEST_F(FrameManifestTest, takesNormalsAndSharesOfFloats) {
-  // A px that faces (-1, 0.5, 2), rough by more than can be.
+TEST_F(FrameManifestTest, takesVectorsAndSharesOfFloats) {
+  // A px that faces, or moves by, (-1, 0.5, 2), and mirrors more than there is.
   const float samples[] = {-1, 0.5F, 2};
   std::string pfm = "PF\n1 1\n-1\n";
   pfm.append(reinterpret_cast<const char*>(samples), sizeof samples);
   folder_.write("floats.pfm", pfm);
   const auto frame = load(source(layerWith(
-      R"("normal": {"file": "floats.pfm"}, "specular": {"file": "floats.pfm"})")));
+      R"("normal": {"file": "floats.pfm"}, "specular": {"file": "floats.pfm"},
+         "motion": {"file": "floats.pfm"})")));
   ASSERT_TRUE(frame.ok()) << frame.status();
   const v1::Layer& taken = frame->header.sources(0).layers(0);
   EXPECT_EQ(taken.planes(2).encoding(), v1::PLANE_ENCODING_XYZ16F);
   EXPECT_EQ(*frame->planes[2], (std::vector<uint8_t>{0x00, 0xbc, 0x00, 0x38, 0x00, 0x40}));
   EXPECT_EQ(*frame->planes[3], (std::vector<uint8_t>{0, 128, 255}));
+  EXPECT_EQ(taken.planes(4).kind(), v1::PLANE_KIND_MOTION);
+  EXPECT_EQ(taken.planes(4).encoding(), v1::PLANE_ENCODING_XYZ16F);
+  EXPECT_EQ(*frame->planes[4], *frame->planes[2]);
 }
 
-TEST_F(FrameManifestTest, namesTheMirrorPlaneAtFault) {
+TEST_F(FrameManifestTest, namesTheSurfacePlaneAtFault) {
   const std::string at = "sources[0].layers[0].";
+  EXPECT_THAT(refusal(source(layerWith(R"("motion": {"file": "color.png"})"))),
+              HasSubstr(at + "motion.file: is color.png; accepted are .exr and .pfm"));
   EXPECT_THAT(refusal(source(layerWith(R"("specular": {"file": "none.png"})"))),
               HasSubstr(at + "specular: "));
   EXPECT_THAT(refusal(source(layerWith(R"("normal": {"file": "normal.jpg"})"))),
