@@ -13,28 +13,30 @@ StreamRetimer::StreamRetimer(const PipelineLinks& links, FrameBuilder& builder)
       carried_{Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr},
                Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr}} {}
 
-ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried_ns, Which which) {
+ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried_ns, Which which,
+                                   Guesses guesses) {
   if (carried_ns == 0) return structure;
   Carried& last = carried_[size_t(which)];
-  const bool is_known =
-      last.structure && last.serial == structure->serial && last.carried_ns == carried_ns;
+  const bool is_known = last.structure && last.serial == structure->serial &&
+                        last.carried_ns == carried_ns && last.guesses == guesses;
   if (is_known) return last.structure;
   last.structure = nullptr;  // its slot may serve again
   try {
-    last.structure = build(*structure, carried_ns, last.retimer);
+    last.structure = build(*structure, carried_ns, guesses, last.retimer);
   } catch (const vk::OutOfDeviceMemoryError& error) {
     log(LogLevel::kWarning, "stream ", structure->stream, ", between frames: ", error.what());
     return structure;
   }
   last.serial = structure->serial;
   last.carried_ns = carried_ns;
+  last.guesses = guesses;
   return last.structure;
 }
 
 ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t carried_ns,
-                                 FrameRetimer& retimer) {
+                                 Guesses guesses, FrameRetimer& retimer) {
   const int64_t started_ns = links_.clock.nowNs();
-  const FramePtr frame = retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns));
+  const FramePtr frame = retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns), guesses);
   const int64_t retimed_ns = links_.clock.nowNs();
   std::shared_ptr<StructureBuild> slot =
       builder_.takeSlot(slots_, build_memory_, *frame, *is_walked_);
@@ -60,14 +62,15 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
 bool showAsOfTick(AtlasJob& job) {
   const int64_t carried_ns = job.tick->shown.carried_ns;
   if (!job.structure->retimer) return true;
+  const Guesses guesses = job.before ? Guesses::kGiveWay : Guesses::kStand;
   // Of the frame before, only if that moves, too.
   if (job.before && job.before->retimer) {
     job.before = job.before->retimer->carried(job.before, carried_ns + job.tick->frames_apart_ns,
-                                              StreamRetimer::Which::kBefore);
+                                              StreamRetimer::Which::kBefore, guesses);
     if (!job.before) return false;
   }
-  job.structure =
-      job.structure->retimer->carried(job.structure, carried_ns, StreamRetimer::Which::kNewest);
+  job.structure = job.structure->retimer->carried(job.structure, carried_ns,
+                                                  StreamRetimer::Which::kNewest, guesses);
   return job.structure != nullptr;
 }
 

@@ -25,7 +25,8 @@ class StreamRetimer {
   // The structure with everything that moves carried on for so long, or back; what was not carried
   // is handed back as it is, and so is what the device has no room for. nullptr: all slots are
   // lent.
-  ResidentPtr carried(const ResidentPtr& structure, int64_t carried_ns, Which which);
+  ResidentPtr carried(const ResidentPtr& structure, int64_t carried_ns, Which which,
+                      Guesses guesses);
 
  private:
   // The last one of its kind.
@@ -33,12 +34,14 @@ class StreamRetimer {
     FrameRetimer retimer;
     uint64_t serial = 0;
     int64_t carried_ns = 0;
+    Guesses guesses = Guesses::kStand;
     ResidentPtr structure;
   };
   // Of each kind one is traced while the next is built.
   static constexpr size_t kSlotCount = 4;
 
-  ResidentPtr build(const ResidentStructure& structure, int64_t carried_ns, FrameRetimer& retimer);
+  ResidentPtr build(const ResidentStructure& structure, int64_t carried_ns, Guesses guesses,
+                    FrameRetimer& retimer);
 
   const PipelineLinks& links_;
   FrameBuilder& builder_;

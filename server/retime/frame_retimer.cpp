@@ -49,7 +49,7 @@ bool movesByItself(const Frame& frame) {
   return std::any_of(frame.sources.begin(), frame.sources.end(), moves);
 }
 
-FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds) {
+FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds, Guesses guesses) {
   if (frame != prepared_) {
     sources_.resize(frame->sources.size());
     for (size_t i = 0; i < sources_.size(); ++i) {
@@ -61,7 +61,7 @@ FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds) {
   for (size_t i = 0; i < sources_.size(); ++i) {
     if (!moves(frame->sources[i])) continue;
     describeRetimed(retimed->format.sources[i]);
-    retimed->sources[i] = sources_[i].retime(seconds, pool_, workers_);
+    retimed->sources[i] = sources_[i].retime(seconds, guesses, pool_, workers_);
   }
   return retimed;
 }

@@ -22,7 +22,7 @@ class FrameRetimer {
 
   // The frame as an upload takes it, seen by its own cameras, with everything that moves where it
   // is `seconds` later. Of sources in which nothing moves it shares the planes.
-  FramePtr retime(const FramePtr& frame, double seconds);
+  FramePtr retime(const FramePtr& frame, double seconds, Guesses guesses = Guesses::kStand);
 
  private:
   // Planes of two frames that are traced while a third is made: depth, colour and how they mirror,

@@ -9,6 +9,11 @@
 namespace viewloom {
 namespace {
 
+// By this share of its 1/Z a guess stands behind what it was guessed from. Surfaces are one within
+// 2 %, or within a few of the depth's own steps, which should not be what this adds; a deep step
+// (abi::kDeepStep) begins at 15 %.
+constexpr float kGivesWayShare = 0.1F;
+
 size_t texelBytes(PlaneEncoding encoding) {
   return encoding == PlaneEncoding::kRgba16f ? 8 : 4;
 }
@@ -26,7 +31,7 @@ bool mirrors(const std::vector<LayerPlanes>& layers) {
 
 }  // namespace
 
-std::vector<LayerPlanes> SourceRetimer::retime(double seconds, BytePool& pool,
+std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, BytePool& pool,
                                                WorkerPool& workers) {
   surfaces_.move(seconds, workers);
   edges_.find(surfaces_, workers);
@@ -51,7 +56,7 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, BytePool& pool,
           const uint32_t main = writePx(y * size_px.width + x, to);
           if (layer == 0) front_samples_[y * size_px.width + x] = main;
         }
-        if (layer == 0) fillRow(y, to);
+        if (layer == 0) fillRow(y, guesses, to);
       }
     });
   }
@@ -133,10 +138,11 @@ uint32_t SourceRetimer::blendPx(uint32_t px, const Written& to) const {
 }
 
 // Of px at which the frame has a surface, and nothing is any more.
-void SourceRetimer::fillRow(uint32_t y, const Written& to) {
+void SourceRetimer::fillRow(uint32_t y, Guesses guesses, const Written& to) {
   const uint32_t width = surfaces_.sizePx().width;
   const size_t texel_bytes = texelBytes(surfaces_.frame().sources.front().front().color_encoding);
   const uint32_t row = y * width;
+  const float share = guesses == Guesses::kGiveWay ? 1 - kGivesWayShare : 1;
   uint32_t x = 0;
   while (x < width) {
     if (grid_.invZ(row + x) >= 0) {
@@ -152,7 +158,7 @@ void SourceRetimer::fillRow(uint32_t y, const Written& to) {
     for (; x < end; ++x) {
       if ((!has_left && !has_right) || !surfaces_.hadSurface(x, y)) continue;
       const uint32_t px = row + x;
-      to.inv_z[px] = grid_.invZ(from);
+      to.inv_z[px] = share * grid_.invZ(from);
       front_samples_[px] = front_samples_[from];
       std::copy_n(to.color + from * texel_bytes, texel_bytes, to.color + px * texel_bytes);
       if (to.surface == nullptr) continue;

@@ -13,6 +13,12 @@
 
 namespace viewloom {
 
+// What comes into view that no layer holds takes the farther side of its row.
+enum class Guesses : uint8_t {
+  kStand,    // as far as that is
+  kGiveWay,  // behind it, so that whoever knows better what is there is seen before it
+};
+
 // Keeps its memory from frame to frame. Thread-safety: none; it shares its work among threads.
 class SourceRetimer {
  public:
@@ -23,8 +29,8 @@ class SourceRetimer {
 
   // Its layers so many seconds later (earlier, if negative): depth is DISPARITY in binary32, and
   // where there is no surface abi::kNoSurface; colour as it was encoded. Every column is sorted.
-  // What comes into view that no layer holds takes the farther side of its row.
-  std::vector<LayerPlanes> retime(double seconds, BytePool& pool, WorkerPool& workers);
+  std::vector<LayerPlanes> retime(double seconds, Guesses guesses, BytePool& pool,
+                                  WorkerPool& workers);
 
  private:
   // What is written of a layer.
@@ -38,7 +44,7 @@ class SourceRetimer {
   // Returns the sample that most of it is.
   uint32_t writePx(uint32_t px, const Written& to) const;
   uint32_t blendPx(uint32_t px, const Written& to) const;
-  void fillRow(uint32_t y, const Written& to);
+  void fillRow(uint32_t y, Guesses guesses, const Written& to);
 
   MovedSurfaces surfaces_;
   FreshGrid grid_;
