@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {
@@ -39,12 +40,14 @@ void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {
 OfflineRenderer::OfflineRenderer(const Device& device)
     : device_(device), timeline_(device), recorder_(device), builder_(device), tracer_(device) {}
 
-void OfflineRenderer::build(const Frame& frame) {
+void OfflineRenderer::build(const Frame& frame, const std::optional<Pose>& camera_pose) {
   structure_.reset();
   structure_.emplace(device_, shapesOf(frame));
   structure_->upload(frame);
   sources_.clear();
   for (const SourceFormat& source : frame.format.sources) sources_.push_back(seenSource(source));
+  shown_camera_ = sources_.front().camera;
+  shown_camera_.pose = camera_pose.value_or(shown_camera_.pose);
   structure_->recordBuild(recorder_.begin(), builder_);
   timeline_.wait(recorder_.submit(timeline_));
 }
@@ -73,7 +76,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   RenderedAtlas atlas;
   atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
   reserve(outputs, atlas);
-  const TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, source_camera), sources_);
+  const TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, shown_camera_), sources_);
   const SizePx size_px = atlas.layout->size_px;
   TraceSlot slot(device_, slotShape(job, std::min(kBandRows, size_px.height), outputs));
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {

@@ -33,8 +33,9 @@ class OfflineRenderer {
  public:
   explicit OfflineRenderer(const Device& device);
 
-  // Makes this frame the one that is rendered from here on.
-  void build(const Frame& frame);
+  // Makes this frame the one that is rendered from here on, for displays that stand where the
+  // camera of its first source does; or did at another time, if that is given.
+  void build(const Frame& frame, const std::optional<Pose>& camera_pose = {});
   // Needs a frame. Refuses atlases beyond AtlasLimits. `on_progress` hears how many of the atlas's
   // rows are done.
   absl::StatusOr<RenderedAtlas> render(
@@ -54,6 +55,7 @@ class OfflineRenderer {
   ViewTracer tracer_;
   std::optional<FrameStructure> structure_;
   std::vector<SeenSource> sources_;
+  Camera shown_camera_;
 };
 
 }  // namespace viewloom

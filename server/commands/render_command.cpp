@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "commands/atlas_pictures.h"
@@ -14,6 +15,7 @@
 #include "commands/compare_views.h"
 #include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
+#include "commands/shown_frame.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
 
@@ -26,6 +28,8 @@ constexpr int kExitRefused = 1;
 
 struct RenderArguments {
   std::filesystem::path frame;
+  std::filesystem::path before;
+  std::optional<double> later_s;
   std::filesystem::path display;
   std::filesystem::path out;
   CompareOptions compare;
@@ -98,6 +102,40 @@ absl::Status inFile(const absl::Status& status, const std::filesystem::path& pat
   return fieldOf(status).empty() ? status : withFieldPrefix(status, path.string());
 }
 
+const char* nameOf(Timing timing) {
+  switch (timing) {
+    case Timing::kCaptured:
+      return "captured";
+    case Timing::kPredicted:
+      return "predicted";
+    case Timing::kInterpolated:
+      return "interpolated";
+    case Timing::kHeld:
+      return "held";
+  }
+  return "";
+}
+
+// Builds what a display with an output rate is shown at another time than the frame's own.
+absl::StatusOr<Timing> buildBetween(const RenderArguments& arguments, const FramePtr& newest,
+                                    const DisplaySpec& display, OfflineRenderer& renderer) {
+  if (!display.temporal) {
+    return inFile(invalidField("effects.temporal", "is missing, --later needs it"),
+                  arguments.display);
+  }
+  FramesAtHand frames{.newest = newest};
+  if (!arguments.before.empty()) {
+    const auto before = readManifestFrame(arguments.before);
+    if (!before.ok()) return inFile(before.status(), arguments.before);
+    frames.before = before->frame;
+  }
+  frames.inv_z_near = renderer.stats().front().inv_z_near;
+  const auto shown = showBetween(frames, display, *arguments.later_s);
+  if (!shown.ok()) return shown.status();
+  renderer.build(*shown->frame, shown->source_pose);
+  return shown->timing;
+}
+
 absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::string& device_name) {
   const auto frame = readManifestFrame(arguments.frame);
   if (!frame.ok()) return inFile(frame.status(), arguments.frame);
@@ -114,6 +152,13 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   const Device device({.select = device_name});
   OfflineRenderer renderer(device);
   renderer.build(*frame->frame);
+  Json json;
+  json["device"] = device.info().name;
+  if (arguments.later_s) {
+    const auto timing = buildBetween(arguments, frame->frame, *display, renderer);
+    if (!timing.ok()) return timing.status();
+    json["timing"] = nameOf(*timing);
+  }
   const TraceOutputs outputs = {
       .mask = true, .linear = !arguments.compare.truth.empty(), .records = true};
   const auto atlas = renderer.render(*display, outputs, showProgress);
@@ -122,8 +167,6 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   if (!names.ok()) return names.status();
 
   const VisitStats visits = visitStats(*atlas);
-  Json json;
-  json["device"] = device.info().name;
   json["files"] = *names;
   json["coverage"] = coverageJson(atlas->coverage);
   if (atlas->reflections.rayCount() > 0) {
@@ -161,6 +204,14 @@ void addRenderCommand(CLI::App& app, Command& chosen) {
       "render", "Renders a frame from files to picture files; prints a report as JSON");
   command->fallthrough();
   command->add_option("--frame", arguments->frame, "FrameManifest as JSON")->required();
+  CLI::Option* const later =
+      command->add_option("--later", arguments->later_s,
+                          "Seconds from --frame to what a display with effects.temporal is shown: "
+                          "0 or more to predict, 0 or less to interpolate");
+  command
+      ->add_option("--before", arguments->before,
+                   "FrameManifest as JSON: the frame before, which tells how the camera moves")
+      ->needs(later);
   command->add_option("--display", arguments->display, "Display as JSON")->required();
   command->add_option("--out", arguments->out, "Folder for the pictures, made if need be")
       ->required();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "display/depth_budget.h"
+#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {

@@ -7,39 +7,17 @@
 #include "base/log.h"
 #include "frame/same_content.h"
 #include "pipeline/stream_retimer.h"
+#include "pipeline/tracked_frame.h"
 
 namespace viewloom {
 namespace {
 
-bool hasMotion(const std::vector<LayerPlanes>& layers) {
-  return std::any_of(layers.begin(), layers.end(),
-                     [](const LayerPlanes& layer) { return layer.motion != nullptr; });
-}
-
-// Where sources that are not the first say themselves how their surfaces move, their cameras don't.
-std::vector<TrackedSource> otherSources(const Frame& frame, const Frame* before) {
-  std::vector<TrackedSource> others;
-  for (size_t i = 1; i < frame.sources.size(); ++i) {
-    TrackedSource& other = others.emplace_back();
-    other.pose = frame.format.sources[i].camera.pose;
-    if (hasMotion(frame.sources[i])) {
-      other.content = ContentMotion::kStands;
-    } else if (before != nullptr && i < before->sources.size()) {
-      other.content = contentMotion(*before, frame, i);
-    }
-  }
-  return others;
-}
-
 TrackedFrame trackedFrame(const Frame& frame, const Frame* before, const SourceStats& stats,
                           int64_t now_ns) {
-  return {.pose = frame.format.sources.front().camera.pose,
-          .captured_ns = frame.format.capture_time_ns,
-          .arrived_ns = frame.times.first_chunk_ns,
-          .built_ns = now_ns,
-          .inv_z_near = stats.inv_z_near,
-          .things_move = movesByItself(frame),
-          .others = otherSources(frame, before)};
+  TrackedFrame tracked = trackedFrame(frame, before, stats.inv_z_near);
+  tracked.arrived_ns = frame.times.first_chunk_ns;
+  tracked.built_ns = now_ns;
+  return tracked;
 }
 
 // What the frame itself says.

@@ -5,25 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "temporal/display_instant.h"
+
 namespace viewloom {
-namespace {
-
-// A display in the world sees the same whatever the camera does.
-ShownInstant shownTo(const DisplaySpec& spec, const CameraMotion& motion, int64_t due_ns) {
-  if (spec.world_pose && !motion.movesThings()) {
-    return {.time_ns = motion.captured_ns,
-            .timing = Timing::kCaptured,
-            .source_pose = motion.camera.pose};
-  }
-  const int64_t bridge_ns = std::llround(1e9 * spec.temporal->bridge_s);
-  ShownInstant shown = spec.temporal->mode == TemporalMode::kInterpolate
-                           ? interpolated(motion, due_ns, bridge_ns)
-                           : predicted(motion, due_ns, bridge_ns);
-  if (spec.world_pose) shown.source_pose = motion.camera.pose;
-  return shown;
-}
-
-}  // namespace
 
 TickLoop::TickLoop(const PipelineLinks& links, OfferTick offer_tick)
     : links_(links), offer_tick_(std::move(offer_tick)), thread_([this](const auto& stop) {

@@ -6,8 +6,8 @@
 
 #include "base/log.h"
 #include "base/str_cat.h"
-#include "display/rgbd.h"
 #include "pipeline/job_aim.h"
+#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {
@@ -21,10 +21,9 @@ bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
   return job.tick && shown && !job.tick->shown.looksLike(*shown);
 }
 
-// The structure before the newest is asked, too, where one more of its kind can be.
+// The structure before the newest is asked, too, where it can be.
 bool canAskBoth(const ActiveDisplay& display, const AtlasJob& job) {
-  return !hasLayerBehind(display.spec) && !display.spec.reflection &&
-         job.structure->sources.size() + job.before->sources.size() <= kMergedSourcesMax;
+  return canMerge(display.spec, job.structure->sources.size() + job.before->sources.size());
 }
 
 std::vector<const StructureSlot*> partsOf(const AtlasJob& job) {

@@ -8,9 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/check.h"
-#include "base/str_cat.h"
 #include "display/ray_extent.h"
-#include "display/rgbd.h"
 #include "frame/cube_map.h"
 #include "trace/lens_bounds.h"
 
@@ -162,25 +160,6 @@ SeenSource seenSource(const SourceFormat& source) {
           .is_see_through = std::any_of(
               source.layers.begin(), source.layers.end(),
               [](const auto& layer) { return layer.color.alpha != AlphaMode::kOpaque; })};
-}
-
-absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources) {
-  const bool is_one = sources.size() == 1 && !sources.front().is_cube_map;
-  const std::string stream =
-      sources.size() == 1 ? "a cube map" : strCat(sources.size(), " sources");
-  if (hasLayerBehind(spec) && !is_one) {
-    return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
-                      strCat("got TWO_LAYERS for a stream of ", stream,
-                             ", accepted is one source that is no cube map"));
-  }
-  if (!spec.reflection || !haveMirrors(sources)) return absl::OkStatus();
-  if (std::none_of(sources.begin(), sources.end(),
-                   [](const SeenSource& source) { return source.is_see_through; })) {
-    return absl::OkStatus();
-  }
-  return fieldError(
-      absl::StatusCode::kFailedPrecondition, "effects.reflection",
-      "came for a stream with mirrors of colour that is seen through, accepted is opaque colour");
 }
 
 TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample) {

@@ -124,10 +124,6 @@ TileRays raysOf(const TraceJob& job, uint32_t walk, uint32_t sample);
 // The first walk of each source, 8 bits a source.
 abi::uvec2 packFirstWalks(const TraceJob& job);
 
-// What lies behind the first surface of a ray is known of one structure alone, and what surfaces
-// mirror where colour is not seen through: else FAILED_PRECONDITION where a display asks for it.
-absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources);
-
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,
                       const Pose& display_pose, std::span<const SeenSource> sources);
 TraceJob makeTraceJob(std::shared_ptr<const AtlasLayout> layout, const DisplaySpec& spec,

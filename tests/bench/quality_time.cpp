@@ -9,7 +9,8 @@
 
 #include "bench/moving_frames.h"
 #include "commands/offline_renderer.h"
-#include "retime/frame_retimer.h"
+#include "commands/shown_frame.h"
+#include "pipeline/tracked_frame.h"
 #include "support/truth/picture_frame.h"
 #include "temporal/camera_track.h"
 
@@ -20,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr uint32_t kLayers = 2;
 constexpr uint32_t kFrameCount = 17;  // at kSequenceRate_hz
+constexpr double kInvZNear = 0.5;     // 1/m
 constexpr int64_t kBridge_ns = 250'000'000;
 
 int64_t timeNs(uint32_t index) {
@@ -50,38 +52,12 @@ TrueSequence takeAll(const Sequence& sequence, std::vector<truth::Picture> pictu
 
 // What the frame says of its cameras, at once. `before`: the one that was kept before it.
 TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index, uint32_t before) {
-  const Frame& frame = *sequence.frames[index];
-  TrackedFrame tracked{.pose = frame.format.sources.front().camera.pose,
-                       .captured_ns = timeNs(index),
-                       .arrived_ns = timeNs(index),
-                       .inv_z_near = 0.5,
-                       .things_move = movesByItself(frame)};
-  for (size_t i = 1; i < frame.sources.size(); ++i) {
-    tracked.others.push_back({.pose = frame.format.sources[i].camera.pose,
-                              .content = contentMotion(*sequence.frames[before], frame, i)});
-  }
+  TrackedFrame tracked = viewloom::trackedFrame(
+      *sequence.frames[index], before < index ? sequence.frames[before].get() : nullptr, kInvZNear);
+  tracked.captured_ns = timeNs(index);
+  tracked.arrived_ns = timeNs(index);
+  tracked.built_ns = timeNs(index);
   return tracked;
-}
-
-// The frame with its things where they are by then.
-FramePtr shownFrame(FrameRetimer& retimer, const FramePtr& frame, int64_t carried_ns,
-                    const std::vector<ThingPose>& things) {
-  auto shown = std::make_shared<Frame>(*retimer.retime(frame, 1e-9 * double(carried_ns)));
-  for (const ThingPose& thing : things) {
-    shown->format.sources[thing.source].camera.pose = thing.pose;
-  }
-  return shown;
-}
-
-// All sources, one after the other.
-FramePtr joined(const Frame& newest, const Frame& before) {
-  auto both = std::make_shared<Frame>(newest);
-  const auto append = [](const auto& from, auto& to) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  append(before.format.sources, both->format.sources);
-  append(before.sources, both->sources);
-  return both;
 }
 
 // One view, of the sequence's size, from a place in the world.
@@ -139,7 +115,8 @@ TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
     for (uint32_t index = kept + 1; index < kept + kept_one_of; ++index) {
       const ShownInstant shown = predicted(motion, timeNs(index), kBridge_ns);
       if (index == kept + 1 || motion.movesThings()) {
-        renderer.build(*shownFrame(retimer, sequence.frames[kept], shown.carried_ns, shown.things));
+        renderer.build(*carriedFrame(retimer, sequence.frames[kept], shown.carried_ns, shown.things,
+                                     Guesses::kStand));
       }
       scores.add(imageOf(sequence.pictures[index]), imageOf(picture),
                  rowWarp(picture, shown.source_pose), viewFrom(renderer, shown.source_pose));
@@ -164,10 +141,11 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
     for (uint32_t index = kept + 1 - kept_one_of; index < kept; ++index) {
       const ShownInstant shown = interpolated(motion, timeNs(index) + motion.lag_ns, kBridge_ns);
       const int64_t from_before_ns = shown.carried_ns + motion.interval_ns;
-      renderer.build(*joined(
-          *shownFrame(newest_retimer, sequence.frames[kept], shown.carried_ns, shown.things),
-          *shownFrame(before_retimer, sequence.frames[kept - kept_one_of], from_before_ns,
-                      shown.things)));
+      renderer.build(
+          *joinedFrames(*carriedFrame(newest_retimer, sequence.frames[kept], shown.carried_ns,
+                                      shown.things, Guesses::kGiveWay),
+                        *carriedFrame(before_retimer, sequence.frames[kept - kept_one_of],
+                                      from_before_ns, shown.things, Guesses::kGiveWay)));
       const bool is_later_nearer = 2 * (kept - index) <= kept_one_of;
       scores.add(imageOf(sequence.pictures[index]), imageOf(before),
                  rowWarp(is_later_nearer ? picture : before, shown.source_pose),

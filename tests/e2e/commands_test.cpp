@@ -13,79 +13,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "e2e/run_viewloomd.h"
-#include "files/file_bytes.h"
+#include "e2e/render_folder.h"
 #include "files/png_image.h"
-#include "files/png_writer.h"
 
 namespace viewloom::test {
 namespace {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
-namespace fs = std::filesystem;
-
-constexpr uint32_t kWidth = 48;
-constexpr uint32_t kHeight = 32;
-
-// A noisy wall at 2 m with a noisy square at 1 m before it, and a display that sees it from the
-// source's own place and from 0.1 m to the right.
-class RenderTest : public testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(folder_);
-    std::vector<uint8_t> color;
-    std::vector<float> depth_m;  // PFM: bottom row first
-    for (uint32_t i = 0; i < kWidth * kHeight * 3; ++i)
-      color.push_back(uint8_t(i * i * 7 + i * 31));
-    for (uint32_t y = 0; y < kHeight; ++y) {
-      for (uint32_t x = 0; x < kWidth; ++x) {
-        const bool is_square = x >= 16 && x < 28 && y >= 10 && y < 22;
-        depth_m.push_back(is_square ? 1 : 2);
-      }
-    }
-    writePng("color.png", color, 3);
-    std::ofstream pfm(folder_ / "depth.pfm", std::ios::binary);
-    pfm << "Pf\n" << kWidth << " " << kHeight << "\n-1\n";
-    pfm.write(reinterpret_cast<const char*>(depth_m.data()),
-              std::streamsize(depth_m.size() * sizeof(float)));
-    write("frame.json", frameJson("color.png"));
-    write("display.json",
-          R"({"cameras":{"columns":2,"tileSize":{"width":48,"height":32},"cameras":[)"
-          R"({"intrinsics":)" +
-              kIntrinsics +
-              R"(},)"
-              R"({"pose":{"position":{"x":0.1}},"intrinsics":)" +
-              kIntrinsics + "}]}}");
-    write("truth.json", R"({"views":[{"viewIndex":0,"color":{"file":"color.png"}}]})");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string frameJson(const std::string& color_file) const {
-    return R"({"sources":[{"camera":{"intrinsics":)" + kIntrinsics +
-           R"(},"layers":[{"color":{"file":")" + color_file +
-           R"("},"depth":{"file":"depth.pfm","depth":{"meaning":"DEPTH_MEANING_PLANAR"}}}]}]})";
-  }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
-  void writePng(const std::string& name, const std::vector<uint8_t>& samples, uint32_t channels) {
-    const auto png = files::encodePng(samples, kWidth, kHeight, channels);
-    ASSERT_TRUE(png.ok()) << png.status();
-    ASSERT_TRUE(files::writeFileWhole(folder_ / name, *png).ok());
-  }
-  FinishedRun render(const std::string& frame, const std::string& display,
-                     const std::string& flags) {
-    const std::string prefix = folder_.string() + "/";
-    return runViewloomd("render --frame " + prefix + frame + " --display " + prefix + display +
-                        " --out " + prefix + "out " + flags);
-  }
-
-  const std::string kIntrinsics =
-      R"({"focalXPx":40,"focalYPx":40,"principalXPx":24,"principalYPx":16})";
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("viewloom_render_" + std::to_string(getpid()));
-};
 
 TEST_F(RenderTest, returnsTheSourceFromItsOwnPlaceAndScoresByTheGivenMask) {
   std::vector<uint8_t> covered(kWidth * kHeight, 255);
