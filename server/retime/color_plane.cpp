@@ -7,6 +7,11 @@
 #include <glm/gtc/packing.hpp>
 
 namespace viewloom {
+namespace {
+
+constexpr float kHalfMax = 65504;
+
+}  // namespace
 
 Texel ColorPlane::at(uint32_t px) const {
   Texel texel;
@@ -26,7 +31,7 @@ void storeTexel(PlaneEncoding encoding, const Texel& texel, uint32_t px, uint8_t
       texels[4 * size_t{px} + i] = uint8_t(std::clamp(texel[i] + 0.5F, 0.0F, 255.0F));
       continue;
     }
-    const uint16_t half = glm::packHalf1x16(texel[i]);
+    const uint16_t half = glm::packHalf1x16(std::clamp(texel[i], 0.0F, kHalfMax));
     std::memcpy(texels + 8 * size_t{px} + 2 * i, &half, sizeof half);
   }
 }

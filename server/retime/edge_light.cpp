@@ -17,6 +17,9 @@ constexpr float kApartLeast = 0.03F;
 // What a thing has in a px beside it, or what is behind in a px of the thing, is not told from
 // their own texture below this share.
 constexpr float kShareLeast = 0.1F;
+// Where nothing says what is behind, a px that is less of a thing than this is no px of the thing:
+// its light over its share would be mostly what noise has added.
+constexpr float kShareAlone = 0.5F;
 // px: from the middle of a px on the edge to that of one that holds some of its light, or of that
 // of the px beside it, once it lies between px.
 constexpr double kReach_px = 2;
@@ -71,8 +74,8 @@ class Layer {
  private:
   bool areJoined(uint32_t px, uint32_t other) const {
     const uint32_t first = std::min(px, other);
-    return std::max(px, other) - first == 1 ? surfaces_.joinsRight(first)
-                                            : surfaces_.joinsBelow(first);
+    const bool are_in_row = size_px_.width > 1 && std::max(px, other) - first == 1;
+    return are_in_row ? surfaces_.joinsRight(first) : surfaces_.joinsBelow(first);
   }
 
   // Of the far side: where a deeper layer holds what the near one hides, between that and the px
@@ -265,6 +268,7 @@ std::optional<Texel> EdgeLight::blendAt(const MovedSurfaces& surfaces, const Dra
       !shows_thing || (drawn.inv_z_behind != nullptr && drawn.inv_z_behind[px] >= 0);
   if (part.share <= 0) return std::nullopt;
   if (!is_known) {
+    if (part.share < kShareAlone) return std::nullopt;
     return mixed(part.light, 1 / part.share, Texel{}, 0);
   }
   const Texel behind =

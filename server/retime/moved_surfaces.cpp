@@ -224,7 +224,8 @@ std::optional<std::array<uint32_t, 4>> MovedSurfaces::quadFrom(uint32_t sample) 
 
 std::optional<uint32_t> MovedSurfaces::joinedBehind(uint32_t px, uint32_t other) const {
   const uint32_t first = std::min(px, other), second = std::max(px, other);
-  const std::vector<uint8_t>& links = second - first == 1 ? to_right_ : to_below_;
+  const bool are_in_row = size_px_.width > 1 && second - first == 1;
+  const std::vector<uint8_t>& links = are_in_row ? to_right_ : to_below_;
   const auto px_count = uint32_t(size_px_.area());
   for (uint32_t layer = 1; layer < layer_count_; ++layer) {
     const uint32_t sample = layer * px_count + px;

@@ -114,6 +114,30 @@ TEST_F(FrameRetimerTest, blendsColoursBetweenPx) {
   EXPECT_NEAR(invZAt(*later, 0, 10, 12) + invZAt(*later, 0, 18, 12), kNear + kFar, kInvZError);
 }
 
+// Depth that is a px wider than what it is the depth of, and colour with noise, as estimated depth
+// and cameras have it. Nothing says what is behind.
+TEST_F(FrameRetimerTest, addsNoNoiseWhereNothingIsKnownBehindAnEdge) {
+  constexpr int kLeast = 56, kMost = 204;  // codes of the frame
+  constexpr int kBeyond = 20;              // codes: what light is carried on by to an edge
+  const auto noisy = [](uint32_t x, uint32_t y) {
+    MovingPx px = plateAt(x, y);
+    const uint32_t noise = (x * 2654435761U ^ y * 2246822519U) >> 28;  // 0..15
+    const bool is_light = isPlate(x, y) && isPlate(x + 1, y);
+    px.color = glm::u8vec3(uint8_t(is_light ? kMost - noise : kLeast + noise));
+    return px;
+  };
+  const FramePtr frame = movingFrame({noisy}, kTolerance);
+  for (int step = 0; step < 16; ++step) {
+    const FramePtr later = retimed(frame, (3 + step / 16.0) * kPxTime_s);
+    for (uint32_t i = 0; i < kMovedPx.area(); ++i) {
+      const glm::u8vec3 color = colorAt(*later, 0, i % kMovedPx.width, i / kMovedPx.width);
+      if (invZAt(*later, 0, i % kMovedPx.width, i / kMovedPx.width) < 0) continue;
+      ASSERT_GE(color.g, kLeast - kBeyond) << "px " << i << ", step " << step;
+      ASSERT_LE(color.g, kMost + kBeyond) << "px " << i << ", step " << step;
+    }
+  }
+}
+
 // As antialiased: of px at the right edge, the plate has some of the one beside it; of its own at
 // the left edge it has the less.
 constexpr float kShareBeside = 0.3F, kShareOfOwn = 0.6F;
