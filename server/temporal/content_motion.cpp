@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -47,6 +48,25 @@ class DepthReader {
     if (c.reciprocal == 0) return accepted(value);
     if (value == 0) return std::nullopt;
     return accepted((c.ray_distance != 0 ? lengthOf(ray(x, y)) : 1) / value);
+  }
+
+  // At a place in the image, px: of the sample there, or between the four around it, which is exact
+  // on planes; whichever is nearer to what is `wanted`, as things end between samples.
+  std::optional<double> invZAt(const glm::dvec2& at, double wanted) const {
+    const std::optional<double> own = invZ(uint32_t(at.x), uint32_t(at.y));
+    const glm::dvec2 last(sizePx().width - 1.0, sizePx().height - 1.0);
+    const glm::dvec2 corner = glm::clamp(glm::floor(at - 0.5), glm::dvec2(0), last);
+    const glm::dvec2 next = glm::min(corner + 1.0, last);
+    const glm::dvec2 share = glm::clamp(at - 0.5 - corner, 0.0, 1.0);
+    double between = 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      const glm::dvec2 px(i % 2 == 0 ? corner.x : next.x, i / 2 == 0 ? corner.y : next.y);
+      const std::optional<double> sample = invZ(uint32_t(px.x), uint32_t(px.y));
+      if (!sample) return own;
+      between +=
+          (i % 2 == 0 ? 1 - share.x : share.x) * (i / 2 == 0 ? 1 - share.y : share.y) * *sample;
+    }
+    return own && std::abs(*own - wanted) < std::abs(between - wanted) ? own : between;
   }
 
   // Per metre along the view axis, in the camera's space.
@@ -106,7 +126,7 @@ void addStanding(const DepthReader& before, const DepthReader& now, const Pose& 
   const glm::dvec2 to = lens.principal_px + lens.focal_px * glm::dvec2(at.x, -at.y) / -at.z;
   const SizePx size_px = now.sizePx();
   if (!(to.x >= 0 && to.x < size_px.width && to.y >= 0 && to.y < size_px.height)) return;
-  apart.add(inv_z / -at.z, now.invZ(uint32_t(to.x), uint32_t(to.y)));
+  apart.add(inv_z / -at.z, now.invZAt(to, inv_z / -at.z));
 }
 
 }  // namespace

@@ -56,6 +56,22 @@ TEST(ContentMotion, standsWhereACameraLooksAround) {
   }
 }
 
+// Along a plane both look the same, also where 1/Z differs much between two samples.
+TEST(ContentMotion, isUnclearWhereACameraGoesOverTheGround) {
+  truth::Scene ground;
+  ground.add({.shape = truth::Box{{40, 0.1, 40}},
+              .pose = {.position_m = {0, -1.5, 0}},
+              .paint = {.light = glm::vec3(0.7F), .dark = glm::vec3(0.2F), .wave_m = 0.3}});
+  for (const double pitch_rad : {0.0, 0.2, 0.4}) {
+    const Pose before{.orientation = glm::angleAxis(-pitch_rad, glm::dvec3(1, 0, 0))};
+    Pose later = before;
+    later.position_m.z = -0.3;
+    EXPECT_EQ(contentMotion(frameFrom(before, ground, 0), frameFrom(later, ground, 0), 0),
+              ContentMotion::kUnclear)
+        << pitch_rad;
+  }
+}
+
 TEST(ContentMotion, isWithTheCameraOfAThing) {
   EXPECT_EQ(
       contentMotion(frameFrom(besideBox(0), box(), 0), frameFrom(besideBox(0.1), box(), 0.1), 0),
