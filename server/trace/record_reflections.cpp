@@ -32,11 +32,10 @@ ReflectedTarget ViewTracer::reflectedTarget(const TraceJob& job, BandRows rows,
           .linear_address = shows_linear ? slot.linear_.target().address() : 0};
 }
 
-std::vector<Descriptor> ViewTracer::describeReflected(const Walk& walk,
-                                                      const Camera& first_camera) {
+std::vector<Descriptor> ViewTracer::describeReflected(const Walk& walk, uint32_t first_walk) {
   const Descriptor settings = walk.slot.reflectionDescriptor(walk.index);
   const abi::ReflectionSettings values =
-      reflectionSettings(walk.structure, walk.job, walk.index, first_camera);
+      reflectionSettings(walk.structure, walk.job, walk.index, first_walk);
   std::memcpy(walk.slot.reflection_settings_.mapped().data() + settings.offset_bytes, &values,
               sizeof values);
   std::vector<Descriptor> params =
@@ -62,7 +61,7 @@ void ViewTracer::recordReflections(vk::CommandBuffer commands,
 
 void ViewTracer::recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
                                const BandPart& part) {
-  const std::vector<Descriptor> params = describeReflected(walk, walk.structure.sourceCamera());
+  const std::vector<Descriptor> params = describeReflected(walk, walk.index);
   const BandRows piece{rows.first_row + part.first_row, part.end_row - part.first_row};
   abi::TracePush push = describeBand(walk, walk.structure.color(), piece);
   push.band_row = part.first_row;
@@ -155,7 +154,7 @@ std::vector<PathPiece> ViewTracer::describePaths(std::span<const StructureSlot* 
                       .rays = raySourceOf(*job.layout),
                       .rows = piece,
                       .push = describeBand(walk, structure.color(), piece),
-                      .params = describeReflected(walk, structures[0]->sourceCamera()),
+                      .params = describeReflected(walk, 0),
                       .paths = wholeBuffer(abi::kBindingPaths, slot.paths_),
                       .answers = {.binding = abi::kBindingBand,
                                   .kind = DescriptorKind::kStorage,

@@ -46,9 +46,10 @@ abi::vec3 environmentOf(const ReflectionSpec& spec) {
 }
 
 abi::ReflectionSettings reflectionSettings(const StructureSlot& structure, const TraceJob& job,
-                                           uint32_t walk, const Camera& first_camera) {
+                                           uint32_t walk, uint32_t first_walk) {
   const ReflectionSpec& spec = *job.reflection;
-  const Pose own_from_first = compose(inverse(structure.sourceCamera().pose), first_camera.pose);
+  const Pose own_from_first =
+      compose(inverse(job.source_poses[walk]), job.source_poses[first_walk]);
   const SourceWalk own = sourceOf(job, walk);
   const glm::dquat own_from_source =
       own.is_face ? glm::inverse(cubeFaceOrientation(own.face)) : glm::dquat(1, 0, 0, 0);

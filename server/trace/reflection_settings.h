@@ -12,8 +12,8 @@ namespace viewloom {
 // Linear light.
 abi::vec3 environmentOf(const ReflectionSpec& spec);
 
-// Of a walk of a job that reflects. `first_camera`: of the first walk.
+// Of a walk of a job that reflects. `first_walk`: in whose camera rays are told.
 abi::ReflectionSettings reflectionSettings(const StructureSlot& structure, const TraceJob& job,
-                                           uint32_t walk, const Camera& first_camera);
+                                           uint32_t walk, uint32_t first_walk);
 
 }  // namespace viewloom

@@ -254,6 +254,8 @@ void aimTraceJob(TraceJob& job, const Pose& display_pose, std::span<const SeenSo
   }
   const AtlasLayout& layout = *job.layout;
   const std::vector<SeenWalk> walks = seenWalks(sources);
+  job.source_poses.clear();
+  for (const SeenWalk& walk : walks) job.source_poses.push_back(walk.camera.pose);
   job.sample_count = uint32_t(layout.samples.size());
   job.tiles.clear();
   job.tiles.reserve(size_t{job.sample_count} * job.walk_count * layout.columns * layout.rows);

@@ -88,6 +88,7 @@ struct TraceJob {
   // for each: [walk][tile][corner]. Else empty.
   std::vector<abi::ViewParams> lens_bounds;
   std::vector<JobSource> sources;
+  std::vector<Pose> source_poses;  // [walk], of the source's camera, or the face's
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;
   std::optional<ReflectionSpec> reflection = std::nullopt;  // as the display asks

@@ -102,7 +102,7 @@ class ViewTracer {
   void recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
                      const BandPart& part);
   static ReflectedTarget reflectedTarget(const TraceJob& job, BandRows rows, const TraceSlot& slot);
-  static std::vector<Descriptor> describeReflected(const Walk& walk, const Camera& first_camera);
+  static std::vector<Descriptor> describeReflected(const Walk& walk, uint32_t first_walk);
   static std::vector<PathPiece> describePaths(std::span<const StructureSlot* const> structures,
                                               const TraceJob& job, BandRows piece, const Rays& rays,
                                               const AnswersLayout& answers, const TraceSlot& slot);

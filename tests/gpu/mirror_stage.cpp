@@ -110,8 +110,7 @@ void MirrorStage::describe() {
 void MirrorStage::setTolerance(double tolerance_px) {
   const StructureSlot& structure = structure_.firstPart();
   job_.tolerance_px = tolerance_px;
-  const abi::ReflectionSettings settings =
-      reflectionSettings(structure, job_, 0, structure.sourceCamera());
+  const abi::ReflectionSettings settings = reflectionSettings(structure, job_, 0, 0);
   std::memcpy(settings_.mapped().data(), &settings, sizeof settings);
 }
 

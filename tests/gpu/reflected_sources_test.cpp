@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "gpu/test_device.h"
+#include "gpu/walk_under_test.h"
 #include "gpu/world_views.h"
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/picture_frame.h"
+#include "trace/reflection_settings.h"
 
 namespace viewloom {
 namespace {
@@ -78,6 +80,32 @@ TEST_F(ReflectedSourcesTest, aSourceThatComesTwiceMirrorsAsOne) {
     EXPECT_LE(share, kOthersMax);
     EXPECT_NEAR(hits(of_both), hits(of_one), kSharesApart);
   }
+}
+
+// A source that goes with a thing is somewhere else by then than where its frame was uploaded from.
+TEST_F(ReflectedSourcesTest, raysAreTurnedToWhereTheJobHasTheSource) {
+  const truth::Instant instant(truth::mirrorFloor(0), 0);
+  const FramePtr one = truth::frameOf(
+      truth::takePicture(instant, cameraAt(glm::dvec3(0.0), kSource_px), {.size_px = kSource_px}),
+      1);
+  WalkUnderTest walk(device());
+  const auto slot = walk.build(*one);
+  std::vector<SeenSource> sources(2, seenSource(one->format.sources.front()));
+  sources[1].camera.pose.position_m = {1, 0.5, 0.25};
+  const Camera view = cameraAt(glm::dvec3(0.0), kView_px);
+  const DisplaySpec spec =
+      completeDisplaySpec(
+          {.kind = CamerasSpec{.cameras = {{view.pose, view.intrinsics}}, .tile_size_px = kView_px},
+           .reflection = ReflectionSpec{.bounce_count = 1}})
+          .value();
+  const TraceJob job =
+      makeTraceJob(std::make_shared<const AtlasLayout>(makeAtlasLayout(spec, {}).value()), spec,
+                   Pose{}, sources);
+  const abi::ReflectionSettings settings = reflectionSettings(*slot, job, 1, 0);
+  // x to the right, y down, z along the axis.
+  EXPECT_EQ(settings.first_place.x, -1.0F);
+  EXPECT_EQ(settings.first_place.y, 0.5F);
+  EXPECT_EQ(settings.first_place.z, 0.25F);
 }
 
 // Many rays of rough px are found some rows at a time: the wider the atlas, the fewer.
