@@ -6,8 +6,18 @@
 #include <utility>
 
 #include "temporal/display_instant.h"
+#include "trace/display_sources.h"
 
 namespace viewloom {
+namespace {
+
+// The structure before the newest is asked, too, where it can be.
+bool asksBoth(const DisplaySpec& spec, const StreamInstant& newest) {
+  return spec.temporal->mode == TemporalMode::kInterpolate && newest.before &&
+         canMerge(spec, newest.structure->sources.size() + newest.before->sources.size());
+}
+
+}  // namespace
 
 TickLoop::TickLoop(const PipelineLinks& links, OfferTick offer_tick)
     : links_(links), offer_tick_(std::move(offer_tick)), thread_([this](const auto& stop) {
@@ -102,7 +112,6 @@ std::vector<TickLoop::DueTick> TickLoop::takeDue() {
     if (!tick) continue;
     const StreamInstant& newest = streams_.at(picture.display->stream);
     const DisplaySpec& spec = picture.display->spec;
-    const bool is_between = spec.temporal->mode == TemporalMode::kInterpolate;
     const OutputTick output{.due_ns = tick->due_ns,
                             .shown = shownTo(spec, newest.motion, tick->due_ns),
                             .frames_apart_ns = newest.motion.interval_ns};
@@ -111,7 +120,7 @@ std::vector<TickLoop::DueTick> TickLoop::takeDue() {
                            .structure = newest.structure,
                            .ticket = std::exchange(picture.ticket, nullptr),
                            .tick = output,
-                           .before = is_between ? newest.before : nullptr},
+                           .before = asksBoth(spec, newest) ? newest.before : nullptr},
                    .missed_count = tick->missed_count});
   }
   return all;

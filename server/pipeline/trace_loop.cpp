@@ -7,7 +7,6 @@
 #include "base/log.h"
 #include "base/str_cat.h"
 #include "pipeline/job_aim.h"
-#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {
@@ -19,11 +18,6 @@ constexpr size_t kSweptEyesCount = 1;
 // Of what a display was shown of the same structure.
 bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
   return job.tick && shown && !job.tick->shown.looksLike(*shown);
-}
-
-// The structure before the newest is asked, too, where it can be.
-bool canAskBoth(const ActiveDisplay& display, const AtlasJob& job) {
-  return canMerge(display.spec, job.structure->sources.size() + job.before->sources.size());
 }
 
 std::vector<const StructureSlot*> partsOf(const AtlasJob& job) {
@@ -167,7 +161,6 @@ TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
 bool TraceLoop::begin(AtlasJob& job) {
   auto [displays, eyes] = takeUnserved(job);
   if (displays.empty()) return false;
-  if (job.before && !canAskBoth(*displays.front(), job)) job.before.reset();
   const Aim aim = aimOf(*displays.front(), job);
   const auto picture = pictures_.get(*displays.front(), *job.structure, aim, eyes);
   if (!picture.ok()) {
