@@ -41,6 +41,8 @@ OfflineRenderer::OfflineRenderer(const Device& device)
     : device_(device), timeline_(device), recorder_(device), builder_(device), tracer_(device) {}
 
 void OfflineRenderer::build(const Frame& frame, const std::optional<Pose>& camera_pose) {
+  focal_stats_.reset();
+  if (camera_pose && structure_) focal_stats_ = structure_->stats().front();
   structure_.reset();
   structure_.emplace(device_, shapesOf(frame));
   structure_->upload(frame);
@@ -70,7 +72,7 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(spec, sources_));
   absl::StatusOr<AtlasLayout> layout =
       makeAtlasLayout(spec, streamDefaults(source_camera.intrinsics, sources_.front().size_px,
-                                           structure_->stats().front()));
+                                           focal_stats_.value_or(structure_->stats().front())));
   if (!layout.ok()) return layout.status();
 
   RenderedAtlas atlas;

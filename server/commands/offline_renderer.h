@@ -34,7 +34,8 @@ class OfflineRenderer {
   explicit OfflineRenderer(const Device& device);
 
   // Makes this frame the one that is rendered from here on, for displays that stand where the
-  // camera of its first source does; or did at another time, if that is given.
+  // camera of its first source does; or did at another time, if that is given: then they keep the
+  // focal plane of what was built before.
   void build(const Frame& frame, const std::optional<Pose>& camera_pose = {});
   // Needs a frame. Refuses atlases beyond AtlasLimits. `on_progress` hears how many of the atlas's
   // rows are done.
@@ -56,6 +57,7 @@ class OfflineRenderer {
   std::optional<FrameStructure> structure_;
   std::vector<SeenSource> sources_;
   Camera shown_camera_;
+  std::optional<SourceStats> focal_stats_;  // of what was built before
 };
 
 }  // namespace viewloom

@@ -15,7 +15,29 @@
 namespace viewloom {
 namespace {
 
+// What a display is shown later is held anyway; in ns, and added to any time of this age, it fits.
+constexpr double kLaterMax_s = 1e6;
+
+// The frame before is uploaded with the newest one, as sources of one frame.
+absl::Status checkLight(const FramesAtHand& frames) {
+  const FrameFormat& newest = frames.newest->format;
+  const FrameFormat& before = frames.before->format;
+  if (newest.exposure_ev != before.exposure_ev) {
+    return invalidField("exposure_ev", strCat("got ", newest.exposure_ev,
+                                              ", accepted to interpolate is that of the frame "
+                                              "before, ",
+                                              before.exposure_ev));
+  }
+  if (newest.tone_map == before.tone_map) return absl::OkStatus();
+  return invalidField("tone_map",
+                      "differs from that of the frame before, between which and this "
+                      "one it is to interpolate");
+}
+
 absl::Status checkTime(const FramesAtHand& frames, TemporalMode mode, double later_s) {
+  if (!(std::abs(later_s) <= kLaterMax_s)) {
+    return invalidField("--later", strCat("got ", later_s, ", accepted is up to ", kLaterMax_s));
+  }
   const int64_t newest_ns = frames.newest->format.capture_time_ns;
   if (frames.before && frames.before->format.capture_time_ns >= newest_ns) {
     return invalidField("capture_time_ns",
@@ -29,7 +51,9 @@ absl::Status checkTime(const FramesAtHand& frames, TemporalMode mode, double lat
   if (!frames.before) {
     return invalidField("--before", "is missing, to interpolate takes two frames");
   }
-  const double interval_s = 1e-9 * double(newest_ns - frames.before->format.capture_time_ns);
+  VIEWLOOM_RETURN_IF_ERROR(checkLight(frames));
+  const double interval_s =
+      1e-9 * (double(newest_ns) - double(frames.before->format.capture_time_ns));
   if (later_s <= 0 && later_s >= -interval_s) return absl::OkStatus();
   return invalidField("--later", strCat("got ", later_s, ", accepted is ", -interval_s,
                                         "..0 to interpolate between these frames"));
@@ -69,7 +93,7 @@ absl::StatusOr<ShownFrame> showBetween(const FramesAtHand& frames, const Display
   const bool lags = spec.temporal->mode == TemporalMode::kInterpolate;
   const ShownInstant shown = shownTo(spec, motion, time_ns + (lags ? motion.lag_ns : 0));
   const bool asks_both =
-      shown.timing == Timing::kInterpolated &&
+      lags && motion.isMoving() && motion.interval_ns > 0 &&
       canMerge(spec, frames.newest->sources.size() + frames.before->sources.size());
   const Guesses guesses = asks_both ? Guesses::kGiveWay : Guesses::kStand;
   WorkerPool workers;

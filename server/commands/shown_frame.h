@@ -15,7 +15,7 @@ namespace viewloom {
 struct FramesAtHand {
   FramePtr newest;
   FramePtr before;        // nullptr: nothing is known of how the camera moves
-  double inv_z_near = 0;  // 1/m, of the nearest surfaces of both
+  double inv_z_near = 0;  // 1/m, of the nearest surfaces of the newest
 };
 
 struct ShownFrame {

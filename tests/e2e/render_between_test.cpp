@@ -126,6 +126,17 @@ TEST_F(RenderBetweenTest, seesFromBothFramesWhatLiesBetweenThem) {
   expectRow(left, right + 1, kWidth);
 }
 
+TEST_F(RenderBetweenTest, seesTheFrameBeforeWhereThatStands) {
+  writeMoving("newest", kSquareLeft, "100000000");
+  writeMoving("before", kSquareLeft - kStep_px, "0");
+  const FinishedRun run = renderLater("INTERPOLATE", -0.1, before());
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const uint32_t left = kSquareLeft - kStep_px;
+  expectRow(left, 0, left - 1);
+  expectRow(left, left + 1, left + kSquareSide - 1);
+  expectRow(left, left + kSquareSide + 1, kWidth);
+}
+
 TEST_F(RenderBetweenTest, refusesTimesThatTheDisplayDoesNotShow) {
   EXPECT_THAT(render("newest.json", "display.json", "--later 0.1").errors,
               HasSubstr("effects.temporal: is missing, --later needs it"));
@@ -134,6 +145,15 @@ TEST_F(RenderBetweenTest, refusesTimesThatTheDisplayDoesNotShow) {
   EXPECT_THAT(renderLater("INTERPOLATE", -0.05).errors, HasSubstr("--before: is missing"));
   EXPECT_THAT(renderLater("INTERPOLATE", -0.2, before()).errors,
               HasSubstr("--later: got -0.2, accepted is -0.1..0"));
+  for (const char* later : {"inf", "nan", "1e10"}) {
+    EXPECT_THAT(render("newest.json", "PREDICT.json", std::string("--later ") + later).errors,
+                HasSubstr("--later: got "))
+        << later;
+  }
+  write("bright.json",
+        strCat(R"({"exposureEv":1,)", sourcesJson(-0.1, layerJson("color.png", "depth.pfm")), "}"));
+  EXPECT_THAT(renderLater("INTERPOLATE", -0.05, before("bright.json")).errors,
+              HasSubstr("exposure_ev: got 0, accepted to interpolate is that of the frame before"));
   EXPECT_THAT(renderLater("PREDICT", 0.05, before("newest.json")).errors,
               HasSubstr("capture_time_ns: got 100000000, accepted is later than 100000000"));
   EXPECT_THAT(render("newest.json", "PREDICT.json", before()).errors, HasSubstr("--later"));
