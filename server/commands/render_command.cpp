@@ -18,6 +18,7 @@
 #include "commands/shown_frame.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
+#include "frame/timing_text.h"
 
 namespace viewloom {
 namespace {
@@ -102,20 +103,6 @@ absl::Status inFile(const absl::Status& status, const std::filesystem::path& pat
   return fieldOf(status).empty() ? status : withFieldPrefix(status, path.string());
 }
 
-const char* nameOf(Timing timing) {
-  switch (timing) {
-    case Timing::kCaptured:
-      return "captured";
-    case Timing::kPredicted:
-      return "predicted";
-    case Timing::kInterpolated:
-      return "interpolated";
-    case Timing::kHeld:
-      return "held";
-  }
-  return "";
-}
-
 // Builds what a display with an output rate is shown at another time than the frame's own.
 absl::StatusOr<Timing> buildBetween(const RenderArguments& arguments, const FramePtr& newest,
                                     const DisplaySpec& display, OfflineRenderer& renderer) {
@@ -157,7 +144,7 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   if (arguments.later_s) {
     const auto timing = buildBetween(arguments, frame->frame, *display, renderer);
     if (!timing.ok()) return timing.status();
-    json["timing"] = nameOf(*timing);
+    json["timing"] = timingText(*timing);
   }
   const TraceOutputs outputs = {
       .mask = true, .linear = !arguments.compare.truth.empty(), .records = true};

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frame/timing_text.h"
 #include "web/catalog_json.h"
 
 namespace viewloom {
@@ -28,20 +29,6 @@ json coverageJson(const Coverage& coverage) {
           {"hidden", share(coverage.hidden)},
           {"outside", share(coverage.outside)},
           {"empty", share(coverage.empty)}};
-}
-
-const char* timingText(Timing timing) {
-  switch (timing) {
-    case Timing::kCaptured:
-      return "captured";
-    case Timing::kPredicted:
-      return "predicted";
-    case Timing::kInterpolated:
-      return "interpolated";
-    case Timing::kHeld:
-      return "held";
-  }
-  return "";
 }
 
 std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
