@@ -22,7 +22,7 @@ bool lacksFarSide(Walk walk, WalkStart start) {
 // the hole, up to where the ray passed it. Beside what was gone through for the furthest, both ways
 // along the ray, that is deeper by a deep step: soft edges may be wide. There may be none.
 void findFarSide(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
-  const bool is_sought = lacksFarSide(walk, start);
+  if (!lacksFarSide(walk, start)) return;
   const bool is_beside = walk.far_axis != kAxisNone;
   const uint layer = is_beside ? 0u : max(start.behind_count, 1u) - 1u;
   const vec2 along = ray.extent.xy * min(ray.pace.x, ray.pace.y);
@@ -41,7 +41,7 @@ void findFarSide(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
       const ivec2 cell = ivec2(floor(from + float(side * (1 << int(probe))) * along));
       const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
       const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
-      const bool is_further = is_sought && inv_z >= 0.0 && inv_z < bound;
+      const bool is_further = inv_z >= 0.0 && inv_z < bound;
       const ivec2 far_cell = inv_z < deep_inv_z ? inside : near_cell;
       walk.far_cell = is_further ? far_cell : walk.far_cell;
       walk.far_layer = is_further ? layer : walk.far_layer;
@@ -50,7 +50,7 @@ void findFarSide(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
       bound = is_further ? inv_z : bound;
     }
     ++probe;
-    if (!is_sought || probe == kFarSideProbes || (is_beside && walk.has_far_side)) break;
+    if (probe == kFarSideProbes || (is_beside && walk.has_far_side)) break;
   }
 }
 
