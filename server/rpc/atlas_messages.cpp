@@ -2,7 +2,8 @@
 #include "rpc/atlas_messages.h"
 
 #include <algorithm>
-#include <array>
+#include <span>
+#include <utility>
 
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
@@ -66,6 +67,14 @@ void writeBytesTag(CodedOutputStream& output, int field_number, size_t byte_coun
   output.WriteVarint32(static_cast<uint32_t>(byte_count));
 }
 
+// Whether the data of two bands that follow each other, joined, are those of one (BandEncoding).
+bool areOneJoined(const EncodedBand& band, const EncodedBand& next) {
+  const bool is_same_plane = band.image_index == next.image_index && band.plane == next.plane;
+  const bool adjoins = band.first_row + band.row_count == next.first_row;
+  return is_same_plane && adjoins && band.encoding == next.encoding &&
+         band.encoding != BandEncoding::kZstd;
+}
+
 // All of a StreamAtlasesResponse that holds this band, up to the bytes of its data, which come last
 // because data is the band's highest field.
 std::string prefixOf(const v1::Band& band_without_data, size_t data_bytes) {
@@ -98,10 +107,28 @@ grpc::ByteBuffer skippedMessage(uint64_t count) {
   return bytesFromMessage(response);
 }
 
+AtlasMessages::AtlasMessages(AtlasPtr atlas)
+    : atlas_(std::move(atlas)), strips_(stripsOf(*atlas_)) {}
+
+std::vector<AtlasMessages::Strip> AtlasMessages::stripsOf(const EncodedAtlas& atlas) {
+  std::vector<Strip> strips;
+  for (size_t i = 0; i < atlas.bands.size(); ++i) {
+    const size_t byte_count = atlas.bands[i].bytes->size();
+    if (i > 0 && areOneJoined(atlas.bands[i - 1], atlas.bands[i]) &&
+        strips.back().byte_count + byte_count <= kPieceBytesMax) {
+      ++strips.back().band_count;
+      strips.back().byte_count += byte_count;
+    } else {
+      strips.push_back({.first_band = i, .band_count = 1, .byte_count = byte_count});
+    }
+  }
+  return strips;
+}
+
 grpc::ByteBuffer AtlasMessages::next() {
   VIEWLOOM_CHECK(!done());
   if (part_ == Part::kHeader) {
-    part_ = atlas_->bands.empty() ? Part::kEnd : Part::kBands;
+    part_ = strips_.empty() ? Part::kEnd : Part::kBands;
     return header();
   }
   if (part_ == Part::kBands) return nextPiece();
@@ -120,7 +147,7 @@ grpc::ByteBuffer AtlasMessages::header() const {
   header.set_present_at_ns(atlas_->present_at_ns);
   *header.mutable_times() = timesToProto(atlas_->times);
   *header.mutable_coverage() = coverageToProto(atlas_->coverage);
-  header.set_band_count(static_cast<uint32_t>(atlas_->bands.size()));
+  header.set_band_count(static_cast<uint32_t>(strips_.size()));
   if (atlas_->reflections.rayCount() > 0) {
     *header.mutable_reflections() = reflectionsToProto(atlas_->reflections);
   }
@@ -140,24 +167,30 @@ grpc::ByteBuffer AtlasMessages::header() const {
 }
 
 grpc::ByteBuffer AtlasMessages::nextPiece() {
-  const EncodedBand& band = atlas_->bands[band_];
-  const size_t data_bytes = std::min(band.bytes->size() - offset_bytes_, kPieceBytesMax);
-  const bool last_piece = offset_bytes_ + data_bytes == band.bytes->size();
+  const Strip& strip = strips_[strip_];
+  const std::span bands = std::span(atlas_->bands).subspan(strip.first_band, strip.band_count);
+  const EncodedBand& first = bands.front();
+  const EncodedBand& last = bands.back();
+  const size_t data_bytes = std::min(strip.byte_count - offset_bytes_, kPieceBytesMax);
+  const bool last_piece = offset_bytes_ + data_bytes == strip.byte_count;
   v1::Band proto;
   proto.set_sequence(atlas_->sequence);
-  proto.set_image_index(band.image_index);
-  proto.set_plane(planeToProto(band.plane));
-  proto.set_first_row(band.first_row);
-  proto.set_row_count(band.row_count);
-  proto.set_encoding(bandEncodingToProto(band.encoding));
+  proto.set_image_index(first.image_index);
+  proto.set_plane(planeToProto(first.plane));
+  proto.set_first_row(first.first_row);
+  proto.set_row_count(last.first_row + last.row_count - first.first_row);
+  proto.set_encoding(bandEncodingToProto(first.encoding));
   proto.set_offset_bytes(static_cast<uint32_t>(offset_bytes_));
   proto.set_last_piece(last_piece);
-  const std::array<grpc::Slice, 2> slices{grpc::Slice(prefixOf(proto, data_bytes)),
-                                          sliceOf(band.bytes, offset_bytes_, data_bytes)};
+  std::vector<grpc::Slice> slices{grpc::Slice(prefixOf(proto, data_bytes))};
+  for (const EncodedBand& band : bands) {
+    const size_t count = std::min(band.bytes->size() - offset_bytes_, kPieceBytesMax);
+    slices.push_back(sliceOf(band.bytes, offset_bytes_, count));
+  }
   offset_bytes_ += data_bytes;
   if (last_piece) {
     offset_bytes_ = 0;
-    if (++band_ == atlas_->bands.size()) part_ = Part::kEnd;
+    if (++strip_ == strips_.size()) part_ = Part::kEnd;
   }
   return grpc::ByteBuffer(slices.data(), slices.size());
 }

@@ -5,6 +5,8 @@
 
 #include <grpcpp/support/slice.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "rpc/wire_message.h"
@@ -70,6 +72,72 @@ TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
   EXPECT_TRUE(messages.done());
 }
 
+// Three bands that adjoin, a fourth of another plane.
+std::shared_ptr<EncodedAtlas> atlasOfStrip(BandEncoding encoding, size_t band_bytes) {
+  auto atlas = std::make_shared<EncodedAtlas>();
+  for (uint32_t row = 0; row < 300; row += 128) {
+    atlas->bands.push_back({.plane = AtlasPlane::kRed,
+                            .first_row = row,
+                            .row_count = std::min(128U, 300 - row),
+                            .encoding = encoding,
+                            .bytes = bytesOf(band_bytes + row)});
+  }
+  atlas->bands.push_back(
+      {.plane = AtlasPlane::kGreen, .row_count = 128, .encoding = encoding, .bytes = bytesOf(7)});
+  return atlas;
+}
+
+std::vector<v1::Band> bandsOf(AtlasMessages messages) {
+  const uint32_t count = parsed(messages.next()).header().band_count();
+  std::vector<v1::Band> bands;
+  while (!messages.done()) {
+    const auto message = parsed(messages.next());
+    if (message.has_band()) bands.push_back(message.band());
+  }
+  EXPECT_EQ(bands.size(), count);
+  return bands;
+}
+
+TEST(AtlasMessages, joinBandsThatAreOneImagesTogether) {
+  for (const BandEncoding encoding :
+       {BandEncoding::kJpeg, BandEncoding::kJpegPlanes, BandEncoding::kRaw}) {
+    const auto atlas = atlasOfStrip(encoding, 1000);
+    const std::vector<v1::Band> bands = bandsOf(AtlasMessages(atlas));
+    ASSERT_EQ(bands.size(), 2u) << "the other plane's stays by itself";
+    EXPECT_EQ(bands[0].first_row(), 0u);
+    EXPECT_EQ(bands[0].row_count(), 300u);
+    EXPECT_TRUE(bands[0].last_piece());
+    std::string joined;
+    for (size_t i = 0; i < 3; ++i) {
+      joined.append(atlas->bands[i].bytes->begin(), atlas->bands[i].bytes->end());
+    }
+    EXPECT_EQ(bands[0].data(), joined);
+    EXPECT_EQ(bands[1].plane(), v1::ATLAS_PLANE_GREEN);
+    EXPECT_EQ(bands[1].data().size(), 7u);
+  }
+}
+
+TEST(AtlasMessages, leaveFramesOfZstdByThemselves) {
+  EXPECT_EQ(bandsOf(AtlasMessages(atlasOfStrip(BandEncoding::kZstd, 1000))).size(), 4u);
+}
+
+TEST(AtlasMessages, joinNoBandsThatDoNotAdjoinOrAreOfOtherImages) {
+  const auto gap = atlasOfStrip(BandEncoding::kJpeg, 1000);
+  gap->bands[2].first_row += 8;
+  EXPECT_EQ(bandsOf(AtlasMessages(gap)).size(), 3u);
+  const auto images = atlasOfStrip(BandEncoding::kJpeg, 1000);
+  for (size_t i = 1; i < 3; ++i) images->bands[i].image_index = 1;
+  EXPECT_EQ(bandsOf(AtlasMessages(images)).size(), 3u);
+}
+
+TEST(AtlasMessages, joinNoMoreThanAMessageHolds) {
+  const auto atlas = atlasOfStrip(BandEncoding::kJpeg, (kPieceBytesMax - 128) / 2);
+  const std::vector<v1::Band> bands = bandsOf(AtlasMessages(atlas));
+  ASSERT_EQ(bands.size(), 3u);
+  EXPECT_EQ(bands[0].data().size(), kPieceBytesMax) << "the first two fill it";
+  EXPECT_EQ(bands[1].first_row(), 256u);
+}
+
 // The bytes a piece is made of by hand are those that protobuf itself writes.
 TEST(AtlasMessages, areWhatProtobufWrites) {
   AtlasMessages messages(atlasOfTwoBands());
@@ -85,10 +153,11 @@ TEST(AtlasMessages, shareTheBytesOfTheBandsAndHoldThem) {
   std::shared_ptr<EncodedAtlas> atlas = atlasOfTwoBands();
   const uint8_t* large = atlas->bands[1].bytes->data();
   const std::weak_ptr<const std::vector<uint8_t>> watched = atlas->bands[1].bytes;
-  AtlasMessages messages(std::move(atlas));
   std::vector<grpc::ByteBuffer> written;
-  while (!messages.done()) written.push_back(messages.next());
-  messages = AtlasMessages(nullptr);
+  {
+    AtlasMessages messages(std::move(atlas));
+    while (!messages.done()) written.push_back(messages.next());
+  }
   EXPECT_FALSE(watched.expired()) << "a message that is being written holds its band";
   std::vector<grpc::Slice> slices;
   ASSERT_TRUE(written[3].Dump(&slices).ok());  // header, small band, first and second piece
