@@ -74,7 +74,8 @@ class WatchRun {
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
-    clock_ = std::make_unique<ClockFollower>(*watcher_);
+    // Only the line says how the server's clock stands: who sees none need not ask.
+    if (!options_.is_quiet) clock_ = std::make_unique<ClockFollower>(*watcher_);
     if (eyes_) eyes_->start(eyeCallbacks());
     while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok()) {
       if (line_.isDue()) line_.show(status());
