@@ -75,10 +75,6 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
     VIEWLOOM_RETURN_IF_ERROR(
         withFieldPrefix(completeReflection(*spec.reflection, spec.quality), "effects.reflection"));
   }
-  if (spec.lens && spec.reflection) {
-    return fieldError(absl::StatusCode::kUnimplemented, "effects.reflection",
-                      "is not served together with effects.lens yet");
-  }
   if (spec.world_pose) VIEWLOOM_RETURN_IF_ERROR(validatePose(*spec.world_pose, "world_pose"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
   if (spec.tolerance_px == 0) spec.tolerance_px = kTolerances_px[size_t(spec.quality)];

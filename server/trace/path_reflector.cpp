@@ -4,6 +4,7 @@
 #include "shaders/merge_paths.h"
 #include "shaders/turn_paths.h"
 #include "shaders/walk_paths.h"
+#include "shared/lens_abi.h"
 #include "trace/band_params.h"
 
 namespace viewloom {
@@ -16,6 +17,7 @@ constexpr DescriptorSlot kTurnSlots[] = {{abi::kBindingStructure, DescriptorKind
                                          {abi::kBindingViews, DescriptorKind::kStorage},
                                          {abi::kBindingExtras, DescriptorKind::kUniform},
                                          {abi::kBindingReflection, DescriptorKind::kUniform},
+                                         {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                          {abi::kBindingPaths, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kWalkSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
                                          {abi::kBindingStructureHalves, DescriptorKind::kTexels},
@@ -46,7 +48,7 @@ const ComputePass& PathReflector::turnPass(const TurnVariant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = turn_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, 0, variant.rays};
+    const uint32_t constants[] = {variant.reads_by_address, 0, variant.rays, variant.through_lens};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = turn_paths_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -86,9 +88,11 @@ const ComputePass& PathReflector::mergePass() {
 }
 
 void PathReflector::recordTurns(vk::CommandBuffer commands, const PathPiece& piece) {
-  const ComputePass& turn =
-      turnPass({.reads_by_address = piece.structure.readsByAddress(), .rays = piece.rays});
+  const ComputePass& turn = turnPass({.reads_by_address = piece.structure.readsByAddress(),
+                                      .rays = piece.rays,
+                                      .through_lens = piece.through_lens});
   std::vector<Descriptor> descriptors = descriptorsOf(piece);
+  descriptors.push_back(piece.lens_points);
   descriptors.push_back(piece.structure.surface()->asTexels(abi::kBindingSurface));
   turn.recordDescriptors(commands, descriptors);
   turn.record(commands, piece.push, groupCount(piece.push.atlas_width_px), piece.rows.row_count);

@@ -23,8 +23,10 @@ struct PathPiece {
   BandRows rows;
   abi::TracePush push;             // of these rows, with the structure's own colour
   std::vector<Descriptor> params;  // of the walk: its tiles, its extras with the records, settings
-  Descriptor paths;                // abi::ReflectedPath per px
-  Descriptor answers;              // abi::RayAnswer per px, written
+  bool through_lens = false;
+  Descriptor lens_points;
+  Descriptor paths;    // abi::ReflectedPath per px
+  Descriptor answers;  // abi::RayAnswer per px, written
 
   bool mirrors() const { return structure.surface() != nullptr; }
 };
@@ -61,6 +63,7 @@ class PathReflector {
   struct TurnVariant {
     uint32_t reads_by_address;
     uint32_t rays;  // abi::kRaysOf...
+    uint32_t through_lens;
 
     auto operator<=>(const TurnVariant&) const = default;
   };

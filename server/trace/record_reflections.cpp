@@ -61,7 +61,8 @@ void ViewTracer::recordReflections(vk::CommandBuffer commands,
 
 void ViewTracer::recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
                                const BandPart& part) {
-  const std::vector<Descriptor> params = describeReflected(walk, walk.index);
+  std::vector<Descriptor> params = describeReflected(walk, walk.index);
+  params.push_back(walk.slot.lensDescriptor(walk.job, walk.rays.sample));
   const BandRows piece{rows.first_row + part.first_row, part.end_row - part.first_row};
   abi::TracePush push = describeBand(walk, walk.structure.color(), piece);
   push.band_row = part.first_row;
@@ -155,6 +156,8 @@ std::vector<PathPiece> ViewTracer::describePaths(std::span<const StructureSlot* 
                       .rows = piece,
                       .push = describeBand(walk, structure.color(), piece),
                       .params = describeReflected(walk, 0),
+                      .through_lens = job.hasLens(),
+                      .lens_points = slot.lensDescriptor(job, rays.sample),
                       .paths = wholeBuffer(abi::kBindingPaths, slot.paths_),
                       .answers = {.binding = abi::kBindingBand,
                                   .kind = DescriptorKind::kStorage,

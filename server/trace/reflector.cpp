@@ -6,6 +6,7 @@
 #include "gpu/barrier.h"
 #include "shaders/add_reflections.h"
 #include "shaders/reflect.h"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"
 #include "trace/ray_sources.h"
@@ -21,6 +22,7 @@ constexpr DescriptorSlot kReflectSlots[] = {{abi::kBindingStructure, DescriptorK
                                             {abi::kBindingViews, DescriptorKind::kStorage},
                                             {abi::kBindingExtras, DescriptorKind::kUniform},
                                             {abi::kBindingReflection, DescriptorKind::kUniform},
+                                            {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                             {abi::kBindingReflected, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kAddSlots[] = {{abi::kBindingReflected, DescriptorKind::kStorage},
                                         {abi::kBindingBand, DescriptorKind::kStorage}};
@@ -36,8 +38,9 @@ const ComputePass& Reflector::reflectPass(const Variant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = reflect_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, 0, variant.color_format,
-                                  variant.color_is_scaled, variant.rays};
+    const uint32_t constants[] = {
+        variant.reads_by_address, 0, variant.color_format, variant.color_is_scaled, variant.rays,
+        variant.through_lens};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = reflect_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -66,7 +69,8 @@ void Reflector::record(vk::CommandBuffer commands, const ReflectedRows& rows) {
       reflectPass({.reads_by_address = structure.readsByAddress(),
                    .color_format = colorFormat(structure.shape().color_storage),
                    .color_is_scaled = structure.shape().colorIsScaled(),
-                   .rays = raySourceOf(*rows.job.layout)});
+                   .rays = raySourceOf(*rows.job.layout),
+                   .through_lens = rows.job.hasLens()});
   std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
   for (const Descriptor& descriptor :
        {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),

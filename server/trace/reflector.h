@@ -28,7 +28,8 @@ struct ReflectedRows {
   const TraceJob& job;             // that reflects
   uint32_t row_count;
   abi::TracePush push;  // of the walk and these rows, with the structure's own colour
-  // Of the walk: its tiles, its extras with the records, and abi::ReflectionSettings
+  // Of the walk: its tiles, its extras with the records, abi::ReflectionSettings, and the points of
+  // the lens
   std::span<const Descriptor> params;
   const Buffer& reflected;  // abi::ReflectedLight per px of the band: that of the rows is written
 };
@@ -49,6 +50,7 @@ class Reflector {
     uint32_t color_format;
     uint32_t color_is_scaled;
     uint32_t rays;  // abi::kRaysOf...
+    uint32_t through_lens;
 
     auto operator<=>(const Variant&) const = default;
   };

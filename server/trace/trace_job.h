@@ -103,12 +103,13 @@ struct TraceJob {
   size_t tileCount() const { return tiles.size() / (size_t{sample_count} * walk_count); }
   bool hasEyesBeside() const { return !bounds.empty(); }
   bool hasLens() const { return layout->lens.has_value(); }
-  // Whether there may be a second stage of the lens: one structure, each px with one eye, and room.
+  // Whether there may be a second stage of the lens: one structure, each px with one eye, nothing
+  // that the walked rays alone know, and room.
   bool mayGather() const {
     const uint64_t met_bytes =
         uint64_t{layout->size_px.width} * kBandRowsMax * sample_count * sizeof(uint32_t);
     return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
-           !layout->depth_codes && met_bytes <= kMetBytesMax;
+           !layout->depth_codes && !reflects() && met_bytes <= kMetBytesMax;
   }
   // Px are made of several rays' light.
   bool sumsLight() const { return sample_count > 1 || mayGather(); }

@@ -138,7 +138,8 @@ abi::TraceExtras ViewTracer::describeExtras(const StructureSlot& structure, cons
       .microlenses = microlensesOf(*job.layout),
       .lenticular = lenticularEyesOf(*job.layout, part / job.walk_count),
       .depth_scale = scaleOf(job.layout->depth_codes.value_or(DepthCodes{})),
-      .met = addressWords(job.mayGather() ? slot.metAddress(part) : 0)};
+      .met = addressWords(job.mayGather() ? slot.metAddress(part) : 0),
+      .sample_index = part / job.walk_count};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     extras.color_size_px[i] = packSize(structure.shape().color_px[i]);
   }

@@ -51,13 +51,13 @@ float unshadowed(float cosine_in, float cosine_out, float alpha) {
 
 // The i-th of `count` places in a unit square, for a px. Those of 4x4 px together spread evenly (R2
 // of Roberts); blocks are turned against each other. The same in every frame.
-vec2 samplePlace(uint i, uint count, uvec2 px) {
+vec2 samplePlace(uint i, uint count, uvec2 px, uint ray_index) {
   const uvec2 low = px & 3u;
   const uint crossed = low.x ^ low.y;
   const uint rank =
       ((crossed & 1u) << 3) | ((low.y & 1u) << 2) | (crossed & 2u) | ((low.y >> 1) & 1u);
   const uint index = rank * count + i;
-  const uvec2 block = px >> 2;
+  const uvec2 block = (px >> 2) + uvec2(ray_index << 16, 0u);  // tiles have fewer
   uint turn = block.x * 0x9e3779b1u ^ (block.y * 0x85ebca77u + 0x27d4eb2fu);
   turn = (turn ^ (turn >> 15)) * 0x2c1b3c6du;
   turn = (turn ^ (turn >> 12)) * 0x297a2d39u;

@@ -6,6 +6,7 @@
 #define VIEWLOOM_LIB_MIRRORED_PX_GLSL_
 
 #include "lib/memory.glsl"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 
 layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
@@ -20,6 +21,9 @@ layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
 layout(set = 0, binding = kBindingReflected, scalar) writeonly buffer ReflectedBand {
   ReflectedLight reflected_band[];
 };
+layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
+  vec2 lens_points[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RecordsRef {
   RayRecord at[];
 };
@@ -27,8 +31,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 #include "lib/first_camera.glsl"
 #include "lib/mirrored_path.glsl"
 #include "lib/pushed_scene.glsl"
+#include "lib/px_view.glsl"
 #include "lib/ray_light.glsl"
-#include "lib/ray_source.glsl"
 #include "lib/reflected_light.glsl"
 #include "lib/reflection_counts.glsl"
 #include "lib/tile_px.glsl"
@@ -69,8 +73,9 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
   vec3 own_share = vec3(1.0);
   for (;;) {
     if (isNever(scene, 11u)) break;
-    turn(mirror, spot, pinhole, samplePlace(i * settings.bounce_count + bounce,
-                                            count * settings.bounce_count, px), path);
+    const vec2 place = samplePlace(i * settings.bounce_count + bounce,
+                                   count * settings.bounce_count, px, extras.sample_index);
+    turn(mirror, spot, pinhole, place, path);
     const bool is_first = bounce == 0u;
     own_share = is_first ? path.share : own_share;
     path.share = is_first ? vec3(1.0) : path.share;
@@ -119,7 +124,7 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
   const bool is_shown = is_hit && aim.is_used && record.inv_z > 0.0 &&
                         (view.shows & kShowsDepth) == 0u;
   if (!is_shown) return kNothingReflected;
-  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  view = viewOfPx(view, aim, tile_px);
   const Pinhole pinhole = Pinhole(extras.focal_px, extras.principal_px);
   const Spot spot = spotAt(scene, vec3(record.x_px, record.y_px, record.inv_z));
   const Mirror mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);

@@ -141,6 +141,7 @@ struct TraceExtras {
   LenticularEyes lenticular;
   DepthScale depth_scale;  // of tiles that show depth
   Address met;             // uint[rows][width]: lib/met_surface.glsl; 0 = not wanted
+  uint sample_index;       // which of the rays of each px these are
 };
 
 // What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
@@ -266,7 +267,7 @@ static_assert(sizeof(EyeAxes) == 28);
 static_assert(sizeof(Microlenses) == 40);
 static_assert(sizeof(Lenticular) == 72);
 static_assert(sizeof(DepthScale) == 12);
-static_assert(sizeof(TraceExtras) == 252);
+static_assert(sizeof(TraceExtras) == 256);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 116);

@@ -12,6 +12,7 @@ layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kOwnConstants + 0u) const uint kColorFormat = kColorRgba8;
 layout(constant_id = kOwnConstants + 1u) const bool kColorIsScaled = false;
 layout(constant_id = kOwnConstants + 2u) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kOwnConstants + 3u) const bool kThroughLens = false;
 const bool kRaysArePlain = false;
 // Rays begin behind the layers in front of their surface.
 const bool kSeesThrough = true;

@@ -5,10 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kOwnConstants + 0u) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kOwnConstants + 1u) const bool kThroughLens = false;
 const bool kSeesThrough = true;
 const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {
@@ -27,6 +29,9 @@ layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
 layout(set = 0, binding = kBindingPaths, scalar) buffer Paths {
   ReflectedPath paths[];
 };
+layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
+  vec2 lens_points[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RecordsRef {
   RayRecord at[];
 };
@@ -34,7 +39,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 #include "lib/first_camera.glsl"
 #include "lib/mirrored_path.glsl"
 #include "lib/pushed_scene.glsl"
-#include "lib/ray_source.glsl"
+#include "lib/px_view.glsl"
 #include "lib/reflected_light.glsl"
 #include "lib/tile_px.glsl"
 
@@ -52,7 +57,7 @@ void goOn(Scene scene, Pinhole pinhole, Spot spot, Mirror mirror, Path came, uve
           inout ReflectedPath path) {
   const vec2 place =
       samplePlace(push.sample_index * settings.bounce_count + push.bounce,
-                  path.sample_count * settings.bounce_count, px);
+                  path.sample_count * settings.bounce_count, px, extras.sample_index);
   turn(mirror, spot, pinhole, place, came);
   const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);
   path.is_on = 1u;
@@ -76,7 +81,7 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   Aim aim;
   ViewParams view;
   if (isBeside(at, record, aim, view)) return;
-  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  view = viewOfPx(view, aim, at.px);
   const Spot spot = spotAt(scene, vec3(record.x_px, record.y_px, record.inv_z));
   const Mirror mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);
   if (all(lessThanEqual(mirror.light, vec3(0.0)))) return;

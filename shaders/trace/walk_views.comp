@@ -76,11 +76,10 @@ layout(set = 0, binding = kBindingUnsettled, scalar) readonly buffer Unsettled {
 #include "lib/color.glsl"
 #include "lib/edge_blend.glsl"
 #include "lib/face_ray.glsl"
-#include "lib/lens.glsl"
 #include "lib/pushed_scene.glsl"
+#include "lib/px_view.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
-#include "lib/ray_source.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/store_px.glsl"
 #include "lib/walk.glsl"
@@ -137,11 +136,7 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   Traced traced;
   const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
   traced.is_used = aim.is_used;
-  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
-  if (kThroughLens) {
-    const uvec2 px = uvec2(run.first_x + i, uint(run.tile_y));
-    view = viewThrough(view, lens_points[lensPatternIndex(px)]);
-  }
+  view = viewOfPx(view, aim, uvec2(run.first_x + i, uint(run.tile_y)));
   if (kHasOwnEyes) {
     if (kEyesInPlane) view.eye.z = 0.0;
     near_eye = view.eye * scene.inv_z_near;

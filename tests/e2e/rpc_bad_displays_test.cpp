@@ -17,7 +17,6 @@ using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-constexpr auto kLater = grpc::StatusCode::UNIMPLEMENTED;
 constexpr auto kMissing = grpc::StatusCode::NOT_FOUND;
 
 v1::QuiltDisplay& quilt(v1::OpenDisplay& open) {
@@ -223,16 +222,6 @@ const std::vector<BadDisplay> kCommon = {
     {"no such stream", [](auto& o) { o.set_stream("absent"); }, {kMissing, "open.stream"}},
 };
 
-const std::vector<BadDisplay> kServedLater = {
-    {"mirrors through a lens",
-     [](auto& o) {
-       v1::Effects& effects = *o.mutable_display()->mutable_effects();
-       effects.mutable_lens()->set_aperture_radius_m(0.01);
-       effects.mutable_reflection()->set_bounces(1);
-     },
-     {kLater, "open.display.effects.reflection"}},
-};
-
 TEST(StreamAtlases, refusesQuiltsThatCannotBe) {
   expectRefused(kQuilts);
 }
@@ -241,9 +230,6 @@ TEST(StreamAtlases, refusesOtherDisplaysThatCannotBe) {
 }
 TEST(StreamAtlases, refusesSettingsThatCannotBe) {
   expectRefused(kCommon);
-}
-TEST(StreamAtlases, refusesByNameWhatItDoesNotServeYet) {
-  expectRefused(kServedLater);
 }
 
 TEST(StreamAtlases, saysWhichStreamsAndPresetsThereAre) {

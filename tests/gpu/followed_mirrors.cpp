@@ -10,6 +10,7 @@
 #include "gpu/judge_views.h"
 #include "oracle/mirrored_ray.h"
 #include "shaders/follow_mirrors.h"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"
 
@@ -24,6 +25,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingReflection, DescriptorKind::kUniform},
+                                     {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingReflected, DescriptorKind::kStorage},
                                      {abi::kBindingFollowed, DescriptorKind::kStorage}};
 constexpr uint32_t kMirrorsAll = 0x00ffffff;  // abi::SurfaceTexel::light of a perfect mirror

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gpu/barrier.h"
+#include "shared/lens_abi.h"
 #include "trace/band_params.h"
 #include "trace/reflection_settings.h"
 
@@ -104,7 +105,8 @@ void MirrorStage::describe() {
                                .debug_name = "reflection settings"});
   setTolerance(job_.tolerance_px);
   params_ = {wholeBuffer(abi::kBindingViews, views_), uniform(abi::kBindingExtras, extras_),
-             uniform(abi::kBindingReflection, settings_)};
+             uniform(abi::kBindingReflection, settings_),
+             wholeBuffer(abi::kBindingLensPoints, views_)};  // of no lens: nothing is read
 }
 
 void MirrorStage::setTolerance(double tolerance_px) {

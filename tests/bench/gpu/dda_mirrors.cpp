@@ -5,6 +5,7 @@
 
 #include "gpu/barrier.h"
 #include "shaders/dda_mirrors.h"
+#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"
 
@@ -20,6 +21,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingReflection, DescriptorKind::kUniform},
+                                     {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingReflected, DescriptorKind::kStorage}};
 
 struct MarchPush {

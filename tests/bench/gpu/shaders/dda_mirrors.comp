@@ -17,6 +17,7 @@ layout(local_size_x = kTraceGroupSize) in;
 const uint kColorFormat = kColorRgba8;
 const bool kColorIsScaled = false;
 const uint kRays = kRaysOfPinholes;
+const bool kThroughLens = false;
 const bool kRaysArePlain = false;
 const bool kSeesThrough = true;
 const bool kMeetsBacks = false;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view from where the ray of a px passes its display. The includer has kRays, kThroughLens,
+// extras, and the lens_points of its sample.
+#ifndef VIEWLOOM_LIB_PX_VIEW_GLSL_
+#define VIEWLOOM_LIB_PX_VIEW_GLSL_
+
+#include "lib/lens.glsl"
+#include "lib/ray_source.glsl"
+
+// `px`: of the tile.
+ViewParams viewOfPx(ViewParams view, Aim aim, uvec2 px) {
+  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  if (kThroughLens) view = viewThrough(view, lens_points[lensPatternIndex(px)]);
+  return view;
+}
+
+#endif  // VIEWLOOM_LIB_PX_VIEW_GLSL_
