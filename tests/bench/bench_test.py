@@ -82,9 +82,10 @@ class BenchTest(unittest.TestCase):
         for load in report["loads"]:
             self.assertEqual(load["eye_px"], [120, 67])
             self.assertGreater(load["answers"], 0)
-            for figures in ("answered_ms", "waited_ms", "made_ms"):
+            for figures in ("answered_ms", "waited_ms", "made_ms", "bare_ms"):
                 self.assertGreaterEqual(load[figures]["p99"], load[figures]["p50"])
             self.assertGreaterEqual(load["answered_ms"]["p50"], load["made_ms"]["p50"])
+            self.assertGreater(load["bare_ms"]["p50"], 0)
             self.assertEqual("quilt_px" in load, load["name"].endswith("quilt"))
 
     def test_what_quality_buys(self):
