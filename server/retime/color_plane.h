@@ -13,6 +13,12 @@ namespace viewloom {
 // A texel's channels, in the codes it came in.
 using Texel = std::array<float, 4>;
 
+inline Texel mixed(const Texel& a, float share_a, const Texel& b, float share_b) {
+  Texel sum;
+  for (size_t i = 0; i < sum.size(); ++i) sum[i] = share_a * a[i] + share_b * b[i];
+  return sum;
+}
+
 // Colour planes of one encoding: RGBA8 or RGBA16F.
 struct ColorPlane {
   const uint8_t* texels = nullptr;

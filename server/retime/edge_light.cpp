@@ -2,6 +2,7 @@
 #include "retime/edge_light.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -10,8 +11,6 @@
 namespace viewloom {
 namespace {
 
-// px: edges on both sides of which everything goes the same way stay as they are.
-constexpr double kSameWay_px = 1e-3;
 // Light of two sides that differ by less, of what a channel may differ, cannot be told apart.
 constexpr float kApartLeast = 0.03F;
 // What a thing has in a px beside it, or what is behind in a px of the thing, is not told from
@@ -24,17 +23,14 @@ constexpr float kShareAlone = 0.5F;
 // of the px beside it, once it lies between px.
 constexpr double kReach_px = 2;
 
-struct PxStep {
-  int x = 0;
-  int y = 0;
-};
-constexpr std::array<PxStep, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+// What threads share is taken by so many.
+constexpr uint32_t kPxPerPiece = 1024;
 
-Texel mixed(const Texel& a, float share_a, const Texel& b, float share_b) {
-  Texel sum;
-  for (size_t i = 0; i < sum.size(); ++i) sum[i] = share_a * a[i] + share_b * b[i];
-  return sum;
+uint32_t pieceCount(uint32_t px_count) {
+  return (px_count + kPxPerPiece - 1) / kPxPerPiece;
 }
+
+constexpr std::array<PxStep, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 float dot(const Texel& a, const Texel& b) {
   float sum = 0;
@@ -42,122 +38,67 @@ float dot(const Texel& a, const Texel& b) {
   return sum;
 }
 
-// Looks along rows and columns of the first layer, as the frame has it.
-class Layer {
- public:
-  Layer(const MovedSurfaces& surfaces, const ColorPlane& color)
-      : surfaces_(surfaces), color_(color), size_px_(surfaces.sizePx()) {}
-
-  std::optional<uint32_t> beside(uint32_t px, PxStep step) const {
-    const int x = int(px % size_px_.width) + step.x, y = int(px / size_px_.width) + step.y;
-    if (x < 0 || y < 0 || x >= int(size_px_.width) || y >= int(size_px_.height)) {
-      return std::nullopt;
-    }
-    return uint32_t(y) * size_px_.width + uint32_t(x);
-  }
-
-  // Two surfaces that go different ways.
-  bool isEdge(uint32_t px, uint32_t other) const {
-    const float inv_z = surfaces_.frontInvZ(px), others = surfaces_.frontInvZ(other);
-    if (inv_z < 0 || others < 0 || inv_z == others || areJoined(px, other)) return false;
-    const glm::dvec2 apart_px = glm::abs(surfaces_.way(px) - surfaces_.way(other));
-    return std::max(apart_px.x, apart_px.y) > kSameWay_px;
-  }
-
-  // Of an edge between two px, with `step` from the near one to the far one. What is a px wide
-  // shows its own light.
-  EdgeSides sidesOf(uint32_t near_px, uint32_t far_px, PxStep step) const {
-    const Texel far = farLight(near_px, far_px, step);
-    return {.far = far, .between = mixed(lightTowards(near_px, {-step.x, -step.y}), 1, far, -1)};
-  }
-
- private:
-  bool areJoined(uint32_t px, uint32_t other) const {
-    const uint32_t first = std::min(px, other);
-    const bool are_in_row = size_px_.width > 1 && std::max(px, other) - first == 1;
-    return are_in_row ? surfaces_.joinsRight(first) : surfaces_.joinsBelow(first);
-  }
-
-  // Of the far side: where a deeper layer holds what the near one hides, between that and the px
-  // beyond the edge, if that is not at another edge.
-  Texel farLight(uint32_t near_px, uint32_t far_px, PxStep step) const {
-    const auto behind = surfaces_.joinedBehind(near_px, far_px);
-    if (!behind) return lightTowards(far_px, step);
-    const LayerPlanes& layer = surfaces_.frame().sources.front()[surfaces_.layerOf(*behind)];
-    const Texel hidden = ColorPlane{layer.color->data(), layer.color_encoding}.at(near_px);
-    const auto first = beside(far_px, step);
-    if (!first || !areJoined(far_px, *first)) return hidden;
-    const auto second = beside(*first, step);
-    if (!second || !areJoined(*first, *second)) return hidden;
-    return mixed(hidden, 0.5F, color_.at(*first), 0.5F);
-  }
-
-  // What the surface at `px` looks like by the px behind it, and the one behind that: at an edge
-  // the px itself may hold the light of two.
-  Texel lightTowards(uint32_t px, PxStep step) const {
-    const auto first = beside(px, step);
-    if (!first || !areJoined(px, *first)) return color_.at(px);
-    const auto second = beside(*first, step);
-    if (!second || !areJoined(*first, *second)) return color_.at(*first);
-    Texel light = mixed(color_.at(*first), 2, color_.at(*second), -1);
-    const float most = color_.encoding == PlaneEncoding::kRgba8 ? 255.0F : 65504.0F;
-    for (float& channel : light) channel = std::clamp(channel, 0.0F, most);
-    return light;
-  }
-
-  const MovedSurfaces& surfaces_;
-  const ColorPlane& color_;
-  const SizePx size_px_;
-};
-
 }  // namespace
 
 void EdgeLight::find(const MovedSurfaces& surfaces, WorkerPool& workers) {
   const SizePx size_px = surfaces.sizePx();
   const LayerPlanes& front = surfaces.frame().sources.front().front();
   color_ = {front.color->data(), front.color_encoding};
-  found_.resize(retimedPieceCount(size_px));
-  workers.forEach(retimedPieceCount(size_px), [&](uint32_t piece, uint32_t) {
-    found_[piece].clear();
-    const uint32_t first = piece * kRetimedRowsPerPiece * size_px.width;
-    const uint32_t end =
-        std::min(first + kRetimedRowsPerPiece * size_px.width, uint32_t(size_px.area()));
-    for (uint32_t px = first; px < end; ++px) {
-      if (!surfaces.isBesideEdge(px)) continue;
-      if (const auto rim = rimAt(surfaces, px)) found_[piece].push_back(*rim);
-    }
-  });
   for (const Rim& rim : rims_) rim_of_px_[rim.px] = 0;
   for (const uint32_t px : reached_) nearest_[px] = 0;
   rims_.clear();
   reached_.clear();
   rim_of_px_.resize(size_px.area());
   nearest_.resize(size_px.area());
+  findRims(surfaces, workers);
+  std::vector<std::vector<uint32_t>> reached(workers.workerCount());
+  const auto count = uint32_t(rims_.size());
+  workers.forEach(pieceCount(count), [&](uint32_t piece, uint32_t worker) {
+    const uint32_t end = std::min((piece + 1) * kPxPerPiece, count);
+    for (uint32_t i = piece * kPxPerPiece; i < end; ++i) {
+      if (rims_[i].near_px == rims_[i].px) offerAround(surfaces, rims_[i], reached[worker]);
+    }
+  });
+  for (const std::vector<uint32_t>& px : reached) {
+    reached_.insert(reached_.end(), px.begin(), px.end());
+  }
+}
+
+void EdgeLight::findRims(const MovedSurfaces& surfaces, WorkerPool& workers) {
+  const SizePx size_px = surfaces.sizePx();
+  found_.resize(retimedPieceCount(size_px));
+  for (std::vector<Rim>& found : found_) found.clear();
+  forEachRow(size_px, workers, [&](uint32_t y, uint32_t) {
+    const Columns columns = surfaces.rimColumns(y);
+    std::vector<Rim>& found = found_[y / kRetimedRowsPerPiece];
+    for (uint32_t x = columns.first; x < columns.end; ++x) {
+      const uint32_t px = y * size_px.width + x;
+      if (!surfaces.links().isBesideEdge(px)) continue;
+      if (const auto rim = rimAt(surfaces, px)) found.push_back(*rim);
+    }
+  });
   for (const std::vector<Rim>& found : found_) {
     for (const Rim& rim : found) {
       rims_.push_back(rim);
       rim_of_px_[rim.px] = uint32_t(rims_.size());
     }
   }
-  for (const Rim& rim : rims_) {
-    if (rim.near_px == rim.px) offerAround(surfaces, rim);
-  }
 }
 
 // Of the sides on which there is an edge, the one on which light differs most. A px of a thing is
 // one of the thing, whatever it is beside.
 std::optional<EdgeLight::Rim> EdgeLight::rimAt(const MovedSurfaces& surfaces, uint32_t px) const {
-  const Layer layer(surfaces, color_);
+  const EdgeSurroundings around(surfaces, color_);
   std::optional<Rim> found;
   float found_apart = -1;
   for (const PxStep step : kSides) {
-    const auto other = layer.beside(px, step);
-    if (!other || !layer.isEdge(px, *other)) continue;
+    const auto other = around.beside(px, step);
+    if (!other || !around.isEdge(px, *other)) continue;
     const bool is_near = surfaces.frontInvZ(px) > surfaces.frontInvZ(*other);
     const bool was_near = found && found->near_px == px;
     if (was_near && !is_near) continue;
-    const EdgeSides sides = is_near ? layer.sidesOf(px, *other, step)
-                                    : layer.sidesOf(*other, px, PxStep{-step.x, -step.y});
+    const EdgeSides sides = is_near ? around.sidesOf(px, *other, step)
+                                    : around.sidesOf(*other, px, PxStep{-step.x, -step.y});
     const float apart = dot(sides.between, sides.between);
     if (found && was_near == is_near && apart <= found_apart) continue;
     found = {.px = px,
@@ -192,7 +133,8 @@ const Texel* EdgeLight::cleanAt(uint32_t sample) const {
 }
 
 // The px that some of the thing's edge falls into: of all such edges, the nearest counts.
-void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim) {
+void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim,
+                            std::vector<uint32_t>& reached) {
   const float inv_z = surfaces.invZ(rim.px);
   if (inv_z < 0) return;
   const SizePx size_px = surfaces.sizePx();
@@ -205,11 +147,15 @@ void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim) {
   for (int y = int(first.y); y <= int(last.y); ++y) {
     for (int x = int(first.x); x <= int(last.x); ++x) {
       const uint32_t px = uint32_t(y) * size_px.width + uint32_t(x);
-      if (offered <= nearest_[px]) continue;
+      const std::atomic_ref nearest(nearest_[px]);
+      uint64_t known = nearest.load(std::memory_order_relaxed);
+      if (offered <= known) continue;
       const glm::dvec2 from_px = glm::dvec2(x, y) + 0.5 - surfaces.way(rim.px);
       if (partAt(surfaces, rim, from_px).share <= 0) continue;
-      if (nearest_[px] == 0) reached_.push_back(px);
-      nearest_[px] = offered;
+      while (known < offered &&
+             !nearest.compare_exchange_weak(known, offered, std::memory_order_relaxed)) {
+      }
+      if (known == 0) reached.push_back(px);  // by one thread alone
     }
   }
 }
@@ -277,9 +223,8 @@ std::optional<Texel> EdgeLight::blendAt(const MovedSurfaces& surfaces, const Dra
 }
 
 void EdgeLight::blendInto(const MovedSurfaces& surfaces, const Drawn& drawn, WorkerPool& workers) {
-  constexpr uint32_t kPxPerPiece = 1024;
   const auto count = uint32_t(reached_.size());
-  workers.forEach((count + kPxPerPiece - 1) / kPxPerPiece, [&](uint32_t piece, uint32_t) {
+  workers.forEach(pieceCount(count), [&](uint32_t piece, uint32_t) {
     const uint32_t end = std::min((piece + 1) * kPxPerPiece, count);
     for (uint32_t i = piece * kPxPerPiece; i < end; ++i) {
       const auto blended = blendAt(surfaces, drawn, reached_[i]);

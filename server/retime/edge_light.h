@@ -12,17 +12,12 @@
 
 #include "base/worker_pool.h"
 #include "retime/color_plane.h"
+#include "retime/edge_sides.h"
 #include "retime/moved_surfaces.h"
 
 namespace viewloom {
 
 inline constexpr uint32_t kNoSample = UINT32_MAX;
-
-// The light on both sides of an edge, as it is in the middle between them.
-struct EdgeSides {
-  Texel far{};
-  Texel between{};  // from there to the near side's
-};
 
 // Of the first layer. Thread-safety: none; it shares its work among threads.
 class EdgeLight {
@@ -33,6 +28,10 @@ class EdgeLight {
   // The light of what is behind, where a sample beside an edge holds some of the thing's, too.
   // nullptr: it is as it is, as are those of deeper layers.
   const Texel* cleanAt(uint32_t sample) const;
+  // False: it is as it is.
+  bool hasRim(uint32_t sample) const {
+    return sample < rim_of_px_.size() && rim_of_px_[sample] != 0;
+  }
 
   // What was made of the first two layers.
   struct Drawn {
@@ -63,7 +62,8 @@ class EdgeLight {
   std::optional<Rim> rimAt(const MovedSurfaces& surfaces, uint32_t px) const;
   void takeApart(const EdgeSides& sides, float apart, Rim& rim) const;
   bool isOfThing(const MovedSurfaces& surfaces, const Rim& rim, uint32_t sample) const;
-  void offerAround(const MovedSurfaces& surfaces, const Rim& rim);
+  void findRims(const MovedSurfaces& surfaces, WorkerPool& workers);
+  void offerAround(const MovedSurfaces& surfaces, const Rim& rim, std::vector<uint32_t>& reached);
   Part partAt(const MovedSurfaces& surfaces, const Rim& rim, const glm::dvec2& at_px) const;
   std::optional<Texel> blendAt(const MovedSurfaces& surfaces, const Drawn& drawn,
                                uint32_t px) const;

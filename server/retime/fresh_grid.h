@@ -3,55 +3,36 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "base/worker_pool.h"
+#include "retime/blend_kernels.h"
+#include "retime/draw_kernels.h"
 #include "retime/moved_surfaces.h"
+#include "sweep/aligned_array.h"
 
 namespace viewloom {
 
-// The samples that a px lies between, and their shares, whose sum is 1.
-struct Blend {
-  std::array<uint32_t, 3> samples{};
-  std::array<double, 3> shares{};
-  uint32_t count = 0;
-
-  bool operator==(const Blend&) const = default;
-};
-
-// One layer at a time, front to back. The nearest wins by the maximum of 64 bits, 1/Z before the
-// number of the piece of surface: whatever threads draw in whatever order, the answer is the same.
+// One layer at a time, front to back; of each row its fresh columns (MovedSurfaces). The nearest
+// wins by the maximum of 64 bits, 1/Z before the number of the piece of surface: whatever threads
+// draw in whatever order, the answer is the same.
 // Thread-safety: none; it shares its work among threads.
 class FreshGrid {
  public:
-  // Draws the layer in front. `surfaces` stay as they are until the last layer is drawn.
-  void drawFirst(const MovedSurfaces& surfaces, WorkerPool& workers);
-  // Draws the next one behind it.
-  void drawNext(const MovedSurfaces& surfaces, WorkerPool& workers);
+  // Draws the layer behind one, of which `in_front` is [px], 1/m, abi::kNoSurface where nothing is;
+  // nullptr: the layer in front. `surfaces` stay as they are until it is no longer asked.
+  void draw(const MovedSurfaces& surfaces, const float* in_front, WorkerPool& workers);
 
-  // Of the layer drawn last: 1/m, abi::kNoSurface where nothing is.
-  float invZ(uint32_t px) const;
-  // Of the layer drawn last, the sample whose px it is and that has not moved.
-  std::optional<uint32_t> stillSample(uint32_t px) const;
-  // Where something is.
-  Blend blend(const MovedSurfaces& surfaces, uint32_t px) const;
+  // What was drawn at fresh columns of a row.
+  void findRow(uint32_t y, BlendedRow& row) const;
 
  private:
-  void draw(const MovedSurfaces& surfaces, WorkerPool& workers);
-  void drawStillRow(const MovedSurfaces& surfaces, uint32_t y);
-  void drawSample(const MovedSurfaces& surfaces, uint32_t sample);
-  template <typename BlendAt>
-  void drawPiece(const MovedSurfaces& surfaces, uint32_t piece, const glm::dvec2& low_px,
-                 const glm::dvec2& high_px, const BlendAt& blendAt);
-  bool isBehind(uint32_t px, float inv_z, float apart) const;
-  void offer(uint32_t px, float inv_z, uint32_t piece);
+  void drawRow(uint32_t y);
+  void drawFootprint(uint32_t layer, uint32_t x, uint32_t y);
+  void offer(uint32_t px, uint64_t key);
 
-  SizePx size_px_;
-  Kappa kappa_;
-  bool is_first_ = true;
-  std::vector<uint64_t> nearest_;  // [px]; 0: nothing
-  std::vector<float> in_front_;    // [px], 1/m, of the layer before
+  const MovedSurfaces* surfaces_ = nullptr;
+  const float* in_front_ = nullptr;
+  AlignedArray<uint64_t> nearest_;  // [px], pieceKey(); 0: nothing
 };
 
 }  // namespace viewloom

@@ -4,32 +4,23 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "base/worker_pool.h"
 #include "frame/frame.h"
+#include "retime/columns.h"
+#include "retime/move_kernels.h"
+#include "retime/moved_samples.h"
+#include "retime/surface_links.h"
+#include "sweep/aligned_array.h"
 #include "sweep/sweep_source.h"
 
 namespace viewloom {
 
-// Work on rows is shared among threads in pieces of so many.
-inline constexpr uint32_t kRetimedRowsPerPiece = 16;
-inline uint32_t retimedPieceCount(SizePx size_px) {
-  return (size_px.height + kRetimedRowsPerPiece - 1) / kRetimedRowsPerPiece;
-}
-
-// Sides of a sample's footprint, as bits.
-enum Quadrant : uint8_t {
-  kTopLeft = 1,
-  kTopRight = 2,
-  kBottomRight = 4,
-  kBottomLeft = 8,
-};
-
-// Samples are numbered through: (layer * height + row) * width + column.
+// Samples are numbered through, as in MovedSamples.
 // Thread-safety: none while it is prepared or moved, then immutable.
 class MovedSurfaces {
  public:
@@ -47,64 +38,43 @@ class MovedSurfaces {
   uint32_t layerOf(uint32_t sample) const { return sample / uint32_t(size_px_.area()); }
   uint32_t pxOf(uint32_t sample) const { return sample % uint32_t(size_px_.area()); }
   const Kappa& kappa() const { return kappa_; }
-  bool hadSurface(uint32_t x, uint32_t y) const { return heldRow(0, y)[x] >= 0; }
+  // As the frame has it, in canonical form (sweep/depth_columns.h).
+  const float* heldRow(uint32_t layer, uint32_t y) const { return held_inv_z_->row(layer, int(y)); }
+
   // Columns of a row outside of which nothing moves in it, on no layer.
-  struct Columns {
-    uint32_t first = 0;
-    uint32_t end = 0;
-  };
   Columns movingColumns(uint32_t y) const { return moving_columns_[y]; }
   // Those of samples from which quads may go that move.
   Columns quadColumns(uint32_t y) const;
+  // Those outside of which px are as the frame has them, after the move: nothing of what moves has
+  // been there, or has come there, and no light of its edges.
+  Columns freshColumns(uint32_t y) const { return fresh_columns_[y]; }
+  // Those of px that may lie beside an edge of what moves.
+  Columns rimColumns(uint32_t y) const;
 
   // Of the first layer, as the frame has it: 1/m, abi::kNoSurface where nothing is.
   float frontInvZ(uint32_t px) const {
     return heldRow(0, px / size_px_.width)[px % size_px_.width];
   }
-  // Whether surfaces of the first layer are connected to the next px in the row, and in the column.
-  bool joinsRight(uint32_t px) const { return to_right_[px] == 1; }
-  bool joinsBelow(uint32_t px) const { return to_below_[px] == 1; }
-  // False only where it is connected on all sides.
-  bool isBesideEdge(uint32_t px) const {
-    const uint32_t width = size_px_.width;
-    return !joinsRight(px) || !joinsBelow(px) || px < width || !joinsBelow(px - width) ||
-           !joinsRight(px - 1);
-  }
-  // The sample of a deeper layer at `px` that is connected to the first layer's in `other`, which
-  // is beside it.
-  std::optional<uint32_t> joinedBehind(uint32_t px, uint32_t other) const;
+  // Of rows near what moves.
+  const SurfaceLinks& links() const { return links_; }
 
+  const MovedSamples& samples() const { return samples_; }
   // 1/m, after the move; abi::kNoSurface also for what has come behind the camera.
-  float invZ(uint32_t sample) const { return moved_[sample].inv_z; }
+  float invZ(uint32_t sample) const { return inv_z_[sample]; }
   bool exists(uint32_t sample) const { return invZ(sample) >= 0; }
-  bool isStill(uint32_t sample) const { return moved_[sample].is_still; }
+  bool moves(uint32_t sample) const { return moves_[sample] != 0; }
   // px, after the move.
   glm::dvec2 place(uint32_t sample) const;
   // px, from where the frame has it.
-  glm::dvec2 way(uint32_t sample) const { return {moved_[sample].dx_px, moved_[sample].dy_px}; }
-  // The connected surface between a sample, the next in its row and the two below them, in the
-  // order of Quadrant; none where it is not connected all around, or has been torn apart.
-  std::optional<std::array<uint32_t, 4>> quadFrom(uint32_t sample) const;
-  // Which Quadrants of the sample's footprint lie in such a surface; of samples that move.
-  uint8_t quadrantsInQuads(uint32_t sample) const { return in_quads_[sample]; }
+  glm::dvec2 way(uint32_t sample) const { return {dx_px_[sample], dy_px_[sample]}; }
 
  private:
-  struct Moved {
-    float dx_px = 0;
-    float dy_px = 0;
-    float inv_z = 0;
-    bool is_still = true;
-  };
-  struct LinkScratch;
-
-  // As the frame has it.
-  const float* heldRow(uint32_t layer, uint32_t y) const { return held_inv_z_->row(layer, int(y)); }
-  void linkRow(int y, LinkScratch& scratch);
+  void beginFrame(WorkerPool& workers);
+  void clearRow(uint32_t y);
   void standRow(uint32_t y);
-  void moveRow(uint32_t layer, uint32_t y, const glm::dvec3& to_camera_x,
-               const glm::dvec3& to_camera_y, const glm::dvec3& to_camera_z);
-  void noteQuads(uint32_t layer, uint32_t y);
-  bool isTorn(uint32_t a, uint32_t b) const;
+  bool isNearMoving(uint32_t y) const;
+  void moveRows(uint32_t y, const std::array<glm::dvec3, 3>& axes_s);
+  void findFreshColumns();
 
   FramePtr frame_;
   SizePx size_px_;
@@ -112,11 +82,15 @@ class MovedSurfaces {
   SweepSource columns_;
   const DepthColumns* held_inv_z_ = nullptr;  // its
   Kappa kappa_;
-  std::vector<uint8_t> to_right_;  // [sample], as sweep/link_kernels.h
-  std::vector<uint8_t> to_below_;
+  SurfaceLinks links_;
   std::vector<Columns> moving_columns_;  // [row]
-  std::vector<Moved> moved_;
-  std::vector<uint8_t> in_quads_;
+  std::vector<WayRange> ways_;           // [row], of what moves in it, px
+  std::vector<Columns> fresh_columns_;   // [row]
+  // [sample]
+  AlignedArray<float> dx_px_, dy_px_, inv_z_;
+  AlignedArray<uint8_t> moves_, covered_;
+  AlignedArray<QuadLayers> drawn_quads_;  // from its second element on
+  MovedSamples samples_;
 };
 
 }  // namespace viewloom

@@ -30,7 +30,7 @@ LAYERS = {
     "server/sweep": (["base", "frame", "display", "trace/trace_job.h", "trace/ray_sources.h",
                       SHADERS_SHARED],
                      ["absl", "glm", "highway"]),
-    "server/retime": (["base", "frame", "sweep", SHADERS_SHARED], ["glm"]),
+    "server/retime": (["base", "frame", "sweep", SHADERS_SHARED], ["glm", "highway"]),
     "server/temporal": (["base", "frame", "display"], ["absl", "glm"]),
     "server/encode": (["base", "jpeg", "frame", "display", SHADERS_SHARED],
                       ["absl", "jpeg", "png", "zstd"]),
