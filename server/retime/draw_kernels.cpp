@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "retime/doubles_inl.h"
 #include "shared/structure_abi.h"
@@ -129,6 +130,23 @@ HWY_INLINE LongVec keysOf(DoubleVec inv_z, LongVec pieces) {
   return hn::Or(hn::ShiftLeft<32>(bits), hn::Sub(hn::Set(kLongs, UINT32_MAX), pieces));
 }
 
+// Those lanes. One by one: Highway's compression of so wide lanes looks its order up in a table,
+// which g++ copies each time.
+HWY_INLINE void append(LongVec px, LongVec keys, DoubleMask those, Fragments& fragments) {
+  HWY_ALIGN uint64_t all_px[HWY_MAX_BYTES / sizeof(uint64_t)];
+  HWY_ALIGN uint64_t all_keys[HWY_MAX_BYTES / sizeof(uint64_t)];
+  uint8_t bits[8] = {};
+  hn::Store(px, kLongs, all_px);
+  hn::Store(keys, kLongs, all_keys);
+  hn::StoreMaskBits(kDoubles, those, bits);
+  for (uint32_t left = bits[0]; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
+    fragments.px[fragments.count] = all_px[lane];
+    fragments.keys[fragments.count] = all_keys[lane];
+    ++fragments.count;
+  }
+}
+
 // From a px to the corners of quads.
 struct Rays {
   DoubleVec x[4], y[4];
@@ -150,9 +168,7 @@ HWY_INLINE void offer(const QuadVector& quads, const Rays& rays, const TriangleV
       hn::Add(hn::Add(hn::Mul(of_i, quads.corners[i].inv_z), hn::Mul(of_j, quads.corners[j].inv_z)),
               hn::Mul(of_k, quads.corners[k].inv_z));
   const LongVec keys = keysOf(inv_z, hn::Add(quads.first_piece, hn::Set(kLongs, kind)));
-  const auto lanes = hn::RebindMask(kLongs, is_inside);
-  storeThose(kLongs, px, lanes, fragments.px + fragments.count);
-  fragments.count += storeThose(kLongs, keys, lanes, fragments.keys + fragments.count);
+  append(px, keys, is_inside, fragments);
 }
 
 HWY_INLINE LongVec toLongs(DoubleVec values) {

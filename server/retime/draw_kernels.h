@@ -32,8 +32,8 @@ inline float invZOfKey(uint64_t key) {
 inline constexpr uint32_t kQuadsPerCall = 64;
 struct Fragments {
   // Neighbours in a quad are no further apart than two px each way, so its corners lie within
-  // three: its px within four by four, of which each is offered both triangles. And a vector.
-  static constexpr uint32_t kCountMax = kQuadsPerCall * 4 * 4 * 2 + 8;
+  // three: its px within four by four, of which each is offered both triangles.
+  static constexpr uint32_t kCountMax = kQuadsPerCall * 4 * 4 * 2;
 
   uint64_t keys[kCountMax];
   uint64_t px[kCountMax];

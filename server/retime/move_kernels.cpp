@@ -31,15 +31,23 @@ struct Chunk {
 
 // Motion is finite.
 void loadSpeed(const MotionRow& row, uint32_t x, uint32_t count, Chunk& chunk) {
-  using Halves = hn::Rebind<hwy::float16_t, Floats>;
+  constexpr hn::CappedTag<uint16_t, kChunk_px> kAllHalves;
   std::memcpy(chunk.motion, row.motion + size_t{6} * x, size_t{6} * count);
-  HWY_ALIGN float flat[kAxes * kChunk_px];
-  for (size_t i = 0; i < kAxes * kChunk_px; i += hn::Lanes(kFloats)) {
-    const auto* const halves = reinterpret_cast<const hwy::float16_t*>(chunk.motion) + i;
-    hn::StoreU(hn::PromoteTo(kFloats, hn::LoadU(Halves(), halves)), kFloats, flat + i);
+  HWY_ALIGN uint16_t halves[kAxes][kChunk_px];
+  for (size_t i = 0; i < kChunk_px; i += hn::Lanes(kAllHalves)) {
+    hn::Vec<decltype(kAllHalves)> axes[kAxes];
+    hn::LoadInterleaved3(kAllHalves, chunk.motion + kAxes * i, axes[0], axes[1], axes[2]);
+    for (size_t axis = 0; axis < kAxes; ++axis) {
+      hn::StoreU(axes[axis], kAllHalves, halves[axis] + i);
+    }
   }
-  for (size_t i = 0; i < kChunk_px; ++i) {
-    for (size_t axis = 0; axis < kAxes; ++axis) chunk.speed[axis][i] = flat[kAxes * i + axis];
+  const hn::Rebind<hwy::float16_t, Floats> vector_halves;
+  for (size_t axis = 0; axis < kAxes; ++axis) {
+    for (size_t i = 0; i < kChunk_px; i += hn::Lanes(kFloats)) {
+      const auto* const from = reinterpret_cast<const hwy::float16_t*>(halves[axis]) + i;
+      hn::StoreU(hn::PromoteTo(kFloats, hn::LoadU(vector_halves, from)), kFloats,
+                 chunk.speed[axis] + i);
+    }
   }
 }
 
