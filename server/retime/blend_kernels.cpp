@@ -64,7 +64,15 @@ struct CornerVector {
   DoubleVec sample, x, y;
 };
 
-HWY_INLINE DoubleVec gather(const float* values, hn::Vec<HalfInts> indices) {
+// One after the other, as mostly.
+template <class Tag, class Indices>
+HWY_INLINE bool areRun(Tag tag, Indices indices) {
+  const auto run = hn::Add(hn::Set(tag, hn::GetLane(indices)), hn::Iota(tag, 0));
+  return hn::AllTrue(tag, hn::Eq(indices, run));
+}
+
+HWY_INLINE DoubleVec gather(const float* values, hn::Vec<HalfInts> indices, bool are_run) {
+  if (HWY_LIKELY(are_run)) return loadDoubles(values + hn::GetLane(indices));
   return hn::PromoteTo(kDoubles, hn::GatherIndex(HalfFloats(), values, indices));
 }
 
@@ -75,10 +83,12 @@ HWY_INLINE CornerVector cornerAt(const MovedSamples& samples, const QuadVector& 
   const DoubleVec px =
       hn::Add(hn::Add(quad.px, right), hn::Mul(below, setDouble(samples.size_px.width)));
   const DoubleVec sample = hn::Add(px, hn::Mul(layer, setDouble(samples.areaPx())));
-  const auto index = toInts(sample);
-  return {.sample = sample,
-          .x = hn::Add(hn::Add(hn::Add(quad.x, right), half), gather(samples.dx_px, index)),
-          .y = hn::Add(hn::Add(hn::Add(quad.y, below), half), gather(samples.dy_px, index))};
+  const auto indices = toInts(sample);
+  const bool are_run = areRun(HalfInts(), indices);
+  return {
+      .sample = sample,
+      .x = hn::Add(hn::Add(hn::Add(quad.x, right), half), gather(samples.dx_px, indices, are_run)),
+      .y = hn::Add(hn::Add(hn::Add(quad.y, below), half), gather(samples.dy_px, indices, are_run))};
 }
 
 // Samples and their shares in px.
@@ -178,22 +188,72 @@ HWY_INLINE WordVec blendChannel(const WordVec* texels, const Vec* shares) {
   return hn::ShiftLeft<kShift>(hn::BitCast(kWords, hn::ConvertTo(kInts, code)));
 }
 
-void BlendTexels(const BlendedRow& row, uint32_t count, uint8_t* color) {
+// Of samples of several layers.
+WordVec pickTexels(const TexelPlanes& planes, const uint32_t* samples, size_t count) {
+  HWY_ALIGN uint32_t texels[HWY_MAX_BYTES / sizeof(uint32_t)] = {};
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t layer = samples[i] / planes.area_px;
+    const size_t px = samples[i] - layer * planes.area_px;
+    std::memcpy(texels + i, planes.color[layer] + 4 * px, sizeof texels[i]);
+  }
+  return hn::Load(kWords, texels);
+}
+
+// The texels of a vector of samples; adds the marks of those that have one to `marks`.
+HWY_INLINE WordVec loadTexels(const TexelPlanes& planes, const uint32_t* samples, size_t count,
+                              WordVec& marks) {
+  const WordVec own = hn::LoadU(kWords, samples);
+  const uint32_t first_layer = samples[0] / planes.area_px;
+  const WordVec area = hn::Set(kWords, planes.area_px);
+  const WordVec px = hn::Sub(own, hn::Set(kWords, first_layer * planes.area_px));
+  // Samples of layers before the first lane's are large numbers, too.
+  const auto is_same = hn::Lt(px, area);
+  const bool are_same = count == hn::Lanes(kWords) && hn::AllTrue(kWords, is_same);
+  if (HWY_UNLIKELY(!are_same)) {
+    for (size_t i = 0; i < count; ++i) {
+      if (samples[i] >= planes.area_px || planes.marks[samples[i]] == 0) continue;
+      marks = hn::Or(marks, hn::VecFromMask(
+                                kWords, hn::Eq(hn::Iota(kWords, 0), hn::Set(kWords, uint32_t(i)))));
+    }
+    return pickTexels(planes, samples, count);
+  }
+  const auto* const texels = reinterpret_cast<const uint32_t*>(planes.color[first_layer]);
+  const IntVec indices = hn::BitCast(kInts, px);
+  if (HWY_LIKELY(areRun(kWords, px))) {
+    const size_t begin = hn::GetLane(px);
+    if (first_layer == 0) marks = hn::Or(marks, hn::LoadU(kWords, planes.marks + begin));
+    return hn::LoadU(kWords, texels + begin);
+  }
+  if (first_layer == 0) marks = hn::Or(marks, hn::GatherIndex(kWords, planes.marks, indices));
+  return hn::GatherIndex(kWords, texels, indices);
+}
+
+uint32_t BlendTexels(const TexelPlanes& planes, const BlendedRow& row, uint32_t count,
+                     uint8_t* color, uint32_t* marked) {
   const auto lanes = uint32_t(hn::Lanes(kFloats));
+  uint32_t marked_count = 0;
   for (uint32_t i = 0; i < count; i += lanes) {
+    const uint32_t those = HWY_MIN(lanes, count - i);
     WordVec texels[3];
     Vec shares[3];
+    WordVec marks = hn::Zero(kWords);
     for (uint32_t k = 0; k < 3; ++k) {
-      texels[k] = hn::LoadU(kWords, row.texels[k].data() + i);
+      texels[k] = loadTexels(planes, row.samples[k].data() + i, those, marks);
       shares[k] = hn::LoadU(kFloats, row.shares[k].data() + i);
     }
-    const WordVec all =
+    const WordVec sums =
         hn::Or(hn::Or(blendChannel<0>(texels, shares), blendChannel<8>(texels, shares)),
                hn::Or(blendChannel<16>(texels, shares), blendChannel<24>(texels, shares)));
-    uint32_t last[HWY_MAX_BYTES / sizeof(uint32_t)];
-    hn::StoreU(all, kWords, last);
-    std::memcpy(color + size_t{4} * i, last, size_t{4} * HWY_MIN(lanes, count - i));
+    const Mask exists = hn::And(hn::Ge(hn::LoadU(kFloats, row.inv_z.data() + i), hn::Zero(kFloats)),
+                                hn::FirstN(kFloats, those));
+    HWY_ALIGN uint32_t rgba[HWY_MAX_BYTES / sizeof(uint32_t)];
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(kWords, exists), sums), kWords, rgba);
+    std::memcpy(color + size_t{4} * i, rgba, size_t{4} * those);
+    const auto is_marked = hn::And(hn::Ne(marks, hn::Zero(kWords)), hn::RebindMask(kWords, exists));
+    if (HWY_LIKELY(hn::AllFalse(kWords, is_marked))) continue;
+    marked_count += storeThose(kWords, hn::Iota(kWords, i), is_marked, marked + marked_count);
   }
+  return marked_count;
 }
 
 }  // namespace viewloom::HWY_NAMESPACE
@@ -211,7 +271,6 @@ void BlendedRow::reserve(uint32_t width) {
   for (uint32_t i = 0; i < 3; ++i) {
     samples[i].reserve(width + kRowSlack);
     shares[i].reserve(width + kRowSlack);
-    texels[i].reserve(width + kRowSlack);
   }
 }
 
@@ -220,8 +279,9 @@ void findBlends(const MovedSamples& samples, uint32_t px, uint32_t count, const 
   HWY_DYNAMIC_DISPATCH(FindBlends)(samples, px, count, keys, row);
 }
 
-void blendTexels(const BlendedRow& row, uint32_t count, uint8_t* color) {
-  HWY_DYNAMIC_DISPATCH(BlendTexels)(row, count, color);
+uint32_t blendTexels(const TexelPlanes& planes, const BlendedRow& row, uint32_t count,
+                     uint8_t* color, uint32_t* marked) {
+  return HWY_DYNAMIC_DISPATCH(BlendTexels)(planes, row, count, color, marked);
 }
 
 }  // namespace viewloom

@@ -8,6 +8,7 @@
 
 #include "retime/moved_samples.h"
 #include "sweep/aligned_array.h"
+#include "sweep/surface_row.h"
 
 namespace viewloom {
 
@@ -16,11 +17,10 @@ namespace viewloom {
 struct BlendedRow {
   void reserve(uint32_t width);
 
-  AlignedArray<float> inv_z;  // 1/m, abi::kNoSurface where there is nothing; the rest is then void
+  AlignedArray<float> inv_z;    // 1/m, abi::kNoSurface where there is nothing
   AlignedArray<uint32_t> main;  // the sample that most of it is
   std::array<AlignedArray<uint32_t>, 3> samples;
-  std::array<AlignedArray<float>, 3> shares;     // their sum is 1
-  std::array<AlignedArray<uint32_t>, 3> texels;  // of these samples, RGBA8
+  std::array<AlignedArray<float>, 3> shares;  // their sum is 1
 };
 
 // What pieces show at `count` px from `px` on. `keys`: of these (pieceKey()), 0 where there is
@@ -28,7 +28,15 @@ struct BlendedRow {
 void findBlends(const MovedSamples& samples, uint32_t px, uint32_t count, const uint64_t* keys,
                 BlendedRow& row);
 
-// RGBA8[count]
-void blendTexels(const BlendedRow& row, uint32_t count, uint8_t* color);
+struct TexelPlanes {
+  ByLayer<const uint8_t*> color{};  // RGBA8[px]
+  uint32_t area_px = 0;
+  const uint32_t* marks = nullptr;  // [px], of the first layer: not 0 where texels do not count
+};
+
+// Writes RGBA8[count], 0 where there is nothing. Returns the number of px that have a sample with a
+// mark; which they are, in `marked`, with room for a vector beyond `count`.
+uint32_t blendTexels(const TexelPlanes& planes, const BlendedRow& row, uint32_t count,
+                     uint8_t* color, uint32_t* marked);
 
 }  // namespace viewloom

@@ -28,10 +28,8 @@ class EdgeLight {
   // The light of what is behind, where a sample beside an edge holds some of the thing's, too.
   // nullptr: it is as it is, as are those of deeper layers.
   const Texel* cleanAt(uint32_t sample) const;
-  // False: it is as it is.
-  bool hasRim(uint32_t sample) const {
-    return sample < rim_of_px_.size() && rim_of_px_[sample] != 0;
-  }
+  // [px]: not 0 only where the first layer's sample may be clean.
+  const uint32_t* rims() const { return rim_of_px_.data(); }
 
   // What was made of the first two layers.
   struct Drawn {

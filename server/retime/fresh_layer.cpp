@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "frame/limits.h"
+#include "sweep/row_source.h"
 
 namespace viewloom {
 namespace {
@@ -31,6 +32,11 @@ void copyTexels(const float* inv_z, const uint8_t* from, uint32_t count, uint8_t
 
 }  // namespace
 
+void FreshRow::reserve(uint32_t width) {
+  blends.reserve(width);
+  marked.reserve(width + kRowSlack);
+}
+
 size_t texelBytes(PlaneEncoding encoding) {
   return encoding == PlaneEncoding::kRgba16f ? 8 : 4;
 }
@@ -44,18 +50,19 @@ FreshLayer::FreshLayer(const MovedSurfaces& surfaces, const EdgeLight& edges, ui
       from_(surfaces.frame().sources.front()),
       encoding_(from_.front().color_encoding) {}
 
-void FreshLayer::writeRow(uint32_t y, BlendedRow& fresh) const {
+void FreshLayer::writeRow(uint32_t y, FreshRow& fresh) const {
   const uint32_t width = surfaces_.sizePx().width;
   const Columns columns = surfaces_.freshColumns(y);
   writeStanding(y, {0, columns.first});
   writeStanding(y, {columns.end, width});
   const uint32_t px = y * width + columns.first;
-  std::copy_n(fresh.inv_z.data(), columns.count(), to_.inv_z + px);
+  const BlendedRow& blends = fresh.blends;
+  std::copy_n(blends.inv_z.data(), columns.count(), to_.inv_z + px);
   writeColors(px, columns.count(), fresh);
-  if (to_.surface != nullptr) writeSurfaces(px, columns.count(), fresh);
+  if (to_.surface != nullptr) writeSurfaces(px, columns.count(), blends);
   if (to_.samples == nullptr) return;
   for (uint32_t i = 0; i < columns.count(); ++i) {
-    to_.samples[px + i] = fresh.inv_z[i] >= 0 ? fresh.main[i] : kNoSample;
+    to_.samples[px + i] = blends.inv_z[i] >= 0 ? blends.main[i] : kNoSample;
   }
 }
 
@@ -84,14 +91,14 @@ void FreshLayer::writeStanding(uint32_t y, const Columns& columns) const {
   for (uint32_t i = 0; i < count; ++i) to_.samples[px + i] = inv_z[i] >= 0 ? px + i : kNoSample;
 }
 
-void FreshLayer::writeColors(uint32_t px, uint32_t count, BlendedRow& fresh) const {
+void FreshLayer::writeColors(uint32_t px, uint32_t count, FreshRow& fresh) const {
   if (encoding_ != PlaneEncoding::kRgba16f) {
     blendBytes(px, count, fresh);
     return;
   }
   for (uint32_t i = 0; i < count; ++i) {
-    if (fresh.inv_z[i] >= 0) {
-      blendPx(px + i, i, fresh);
+    if (fresh.blends.inv_z[i] >= 0) {
+      blendPx(px + i, i, fresh.blends);
     } else {
       std::fill_n(to_.color + (px + i) * texelBytes(encoding_), texelBytes(encoding_), uint8_t{0});
     }
@@ -99,33 +106,14 @@ void FreshLayer::writeColors(uint32_t px, uint32_t count, BlendedRow& fresh) con
 }
 
 // All at once, and anew those of samples that have not their own light.
-void FreshLayer::blendBytes(uint32_t px, uint32_t count, BlendedRow& fresh) const {
-  const auto area = uint32_t(surfaces_.sizePx().area());
-  std::array<const uint8_t*, abi::kLayerCountMax> planes{};
-  for (size_t i = 0; i < from_.size(); ++i) planes[i] = from_[i].color->data();
-  const auto texelOf = [&](uint32_t sample) {
-    uint32_t layer = 0;
-    for (; sample >= area; sample -= area) ++layer;
-    uint32_t texel = 0;
-    std::memcpy(&texel, planes[layer] + size_t{4} * sample, sizeof texel);
-    return texel;
-  };
-  for (size_t k = 0; k < 3; ++k) {
-    const uint32_t* const samples = fresh.samples[k].data();
-    uint32_t* const texels = fresh.texels[k].data();
-    for (uint32_t i = 0; i < count; ++i) {
-      texels[i] = fresh.inv_z[i] >= 0 ? texelOf(samples[i]) : 0;
-    }
+void FreshLayer::blendBytes(uint32_t px, uint32_t count, FreshRow& fresh) const {
+  TexelPlanes planes{.area_px = uint32_t(surfaces_.sizePx().area()), .marks = edges_.rims()};
+  for (size_t i = 0; i < from_.size(); ++i) planes.color[i] = from_[i].color->data();
+  const uint32_t marked_count =
+      blendTexels(planes, fresh.blends, count, to_.color + size_t{4} * px, fresh.marked.data());
+  for (uint32_t i = 0; i < marked_count; ++i) {
+    blendPx(px + fresh.marked[i], fresh.marked[i], fresh.blends);
   }
-  blendTexels(fresh, count, to_.color + size_t{4} * px);
-  for (uint32_t i = 0; i < count; ++i) {
-    if (fresh.inv_z[i] >= 0 && hasCleanLight(i, fresh)) blendPx(px + i, i, fresh);
-  }
-}
-
-bool FreshLayer::hasCleanLight(uint32_t i, const BlendedRow& fresh) const {
-  return edges_.hasRim(fresh.samples[0][i]) || edges_.hasRim(fresh.samples[1][i]) ||
-         edges_.hasRim(fresh.samples[2][i]);
 }
 
 void FreshLayer::blendPx(uint32_t px, uint32_t i, const BlendedRow& fresh) const {

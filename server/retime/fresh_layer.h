@@ -26,6 +26,14 @@ struct FreshPlanes {
   uint32_t* samples = nullptr;  // that most of each px is, kNoSample where nothing is; or nullptr
 };
 
+// Of the fresh columns of a row.
+struct FreshRow {
+  void reserve(uint32_t width);
+
+  BlendedRow blends;
+  AlignedArray<uint32_t> marked;  // as blendTexels() has it
+};
+
 size_t texelBytes(PlaneEncoding encoding);
 
 // Thread-safety: rows may be written by several threads at a time.
@@ -35,16 +43,15 @@ class FreshLayer {
              const FreshPlanes& to);
 
   // Of a row what is as the frame has it, and `fresh` at its fresh columns.
-  void writeRow(uint32_t y, BlendedRow& fresh) const;
+  void writeRow(uint32_t y, FreshRow& fresh) const;
   // Of px at which the frame has a surface, and nothing is any more.
   void fillRow(uint32_t y, Guesses guesses) const;
 
  private:
   void writeStanding(uint32_t y, const Columns& columns) const;
-  void writeColors(uint32_t px, uint32_t count, BlendedRow& fresh) const;
-  void blendBytes(uint32_t px, uint32_t count, BlendedRow& fresh) const;
+  void writeColors(uint32_t px, uint32_t count, FreshRow& fresh) const;
+  void blendBytes(uint32_t px, uint32_t count, FreshRow& fresh) const;
   void blendPx(uint32_t px, uint32_t i, const BlendedRow& fresh) const;
-  bool hasCleanLight(uint32_t i, const BlendedRow& fresh) const;
   void writeSurfaces(uint32_t px, uint32_t count, const BlendedRow& fresh) const;
   void copyPx(uint32_t from, uint32_t to) const;
 

@@ -23,7 +23,7 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, 
   const SizePx size_px = surfaces_.sizePx();
   front_samples_.resize(size_px.area());
   rows_.resize(workers.workerCount());
-  for (BlendedRow& row : rows_) row.reserve(size_px.width);
+  for (FreshRow& row : rows_) row.reserve(size_px.width);
   std::vector<LayerPlanes> layers;
   std::vector<FreshPlanes> written;
   for (uint32_t layer = 0; layer < surfaces_.layerCount(); ++layer) {
@@ -34,7 +34,7 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, 
     written.push_back(to);
     const FreshLayer fresh(surfaces_, edges_, layer, to);
     forEachRow(size_px, workers, [&](uint32_t y, uint32_t worker) {
-      grid_.findRow(y, rows_[worker]);
+      grid_.findRow(y, rows_[worker].blends);
       fresh.writeRow(y, rows_[worker]);
       if (layer == 0) fresh.fillRow(y, guesses);
     });

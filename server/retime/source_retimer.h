@@ -33,7 +33,7 @@ class SourceRetimer {
   MovedSurfaces surfaces_;
   FreshGrid grid_;
   EdgeLight edges_;
-  std::vector<BlendedRow> rows_;         // [worker]
+  std::vector<FreshRow> rows_;           // [worker]
   std::vector<uint32_t> front_samples_;  // [px], of the first layer
 };
 
