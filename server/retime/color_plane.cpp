@@ -13,12 +13,8 @@ constexpr float kHalfMax = 65504;
 
 }  // namespace
 
-Texel ColorPlane::at(uint32_t px) const {
+Texel ColorPlane::halvesAt(uint32_t px) const {
   Texel texel;
-  if (encoding != PlaneEncoding::kRgba16f) {
-    for (size_t i = 0; i < texel.size(); ++i) texel[i] = texels[4 * size_t{px} + i];
-    return texel;
-  }
   uint16_t halves[4];
   std::memcpy(halves, texels + 8 * size_t{px}, sizeof halves);
   for (size_t i = 0; i < texel.size(); ++i) texel[i] = glm::unpackHalf1x16(halves[i]);

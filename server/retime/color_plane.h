@@ -24,7 +24,15 @@ struct ColorPlane {
   const uint8_t* texels = nullptr;
   PlaneEncoding encoding = PlaneEncoding::kRgba8;
 
-  Texel at(uint32_t px) const;
+  Texel at(uint32_t px) const {
+    if (encoding == PlaneEncoding::kRgba16f) return halvesAt(px);
+    Texel texel;
+    for (size_t i = 0; i < texel.size(); ++i) texel[i] = texels[4 * size_t{px} + i];
+    return texel;
+  }
+
+ private:
+  Texel halvesAt(uint32_t px) const;
 };
 void storeTexel(PlaneEncoding encoding, const Texel& texel, uint32_t px, uint8_t* texels);
 

@@ -38,6 +38,19 @@ float dot(const Texel& a, const Texel& b) {
   return sum;
 }
 
+// The four px that a place lies between: from the corner on, by rows.
+struct BetweenPx {
+  explicit BetweenPx(const glm::dvec2& at_px)
+      : corner(glm::floor(at_px - 0.5)), beyond(at_px - 0.5 - corner) {}
+
+  float weight(int i) const {
+    return float((i % 2 == 0 ? 1 - beyond.x : beyond.x) * (i / 2 == 0 ? 1 - beyond.y : beyond.y));
+  }
+
+  glm::dvec2 corner;
+  glm::dvec2 beyond;
+};
+
 }  // namespace
 
 void EdgeLight::find(const MovedSurfaces& surfaces, WorkerPool& workers) {
@@ -140,8 +153,11 @@ void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim,
   const SizePx size_px = surfaces.sizePx();
   const glm::dvec2 last_px(size_px.width - 1.0, size_px.height - 1.0);
   const glm::dvec2 at = surfaces.place(rim.px) - 0.5;
+  const glm::dvec2 way = surfaces.way(rim.px);
   const glm::dvec2 first = glm::clamp(glm::ceil(at - kReach_px), glm::dvec2(0), last_px + 1.0);
   const glm::dvec2 last = glm::clamp(glm::floor(at + kReach_px), glm::dvec2(-1), last_px);
+  if (first.x > last.x || first.y > last.y) return;
+  const Shares shares = sharesFrom(surfaces, rim, first + 0.5 - way, last + 0.5 - way);
   const uint64_t offered =
       uint64_t{std::bit_cast<uint32_t>(inv_z + 0.0F)} << 32 | (UINT32_MAX - rim_of_px_[rim.px]);
   for (int y = int(first.y); y <= int(last.y); ++y) {
@@ -150,14 +166,47 @@ void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim,
       const std::atomic_ref nearest(nearest_[px]);
       uint64_t known = nearest.load(std::memory_order_relaxed);
       if (offered <= known) continue;
-      const glm::dvec2 from_px = glm::dvec2(x, y) + 0.5 - surfaces.way(rim.px);
-      if (partAt(surfaces, rim, from_px).share <= 0) continue;
+      const BetweenPx between(glm::dvec2(x, y) + 0.5 - way);
+      float share = 0;
+      for (int i = 0; i < 4; ++i) {
+        const auto column = size_t(int(between.corner.x) + i % 2 - shares.x);
+        const auto row = size_t(int(between.corner.y) + i / 2 - shares.y);
+        share += between.weight(i) * shares.shares[row][column];
+      }
+      if (share <= 0) continue;
       while (known < offered &&
              !nearest.compare_exchange_weak(known, offered, std::memory_order_relaxed)) {
       }
       if (known == 0) reached.push_back(px);  // by one thread alone
     }
   }
+}
+
+// Of the thing, in the px of the frame that places between these lie between.
+EdgeLight::Shares EdgeLight::sharesFrom(const MovedSurfaces& surfaces, const Rim& rim,
+                                        const glm::dvec2& first_px,
+                                        const glm::dvec2& last_px) const {
+  const SizePx size_px = surfaces.sizePx();
+  const glm::dvec2 begin = BetweenPx(first_px).corner, end = BetweenPx(last_px).corner + 1.0;
+  Shares shares{.x = int(begin.x), .y = int(begin.y), .shares = {}};
+  for (int y = shares.y; y <= int(end.y); ++y) {
+    for (int x = shares.x; x <= int(end.x); ++x) {
+      const uint32_t row = uint32_t(std::clamp(y, 0, int(size_px.height) - 1));
+      const uint32_t column = uint32_t(std::clamp(x, 0, int(size_px.width) - 1));
+      shares.shares[y - shares.y][x - shares.x] =
+          shareOf(surfaces, rim, row * size_px.width + column);
+    }
+  }
+  return shares;
+}
+
+float EdgeLight::shareOf(const MovedSurfaces& surfaces, const Rim& rim, uint32_t px) const {
+  const uint32_t index = rim_of_px_[px];
+  if (index != 0) {
+    const Rim& other = rims_[index - 1];
+    if (isOfThing(surfaces, rim, other.near_px)) return other.share;
+  }
+  return isOfThing(surfaces, rim, px) ? 1.0F : 0.0F;
 }
 
 // Whether a sample belongs to the thing at the edge, rather than to what is behind it.
@@ -177,14 +226,13 @@ bool EdgeLight::isOfThing(const MovedSurfaces& surfaces, const Rim& rim, uint32_
 EdgeLight::Part EdgeLight::partAt(const MovedSurfaces& surfaces, const Rim& rim,
                                   const glm::dvec2& at_px) const {
   const SizePx size_px = surfaces.sizePx();
-  const glm::dvec2 corner = glm::floor(at_px - 0.5);
-  const glm::dvec2 beyond = at_px - 0.5 - corner;
+  const BetweenPx between(at_px);
   const glm::dvec2 last_px(size_px.width - 1.0, size_px.height - 1.0);
   Part part;
-  for (uint32_t i = 0; i < 4; ++i) {
-    const glm::dvec2 px_at = glm::clamp(corner + glm::dvec2(i % 2, i / 2), glm::dvec2(0), last_px);
-    const auto weight =
-        float((i % 2 == 0 ? 1 - beyond.x : beyond.x) * (i / 2 == 0 ? 1 - beyond.y : beyond.y));
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec2 px_at =
+        glm::clamp(between.corner + glm::dvec2(i % 2, i / 2), glm::dvec2(0), last_px);
+    const float weight = between.weight(i);
     const uint32_t px = uint32_t(px_at.y) * size_px.width + uint32_t(px_at.x);
     const uint32_t index = rim_of_px_[px];
     const Rim* const other = index == 0 ? nullptr : &rims_[index - 1];

@@ -57,11 +57,23 @@ class EdgeLight {
     Texel light{};
   };
 
+  // Shares of a thing in the px that its light may come from.
+  struct Shares {
+    int x = 0;  // of the first
+    int y = 0;
+    // As many px as lie within reach each way, and as many beside them as they lie between.
+    static constexpr int kCount = 8;
+    float shares[kCount][kCount];
+  };
+
   std::optional<Rim> rimAt(const MovedSurfaces& surfaces, uint32_t px) const;
   void takeApart(const EdgeSides& sides, float apart, Rim& rim) const;
   bool isOfThing(const MovedSurfaces& surfaces, const Rim& rim, uint32_t sample) const;
   void findRims(const MovedSurfaces& surfaces, WorkerPool& workers);
   void offerAround(const MovedSurfaces& surfaces, const Rim& rim, std::vector<uint32_t>& reached);
+  float shareOf(const MovedSurfaces& surfaces, const Rim& rim, uint32_t px) const;
+  Shares sharesFrom(const MovedSurfaces& surfaces, const Rim& rim, const glm::dvec2& first_px,
+                    const glm::dvec2& last_px) const;
   Part partAt(const MovedSurfaces& surfaces, const Rim& rim, const glm::dvec2& at_px) const;
   std::optional<Texel> blendAt(const MovedSurfaces& surfaces, const Drawn& drawn,
                                uint32_t px) const;
