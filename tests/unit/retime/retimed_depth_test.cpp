@@ -2,6 +2,7 @@
 // Depth of surfaces that move in every direction, beside rays through the triangles between their
 // samples in space; and whether threads change anything.
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 #include <optional>
@@ -94,7 +95,8 @@ TEST(RetimedDepth, isThatOfTheTrianglesBetweenMovedSamples) {
   EXPECT_GT(compared, int(kMovedPx.area()) / 2);
 }
 
-TEST(RetimedDepth, isTheSameHoweverManyThreadsDrawIt) {
+// Three layers, with holes, of which hardly a quad is whole.
+FramePtr noisyFrame() {
   std::mt19937 random(5);
   const auto uniform = [&] { return float(random() >> 8) / float(1 << 24); };
   const auto noise = [&](uint32_t x, uint32_t y) {
@@ -102,19 +104,54 @@ TEST(RetimedDepth, isTheSameHoweverManyThreadsDrawIt) {
                     .color = colorOfPx(x, y, 1),
                     .motion_mps = 20.0F * glm::vec3(uniform(), uniform(), uniform()) - 10.0F};
   };
-  const FramePtr frame = movingFrame({noise, noise, noise}, 0.02);
+  return movingFrame({noise, noise, noise}, 0.02);
+}
+
+void expectSamePlanes(const Frame& one, const Frame& other) {
+  for (size_t layer = 0; layer < one.sources[0].size(); ++layer) {
+    EXPECT_EQ(*one.sources[0][layer].depth, *other.sources[0][layer].depth);
+    EXPECT_EQ(*one.sources[0][layer].color, *other.sources[0][layer].color);
+  }
+}
+
+TEST(RetimedDepth, isTheSameHoweverManyThreadsDrawIt) {
+  const FramePtr frame = noisyFrame();
   WorkerPool alone(1), several(5);
   FrameRetimer one(alone), other(several);
   for (const double seconds : {0.02, -0.1, 0.05}) {
     const FramePtr first = one.retime(frame, seconds);
     for (int again = 0; again < 3; ++again) {
-      const FramePtr second = other.retime(frame, seconds);
-      for (size_t layer = 0; layer < 3; ++layer) {
-        EXPECT_EQ(*first->sources[0][layer].depth, *second->sources[0][layer].depth);
-        EXPECT_EQ(*first->sources[0][layer].color, *second->sources[0][layer].color);
-      }
+      expectSamePlanes(*first, *other.retime(frame, seconds));
     }
   }
+}
+
+TEST(RetimedDepth, isTheSameOnEveryKindOfCpu) {
+  WorkerPool workers(2);
+  for (const FramePtr& frame : {noisyFrame(), movingFrame({waveAt}, 10)}) {
+    const FramePtr first = FrameRetimer(workers).retime(frame, kTime_s);
+    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      hwy::SetSupportedTargetsForTest(target);
+      expectSamePlanes(*first, *FrameRetimer(workers).retime(frame, kTime_s));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+  }
+}
+
+// What moved in the frame before, and how, leaves nothing in the next.
+TEST(RetimedDepth, isThatOfTheFrameAlone) {
+  WorkerPool workers(2);
+  const auto standsAt = [](uint32_t x, uint32_t y) {
+    MovingPx px = waveAt(x, y);
+    if (x < 12 || x >= 20 || y < 8 || y >= 14) px.motion_mps = {};
+    return px;
+  };
+  const FramePtr frame = movingFrame({standsAt, waveAt, standsAt}, 0.02);
+  const FramePtr wanted = FrameRetimer(workers).retime(frame, kTime_s);
+  FrameRetimer used(workers);
+  used.retime(noisyFrame(), -kTime_s);
+  expectSamePlanes(*wanted, *used.retime(frame, kTime_s));
 }
 
 }  // namespace
