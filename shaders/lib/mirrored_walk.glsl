@@ -4,6 +4,7 @@
 #define VIEWLOOM_LIB_MIRRORED_WALK_GLSL_
 
 #include "lib/mirrored_px.glsl"
+#include "lib/passed_body.glsl"
 
 // Of a ray that went on unseen, or nothing where that has no end.
 float certainty(Pinhole pinhole, Spot from, Ray ray, float passed_t, float hit_t) {
@@ -22,11 +23,14 @@ Walk walkMirrored(Scene scene, Spot from, Reflected reflected) {
   return walkRay(scene, ray, start, reflected.inv_z_tolerance, reflected.eye_z);
 }
 
-Found foundBy(Scene scene, Pinhole pinhole, Spot from, Ray ray, Walk walk) {
+Found foundBy(Scene scene, Pinhole pinhole, Spot from, Ray ray, Walk walked) {
+  Walk walk = walked;
+  const uint body = meetBody(scene, pinhole, ray, walk);
   const Light light = opaqueLight(scene, ray, walk);
   const bool ends_behind = !walk.is_hit && walk.ends_behind && light.is_known;
   const float end_t = ends_behind ? farSideEnd(scene, ray, walk) : walk.t;
-  const bool is_unseen = walk.is_assumed || walk.is_back || ends_behind;
+  const bool is_free = body == kBodyPassed && walk.is_hit && !walk.is_back;
+  const bool is_unseen = (walk.is_assumed || walk.is_back || ends_behind) && !is_free;
   Found found;
   found.meets_surface = walk.is_hit && !walk.is_back;
   found.ending = walk.is_back                      ? kReflectionBack

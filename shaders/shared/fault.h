@@ -50,6 +50,7 @@ VIEWLOOM_ABI_CONST uint kFaultNormalTurned = 65u;     // mirrors face the other 
 VIEWLOOM_ABI_CONST uint kFaultNotBent = 66u;          // who goes below its own facet stays there
 VIEWLOOM_ABI_CONST uint kFaultBacksPassed = 67u;      // who comes out through a surface goes on
 VIEWLOOM_ABI_CONST uint kFaultBeginsBehind = 68u;     // rays begin behind their own surface
+VIEWLOOM_ABI_CONST uint kFaultBodiesFlat = 69u;       // bodies are as thin as their fronts
 
 VIEWLOOM_ABI_END
 

@@ -95,6 +95,11 @@ VIEWLOOM_ABI_CONST uint kReflectionEnvironment = 12u;
 VIEWLOOM_ABI_CONST uint kReflectionBent = 13u;
 VIEWLOOM_ABI_CONST uint kReflectionCountsEnd = 14u;
 
+// What became of a ray behind the body that it passed behind first.
+VIEWLOOM_ABI_CONST uint kBodyUnknown = 0u;  // none, or it is not seen from rim to rim
+VIEWLOOM_ABI_CONST uint kBodyPassed = 1u;
+VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
+
 // What comes to a px by way of the surface that it shows.
 struct ReflectedLight {
   uvec2 light;  // binary16: red, green, blue; how far what is mirrored lies behind the surface, m

@@ -33,6 +33,7 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
 
 #include "lib/first_camera.glsl"
 #include "lib/mirrored_path.glsl"
+#include "lib/passed_body.glsl"
 #include "lib/pushed_scene.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_start.glsl"
@@ -119,6 +120,8 @@ RayAnswer answerTo(Scene scene, Pinhole pinhole, ReflectedPath path) {
   if (ray.t_begin < ray.t_end) {
     walk = walkRay(scene, ray, start, reflected.inv_z_tolerance, reflected.eye_z);
   }
+  // A face knows no body that goes on in the next one.
+  const uint body = kIsCubeFace ? kBodyUnknown : meetBody(scene, pinhole, ray, walk);
   Light light = opaqueLight(scene, ray, walk);
   light.is_known = light.is_known && !isLost(path, walk);
   if (!walk.is_hit && walk.ends_behind && light.is_known) walk.t = farSideEnd(scene, ray, walk);
@@ -130,6 +133,8 @@ RayAnswer answerTo(Scene scene, Pinhole pinhole, ReflectedPath path) {
   Places places = placesOf(view, reflected.along, ray, walk);
   places.hit = placeAlong(places.hit, walk.t <= ray.t_begin);
   places.passed = has_passed ? placeAlong(places.passed, passed_at_start) : kNeverPassed;
+  // Nothing is unseen of a way through free space.
+  if (body == kBodyPassed && walk.is_hit && !walk.is_back) places.passed = places.hit;
   // What is as far behind the mirror as the view before it is seen in px twice as wide.
   const float widened = 1.0 + distance(path.start, path.eye) * places.hit;
   view.direction_dx *= widened;

@@ -33,11 +33,16 @@ class MirrorDuelsTest : public GpuTest {
   }
 };
 
-TEST_F(MirrorDuelsTest, aMarchFromPxToPxMirrorsTheRoom) {
+// Of all px of mirrors, above the best of marches, whatever its knobs and however long it takes:
+// seen 5.8 and 2.7 of the floor.
+constexpr double kAboveMarchMin_db = 1.5;
+
+TEST_F(MirrorDuelsTest, aMarchFromPxToPxMirrorsTheRoomAndNoBetterThanTheWalk) {
   for (const MirrorDuel& duel : mirrorDuels(device(), sceneOf("mirror floor"), 1)) {
     SCOPED_TRACE(duel.scene + ", view " + duel.view);
     print(duel);
     EXPECT_GE(duel.bestMarch().psnr.all_db, duel.without.all_db + kGainMin_db);
+    EXPECT_GE(duel.walks.front().psnr.all_db, duel.bestMarch().psnr.all_db + kAboveMarchMin_db);
   }
 }
 

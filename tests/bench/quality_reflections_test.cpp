@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflections beside the true ones.
+#include <algorithm>
 #include <iostream>
 #include <map>
 
@@ -11,9 +12,15 @@ namespace {
 
 using QualityReflectionsTest = GpuTest;
 
-// PSNR of what the source holds, dB: 1 dB below what was measured.
-const std::map<std::string, double> kKnownMin_db = {
-    {"mirror floor", 37.7}, {"mirror sphere", 36.2}, {"facing mirrors", 36}, {"rough floor", 33.2}};
+// PSNR of what the source holds, and of all px of mirrors, dB: 1 dB below what was measured.
+const std::map<std::string, double> kKnownMin_db = {{"mirror floor", 41.8},
+                                                    {"mirror sphere", 36.2},
+                                                    {"facing mirrors", 36.6},
+                                                    {"rough floor", 33.5}};
+const std::map<std::string, double> kAllMin_db = {{"mirror floor", 41.5},
+                                                  {"mirror sphere", 24.3},
+                                                  {"facing mirrors", 29.7},
+                                                  {"rough floor", 33.5}};
 // Above the same views without reflections.
 constexpr double kGainMin_db = 20;
 // What no source holds ends in the environment, and little else does.
@@ -24,11 +31,17 @@ constexpr double kEnvironmentBeyond = 0.02;
 constexpr double kElsewhereMin = 0.05;
 constexpr double kElsewhereGainMin_db = 15;
 constexpr double kFewGainMin_db = 3;
+// Or as well as that, where the first source guesses it: seen 36.4 and more. A px or two say
+// nothing.
+constexpr double kFewMin_db = 35.5;
+constexpr double kFewLeast = 0.001;
 // And so of all px of mirrors: seen 0.89 with two sources, 14 and more with a cube map.
 constexpr double kAllGainMin_db = 0.5;
 // Of all px where others hold nothing else, below the first source by itself. A coarse cube map
-// takes part in what a finer source shows: seen 0.93.
+// takes part in what a finer source shows: seen 0.59; or as well as this, where the first source
+// alone guesses well what its rays pass behind: others guess, too, seen 41.7 beside 42.6.
 constexpr double kLossMax_db = 1.5;
+constexpr double kAsWell_db = 40.5;
 
 void print(const bench::ReflectionScore& score) {
   const auto& [hit, assumed, back, cube, environment, bent] = score.counts;
@@ -49,17 +62,20 @@ TEST_F(QualityReflectionsTest, mirrorsShowWhatTheSourcesHold) {
     print(score);
     if (score.sources == "one") {
       EXPECT_GE(score.got.known_db, kKnownMin_db.at(score.scene));
+      EXPECT_GE(score.got.all_db, kAllMin_db.at(score.scene));
     }
     EXPECT_GE(score.got.known_db, score.without.known_db + kGainMin_db);
     const double environment = double(score.counts.environment) / double(score.counts.rayCount());
     const double unknown_share = 1 - score.known_share - score.elsewhere_share;
     EXPECT_LE(environment, unknown_share + kEnvironmentBeyond);
     const bool is_much = score.elsewhere_share >= kElsewhereMin;
-    if (score.elsewhere_share > 0) {
-      EXPECT_GE(score.got.elsewhere_db,
-                score.alone.elsewhere_db + (is_much ? kElsewhereGainMin_db : kFewGainMin_db));
+    const double gained_db =
+        score.alone.elsewhere_db + (is_much ? kElsewhereGainMin_db : kFewGainMin_db);
+    if (score.elsewhere_share > kFewLeast) {
+      EXPECT_GE(score.got.elsewhere_db, is_much ? gained_db : std::min(gained_db, kFewMin_db));
     }
-    EXPECT_GE(score.got.all_db, score.alone.all_db + (is_much ? kAllGainMin_db : -kLossMax_db));
+    const double all_db = score.alone.all_db + (is_much ? kAllGainMin_db : -kLossMax_db);
+    EXPECT_GE(score.got.all_db, is_much ? all_db : std::min(all_db, kAsWell_db));
   }
 }
 

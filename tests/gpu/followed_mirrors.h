@@ -26,9 +26,21 @@ FollowedViews followMirrors(const Device& device, const oracle::Scene& scene,
 // Of all px of an atlas.
 std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage);
 
+// Of rays that passed behind something, by oracle/passed_body.h.
+struct JudgedBodies {
+  uint64_t count = 0;
+  uint64_t met_count = 0;      // by what was tested; as the next
+  uint64_t passed_count = 0;   // seen from rim to rim, and not met
+  uint64_t excused_count = 0;  // not the oracle's answer, but one to the ray hardly moved
+  uint64_t differing_count = 0;
+
+  void add(const JudgedBodies& other);
+};
+
 // What the judge says of them all.
 struct JudgedMirrors {
   oracle::Verdict verdict;
+  JudgedBodies bodies;
   uint64_t bent_count = 0;    // rays along their own facet
   uint64_t back_count = 0;    // that came out through a surface
   uint64_t deeper_count = 0;  // from layers behind the first

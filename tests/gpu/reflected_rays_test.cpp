@@ -13,6 +13,8 @@ namespace {
 // Of the views. The less, the less is left to the judge.
 constexpr double kTolerance_px = 0.0001;
 constexpr double kExcusedShareMax = 0.01;
+// Of what is behind bodies: whether three samples bend as an ellipse, a few ulps decide.
+constexpr double kExcusedBodiesMax = 0.01;
 
 JudgedMirrors lookAt(const Device& device, uint64_t first_seed, uint64_t seed_count) {
   JudgedMirrors judged;
@@ -35,6 +37,11 @@ TEST_F(ReflectedRaysTest, goAndMeetWhatTheOracleSays) {
   EXPECT_GT(judged.bent_count, 0u);
   EXPECT_GT(judged.back_count, 0u);
   EXPECT_GT(judged.deeper_count, 0u);
+  const JudgedBodies& bodies = judged.bodies;
+  EXPECT_EQ(bodies.differing_count, 0u);
+  EXPECT_LE(double(bodies.excused_count), kExcusedBodiesMax * double(bodies.count));
+  EXPECT_GT(bodies.met_count, 0u);
+  EXPECT_GT(bodies.passed_count, 0u);
 }
 
 struct PlantedFault {
@@ -48,7 +55,7 @@ class ReflectedFaultTest : public DeviceNeededTest,
 TEST_P(ReflectedFaultTest, isFound) {
   const Device device({.planted_fault = GetParam().fault});
   const JudgedMirrors judged = lookAt(device, 20, 10);
-  EXPECT_GT(judged.verdict.differing, 0u) << judged.summary();
+  EXPECT_GT(judged.verdict.differing + judged.bodies.differing_count, 0u) << judged.summary();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -57,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                     PlantedFault{abi::kFaultNormalTurned, "normalTurned"},
                     PlantedFault{abi::kFaultNotBent, "notBent"},
                     PlantedFault{abi::kFaultBacksPassed, "backsPassed"},
-                    PlantedFault{abi::kFaultBeginsBehind, "beginsBehind"}),
+                    PlantedFault{abi::kFaultBeginsBehind, "beginsBehind"},
+                    PlantedFault{abi::kFaultBodiesFlat, "bodiesFlat"}),
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 }  // namespace

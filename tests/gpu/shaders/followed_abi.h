@@ -18,10 +18,18 @@ struct FollowedRay {
   float x_px;
   float y_px;
   float inv_z;  // 1/m
+  // Where it first passed behind something; inv_z below 0: nowhere, or from its beginning.
+  float passed_x_px;
+  float passed_y_px;
+  float passed_inv_z;
+  uint body;  // what became of it behind that: kBody...; as what follows
+  float body_x_px;
+  float body_y_px;
+  float body_inv_z;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FollowedRay) == 32);
+static_assert(sizeof(FollowedRay) == 60);
 #endif
 
 VIEWLOOM_ABI_END

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What becomes of a ray behind the body that it passes behind first, by the definition in
+// shaders/README.md (Reflections).
+#pragma once
+
+#include "oracle/oracle_source.h"
+
+namespace viewloom::oracle {
+
+enum class BehindBody {
+  kUnknown,  // the body is not seen from rim to rim
+  kPassed,
+  kMet
+};
+
+struct BodyAnswer {
+  BehindBody behind = BehindBody::kUnknown;
+  glm::dvec3 place{0.0};  // where the body is met: x px, y px, inv_z
+
+  bool agrees(const BodyAnswer& other, double tolerance_px) const;
+};
+
+// Of a ray from where it passed behind something, across an edge between two columns, to where it
+// ends: x px, y px, inv_z.
+BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& passed, const glm::dvec3& end);
+
+}  // namespace viewloom::oracle
