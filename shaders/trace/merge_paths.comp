@@ -46,6 +46,20 @@ float certaintyOf(RayAnswer answer, float mirror_inv_z) {
   return certaintyOf(max(unseen_m, 0.0), mirror_inv_z);
 }
 
+// Of a surface that sources agree on: as much as the one that saw most of the way to it.
+float certaintyOfHit(RayAnswer hit, float mirror_inv_z) {
+  float most_certain = 0.0;
+  uint source = 0u;
+  for (;;) {
+    const RayAnswer answer = loadAnswer(source);
+    const bool counts = isHit(answer) && areOne(answer, hit);
+    most_certain = max(most_certain, counts ? certaintyOf(answer, mirror_inv_z) : 0.0);
+    ++source;
+    if (source >= push.source_count) break;
+  }
+  return most_certain;
+}
+
 vec3 linearLight(vec4 codes) {
   return linearFromSrgb(codes.rgb / 255.0);
 }
@@ -83,7 +97,9 @@ void follow(inout ReflectedPath path, inout uvec3 counts) {
                       : is_back                                ? kReflectionBack
                       : merged.ray_class == kClassHit          ? kReflectionHit
                                                                : kReflectionAssumed;
-  const float certainty = is_seen ? certaintyOf(main_answer, path.spot.z) : 0.0;
+  const float certainty = is_hit        ? certaintyOfHit(main_answer, path.spot.z)
+                          : ends_behind ? certaintyOf(main_answer, path.spot.z)
+                                        : 0.0;
   const bool has_more = is_seen && merged.ray_class != kClassHit;
   const vec3 around = has_more ? lightAround(merged.main_source, path.spot.z) : push.environment;
   const vec3 found = mix(around, linearLight(merged.light), certainty);

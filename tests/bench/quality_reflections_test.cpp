@@ -39,7 +39,7 @@ constexpr double kFewLeast = 0.001;
 constexpr double kAllGainMin_db = 0.5;
 // Of all px where others hold nothing else, below the first source by itself. A coarse cube map
 // takes part in what a finer source shows: seen 0.59; or as well as this, where the first source
-// alone guesses well what its rays pass behind: others guess, too, seen 41.7 beside 42.6.
+// alone guesses well what its rays pass behind: others guess, too, seen 42.0 beside 42.6.
 constexpr double kLossMax_db = 1.5;
 constexpr double kAsWell_db = 40.5;
 
