@@ -114,9 +114,9 @@ struct PxRange {
   // The most of those lanes, from the first to the last.
   HWY_INLINE int count(DoubleMask those) const {
     const DoubleVec counts = hn::Sub(last, first);
-    return int(hn::GetLane(
-               hn::MaxOfLanes(kDoubles, hn::IfThenElse(those, counts, setDouble(-1))))) +
-           1;
+    // Places far outside would not fit an integer.
+    const DoubleVec inside = hn::Max(hn::IfThenElse(those, counts, setDouble(-1)), setDouble(-1));
+    return int(hn::GetLane(hn::MaxOfLanes(kDoubles, inside))) + 1;
   }
 
   DoubleVec first, last;

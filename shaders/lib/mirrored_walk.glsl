@@ -39,6 +39,7 @@ Found foundBy(Scene scene, Pinhole pinhole, Spot from, Ray ray, Walk walked) {
                                                   : kReflectionEnvironment;
   found.certainty = is_unseen ? certainty(pinhole, from, ray, walk.passed_t, end_t)
                               : float(walk.is_hit);
+  found.certainty = light.is_known ? found.certainty : 0.0;
   found.light = mix(settings.environment, linearOfBlend(light.color.rgb), found.certainty);
   const vec3 point = ray.start + end_t * ray.extent;
   found.spot = Spot(point, walk.cell, walk.layer);

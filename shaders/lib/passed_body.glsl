@@ -101,12 +101,12 @@ PassedBody passedBody(Scene scene, Pinhole pinhole, Ray ray, float passed_t) {
   int length_px = -1;
   float first = 0.0;
   for (int way = 0; way < 2 && length_px < 0; ++way) {
-    body.along = way == 0 ? body.along : across * sign(ray.extent.xy);
+    const vec2 ahead = mix(vec2(1.0), vec2(-1.0), lessThan(ray.extent.xy, vec2(0.0)));
+    body.along = way == 0 ? body.along : across * ahead;
     const vec2 first_px = passed.xy + 0.5 * body.along;
     first = bodyAt(scene, first_px);
     length_px = bodyLength(scene, pinhole, first_px, body.along, first > passed.z ? first : 0.0);
   }
-  body.is_whole = length_px >= 0;
   const vec2 first_px = passed.xy + 0.5 * body.along;
   const vec2 last_px = first_px + float(length_px) * body.along;
   const vec2 second = float(min(length_px, 1)) * body.along;
@@ -119,6 +119,7 @@ PassedBody passedBody(Scene scene, Pinhole pinhole, Ray ray, float passed_t) {
       vec3(body.last_inv_z, bodyAt(scene, last_px - second), bodyAt(scene, last_px - third));
   body.near_rim = rimBeyond(near_samples, float(length_px + 1), 0.5, -1.0);
   body.far_rim = rimBeyond(far_samples, float(length_px + 1), body.last_px, 1.0);
+  body.is_whole = length_px >= 0 && min(body.near_rim.inv_z, body.far_rim.inv_z) > 0.0;
   return body;
 }
 
@@ -152,7 +153,15 @@ float frontOpposite(Scene scene, Pinhole pinhole, PassedBody body, vec3 place) {
 bool passesThroughRim(Ray ray, float passed_t, PassedBody body) {
   const float px_t = dot(body.along, body.along) / dot(body.along, ray.extent.xy);
   const float rim_t = passed_t + body.near_rim.px * px_t;
-  return body.near_rim.px < 0.0 && ray.start.z + rim_t * ray.extent.z >= body.near_rim.inv_z;
+  return body.near_rim.px < 0.0 && rim_t >= ray.t_begin &&
+         ray.start.z + rim_t * ray.extent.z >= body.near_rim.inv_z;
+}
+
+// The column of the body whose colour is that of what is met at a place behind it.
+ivec2 columnOfBody(Scene scene, PassedBody body, vec2 place_px) {
+  const float at = dot(place_px - body.edge_px, body.along) / dot(body.along, body.along);
+  const vec2 on_body = body.edge_px + clamp(at, 0.5, body.last_px) * body.along;
+  return clamp(ivec2(floor(on_body)), ivec2(0), scene.extent.size_px - 1);
 }
 
 // Of a walk that has passed behind something. A body that is met ends it, with the front's colour.
@@ -162,12 +171,14 @@ uint meetBody(Scene scene, Pinhole pinhole, Ray ray, inout Walk walk) {
   const PassedBody body = passedBody(scene, pinhole, ray, walk.passed_t);
   if (!body.is_whole) return kBodyUnknown;
   const float px_t = min(ray.pace.x, ray.pace.y);
+  const bool is_cut_off = passesThroughRim(ray, walk.passed_t, body);
   float at_px = 0.02;
-  bool is_met = passesThroughRim(ray, walk.passed_t, body);
+  bool is_met = false;
   for (;;) {
     const float t = walk.passed_t + at_px * px_t;
-    if (isNever(scene, 15u) || is_met || t >= walk.t || at_px > float(kBodyReach_px)) break;
-    is_met = frontOpposite(scene, pinhole, body, ray.start + t * ray.extent) <= 0.0;
+    if (isNever(scene, 15u) || t >= walk.t || at_px > float(kBodyReach_px)) break;
+    is_met = is_cut_off ||
+             frontOpposite(scene, pinhole, body, ray.start + t * ray.extent) <= 0.0;
     if (is_met) break;
     at_px += max(kBodyStepShare * at_px, kBodyStepMin_px);
   }
@@ -176,7 +187,7 @@ uint meetBody(Scene scene, Pinhole pinhole, Ray ray, inout Walk walk) {
   walk.is_back = true;
   walk.is_assumed = true;
   walk.t = walk.passed_t + at_px * px_t;
-  walk.cell = ivec2(floor((ray.start + walk.t * ray.extent).xy));
+  walk.cell = columnOfBody(scene, body, (ray.start + walk.t * ray.extent).xy);
   walk.layer = 0u;
   walk.level = kLevelFacets;
   return kBodyMet;

@@ -106,22 +106,23 @@ oracle::BodyAnswer bodyAnswerOf(const abi::FollowedRay& ray) {
           {ray.body_x_px, ray.body_y_px, ray.body_inv_z}};
 }
 
-void judgeBody(const oracle::OracleSource& source, const abi::FollowedRay& ray,
-               const std::string& where, JudgedBodies& judged) {
+void judgeBody(const oracle::OracleSource& source, const oracle::MirrorSpot& spot,
+               const abi::FollowedRay& ray, const std::string& where, JudgedBodies& judged) {
   if (ray.passed_inv_z < 0) return;
+  const glm::dvec3 begin(spot.x_px, spot.y_px, spot.inv_z);
   const glm::dvec3 passed(ray.passed_x_px, ray.passed_y_px, ray.passed_inv_z);
   const glm::dvec3 end(ray.x_px, ray.y_px, ray.inv_z);
   const oracle::BodyAnswer got = bodyAnswerOf(ray);
   judged.met_count += got.behind == oracle::BehindBody::kMet;
   judged.passed_count += got.behind == oracle::BehindBody::kPassed;
   ++judged.count;
-  if (got.agrees(oracle::behindBody(source, passed, end), kPlace_px)) return;
+  if (got.agrees(oracle::behindBody(source, begin, passed, end), kPlace_px)) return;
   for (int way = 0; way < 8; ++way) {
     const glm::dvec3 moved((way & 1 ? 1 : -1) * kPlace_px, (way & 2 ? 1 : -1) * kPlace_px,
                            (way & 4 ? 1 : -1) * kPlaceShare * passed.z);
     const bool is_excused =
-        got.agrees(oracle::behindBody(source, passed + moved, end), 4 * kPlace_px) ||
-        got.agrees(oracle::behindBody(source, passed, end + moved), 4 * kPlace_px);
+        got.agrees(oracle::behindBody(source, begin, passed + moved, end), 4 * kPlace_px) ||
+        got.agrees(oracle::behindBody(source, begin, passed, end + moved), 4 * kPlace_px);
     if (!is_excused) continue;
     ++judged.excused_count;
     return;
@@ -243,7 +244,7 @@ JudgedMirrors judgeMirrors(const Device& device, const oracle::Scene& scene,
            << spot.y_px << ", " << spot.inv_z << ")" << (goes.is_bent ? ", bent" : "");
       judge.considerFrom(spot.facet.layer, seenAs(goes.ray, px_rad), answerOf(followed),
                          name.str());
-      judgeBody(source, followed, name.str(), judged.bodies);
+      judgeBody(source, spot, followed, name.str(), judged.bodies);
       judged.bent_count += goes.is_bent;
       judged.back_count += followed.is_back;
       judged.deeper_count += spot.facet.layer > 0;

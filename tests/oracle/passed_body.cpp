@@ -67,10 +67,15 @@ class Body {
     return true;
   }
 
+  // Whether its rims are somewhere.
+  bool hasRims() const { return near_.inv_z > 0 && far_.inv_z > 0; }
+
   // Whether a ray was in front of its near rim, and behind it where it passed the last sample.
-  bool isCutOff(const glm::dvec3& passed, const glm::dvec3& per_px) const {
+  bool isCutOff(const glm::dvec3& begin, const glm::dvec3& passed, const glm::dvec3& per_px) const {
     const double forward = glm::dot(glm::dvec2(per_px), along_) / glm::dot(along_, along_);
-    return near_.at_px < 0 && passed.z + near_.at_px / forward * per_px.z >= near_.inv_z;
+    const glm::dvec3 at_rim = passed + near_.at_px / forward * per_px;
+    const bool was_there = glm::dot(glm::dvec2(at_rim - begin), glm::dvec2(per_px)) >= 0;
+    return near_.at_px < 0 && was_there && at_rim.z >= near_.inv_z;
   }
 
   // Whether a place behind its front is in it.
@@ -144,7 +149,8 @@ bool BodyAnswer::agrees(const BodyAnswer& other, double tolerance_px) const {
           glm::distance(glm::dvec2(place), glm::dvec2(other.place)) <= tolerance_px);
 }
 
-BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& passed, const glm::dvec3& end) {
+BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& begin, const glm::dvec3& passed,
+                      const glm::dvec3& end) {
   const glm::dvec3 way = end - passed;
   const double way_px = std::max(std::abs(way.x), std::abs(way.y));
   const glm::dvec3 per_px = way / way_px;
@@ -155,7 +161,8 @@ BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& passed, cons
   for (const glm::dvec2& along : {glm::dvec2(per_px), across}) {
     Body body(source, glm::dvec2(passed), along);
     if (!body.isWhole(passed.z)) continue;
-    const bool is_cut_off = body.isCutOff(passed, per_px);
+    if (!body.hasRims()) return {};
+    const bool is_cut_off = body.isCutOff(begin, passed, per_px);
     for (double px = kFirst_px; px < way_px && px <= kReach_px;
          px += std::max(kStepShare * px, kStepMin_px)) {
       const glm::dvec3 place = passed + px * per_px;

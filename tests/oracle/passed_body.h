@@ -20,8 +20,9 @@ struct BodyAnswer {
   bool agrees(const BodyAnswer& other, double tolerance_px) const;
 };
 
-// Of a ray from where it passed behind something, across an edge between two columns, to where it
-// ends: x px, y px, inv_z.
-BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& passed, const glm::dvec3& end);
+// Of a ray from where it begins, by where it passed behind something, across an edge between two
+// columns, to where it ends: x px, y px, inv_z.
+BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& begin, const glm::dvec3& passed,
+                      const glm::dvec3& end);
 
 }  // namespace viewloom::oracle

@@ -21,11 +21,11 @@ SharedBytes shared(std::vector<uint8_t> bytes) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
 }
 
-LayerPlanes planesOf(const MovingLayer& layer) {
+LayerPlanes planesOf(const MovingLayer& layer, SizePx size_px) {
   std::vector<uint8_t> color, depth, motion;
   bool moves = false;
-  for (uint32_t y = 0; y < kMovedPx.height; ++y) {
-    for (uint32_t x = 0; x < kMovedPx.width; ++x) {
+  for (uint32_t y = 0; y < size_px.height; ++y) {
+    for (uint32_t x = 0; x < size_px.width; ++x) {
       const MovingPx px = layer(x, y);
       for (int i = 0; i < 3; ++i) color.push_back(px.color[i]);
       color.push_back(255);
@@ -52,7 +52,7 @@ Camera movedCamera() {
 }
 
 FramePtr movingFrame(const std::vector<MovingLayer>& layers, double connection_tolerance,
-                     const Pose& pose) {
+                     const Pose& pose, SizePx size_px) {
   auto frame = std::make_shared<Frame>();
   frame->format.number = 1;
   SourceFormat& source = frame->format.sources.emplace_back();
@@ -62,12 +62,12 @@ FramePtr movingFrame(const std::vector<MovingLayer>& layers, double connection_t
   frame->sources.emplace_back();
   for (const MovingLayer& layer : layers) {
     LayerFormat& format = source.layers.emplace_back();
-    format.color.size_px = kMovedPx;
+    format.color.size_px = size_px;
     format.depth = {.kind = PlaneKind::kDepth,
                     .encoding = PlaneEncoding::kDepthF32,
-                    .size_px = kMovedPx,
+                    .size_px = size_px,
                     .depth = {.meaning = DepthMeaning::kDisparity, .invalid_value = -1}};
-    frame->sources.front().push_back(planesOf(layer));
+    frame->sources.front().push_back(planesOf(layer, size_px));
   }
   return frame;
 }

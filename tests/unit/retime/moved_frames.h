@@ -27,7 +27,7 @@ Camera movedCamera();
 
 // Frame 1, of one source: DISPARITY in binary32. 1/m: the connection tolerance.
 FramePtr movingFrame(const std::vector<MovingLayer>& layers, double connection_tolerance,
-                     const Pose& pose = {});
+                     const Pose& pose = {}, SizePx size_px = kMovedPx);
 
 // Of the first source.
 float invZAt(const Frame& frame, uint32_t layer, uint32_t x, uint32_t y);

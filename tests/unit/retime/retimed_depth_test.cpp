@@ -96,7 +96,7 @@ TEST(RetimedDepth, isThatOfTheTrianglesBetweenMovedSamples) {
 }
 
 // Three layers, with holes, of which hardly a quad is whole.
-FramePtr noisyFrame() {
+FramePtr noisyFrame(SizePx size_px = kMovedPx) {
   std::mt19937 random(5);
   const auto uniform = [&] { return float(random() >> 8) / float(1 << 24); };
   const auto noise = [&](uint32_t x, uint32_t y) {
@@ -104,7 +104,7 @@ FramePtr noisyFrame() {
                     .color = colorOfPx(x, y, 1),
                     .motion_mps = 20.0F * glm::vec3(uniform(), uniform(), uniform()) - 10.0F};
   };
-  return movingFrame({noise, noise, noise}, 0.02);
+  return movingFrame({noise, noise, noise}, 0.02, {}, size_px);
 }
 
 void expectSamePlanes(const Frame& one, const Frame& other) {
@@ -128,7 +128,10 @@ TEST(RetimedDepth, isTheSameHoweverManyThreadsDrawIt) {
 
 TEST(RetimedDepth, isTheSameOnEveryKindOfCpu) {
   WorkerPool workers(2);
-  for (const FramePtr& frame : {noisyFrame(), movingFrame({waveAt}, 10)}) {
+  // Wider than the widest vector of bytes, and than what is drawn at a time; then less than one.
+  for (const FramePtr& frame :
+       {noisyFrame(), movingFrame({waveAt}, 10), movingFrame({waveAt, waveAt}, 10, {}, {150, 20}),
+        noisyFrame({150, 20}), noisyFrame({1, 5})}) {
     const FramePtr first = FrameRetimer(workers).retime(frame, kTime_s);
     for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
       SCOPED_TRACE(hwy::TargetName(target));
@@ -150,7 +153,9 @@ TEST(RetimedDepth, isThatOfTheFrameAlone) {
   const FramePtr frame = movingFrame({standsAt, waveAt, standsAt}, 0.02);
   const FramePtr wanted = FrameRetimer(workers).retime(frame, kTime_s);
   FrameRetimer used(workers);
-  used.retime(noisyFrame(), -kTime_s);
+  for (const SizePx size_px : {kMovedPx, SizePx{150, 20}}) {
+    used.retime(noisyFrame(size_px), -kTime_s);
+  }
   expectSamePlanes(*wanted, *used.retime(frame, kTime_s));
 }
 
