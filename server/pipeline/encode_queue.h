@@ -59,6 +59,7 @@ class EncodeQueue {
   void clear();
 
  private:
+  std::optional<EncodeTask> take();
   SweepRunPtr nextSweep() const;
   SweepPart takePart(const SweepRunPtr& sweep);
 
