@@ -9,9 +9,8 @@
 
 #include <bit>
 
+#include "sweep/run_crossing_inl.h"
 #include "sweep/sweep_fault.h"
-#include "sweep/swept_row.h"
-#include "sweep/vectors_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
@@ -46,12 +45,6 @@ HWY_INLINE void forMarkedVectors(const uint64_t* marks, int32_t from, int32_t to
   }
 }
 
-// What rays meet.
-struct Place {
-  Vec inv_z;
-  IntVec texel;
-};
-
 // Hits of a layer. Only beyond where they passed behind the layer before it can rays hit a deeper
 // one, and not beyond where they met a far side.
 class HitPainter {
@@ -77,6 +70,16 @@ class HitPainter {
       forMarkedVectors(marks_, from, to, paint_vector);
   }
 
+  // One px.
+  HWY_INLINE void paintPixel(int32_t px, float inv_z, int32_t texel) const {
+    const size_t p = size_t(px);
+    if (!last_wins_ && !(inv_z > swept_.inv_z[p])) return;
+    if (passed_ != nullptr && !(inv_z <= passed_[p])) return;
+    if (met_ != nullptr && !(inv_z > met_[p])) return;
+    swept_.inv_z[p] = inv_z;
+    swept_.texel[p] = texel;
+  }
+
  private:
   HWY_INLINE void paintVector(int32_t begin, Mask inside, Vec inv_z, IntVec texel) const {
     float* const inv_z_row = swept_.inv_z.data() + begin;
@@ -100,33 +103,6 @@ class HitPainter {
   const float* met_ = nullptr;
   const bool last_wins_;
 };
-
-HWY_INLINE void paintRuns(const Runs& runs, const SweptRow& swept, const HitPainter& painter) {
-  for (uint32_t i = 0; i < swept.covering_count; ++i) {
-    const size_t k = size_t(swept.covering[i]);
-    const Vec inv_z_at = set(swept.inv_z_at[k]);
-    const Vec inv_z_step = set(swept.inv_z_step[k]);
-    const Vec texel_at = set(swept.texel_at[k]);
-    const Vec texel_step = set(swept.texel_step[k]);
-    // Above 1.5 2^23 the low bits of floats are integers, of either sign.
-    constexpr float kRounder = 0x1.8p23F;
-    const IntVec offset =
-        hn::Sub(hn::Set(kInts, runs.texel_offset[k]), hn::BitCast(kInts, set(kRounder)));
-    // Of runs that rays graze, little is left of a difference: no place is beside the run.
-    const Vec first_place = set(runs.begin_px[k] * kSubtexelSteps);
-    const Vec last_place = set(runs.end_px[k] * kSubtexelSteps);
-    const Vec begin_inv_z = set(runs.begin_inv_z[k]);
-    const Vec end_inv_z = set(runs.end_inv_z[k]);
-    const Vec low = hn::Min(begin_inv_z, end_inv_z);
-    const Vec high = hn::Max(begin_inv_z, end_inv_z);
-    painter.paint(swept.from[k], swept.to[k], [&](Vec p) {
-      const Vec inv_z = hn::Min(hn::Max(hn::MulAdd(inv_z_step, p, inv_z_at), low), high);
-      const Vec place =
-          hn::Min(hn::Max(hn::MulAdd(texel_step, p, texel_at), first_place), last_place);
-      return Place{inv_z, hn::Add(hn::BitCast(kInts, hn::Add(place, set(kRounder))), offset)};
-    });
-  }
-}
 
 }  // namespace viewloom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -49,18 +49,31 @@ class LensPieces {
     double eye_px_m = 0;
   };
 
+  struct View {
+    int64_t first_phase = 0;  // of its subpixels
+    double eye_m = 0;
+  };
+
   double eyeOf(const Channel& channel, double place) const;
+  void placeViews(uint32_t view_count);
+  const View& viewAt(int64_t phase) const;
   bool settleStride(double inv_z_max, double tolerance_px);
   LensPiece pieceOf(const Channel& channel, uint32_t x, int64_t phase, uint32_t count) const;
+  void goOnInNextView(const Channel& channel, int64_t phase, uint32_t count_max,
+                      LensPiece& piece) const;
   uint32_t countAlike(const Channel& channel, int64_t phase, uint32_t count_max) const;
-  double placeOf(const Channel& channel, int64_t phase) const;
+  double eyeAt(const Channel& channel, int64_t phase) const;
   double stretchFrom(double angle_rad, double half_cone_rad) const;
 
   std::vector<Channel> channels_;  // [sample]
+  // Of those that subpixels show the nearest of, and one behind the last; none: every px has its
+  // own.
+  std::vector<View> views_;
   SizePx panel_px_;
   double right_px_m_ = 0;     // how far the source's place moves with the eye, at an inv_z of 1/m
   double back_px_m_ = 0;      // the same at inv_z 0
   uint32_t stride_px_ = 1;    // of pieces
+  double moved_px_m_ = 0;     // how far the picture moves for a metre of the eye, at most
   int64_t phase_step_ = 0;    // from px to px of a piece, 2^-32 of a lens
   double bend_max_rad2_ = 0;  // of a stretch of angles: its square times its bend, as tangentBend
   float px_per_inv_z_ = 0;

@@ -12,9 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sweep/hit_painter_inl.h"
+#include "sweep/paint_runs_inl.h"
 #include "sweep/passed_inl.h"
-#include "sweep/project_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
@@ -26,29 +25,6 @@ HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const 
     const EdgeLine line(bridges, k, view);
     const IntVec texel = hn::Set(kInts, bridges.texel[k]);
     painter.paint(swept.from[k], swept.to[k], [&](Vec p) { return Place{line.invZ(p), texel}; });
-  }
-}
-
-// Runs as moving eyes see them: where each ray crosses one.
-HWY_INLINE void paintRunsByRay(const Runs& runs, const SweepView& view, const SweptRow& swept,
-                               const HitPainter& painter) {
-  for (uint32_t i = 0; i < swept.covering_count; ++i) {
-    const size_t k = size_t(swept.covering[i]);
-    const Vec begin = set(runs.begin_px[k]);
-    const Vec begin_w = set(runs.begin_inv_z[k]);
-    const Vec across = hn::Sub(set(runs.end_px[k]), begin);
-    const Vec up = hn::Sub(set(runs.end_inv_z[k]), begin_w);
-    const IntVec offset = hn::Set(kInts, runs.texel_offset[k]);
-    painter.paint(swept.from[k], swept.to[k], [&](Vec p) {
-      const Vec eye = eyesAt(view, p);
-      const Vec direction = hn::MulAdd(set(view.step_px), p, set(view.start_px));
-      const Vec beside = hn::Sub(hn::MulAdd(eye, begin_w, direction), begin);
-      const Vec share = hn::Div(beside, hn::NegMulAdd(eye, up, across));
-      // Of runs that rays graze, little is left of a difference: no place is beside the run.
-      const Vec along = hn::Min(hn::Max(share, set(0)), set(1));
-      const Vec place = hn::Mul(hn::MulAdd(across, along, begin), set(kSubtexelSteps));
-      return Place{hn::MulAdd(up, along, begin_w), hn::Add(hn::NearestInt(place), offset)};
-    });
   }
 }
 
@@ -104,11 +80,7 @@ bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& 
   for (uint32_t i = 0; i < hit_count; ++i) {
     const LayerSurfaces& layer = row.layers[i];
     const HitPainter painter(swept, i, fill.planted_fault);
-    projectRuns(layer.runs, view, width, swept);
-    if (view.hasMovingEye())
-      paintRunsByRay(layer.runs, view, swept, painter);
-    else
-      paintRuns(layer.runs, swept, painter);
+    paintRuns(layer.runs, view, width_px, swept, painter);
     if (!crosses_edges) break;
     projectSteps(layer.bridges[travel], view, width, swept);
     paintBridges(layer.bridges[travel], view, swept, painter);
@@ -125,7 +97,7 @@ struct RayEnd {
 
 // How a ray without a hit ends.
 HWY_INLINE RayEnd endOf(const SurfaceRow& row, const SweepView& view, float p) {
-  const float u = view.start_px + view.step_px * p;
+  const float u = view.startAt(p);
   const float width = float(row.width_px);
   const uint32_t column = uint32_t(std::min(std::max(u, 0.0F), width - 1));
   if (row.is_outside) return {abi::kClassOutside, column};

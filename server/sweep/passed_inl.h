@@ -22,22 +22,20 @@ namespace viewloom::HWY_NAMESPACE {
 struct EdgeLine {
   EdgeLine(const Steps& steps, size_t k, const SweepView& swept_view)
       : view(swept_view),
+        edge(set(steps.edge_px[k])),
         at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
         step(set(-view.step_px / view.eye_px_m)),
         low(set(steps.low_inv_z[k])),
         high(set(steps.high_inv_z[k])) {}
 
   Vec invZ(Vec p) const {
-    Vec inv_z = hn::MulAdd(step, p, at);
-    // As many times nearer as the eye of px 0 is further out.
-    if (view.hasMovingEye()) {
-      inv_z = hn::Mul(inv_z, hn::Div(set(view.eye_px_m), eyesAt(view, p)));
-    }
+    const Vec inv_z = view.hasOneEye() ? hn::MulAdd(step, p, at)
+                                       : hn::Div(hn::Sub(edge, startsAt(view, p)), eyesAt(view, p));
     return hn::Min(hn::Max(inv_z, low), high);
   }
 
   const SweepView& view;
-  Vec at, step, low, high;
+  Vec edge, at, step, low, high;
 };
 
 // Both lie on the same line where a ray passes behind two layers at one edge; but for rounding.

@@ -19,7 +19,7 @@ void SweptRow::reserve(uint32_t width_px, uint32_t piece_count) {
   // A surface ends once to each side of a px.
   blends.reserve(2 * width_px);
   for (AlignedArray<uint64_t>& marks : passed_vectors) marks.reserve(width_px / 64 + kSlack);
-  for (auto* values : {&from, &to, &covering}) values->reserve(piece_count + kSlack);
+  for (auto* values : {&from, &to, &covering, &first_texel}) values->reserve(piece_count + kSlack);
   for (auto* values : {&inv_z_at, &inv_z_step, &texel_at, &texel_step}) {
     values->reserve(piece_count + kSlack);
   }

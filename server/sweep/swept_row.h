@@ -8,19 +8,30 @@
 
 namespace viewloom {
 
-// Px p of a row of a view sees, at inv_z w, the source at
-//   x = start_px + step_px p + (eye_px_m + eye_step_px_m p) w,
-// which grows with p at every w of the source.
+// Px p of a row of a view sees, at inv_z w, the source at startAt(p) + eyeAt(p) w, which grows with
+// p at every w of the source.
 struct SweepView {
   float start_px = 0;
   float step_px = 1;  // > 0
   float eye_px_m = 0;
   // Of px that are seen from places beside each other, all of them on one side of the source.
   float eye_step_px_m = 0;
+  // Or from two places, on one side too: px from this one on start so much further, and their eye
+  // is so far beside that of the others. 0: no px.
+  float jump_px = 0;
+  float jump_start_px = 0;
+  float jump_eye_px_m = 0;
 
-  bool hasMovingEye() const { return eye_step_px_m != 0; }
-  float eyeAt(float p) const { return eye_px_m + eye_step_px_m * p; }
-  float placeAt(float p, float inv_z) const { return start_px + step_px * p + eyeAt(p) * inv_z; }
+  bool jumps() const { return jump_px > 0; }
+  bool hasOneEye() const { return eye_step_px_m == 0 && !jumps(); }
+  bool isBeyondJump(float p) const { return jumps() && p >= jump_px; }
+  float startAt(float p) const {
+    return start_px + step_px * p + (isBeyondJump(p) ? jump_start_px : 0);
+  }
+  float eyeAt(float p) const {
+    return eye_px_m + eye_step_px_m * p + (isBeyondJump(p) ? jump_eye_px_m : 0);
+  }
+  float placeAt(float p, float inv_z) const { return startAt(p) + eyeAt(p) * inv_z; }
 };
 
 // A px that the surface of the px beside it covers in part, or the other way round.
@@ -62,6 +73,7 @@ struct SweptRow {
   AlignedArray<int32_t> covering;  // indices of those that cover px
   uint32_t covering_count = 0;
   AlignedArray<float> inv_z_at, inv_z_step, texel_at, texel_step;
+  AlignedArray<int32_t> first_texel;
 
   // `piece_count`: runs, or steps, of a row of the source.
   void reserve(uint32_t width_px, uint32_t piece_count);

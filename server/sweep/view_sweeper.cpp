@@ -33,6 +33,14 @@ size_t firstPixel(const AtlasLayout& layout, uint32_t tile, uint32_t tile_row) {
   return row * layout.size_px.width + size_t{tile % layout.columns} * layout.tile_size_px.width;
 }
 
+// How far mixed texels give way, as far as rays go in px of the source: see cleanShare in
+// shaders/lib/ray_light.glsl.
+float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t width_px) {
+  const float inv_z_near = std::max(picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
+  const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
+  return std::min(std::abs(eye_px_m) * inv_z_near, 1.0F);
+}
+
 }  // namespace
 
 void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
@@ -83,22 +91,20 @@ struct ViewSweeper::Piece {
   Coverage coverage;
 };
 
-// What the rays of a row of a view meet of a row of surfaces.
-void ViewSweeper::paintRays(Piece& piece, SurfaceRow& row, const SweepView& view,
-                            uint32_t width_px) {
-  // As far as rays go, in px of the source: see cleanShare in shaders/lib/ray_light.glsl.
-  const float inv_z_near =
-      std::max(piece.picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
-  const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
-  row.cleanMixedTexels(std::min(std::abs(eye_px_m) * inv_z_near, 1.0F));
-  paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
-}
-
-// Its colours, edges not blended.
-void ViewSweeper::colorPixels(const Piece& piece, const SurfaceRow& row, uint32_t width_px,
-                              uint32_t* rgba) {
-  colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px, piece.fill.background,
-           rgba);
+// Colours the px of the pieces that are not coloured yet.
+void ViewSweeper::colorLenses(const Piece& piece, const SurfaceRow& row,
+                              std::span<const LensPiece> lenses, uint32_t channel_mask,
+                              uint32_t* panel_row) {
+  sampled_.resize(lens_texels_.size());
+  colorRow(row.texels.data(), row.texel_count, lens_texels_.data(), lens_texels_.size(),
+           piece.fill.background, sampled_.data());
+  lens_texels_.clear();
+  const uint32_t* color = sampled_.data();
+  for (const LensPiece& lens : lenses) {
+    for (uint32_t p = 0; p < lens.count; ++p) {
+      panel_row[lens.first_px + p * lens.stride_px] |= *color++ & channel_mask;
+    }
+  }
 }
 
 // A row of a lenticular panel. What else than colour is wanted is that of the first sample.
@@ -110,19 +116,26 @@ void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
   const double y_px = group.first_px + group.step_px * index;
   SurfaceRow& row = builder_.build(piece.picture.source, y_px, group.tolerance, group.px_per_inv_z);
   row_.reserve(job.layout->size_px.width, row.pieceCountMax());
-  sampled_.resize(job.layout->size_px.width);
   uint32_t* const panel_row = piece.atlas.color.data() + first_px;
   std::fill_n(panel_row, job.layout->size_px.width, kOpaqueBlack);
   for (uint32_t sample = 0; sample < plan.sampleCount(); ++sample) {
     const uint32_t channel_mask = 0xffU << (8 * plan.lensPieces()->channelOf(sample));
     lens_pieces_.clear();
     plan.lensPieces()->appendRow(index, sample, lens_pieces_);
-    for (const LensPiece& lens : lens_pieces_) {
-      paintRays(piece, row, lens.view, lens.count);
-      colorPixels(piece, row, lens.count, sampled_.data());
-      for (uint32_t p = 0; p < lens.count; ++p) {
-        panel_row[lens.first_px + p * lens.stride_px] |= sampled_[p] & channel_mask;
+    // Few at a time are dear to colour: as many as texels stay the same for.
+    const std::span<const LensPiece> lenses(lens_pieces_);
+    size_t colored_count = 0;
+    for (size_t i = 0; i < lenses.size(); ++i) {
+      const LensPiece& lens = lenses[i];
+      const float clean = cleanShare(piece.picture, lens.view, lens.count);
+      if (clean != row.clean) {
+        colorLenses(piece, row, lenses.subspan(colored_count, i - colored_count), channel_mask,
+                    panel_row);
+        colored_count = i;
+        row.cleanMixedTexels(clean);
       }
+      paintRow(row, lens.view, piece.fill, lens.count, row_, piece.coverage);
+      lens_texels_.insert(lens_texels_.end(), row_.texel.data(), row_.texel.data() + lens.count);
       if (sample > 0 || piece.outputs.wantsOnlyColor()) continue;
       describeSwept({.row = row,
                      .view = lens.view,
@@ -134,6 +147,7 @@ void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
                      .stride_px = lens.stride_px},
                     first_px + lens.first_px, piece.outputs, piece.atlas);
     }
+    colorLenses(piece, row, lenses.subspan(colored_count), channel_mask, panel_row);
   }
   if (piece.outputs.linear) {
     writeLinear(panel_row, job.layout->size_px.width, piece.atlas.linear.data() + 4 * first_px);
@@ -186,13 +200,15 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
     if (!takes(tile)) continue;
     const SweepView& view = plan.viewOf(tile, sample);
     uint32_t* const rgba = rowOf(tile, tile_row);
-    paintRays(piece, row, view, width_px);
+    row.cleanMixedTexels(cleanShare(piece.picture, view, width_px));
+    paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
     const float view_z = job.tiles[tile].direction.z;
     const bool shows_depth = (job.tiles[tile].shows & abi::kShowsDepth) != 0;
     if (shows_depth) {
       writeGreys(row_.inv_z, view_z, piece.depth_scale, width_px, rgba);
     } else {
-      colorPixels(piece, row, width_px, rgba);
+      colorRow(row.texels.data(), row.texel_count, row_.texel.data(), width_px,
+               piece.fill.background, rgba);
       findEdgeBlends(row, view, width_px, row_);
       applyEdgeBlends(row_.blends, rgba);
     }

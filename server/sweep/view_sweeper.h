@@ -2,6 +2,7 @@
 // Sweeps atlases: the answers of the walk, for views beside the source in its rows.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/worker_pool.h"
@@ -47,8 +48,8 @@ class ViewSweeper {
  private:
   struct Piece;
 
-  void paintRays(Piece& piece, SurfaceRow& row, const SweepView& view, uint32_t width_px);
-  void colorPixels(const Piece& piece, const SurfaceRow& row, uint32_t width_px, uint32_t* rgba);
+  void colorLenses(const Piece& piece, const SurfaceRow& row, std::span<const LensPiece> lenses,
+                   uint32_t channel_mask, uint32_t* panel_row);
   void sweepLenses(Piece& piece, uint32_t index);
   template <typename Takes, typename RowOf>
   void sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf);
@@ -62,6 +63,7 @@ class ViewSweeper {
   LightSums sums_;  // of px with several samples
   std::vector<uint32_t> sampled_;
   std::vector<LensPiece> lens_pieces_;
+  std::vector<int32_t> lens_texels_;  // of pieces that are not coloured yet, px by px
 };
 
 // The whole atlas by all workers; `sweepers`: one each, kept from atlas to atlas.
