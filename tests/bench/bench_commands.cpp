@@ -31,6 +31,7 @@
 #include "bench/side_by_side.h"
 #include "bench/stereo_bench.h"
 #include "bench/targets.h"
+#include "bench/tick_bench.h"
 #include "bench/uplink.h"
 #include "bench/viewloom_contestant.h"
 
@@ -166,6 +167,7 @@ int runBench(int argc, char** argv) {
   addKnobCommand(app);
   addMirrorsCommand(app);
   addRetimeCommand(app);
+  addTicksCommand(app);
   addQualityCommand(app);
   addPicturesCommand(app);
   CLI11_PARSE(app, argc, argv);

@@ -124,6 +124,15 @@ class BenchTest(unittest.TestCase):
             self.assertLessEqual({"first_time_ms", "next_time_ms", "sweep_ms"}, set(share))
             self.assertGreater(share["walk_ms"], 0)
 
+    def test_ticks_beside_things_that_move(self):
+        report = run("ticks", "--json", "--rounds", "1", "--seconds", "0.5", "--miniature", "8")
+        self.assertEqual([share["moving_share"] for share in report["shares"]], [0, 0.1, 1])
+        for share in report["shares"]:
+            self.assertGreater(share["bystander"]["atlases_per_s"], 0)
+            self.assertGreater(share["bystander"]["age_ms"]["p50"], 0)
+            has_moving = share["moving"]["atlases_per_s"] > 0
+            self.assertEqual(has_moving, share["moving_share"] > 0)
+
     def test_pictures_of_applications(self):
         with tempfile.TemporaryDirectory() as folder:
             finished = subprocess.run([PROGRAM, "pictures", folder, "--miniature", "8"],

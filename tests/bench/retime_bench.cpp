@@ -39,30 +39,6 @@ struct Arguments {
   bool prints_json = false;
 };
 
-// The frame with planes of motion: in the middle of each side, so that this share of all px moves.
-FramePtr withMotion(const Frame& still, double share) {
-  auto frame = std::make_shared<Frame>(still);
-  const SizePx size_px = frame->format.sources.front().layers.front().depth.size_px;
-  const double half_side = 0.5 * std::sqrt(share);
-  std::vector<uint8_t> motion;
-  motion.reserve(6 * size_px.area());
-  for (uint32_t y = 0; y < size_px.height; ++y) {
-    for (uint32_t x = 0; x < size_px.width; ++x) {
-      const bool moves = std::abs((x + 0.5) / size_px.width - 0.5) < half_side &&
-                         std::abs((y + 0.5) / size_px.height - 0.5) < half_side;
-      for (const float speed_mps : kSpeed_mps) {
-        const uint16_t half = moves ? glm::packHalf1x16(speed_mps) : uint16_t{0};
-        motion.push_back(uint8_t(half));
-        motion.push_back(uint8_t(half >> 8));
-      }
-    }
-  }
-  if (share == 0) return frame;  // as an upload keeps it
-  const auto plane = std::make_shared<const std::vector<uint8_t>>(std::move(motion));
-  for (LayerPlanes& layer : frame->sources.front()) layer.motion = plane;
-  return frame;
-}
-
 template <typename Work>
 double timedMs(const Work& work) {
   const auto started = std::chrono::steady_clock::now();
@@ -114,6 +90,29 @@ void measure(const Arguments& arguments) {
 }
 
 }  // namespace
+
+FramePtr withMotion(const Frame& still, double share) {
+  auto frame = std::make_shared<Frame>(still);
+  if (share == 0) return frame;  // as an upload keeps it
+  const SizePx size_px = frame->format.sources.front().layers.front().depth.size_px;
+  const double half_side = 0.5 * std::sqrt(share);
+  std::vector<uint8_t> motion;
+  motion.reserve(6 * size_px.area());
+  for (uint32_t y = 0; y < size_px.height; ++y) {
+    for (uint32_t x = 0; x < size_px.width; ++x) {
+      const bool moves = std::abs((x + 0.5) / size_px.width - 0.5) < half_side &&
+                         std::abs((y + 0.5) / size_px.height - 0.5) < half_side;
+      for (const float speed_mps : kSpeed_mps) {
+        const uint16_t half = moves ? glm::packHalf1x16(speed_mps) : uint16_t{0};
+        motion.push_back(uint8_t(half));
+        motion.push_back(uint8_t(half >> 8));
+      }
+    }
+  }
+  const auto plane = std::make_shared<const std::vector<uint8_t>>(std::move(motion));
+  for (LayerPlanes& layer : frame->sources.front()) layer.motion = plane;
+  return frame;
+}
 
 void addRetimeCommand(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();

@@ -5,7 +5,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "frame/frame.h"
+
 namespace viewloom::bench {
+
+// The frame with planes of motion: in the middle of each side, so that this share of all px moves;
+// none where that is 0.
+FramePtr withMotion(const Frame& still, double share);
 
 void addRetimeCommand(CLI::App& app);
 
