@@ -145,7 +145,7 @@ Metrics::Metrics()
                                      kTransports)),
       output_ticks_skipped(counter(store_->registry, "viewloom_output_ticks_skipped_total",
                                    "Ticks of displays with an output rate at which the atlas "
-                                   "before was still on its way.")),
+                                   "before was still on its way, or that a newer one overtook.")),
       atlases_presented(counter(store_->registry, "viewloom_atlases_presented_total",
                                 "Atlases that gRPC clients say they have shown.")),
       motion_to_image(motionHistogram(store_->registry, "viewloom_motion_to_image_seconds",

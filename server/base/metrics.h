@@ -111,7 +111,7 @@ class Metrics {
   Labelled<HandOver, Counter> replaced;       // {hand_over}; drops, newest wins
   Labelled<Transport, Counter> atlases_sent;  // {transport}
   Labelled<Transport, Counter> sent_bytes;    // {transport}
-  Counter output_ticks_skipped;  // of displays with a rate: the last atlas was still on its way
+  Counter output_ticks_skipped;  // of displays with a rate: another of its atlases was on its way
   Counter atlases_presented;     // shown, as gRPC clients say
   Histogram motion_to_image;     // of tracked displays; seconds
   Histogram eye_poses_age;       // when their atlas begins; seconds

@@ -10,6 +10,7 @@
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
 #include "pipeline/gpu_loop.h"
+#include "pipeline/retime_loop.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
@@ -80,8 +81,10 @@ struct Pipeline::Loops {
         streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
         gpu(links, timeline, builder, traces, gpu_wake_up),
         frames(links, gpu),
-        ticks(links, [this](AtlasJob job,
-                            const DisplaySpec& spec) { return offerTick(std::move(job), spec); }),
+        retimes(links.metrics,
+                [this](AtlasJob job, const DisplaySpec& spec) { retime(std::move(job), spec); }),
+        ticks(links, [this](const AtlasJob& job,
+                            const ActiveDisplayPtr& display) { return offerTick(job, display); }),
         structures(links, streams, frames, structure_wake_up,
                    [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
                      serve(stream, ticket);
@@ -90,8 +93,11 @@ struct Pipeline::Loops {
   // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
   // the resident structure's frame, if that has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
-  // False while the picture's last atlas is on its way, or its structure finds no room.
-  bool offerTick(AtlasJob job, const DisplaySpec& spec);
+  // Of a tick: false while the picture's last atlas is on its way.
+  bool offerTick(const AtlasJob& job, const ActiveDisplayPtr& display);
+  bool offerTrace(AtlasJob job, const DisplaySpec& spec);
+  // Makes what the tick shows, unless there is no room, and has it traced.
+  void retime(AtlasJob job, const DisplaySpec& spec);
   // Of an atlas that is wanted from now on.
   int64_t deadlineNs(const DisplaySpec& spec) const;
   void fail(const std::exception& error);
@@ -111,6 +117,7 @@ struct Pipeline::Loops {
   StreamTable streams;
   GpuLoop gpu;
   FrameBuilder frames;
+  RetimeLoop retimes;  // gives back to the next
   TickLoop ticks;
   StructureLoop structures;
 };
@@ -140,8 +147,21 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   gpu_wake_up.ring();
 }
 
-bool Pipeline::Loops::offerTick(AtlasJob job, const DisplaySpec& spec) {
-  if (traces.isBusy(job.picture_key) || !showAsOfTick(job)) return false;
+bool Pipeline::Loops::offerTick(const AtlasJob& job, const ActiveDisplayPtr& display) {
+  if (isRetimed(job)) return !traces.isBusy(job.picture_key) && retimes.offer(job, display);
+  // Before the trace loop is asked: what was retimed goes there next.
+  return !retimes.isBusy(job) && offerTrace(job, display->spec);
+}
+
+void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
+  try {
+    if (!showAsOfTick(job) || !offerTrace(job, spec)) ticks.giveBack(std::move(job));
+  } catch (const std::exception& error) {
+    links.on_failure(error);
+  }
+}
+
+bool Pipeline::Loops::offerTrace(AtlasJob job, const DisplaySpec& spec) {
   job.deadline_ns = deadlineNs(spec);
   const bool is_taken = traces.offerUnlessBusy(job);
   if (is_taken) gpu_wake_up.ring();
@@ -201,6 +221,7 @@ void Pipeline::drain() {
   if (loops_->is_draining.exchange(true)) return;
   loops_->structures.stop();
   loops_->ticks.stop();
+  loops_->retimes.stop();
   loops_->gpu.stop();
   loops_->encoders.stop();
   loops_->traces.dropAll();

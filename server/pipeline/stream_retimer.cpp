@@ -59,19 +59,25 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   return carried;
 }
 
+bool isRetimed(const AtlasJob& job) {
+  return job.structure->retimer && (job.before || job.tick->shown.carried_ns != 0);
+}
+
 bool showAsOfTick(AtlasJob& job) {
   const int64_t carried_ns = job.tick->shown.carried_ns;
-  if (!job.structure->retimer) return true;
   const Guesses guesses = job.before ? Guesses::kGiveWay : Guesses::kStand;
   // Of the frame before, only if that moves, too.
   if (job.before && job.before->retimer) {
-    job.before = job.before->retimer->carried(job.before, carried_ns + job.tick->frames_apart_ns,
-                                              StreamRetimer::Which::kBefore, guesses);
-    if (!job.before) return false;
+    ResidentPtr before = job.before->retimer->carried(
+        job.before, carried_ns + job.tick->frames_apart_ns, StreamRetimer::Which::kBefore, guesses);
+    if (!before) return false;
+    job.before = std::move(before);
   }
-  job.structure = job.structure->retimer->carried(job.structure, carried_ns,
-                                                  StreamRetimer::Which::kNewest, guesses);
-  return job.structure != nullptr;
+  ResidentPtr newest = job.structure->retimer->carried(job.structure, carried_ns,
+                                                       StreamRetimer::Which::kNewest, guesses);
+  if (!newest) return false;
+  job.structure = std::move(newest);
+  return true;
 }
 
 }  // namespace viewloom

@@ -14,7 +14,7 @@
 namespace viewloom {
 
 // Each time is built once, for all displays that show it one after the other. Memory is bounded by
-// kSlotCount structures. Thread-safety: none; the tick loop's.
+// kSlotCount structures. Thread-safety: none; the retime loop has one job of a stream at a time.
 class StreamRetimer {
  public:
   StreamRetimer(const PipelineLinks& links, FrameBuilder& builder);
@@ -51,6 +51,9 @@ class StreamRetimer {
   std::shared_ptr<std::atomic<bool>> is_walked_ = std::make_shared<std::atomic<bool>>(false);
   std::array<Carried, 2> carried_;
 };
+
+// What the job's tick shows is none of its frames: something that moves by itself has gone on.
+bool isRetimed(const AtlasJob& job);
 
 // Gives the job of a tick the structures of the time that is shown. False while there is no room.
 bool showAsOfTick(AtlasJob& job);

@@ -126,16 +126,21 @@ std::vector<TickLoop::DueTick> TickLoop::takeDue() {
   return all;
 }
 
-// A ticket that goes with no atlas waits for the next tick, unless a newer one is there.
 void TickLoop::offerTick(DueTick& due) {
-  const bool is_taken = offer_tick_(due.job, due.display->spec);
-  const uint64_t skipped_count = due.missed_count + (is_taken ? 0 : 1);
-  if (skipped_count > 0) links_.metrics.output_ticks_skipped.add(double(skipped_count));
-  if (is_taken) return;
+  if (due.missed_count > 0) links_.metrics.output_ticks_skipped.add(double(due.missed_count));
+  if (!offer_tick_(due.job, due.display)) giveBack(std::move(due.job));
+}
+
+// A ticket that goes with no atlas waits for the next tick, unless that is of a newer frame.
+void TickLoop::giveBack(AtlasJob job) {
+  links_.metrics.output_ticks_skipped.add();
   std::lock_guard lock(mutex_);
-  const auto picture = pictures_.find(due.job.picture_key);
-  if (picture == pictures_.end() || picture->second.ticket) return;
-  picture->second.ticket = std::move(due.job.ticket);
+  const auto picture = pictures_.find(job.picture_key);
+  if (picture == pictures_.end()) return;
+  if (streams_.at(picture->second.display->stream).structure->serial != job.structure->serial) {
+    return;
+  }
+  picture->second.ticket = std::move(job.ticket);
 }
 
 }  // namespace viewloom

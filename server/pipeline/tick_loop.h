@@ -21,12 +21,12 @@ namespace viewloom {
 
 // One thread, asleep while there are no such displays. A tick at which the picture's last atlas is
 // still on its way is skipped, and counted; what would show nothing new is not traced.
-// Thread-safety: offer() from any thread; stop() from one thread, once.
+// Thread-safety: offer() and giveBack() from any thread; stop() from one thread, once.
 class TickLoop {
  public:
-  // Gives the job of a picture, of displays of this kind, to the trace loop, with a deadline; false
-  // while that is busy with the picture. Called without a lock, as it may build what moves anew.
-  using OfferTick = std::function<bool(AtlasJob job, const DisplaySpec& spec)>;
+  // Hands on the job of a picture, of such displays; false while an atlas of it is on its way. Must
+  // not wait for anything: the ticks of all displays are behind it.
+  using OfferTick = std::function<bool(const AtlasJob& job, const ActiveDisplayPtr& display)>;
 
   TickLoop(const PipelineLinks& links, OfferTick offer_tick);
   ~TickLoop() { stop(); }
@@ -34,6 +34,9 @@ class TickLoop {
   // A stream has a newer structure, its camera moves otherwise, or its displays have changed. The
   // ticket, of the structure's frame, goes with the next tick of each picture.
   void offer(const std::string& stream, const StreamInstant& newest, const FrameTicketPtr& ticket);
+  // The job of a tick that was handed on, of which no atlas comes after all: the tick counts as
+  // skipped.
+  void giveBack(AtlasJob job);
   void stop();
 
  private:

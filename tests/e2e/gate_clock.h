@@ -16,17 +16,26 @@ class GateClock final : public Clock {
  public:
   int64_t nowNs() const override {
     std::unique_lock lock(mutex_);
-    if (held_ == std::this_thread::get_id()) {
+    const std::thread::id caller = std::this_thread::get_id();
+    if (holds_next_ && caller != holder_ && caller != sleeper_) {
+      holds_next_ = false;
+      held_ = caller;
+    }
+    if (held_ == caller) {
       is_waiting_ = true;
       changed_.notify_all();
-      changed_.wait(lock, [this] { return held_ != std::this_thread::get_id(); });
+      changed_.wait(lock, [&] { return held_ != caller; });
       is_waiting_ = false;
     }
     return now_ns_;
   }
 
   // It may be turned at any time, and wakes nobody.
-  std::chrono::nanoseconds napUntil(int64_t) const override { return std::chrono::milliseconds(1); }
+  std::chrono::nanoseconds napUntil(int64_t) const override {
+    std::lock_guard lock(mutex_);
+    sleeper_ = std::this_thread::get_id();
+    return std::chrono::milliseconds(1);
+  }
 
   void advance(int64_t by_ns) {
     std::lock_guard lock(mutex_);
@@ -36,14 +45,21 @@ class GateClock final : public Clock {
     std::lock_guard lock(mutex_);
     held_ = thread;
   }
-  // Until the thread that is held asks for the time.
-  void waitUntilHeld() const {
+  // The next thread that asks for the time; neither the caller nor the one that sleeps by it.
+  void holdNext() {
+    std::lock_guard lock(mutex_);
+    holds_next_ = true;
+    holder_ = std::this_thread::get_id();
+  }
+  // Until the thread that is held asks for the time; false when it does not in half a minute.
+  bool waitUntilHeld() const {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return is_waiting_; });
+    return changed_.wait_for(lock, std::chrono::seconds(30), [this] { return is_waiting_; });
   }
   void letGo() {
     std::lock_guard lock(mutex_);
     held_ = {};
+    holds_next_ = false;
     changed_.notify_all();
   }
 
@@ -51,7 +67,10 @@ class GateClock final : public Clock {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   mutable bool is_waiting_ = false;
-  std::thread::id held_;
+  mutable bool holds_next_ = false;
+  mutable std::thread::id sleeper_;
+  std::thread::id holder_;
+  mutable std::thread::id held_;
   int64_t now_ns_ = 1;
 };
 

@@ -71,8 +71,8 @@ class PipelineFixture : public GpuTest {
     ReportLog reports;
     Pipeline pipeline;
 
-    void offer(FramePtr frame) {
-      pipeline.offerFrame("scene", std::move(frame), reports.recorder());
+    void offer(FramePtr frame, const std::string& stream = "scene") {
+      pipeline.offerFrame(stream, std::move(frame), reports.recorder());
     }
   };
 
@@ -81,9 +81,10 @@ class PipelineFixture : public GpuTest {
     std::unique_ptr<Broadcaster::Subscription> subscription;
   };
 
-  static Viewer watch(Server& server, const DisplaySpec& spec, const EncodingSpec& encoding = {}) {
+  static Viewer watch(Server& server, const DisplaySpec& spec, const EncodingSpec& encoding = {},
+                      const std::string& stream = "scene") {
     Viewer viewer;
-    auto subscription = server.broadcaster.subscribe("scene", spec, encoding, viewer.subscriber);
+    auto subscription = server.broadcaster.subscribe(stream, spec, encoding, viewer.subscriber);
     EXPECT_TRUE(subscription.ok()) << subscription.status();
     if (subscription.ok()) viewer.subscription = *std::move(subscription);
     return viewer;
