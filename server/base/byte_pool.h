@@ -27,9 +27,13 @@ class BytePool {
   // An empty buffer with room for capacity_bytes: the smallest of those waiting, unless even that
   // is several times too large; else a new one.
   Buffer take(size_t capacity_bytes);
+  // The same, of `size_bytes`, for one who writes them all: they are what they were left as, or 0.
+  Buffer takeAsLeft(size_t size_bytes);
 
  private:
   struct Shelf;
+  Buffer takeFitting(size_t capacity_bytes);
+
   std::shared_ptr<Shelf> shelf_;
 };
 

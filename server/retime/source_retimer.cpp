@@ -52,11 +52,7 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, 
 LayerPlanes SourceRetimer::takeLayer(BytePool& pool, FreshPlanes& to) const {
   const std::vector<LayerPlanes>& from = surfaces_.frame().sources.front();
   const size_t px_count = surfaces_.sizePx().area();
-  const auto take = [&](size_t texel_bytes) {
-    BytePool::Buffer buffer = pool.take(px_count * texel_bytes);
-    buffer->resize(px_count * texel_bytes);
-    return buffer;
-  };
+  const auto take = [&](size_t texel_bytes) { return pool.takeAsLeft(px_count * texel_bytes); };
   LayerPlanes layer;
   layer.color_encoding = from.front().color_encoding;
   BytePool::Buffer depth = take(sizeof(float));

@@ -23,6 +23,23 @@ TEST(BytePool, lendsTheSameMemoryAgain) {
   EXPECT_TRUE(again->empty());
 }
 
+TEST(BytePool, lendsMemoryAsItWasLeftToWhoeverWritesAllOfIt) {
+  BytePool pool(2);
+  BytePool::Buffer buffer = pool.takeAsLeft(1000);
+  EXPECT_EQ(*buffer, std::vector<uint8_t>(1000, 0));
+  const uint8_t* memory = buffer->data();
+  buffer->assign(1000, 7);
+  buffer.reset();
+  buffer = pool.takeAsLeft(990);
+  EXPECT_EQ(buffer->data(), memory);
+  EXPECT_EQ(*buffer, std::vector<uint8_t>(990, 7));
+  buffer.reset();
+  buffer = pool.takeAsLeft(1000);
+  EXPECT_EQ(buffer->size(), 1000u);
+  buffer.reset();
+  EXPECT_TRUE(pool.take(1000)->empty());
+}
+
 TEST(BytePool, findsTheSameMemoryForSizesThatVaryALittle) {
   BytePool pool(2);
   const uint8_t* memory = pool.take(1000000)->data();

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <vector>
 
+#include "frame/limits.h"
 #include "unit/retime/moved_frames.h"
 
 namespace viewloom::test {
@@ -235,6 +237,44 @@ TEST_F(FrameRetimerTest, forgetsWhatHasPassedTheCamera) {
                                              kTolerance),
                                  1);
   for (uint32_t x = 0; x < kMovedPx.width; ++x) EXPECT_LT(invZAt(*later, 0, x, 12), 0);
+}
+
+// All of it mirrors.
+FramePtr mirroringFrame(const std::vector<MovingLayer>& layers) {
+  auto frame = std::make_shared<Frame>(*movingFrame(layers, kTolerance));
+  for (LayerPlanes& layer : frame->sources.front()) {
+    layer.surface = std::make_shared<const std::vector<uint8_t>>(
+        kMovedPx.area() * kSurfaceTexelBytes, uint8_t{9});
+  }
+  return frame;
+}
+
+std::vector<SharedBytes> planesOf(const Frame& frame) {
+  std::vector<SharedBytes> planes;
+  for (const LayerPlanes& layer : frame.sources.front()) {
+    planes.insert(planes.end(), {layer.depth, layer.color, layer.surface});
+  }
+  return planes;
+}
+
+TEST_F(FrameRetimerTest, leavesNothingOfFramesInWhoseMemoryItWrites) {
+  const auto holed = [](uint32_t x, uint32_t y) {
+    return x < 5 || y % 7 == 3 ? MovingPx{} : plateAt(x, y);
+  };
+  const std::vector<FramePtr> frames{mirroringFrame({plateAt, plateAt}),
+                                     mirroringFrame({holed, behindPlateAt}),
+                                     movingFrame({holed, holed}, kTolerance)};
+  FrameRetimer retimer(workers_);
+  for (const FramePtr& frame : frames) {
+    for (const double gone_px : {-30.0, 2.5, 40.0}) {
+      const FramePtr anew = retimed(frame, gone_px * kPxTime_s);
+      const FramePtr again = retimer.retime(frame, gone_px * kPxTime_s);
+      const auto isSame = [](const SharedBytes& a, const SharedBytes& b) {
+        return a == b || *a == *b;
+      };
+      EXPECT_TRUE(std::ranges::equal(planesOf(*anew), planesOf(*again), isSame));
+    }
+  }
 }
 
 TEST_F(FrameRetimerTest, sharesThePlanesOfSourcesThatStand) {
