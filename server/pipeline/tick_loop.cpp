@@ -134,13 +134,14 @@ void TickLoop::offerTick(DueTick& due) {
 // A ticket that goes with no atlas waits for the next tick, unless that is of a newer frame.
 void TickLoop::giveBack(AtlasJob job) {
   links_.metrics.output_ticks_skipped.add();
+  if (!job.ticket) return;
   std::lock_guard lock(mutex_);
   const auto picture = pictures_.find(job.picture_key);
   if (picture == pictures_.end()) return;
   if (streams_.at(picture->second.display->stream).structure->serial != job.structure->serial) {
     return;
   }
-  picture->second.ticket = std::move(job.ticket);
+  picture->second.ticket.swap(job.ticket);  // another is let go after the lock: it may report
 }
 
 }  // namespace viewloom

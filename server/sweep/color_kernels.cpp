@@ -51,7 +51,7 @@ HWY_INLINE void colorChunk(const uint32_t* HWY_RESTRICT texels, IntVec last_inde
   HWY_ALIGN uint32_t pairs[2 * kChunk_px];
   const size_t lanes = hn::Lanes(kFloats);
   for (size_t p = 0; p < kChunk_px; p += lanes) {
-    const IntVec index = hn::ShiftRight<8>(hn::Load(kInts, places + p));
+    const IntVec index = hn::ShiftRight<8>(hn::LoadU(kInts, places + p));
     hn::Store(hn::Min(hn::Max(index, hn::Zero(kInts)), last_index), kInts, indices + p);
   }
   for (size_t p = 0; p < kChunk_px; ++p) {
@@ -61,7 +61,7 @@ HWY_INLINE void colorChunk(const uint32_t* HWY_RESTRICT texels, IntVec last_inde
     WordVec texel;
     WordVec next;
     hn::LoadInterleaved2(kWords, pairs + 2 * p, texel, next);
-    hn::StoreU(colorAt(texel, next, hn::Load(kInts, places + p), background), kWords, rgba + p);
+    hn::StoreU(colorAt(texel, next, hn::LoadU(kInts, places + p), background), kWords, rgba + p);
   }
 }
 

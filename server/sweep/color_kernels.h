@@ -10,7 +10,7 @@ namespace viewloom {
 // Writes rgba[width_px], R, G, B, 255 in memory order. `texels`: packed codes (packed_codes.h), two
 // at least.
 // `places`: 1/256 px, at whose two texels light is blended; negative: the background, which is as
-// rgba. Places may be read a vector beyond the width.
+// rgba. Nothing has to be aligned to more than its type.
 void colorRow(const uint32_t* texels, uint32_t texel_count, const int32_t* places, size_t width_px,
               uint32_t background, uint32_t* rgba);
 

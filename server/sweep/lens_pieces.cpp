@@ -96,7 +96,7 @@ bool LensPieces::settleStride(double inv_z_max, double tolerance_px) {
   // that to either side.
   bend_max_rad2_ = 16 * error_m / double{channel.eyes.distance_m};
   // What a piece goes through at most, in lenses: of eyes on a line, on an average way from the
-  // middle; or the share of a nearest view.
+  // middle; or the share of a nearest view, as if none went on in the next.
   const uint32_t view_count = channel.eyes.view_count;
   const double stretch_rad = stretchFrom(0.5 * half_cone_rad, half_cone_rad);
   const double run_max =

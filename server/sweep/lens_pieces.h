@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rays of a lenticular panel as a sweep takes them. Every few px of a row, lenses send px to
-// nearly the same place: such px, so far apart, are a view whose eye moves evenly and little.
+// nearly the same place: such px, so far apart, are a view whose eye moves evenly and little, or
+// jumps once from that of a nearest view to the next one's.
 #pragma once
 
 #include <cstdint>

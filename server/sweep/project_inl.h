@@ -15,19 +15,17 @@ namespace viewloom::HWY_NAMESPACE {
 // The first px whose place at inv_z is not below x, within the row.
 HWY_INLINE IntVec columnOf(Vec x, Vec inv_z, const SweepView& view, float width) {
   const Vec beside = hn::Sub(startOf(view, x, inv_z), set(view.start_px));
-  Vec p;
+  Vec p = hn::Mul(beside, set(1 / view.step_px));
   if (view.eye_step_px_m != 0) {
-    p = hn::Ceil(hn::Div(beside, hn::MulAdd(set(view.eye_step_px_m), inv_z, set(view.step_px))));
-  } else {
-    p = hn::Ceil(hn::Mul(beside, set(1 / view.step_px)));
+    p = hn::Div(beside, hn::MulAdd(set(view.eye_step_px_m), inv_z, set(view.step_px)));
   }
   if (view.jumps()) {
-    const Vec jump = hn::MulAdd(set(view.jump_eye_px_m), inv_z, set(view.jump_start_px));
-    const Vec beyond = hn::Ceil(hn::Mul(hn::Sub(beside, jump), set(1 / view.step_px)));
-    const Vec first_beyond = set(view.jump_px);
-    p = hn::IfThenElse(hn::Lt(p, first_beyond), p, hn::Max(beyond, first_beyond));
+    const Vec back = hn::MulAdd(set(view.jump_eye_px_m / view.step_px), inv_z,
+                                set(view.jump_start_px / view.step_px));
+    const Vec beyond = hn::Max(hn::Sub(p, back), set(view.jump_px));
+    p = hn::IfThenElse(hn::Le(p, set(view.jump_px - 1)), p, beyond);
   }
-  return hn::ConvertTo(kInts, hn::Min(hn::Max(p, set(0)), set(width)));
+  return hn::ConvertTo(kInts, hn::Min(hn::Max(hn::Ceil(p), set(0)), set(width)));
 }
 
 // Px [from, to) each.

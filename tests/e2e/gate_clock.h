@@ -51,10 +51,10 @@ class GateClock final : public Clock {
     holds_next_ = true;
     holder_ = std::this_thread::get_id();
   }
-  // Until the thread that is held asks for the time; false when it does not in half a minute.
-  bool waitUntilHeld() const {
+  // Until the thread that is held asks for the time; false when it does not in that time.
+  bool waitUntilHeld(std::chrono::milliseconds at_most = std::chrono::seconds(30)) const {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(30), [this] { return is_waiting_; });
+    return changed_.wait_for(lock, at_most, [this] { return is_waiting_; });
   }
   void letGo() {
     std::lock_guard lock(mutex_);

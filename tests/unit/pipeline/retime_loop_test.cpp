@@ -160,7 +160,11 @@ TEST_F(RetimeLoopTest, finishesWhatIsBeingServedWhenItStopsAndForgetsTheRest) {
   EXPECT_TRUE(offer(waiting));
   waiting.ticket = nullptr;
   auto stopped = std::async(std::launch::async, [this] { loop_.stop(); });
-  while (offer(tickOf("late", someStructure("late"), 1))) std::this_thread::yield();
+  // Of ever other pictures, so that none is refused but when the loop has stopped.
+  const ResidentPtr late = someStructure("late");
+  for (int n = 0; offer(tickOf("late " + std::to_string(n), late, 1)); ++n) {
+    std::this_thread::yield();
+  }
   may_go_on_.release();
   stopped.wait();
   EXPECT_THAT(served(), Contains("held 1"));
