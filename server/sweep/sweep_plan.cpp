@@ -38,14 +38,6 @@ bool staysInRows(const TraceJob& job, const LensPieces& pieces, double inv_z_max
          std::abs(axes.right.z * reach_inv_z) * abi::kPlainExtentMax_px <= kMoved_px;
 }
 
-SweepView sweepView(const abi::ViewParams& tile) {
-  const double z = double{tile.direction.z};
-  const double step_px = double{tile.direction_dx.x} / z;
-  return {.start_px = float(double{tile.direction.x} / z + 0.5 * step_px),
-          .step_px = float(step_px),
-          .eye_px_m = tile.eye.x};
-}
-
 }  // namespace
 
 std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) {
@@ -70,7 +62,7 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
     const std::span<const abi::ViewParams> tiles = job.tilesOf(0, sample);
     for (uint32_t index = 0; index < tiles.size(); ++index) {
       const abi::ViewParams& tile = tiles[index];
-      plan.views_.back().push_back(tile.is_used == 0 ? SweepView{} : sweepView(tile));
+      plan.views_.back().push_back(tile.is_used == 0 ? OneEye{} : eyeOf(tile));
       if (tile.is_used != 0) plan.addTile(index, tile);
     }
   }
@@ -83,6 +75,14 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
   };
   if (!std::all_of(plan.groups_.begin(), plan.groups_.end(), isAlike)) return std::nullopt;
   return plan;
+}
+
+SweepPlan::OneEye SweepPlan::eyeOf(const abi::ViewParams& tile) {
+  const double z = double{tile.direction.z};
+  const double step_px = double{tile.direction_dx.x} / z;
+  return {.start_px = float(double{tile.direction.x} / z + 0.5 * step_px),
+          .step_px = float(step_px),
+          .eye_px_m = tile.eye.x};
 }
 
 // To the last of the samples.

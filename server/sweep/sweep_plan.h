@@ -47,11 +47,22 @@ class SweepPlan {
   const SweptTiles& groupOf(uint32_t row, uint32_t sample = 0) const {
     return groups_[sample][row / tile_height_];
   }
-  const SweepView& viewOf(uint32_t tile, uint32_t sample = 0) const { return views_[sample][tile]; }
+  SweepView viewOf(uint32_t tile, uint32_t sample = 0) const {
+    const OneEye& view = views_[sample][tile];
+    return {.start_px = view.start_px, .step_px = view.step_px, .eye_px_m = view.eye_px_m};
+  }
   // Of a lenticular panel, instead of viewOf(); else null.
   const LensPieces* lensPieces() const { return lens_pieces_ ? &*lens_pieces_ : nullptr; }
 
  private:
+  // Of SweepView what there may be thousands of.
+  struct OneEye {
+    float start_px = 0;
+    float step_px = 1;
+    float eye_px_m = 0;
+  };
+
+  static OneEye eyeOf(const abi::ViewParams& tile);
   void addTile(uint32_t index, const abi::ViewParams& tile);
 
   uint32_t tile_height_ = 1;
@@ -59,7 +70,7 @@ class SweepPlan {
   ColorReach color_reach_;
   std::optional<LensPieces> lens_pieces_;
   std::vector<std::vector<SweptTiles>> groups_;  // [sample][group]
-  std::vector<std::vector<SweepView>> views_;    // [sample][tile]
+  std::vector<std::vector<OneEye>> views_;       // [sample][tile]
 };
 
 }  // namespace viewloom

@@ -198,7 +198,7 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
   row_.reserve(width_px, row.pieceCountMax());
   for (const uint32_t tile : group.tiles) {
     if (!takes(tile)) continue;
-    const SweepView& view = plan.viewOf(tile, sample);
+    const SweepView view = plan.viewOf(tile, sample);
     uint32_t* const rgba = rowOf(tile, tile_row);
     row.cleanMixedTexels(cleanShare(piece.picture, view, width_px));
     paintRow(row, view, piece.fill, width_px, row_, piece.coverage);
