@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -16,8 +15,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "base/log.h"
 #include "base/metrics.h"
+#include "bench/failed_pipeline.h"
 #include "pipeline/pipeline.h"
 
 namespace viewloom::bench {
@@ -26,12 +25,6 @@ namespace {
 constexpr char kStream[] = "bench";
 constexpr double kHalfEyeDistance_m = 0.0315;
 constexpr std::chrono::minutes kFirstTimeout{5};  // as long as kernels may take to compile
-
-// A thread of the pipeline cannot go on: nothing can be measured.
-void stop(const std::exception& error) {
-  log(LogLevel::kError, error.what());
-  std::quick_exit(1);
-}
 
 // Keeps book of one display; its owner counts since start().
 class Book final : public Subscriber {
@@ -121,7 +114,7 @@ class EyeBench {
                    .metrics = metrics_,
                    .broadcaster = broadcaster_,
                    .directory = directory_,
-                   .on_failure = stop},
+                   .on_failure = endOfFailedPipeline},
                   {.encode_thread_count = std::max(1u, std::thread::hardware_concurrency())}) {
     broadcaster_.onDemandChange(
         [this](const std::string& stream) { pipeline_.serveDisplays(stream); });

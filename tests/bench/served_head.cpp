@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/served_head.h"
 
-#include <cstdlib>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/log.h"
+#include "bench/failed_pipeline.h"
 
 namespace viewloom::bench {
 namespace {
 
 constexpr char kStream[] = "head";
-
-// A thread of the pipeline cannot go on: nothing can be seen.
-void stop(const std::exception& error) {
-  log(LogLevel::kError, error.what());
-  std::quick_exit(1);
-}
 
 }  // namespace
 
@@ -29,7 +21,7 @@ ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_p
                  .metrics = metrics_,
                  .broadcaster = broadcaster_,
                  .directory = directory_,
-                 .on_failure = stop},
+                 .on_failure = endOfFailedPipeline},
                 {}) {
   broadcaster_.onDemandChange(
       [this](const std::string& stream) { pipeline_.serveDisplays(stream); });

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -19,6 +18,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/metrics.h"
+#include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"
 #include "e2e/test_frames.h"
@@ -46,12 +46,6 @@ struct Arguments {
   uint32_t miniature = 1;
   bool prints_json = false;
 };
-
-// A thread of the pipeline cannot go on: nothing can be measured.
-void stop(const std::exception& error) {
-  log(LogLevel::kError, error.what());
-  std::quick_exit(1);
-}
 
 // Keeps book of one display, since start(). Thread-safety: all methods may be called from any
 // thread.
@@ -149,7 +143,7 @@ Figures serve(const Device& device, double moving_share, const Arguments& argume
                      .metrics = metrics,
                      .broadcaster = broadcaster,
                      .directory = directory,
-                     .on_failure = stop},
+                     .on_failure = endOfFailedPipeline},
                     {.encode_thread_count = std::max(1U, std::thread::hardware_concurrency())});
   broadcaster.onDemandChange([&](const std::string& stream) { pipeline.serveDisplays(stream); });
   std::vector<Show> shows;

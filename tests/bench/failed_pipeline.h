@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is measured of a pipeline whose threads cannot go on: nothing.
+#pragma once
+
+#include <exception>
+
+namespace viewloom::bench {
+
+// Says why and ends the program, from any thread: PipelineLinks::on_failure.
+[[noreturn]] void endOfFailedPipeline(const std::exception& error);
+
+}  // namespace viewloom::bench
