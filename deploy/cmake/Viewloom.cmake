@@ -6,6 +6,13 @@ target_compile_options(viewloom_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wunused-result
   -Wno-missing-field-initializers)  # what a designated initialiser leaves out has its default
 
+# Of folders that compute with vectors: with one rounding per operation, on every kind of CPU. And GCC
+# 12, for AVX-512, takes a bool that decides over whole vectors in a loop for the mask of their lanes,
+# and so over the first lane alone (few_rays_test), where it converts branches of loops.
+add_library(viewloom_kernel_options INTERFACE)
+target_compile_options(viewloom_kernel_options INTERFACE
+  -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-if-convert>)
+
 set(VIEWLOOM_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
 if(VIEWLOOM_SANITIZE)
   # Undefined behaviour ends the program, as a bad address does: a mere message fails no test.

@@ -57,27 +57,17 @@ class HitPainter {
     marks_ = swept.passed_vectors[layer - 1].data();
   }
 
-  // at(px as floats): their inv_z and texels.
+  // at(first px of a vector, its px as floats): their inv_z and texels.
   template <class At>
   HWY_INLINE void paint(int32_t from, int32_t to, At at) const {
     const auto paint_vector = [&](int32_t begin, Vec p, Mask inside) {
-      const auto [inv_z, texel] = at(p);
+      const auto [inv_z, texel] = at(begin, p);
       paintVector(begin, inside, inv_z, texel);
     };
     if (passed_ == nullptr)
       forVectors(from, to, paint_vector);
     else
       forMarkedVectors(marks_, from, to, paint_vector);
-  }
-
-  // One px.
-  HWY_INLINE void paintPixel(int32_t px, float inv_z, int32_t texel) const {
-    const size_t p = size_t(px);
-    if (!last_wins_ && !(inv_z > swept_.inv_z[p])) return;
-    if (passed_ != nullptr && !(inv_z <= passed_[p])) return;
-    if (met_ != nullptr && !(inv_z > met_[p])) return;
-    swept_.inv_z[p] = inv_z;
-    swept_.texel[p] = texel;
   }
 
  private:

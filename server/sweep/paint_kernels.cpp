@@ -18,37 +18,37 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-HWY_INLINE void paintBridges(const Steps& bridges, const SweepView& view, const SweptRow& swept,
+HWY_INLINE void paintBridges(const Steps& bridges, const RowRays& rays, const SweptRow& swept,
                              const HitPainter& painter) {
   for (uint32_t i = 0; i < swept.covering_count; ++i) {
     const size_t k = size_t(swept.covering[i]);
-    const EdgeLine line(bridges, k, view);
+    const EdgeLine line(bridges, k, rays);
     const IntVec texel = hn::Set(kInts, bridges.texel[k]);
-    painter.paint(swept.from[k], swept.to[k], [&](Vec p) { return Place{line.invZ(p), texel}; });
+    painter.paint(swept.from[k], swept.to[k], [&](int32_t first, Vec p) {
+      return Place{line.invZ(first, p), texel};
+    });
   }
 }
 
 // What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
 // the ray passed last.
-void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
-               uint32_t width_px, SweptRow& swept) {
+void paintFill(const SurfaceRow& row, const RowRays& rays, const SweepFill& fill, SweptRow& swept) {
   const int32_t lanes = int32_t(hn::Lanes(kFloats));
-  const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
   for (uint32_t i = 0; i < swept.passed_layer_count; ++i) {
-    const Steps& steps = row.layers[i].silhouettes[travel];
+    const Steps& steps = row.layers[i].silhouettes[size_t(rays.travel())];
     const float* const passed_before = i == 0 ? nullptr : swept.passed_inv_z[i - 1].data();
     const float* const met = swept.met_inv_z[i].data();
-    projectSteps(steps, view, float(width_px), swept);
+    projectSteps(steps, rays, swept);
     const float rank = 2 * fill.inv_z_max * (float(i) - float(abi::kLayerCountMax));
     for (uint32_t n = 0; n < swept.covering_count; ++n) {
       const size_t k = size_t(swept.covering[n]);
       if (steps.texel[k] == kNoTexel) continue;
-      const EdgeLine line(steps, k, view);
+      const EdgeLine line(steps, k, rays);
       const IntVec texel_at_low = hn::Set(kInts, steps.texel[k]);
       const Vec texel_per_inv_z = set(steps.texel_per_inv_z[k]);
       forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
         if (swept.block_has_hole[first / lanes] == 0) return;
-        const Vec inv_z = line.invZ(p);
+        const Vec inv_z = line.invZ(first, p);
         const Vec up = hn::Mul(hn::Sub(inv_z, line.low), texel_per_inv_z);
         const IntVec texel = hn::Add(texel_at_low, hn::NearestInt(up));
         float* const ranks = swept.fill_rank.data() + first;
@@ -67,25 +67,23 @@ void paintFill(const SurfaceRow& row, const SweepView& view, const SweepFill& fi
 }
 
 // Hits of all layers, and where rays pass behind them; false: behind none.
-bool paintLayers(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
-                 uint32_t width_px, SweptRow& swept) {
-  const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
-  const float width = float(width_px);
-  const bool crosses_edges = view.eye_px_m != 0;
+bool paintLayers(const SurfaceRow& row, const RowRays& rays, const SweepFill& fill,
+                 SweptRow& swept) {
   const bool is_dropped = fill.planted_fault == SweepFault::kLayerDropped;
   swept.passed_layer_count = 0;
-  if (crosses_edges) findPassed(row, view, fill, width_px, swept);
+  if (rays.leaveSource()) findPassed(row, rays, fill, swept);
   const uint32_t hit_count =
       is_dropped ? 1 : std::min(swept.passed_layer_count + 1, row.layer_count);
   for (uint32_t i = 0; i < hit_count; ++i) {
     const LayerSurfaces& layer = row.layers[i];
     const HitPainter painter(swept, i, fill.planted_fault);
-    paintRuns(layer.runs, view, width_px, swept, painter);
-    if (!crosses_edges) break;
-    projectSteps(layer.bridges[travel], view, width, swept);
-    paintBridges(layer.bridges[travel], view, swept, painter);
+    paintRuns(layer.runs, rays, swept, painter);
+    if (!rays.leaveSource()) break;
+    const Steps& bridges = layer.bridges[size_t(rays.travel())];
+    projectSteps(bridges, rays, swept);
+    paintBridges(bridges, rays, swept, painter);
     // Of one layer only the nearest counts, which either lies beyond or does not.
-    if (i == 0 && swept.passed_layer_count > 0) dropBeyondFarSide(width_px, swept);
+    if (i == 0 && swept.passed_layer_count > 0) dropBeyondFarSide(rays.widthPx(), swept);
   }
   return swept.passed_layer_count > 0;
 }
@@ -173,10 +171,11 @@ HWY_INLINE bool countHits(uint32_t width_px, bool passes, SweptRow& swept, Cover
 void PaintRow(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
               uint32_t width_px, SweptRow& swept, Coverage& coverage) {
   clearRow(width_px, swept);
-  swept.has_passed = !row.is_outside && paintLayers(row, view, fill, width_px, swept);
+  const RowRays rays(view, width_px, row.layers[0].runs.count, swept);
+  swept.has_passed = !row.is_outside && paintLayers(row, rays, fill, swept);
   if (!countHits(width_px, swept.has_passed, swept, coverage)) return;
   clearFill(width_px, swept);
-  if (swept.has_passed) paintFill(row, view, fill, width_px, swept);
+  if (swept.has_passed) paintFill(row, rays, fill, swept);
   const size_t lanes = hn::Lanes(kFloats);
   for (size_t p = 0; p < width_px; p += lanes) {
     if (swept.block_has_hole[p / lanes] == 0) continue;

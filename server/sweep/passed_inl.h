@@ -20,21 +20,23 @@ namespace viewloom::HWY_NAMESPACE {
 
 // inv_z of rays where they cross an edge, along p.
 struct EdgeLine {
-  EdgeLine(const Steps& steps, size_t k, const SweepView& swept_view)
-      : view(swept_view),
+  EdgeLine(const Steps& steps, size_t k, const RowRays& row_rays)
+      : rays(row_rays),
         edge(set(steps.edge_px[k])),
-        at(set((steps.edge_px[k] - view.start_px) / view.eye_px_m)),
-        step(set(-view.step_px / view.eye_px_m)),
+        at(hn::Mul(hn::Sub(edge, rays.startPx()), rays.perEyesFrom(0))),
+        step(hn::Neg(hn::Mul(rays.stepPx(), rays.perEyesFrom(0)))),
         low(set(steps.low_inv_z[k])),
         high(set(steps.high_inv_z[k])) {}
 
-  Vec invZ(Vec p) const {
-    const Vec inv_z = view.hasOneEye() ? hn::MulAdd(step, p, at)
-                                       : hn::Div(hn::Sub(edge, startsAt(view, p)), eyesAt(view, p));
+  // Of the px of a vector from `first` on.
+  Vec invZ(int32_t first, Vec p) const {
+    const Vec inv_z = rays.areFew()
+                          ? hn::Mul(hn::Sub(edge, rays.startsFrom(first)), rays.perEyesFrom(first))
+                          : hn::MulAdd(step, p, at);
     return hn::Min(hn::Max(inv_z, low), high);
   }
 
-  const SweepView& view;
+  const RowRays& rays;
   Vec edge, at, step, low, high;
 };
 
@@ -66,12 +68,12 @@ HWY_INLINE Mask reachesAsFar(const SurfaceRow& row, float edge_px, Vec moved_px,
 // Where rays first pass behind a layer, and where they meet the far side of what they passed last;
 // returns whether any passes. Steps in the order in which rays come to them: who passes one has
 // come out from behind those before, or met the far side before that.
-HWY_INLINE bool paintPassed(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
-                            uint32_t layer, uint32_t width_px, SweptRow& swept) {
+HWY_INLINE bool paintPassed(const SurfaceRow& row, const RowRays& rays, const SweepFill& fill,
+                            uint32_t layer, SweptRow& swept) {
   const uint32_t lanes = uint32_t(hn::Lanes(kFloats));
-  const size_t travel = size_t(view.eye_px_m > 0 ? Travel::kLeft : Travel::kRight);
-  const Steps& steps = row.layers[layer].silhouettes[travel];
-  projectSteps(steps, view, float(width_px), swept);
+  const uint32_t width_px = rays.widthPx();
+  const Steps& steps = row.layers[layer].silhouettes[size_t(rays.travel())];
+  projectSteps(steps, rays, swept);
   const float* const passed_before = layer == 0 ? nullptr : swept.passed_inv_z[layer - 1].data();
   float* const passed = swept.passed_inv_z[layer].data();
   float* const met = swept.met_inv_z[layer].data();
@@ -84,13 +86,13 @@ HWY_INLINE bool paintPassed(const SurfaceRow& row, const SweepView& view, const 
   const uint32_t count = swept.covering_count;
   const bool is_endless = fill.planted_fault == SweepFault::kFarSideEndless;
   for (uint32_t i = 0; i < count; ++i) {
-    const size_t k = size_t(swept.covering[view.eye_px_m > 0 ? count - 1 - i : i]);
-    const EdgeLine line(steps, k, view);
+    const size_t k = size_t(swept.covering[rays.travel() == Travel::kLeft ? count - 1 - i : i]);
+    const EdgeLine line(steps, k, rays);
     forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
-      const Vec inv_z = line.invZ(p);
-      const Vec eye = eyesAt(view, p);
+      const Vec inv_z = line.invZ(first, p);
       // Who passes it further up comes out before.
-      const Vec meets_up_to = hn::Add(line.low, hn::Div(set(steps.behind_px[k]), hn::Abs(eye)));
+      const Vec behind_px = set(steps.behind_px[k]);
+      const Vec meets_up_to = hn::MulAdd(behind_px, hn::Abs(rays.perEyesFrom(first)), line.low);
       const Mask passes = reaches(passed_before, first, inv_z, inside);
       const Vec before = hn::Load(kFloats, passed + first);
       hn::Store(hn::Max(before, hn::IfThenElse(passes, inv_z, before)), kFloats, passed + first);
@@ -98,7 +100,7 @@ HWY_INLINE bool paintPassed(const SurfaceRow& row, const SweepView& view, const 
       const Mask is_new = hn::And(passes, hn::Le(met_before, inv_z));
       Mask meets = hn::And(is_new, hn::Le(inv_z, meets_up_to));
       if (!hn::AllFalse(kFloats, meets) && !is_endless) {
-        const Vec moved_px = hn::Mul(eye, hn::Sub(inv_z, line.low));
+        const Vec moved_px = hn::Mul(rays.eyesFrom(first), hn::Sub(inv_z, line.low));
         meets = hn::And(meets, reachesAsFar(row, steps.edge_px[k], moved_px, line.low));
       }
       const Vec far = hn::IfThenElse(meets, line.low, set(-1));
@@ -124,16 +126,16 @@ HWY_INLINE void dropBeyondFarSide(uint32_t width_px, SweptRow& swept) {
 
 // Where rays pass behind layers, and where what they hit of each ends: at the far side of it, or of
 // a deeper one. Behind a layer that no ray passes, none passes another.
-HWY_INLINE void findPassed(const SurfaceRow& row, const SweepView& view, const SweepFill& fill,
-                           uint32_t width_px, SweptRow& swept) {
+HWY_INLINE void findPassed(const SurfaceRow& row, const RowRays& rays, const SweepFill& fill,
+                           SweptRow& swept) {
   for (uint32_t i = 0; i < row.layer_count; ++i) {
-    if (!paintPassed(row, view, fill, i, width_px, swept)) break;
+    if (!paintPassed(row, rays, fill, i, swept)) break;
     swept.passed_layer_count = i + 1;
   }
   for (uint32_t i = swept.passed_layer_count; i > 1; --i) {
     float* const met = swept.met_inv_z[i - 2].data();
     const float* const met_deeper = swept.met_inv_z[i - 1].data();
-    forMarkedVectors(swept.passed_vectors[i - 1].data(), 0, int32_t(width_px),
+    forMarkedVectors(swept.passed_vectors[i - 1].data(), 0, int32_t(rays.widthPx()),
                      [&](int32_t first, Vec /*p*/, Mask /*inside*/) {
                        const Vec here = hn::Load(kFloats, met + first);
                        const Vec deeper = hn::Load(kFloats, met_deeper + first);

@@ -12,29 +12,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// The first px whose place at inv_z is not below x, within the row.
-HWY_INLINE IntVec columnOf(Vec x, Vec inv_z, const SweepView& view, float width) {
-  const Vec beside = hn::Sub(startOf(view, x, inv_z), set(view.start_px));
-  Vec p = hn::Mul(beside, set(1 / view.step_px));
-  if (view.eye_step_px_m != 0) {
-    p = hn::Div(beside, hn::MulAdd(set(view.eye_step_px_m), inv_z, set(view.step_px)));
-  }
-  if (view.jumps()) {
-    const Vec back = hn::MulAdd(set(view.jump_eye_px_m / view.step_px), inv_z,
-                                set(view.jump_start_px / view.step_px));
-    const Vec beyond = hn::Max(hn::Sub(p, back), set(view.jump_px));
-    p = hn::IfThenElse(hn::Le(p, set(view.jump_px - 1)), p, beyond);
-  }
-  return hn::ConvertTo(kInts, hn::Min(hn::Max(hn::Ceil(p), set(0)), set(width)));
-}
-
 // Px [from, to) each.
 struct Columns {
   IntVec from, to;
 };
 
-HWY_INLINE Columns columnsOf(const RunLanes& run, const SweepView& view, float width) {
-  return {columnOf(run.begin, run.begin_w, view, width), columnOf(run.end, run.end_w, view, width)};
+HWY_INLINE Columns columnsOf(const RunLanes& run, const RowRays& rays) {
+  return {rays.columnOf(run.begin, run.begin_w), rays.columnOf(run.end, run.end_w)};
 }
 
 // Notes which pieces from `k` on cover px; false: none does.
@@ -49,15 +33,14 @@ HWY_INLINE bool noteCovering(size_t k, size_t count, const Columns& columns, Swe
 }
 
 // The px whose rays meet each step.
-HWY_INLINE void projectSteps(const Steps& steps, const SweepView& view, float width,
-                             SweptRow& swept) {
+HWY_INLINE void projectSteps(const Steps& steps, const RowRays& rays, SweptRow& swept) {
   swept.covering_count = 0;
   for (size_t k = 0; k < steps.count; k += hn::Lanes(kFloats)) {
     const Vec edge = hn::LoadU(kFloats, steps.edge_px.data() + k);
     const Vec low = hn::LoadU(kFloats, steps.low_inv_z.data() + k);
     const Vec high = hn::LoadU(kFloats, steps.high_inv_z.data() + k);
-    const IntVec at_low = columnOf(edge, low, view, width);
-    const IntVec at_high = columnOf(edge, high, view, width);
+    const IntVec at_low = rays.columnOf(edge, low);
+    const IntVec at_high = rays.columnOf(edge, high);
     noteCovering(k, steps.count, {hn::Min(at_low, at_high), hn::Max(at_low, at_high)}, swept);
   }
 }

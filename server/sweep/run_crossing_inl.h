@@ -7,8 +7,7 @@
 #define VIEWLOOM_SERVER_SWEEP_RUN_CROSSING_INL_H_
 #endif
 
-#include "sweep/swept_row.h"
-#include "sweep/vectors_inl.h"
+#include "sweep/row_rays_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
@@ -40,23 +39,6 @@ HWY_INLINE RunLanes runEverywhere(const Runs& runs, size_t k) {
           set(runs.end_inv_z[k]), hn::Set(kInts, runs.texel_offset[k])};
 }
 
-// Of each px p.
-HWY_INLINE Vec startsAt(const SweepView& view, Vec p) {
-  const Vec starts = hn::MulAdd(set(view.step_px), p, set(view.start_px));
-  if (!view.jumps()) return starts;
-  return hn::Add(starts, hn::IfThenElseZero(hn::Ge(p, set(view.jump_px)), set(view.jump_start_px)));
-}
-HWY_INLINE Vec eyesAt(const SweepView& view, Vec p) {
-  const Vec eyes = hn::MulAdd(set(view.eye_step_px_m), p, set(view.eye_px_m));
-  if (!view.jumps()) return eyes;
-  return hn::Add(eyes, hn::IfThenElseZero(hn::Ge(p, set(view.jump_px)), set(view.jump_eye_px_m)));
-}
-
-// Where the ray of a px is at inv_z 0 if that of px 0 is at x at inv_z w.
-HWY_INLINE Vec startOf(const SweepView& view, Vec x, Vec inv_z) {
-  return hn::NegMulAdd(set(view.eye_px_m), inv_z, x);
-}
-
 // The texel at a place, 1/256 px.
 HWY_INLINE IntVec texelAt(Vec place, IntVec offset) {
   // Above 1.5 2^23 the low bits of floats are integers, of either sign.
@@ -71,17 +53,17 @@ struct RunSlopes {
   Vec texel_at, texel_step;
 };
 
-HWY_INLINE RunSlopes slopesOf(const RunLanes& run, const SweepView& view) {
-  const Vec u = startOf(view, run.begin, run.begin_w);
-  const Vec u_end = startOf(view, run.end, run.end_w);
+HWY_INLINE RunSlopes slopesOf(const RunLanes& run, const RowRays& rays) {
+  const Vec u = rays.startOf(run.begin, run.begin_w);
+  const Vec u_end = rays.startOf(run.end, run.end_w);
   // Along u, of what faces the rays.
   const Vec per_u = hn::Div(set(1), hn::Sub(u_end, u));
   const Vec x_per_u = hn::Mul(hn::Sub(run.end, run.begin), per_u);
   const Vec w_per_u = hn::Mul(hn::Sub(run.end_w, run.begin_w), per_u);
-  const Vec first = hn::Sub(set(view.start_px), u);
-  return {hn::MulAdd(w_per_u, first, run.begin_w), hn::Mul(w_per_u, set(view.step_px)),
+  const Vec first = hn::Sub(rays.startPx(), u);
+  return {hn::MulAdd(w_per_u, first, run.begin_w), hn::Mul(w_per_u, rays.stepPx()),
           hn::Mul(hn::MulAdd(x_per_u, first, run.begin), set(kSubtexelSteps)),
-          hn::Mul(x_per_u, set(kSubtexelSteps * view.step_px))};
+          hn::Mul(x_per_u, hn::Mul(set(kSubtexelSteps), rays.stepPx()))};
 }
 
 // Of runs that rays graze, little is left of a difference: no place is beside the run.
@@ -94,8 +76,6 @@ class LineCrossing {
         first_place_(hn::Mul(run.begin, set(kSubtexelSteps))),
         last_place_(hn::Mul(run.end, set(kSubtexelSteps))),
         offset_(run.offset) {}
-  LineCrossing(const RunLanes& run, const SweepView& view)
-      : LineCrossing(run, slopesOf(run, view)) {}
 
   HWY_INLINE Place at(Vec p) const {
     const Vec inv_z = hn::MulAdd(slopes_.inv_z_step, p, slopes_.inv_z_at);
@@ -110,20 +90,21 @@ class LineCrossing {
   IntVec offset_;
 };
 
-// The same ray by ray, whose eyes may be in several places.
+// The same of few rays, whose eyes may be in several places: nothing is worked out for a run alone.
 class RayCrossing {
  public:
-  RayCrossing(const RunLanes& run, const SweepView& view)
-      : view_(view),
+  RayCrossing(const RunLanes& run, const RowRays& rays)
+      : rays_(rays),
         begin_(run.begin),
         begin_w_(run.begin_w),
         across_(hn::Sub(run.end, run.begin)),
         up_(hn::Sub(run.end_w, run.begin_w)),
         offset_(run.offset) {}
 
-  HWY_INLINE Place at(Vec p) const {
-    const Vec eye = eyesAt(view_, p);
-    const Vec beside = hn::Sub(hn::MulAdd(eye, begin_w_, startsAt(view_, p)), begin_);
+  // At the px of a vector from `first` on.
+  HWY_INLINE Place from(int32_t first) const {
+    const Vec eye = rays_.eyesFrom(first);
+    const Vec beside = hn::Sub(hn::MulAdd(eye, begin_w_, rays_.startsFrom(first)), begin_);
     const Vec share = hn::Div(beside, hn::NegMulAdd(eye, up_, across_));
     const Vec along = hn::Min(hn::Max(share, set(0)), set(1));
     const Vec place = hn::Mul(hn::MulAdd(across_, along, begin_), set(kSubtexelSteps));
@@ -131,7 +112,7 @@ class RayCrossing {
   }
 
  private:
-  const SweepView& view_;
+  const RowRays& rays_;
   Vec begin_, begin_w_, across_, up_;
   IntVec offset_;
 };

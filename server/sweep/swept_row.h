@@ -72,8 +72,9 @@ struct SweptRow {
   AlignedArray<int32_t> to;
   AlignedArray<int32_t> covering;  // indices of those that cover px
   uint32_t covering_count = 0;
+  // By px, where these are few: where rays are at inv_z 0, and how they go on from there.
+  AlignedArray<float> start_px, eye_px_m, per_eye_m_px;
   AlignedArray<float> inv_z_at, inv_z_step, texel_at, texel_step;
-  AlignedArray<int32_t> first_texel;
 
   // `piece_count`: runs, or steps, of a row of the source.
   void reserve(uint32_t width_px, uint32_t piece_count);
