@@ -14,7 +14,7 @@ constexpr DescriptorSlot kListSlots[] = {{abi::kBindingStructure, DescriptorKind
                                          {abi::kBindingViews, DescriptorKind::kStorage},
                                          {abi::kBindingMet, DescriptorKind::kStorage},
                                          {abi::kBindingMetLists, DescriptorKind::kStorage},
-                                         {abi::kBindingUnsettled, DescriptorKind::kStorage}};
+                                         {abi::kBindingIncomplete, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kGatherSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
                                            {abi::kBindingStructureHalves, DescriptorKind::kTexels},
                                            {abi::kBindingColor, DescriptorKind::kTexels},
@@ -28,7 +28,7 @@ constexpr DescriptorSlot kGatherSlots[] = {{abi::kBindingStructure, DescriptorKi
 
 // `color`: nullptr where none is read.
 abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuffer* color,
-                               const TraceJob& job, const GatherRows& rows) {
+                               const TraceJob& job, const GatherRows& rows, MetRound round) {
   const AtlasLayout& layout = *job.layout;
   const uint32_t border = job.outside_fill == OutsideFill::kBorder ? abi::kFillBorder : 0;
   abi::GatherPush push{.layers = {},
@@ -46,8 +46,8 @@ abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuff
                        .piece_row = rows.first_row,
                        .walked_count = layout.lens->walked_count,
                        .point_count = layout.lens->pointCount(),
-                       .sample_count = job.sample_count,
-                       .probed_count = probedCount(job)};
+                       .first_sample = round.first,
+                       .end_sample = round.end};
   for (uint32_t i = 0; i < structure.shape().layerCount(); ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     if (color) push.color[i] = addressWords(color->address(i));
@@ -57,11 +57,11 @@ abi::GatherPush describeGather(const StructureSlot& structure, const LayeredBuff
 
 }  // namespace
 
-const ComputePass& LensGatherer::listPass(bool reads_by_address, bool is_probe) {
+const ComputePass& LensGatherer::listPass(bool reads_by_address) {
   std::lock_guard lock(mutex_);
-  std::unique_ptr<ComputePass>& made = list_passes_[{reads_by_address, is_probe}];
+  std::unique_ptr<ComputePass>& made = list_passes_[reads_by_address];
   if (!made) {
-    const uint32_t constants[] = {reads_by_address, 0, is_probe};
+    const uint32_t constants[] = {reads_by_address, 0};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = list_met_spirv,
                                                             .push_bytes = sizeof(abi::GatherPush),
@@ -91,17 +91,19 @@ const ComputePass& LensGatherer::gatherPass(const Variant& variant) {
 
 void LensGatherer::recordLists(vk::CommandBuffer commands, const StructureSlot& structure,
                                const TraceJob& job, BandRows rows, const Descriptor& views,
-                               const MetTarget& target, bool is_probe) {
+                               const MetTarget& target, MetRound round) {
   const MetBlocks blocks = metBlocks(*job.layout, rows);
   if (blocks.row_count == 0) return;
   const Descriptor descriptors[] = {structure.structure().asTexels(abi::kBindingStructure), views,
                                     wholeBuffer(abi::kBindingMet, target.met),
                                     wholeBuffer(abi::kBindingMetLists, target.lists),
-                                    wholeBuffer(abi::kBindingUnsettled, target.unsettled)};
-  const ComputePass& list = listPass(structure.readsByAddress(), is_probe);
-  recordComputeBarrier(commands);
+                                    wholeBuffer(abi::kBindingIncomplete, target.incomplete)};
+  const ComputePass& list = listPass(structure.readsByAddress());
+  recordComputeToTransfer(commands);
+  commands.fillBuffer(target.incomplete.handle(), 0, sizeof(abi::IncompleteHead), 0);
+  recordTransferToCompute(commands);
   list.recordDescriptors(commands, descriptors);
-  list.record(commands, describeGather(structure, nullptr, job, {rows, 0, 0}),
+  list.record(commands, describeGather(structure, nullptr, job, {rows, 0, 0}, round),
               groupCount(blocks.per_row), blocks.row_count);
   recordComputeBarrier(commands);
 }
@@ -127,7 +129,7 @@ void LensGatherer::record(vk::CommandBuffer commands, const StructureSlot& struc
     descriptors.push_back(descriptor);
   }
   gather.recordDescriptors(commands, descriptors);
-  gather.record(commands, describeGather(structure, &color, job, rows),
+  gather.record(commands, describeGather(structure, &color, job, rows, {}),
                 groupCount(layout.tile_size_px.width * layout.columns),
                 rows.end_row - rows.first_row);
   recordComputeBarrier(commands);

@@ -20,9 +20,9 @@ namespace viewloom {
 
 // What the walked rays of a band met.
 struct MetTarget {
-  const Buffer& met;        // of each ray: uint32_t[sample][row][width]
-  const Buffer& lists;      // of metListsBytes()
-  const Buffer& unsettled;  // of unsettledBytes(); its head is 0 before the first list
+  const Buffer& met;         // of each ray: uint32_t[sample][row][width]
+  const Buffer& lists;       // of metListsBytes()
+  const Buffer& incomplete;  // of incompleteBytes()
 };
 
 // What is read and written beside the structure.
@@ -45,11 +45,10 @@ class LensGatherer {
  public:
   explicit LensGatherer(const Device& device) : device_(&device) {}
 
-  // Lists what rays met: as a probe what the first of all px did, of which probedCount() are
-  // walked; then the rest, of blocks that are not settled. `views`: as for the walk. Waits for the
-  // compute work before it, and what follows waits for it.
+  // Lists what a round of rays met, and the blocks that are not complete by it. `views`: as for the
+  // walk. Waits for the compute work before it, and what follows waits for it.
   void recordLists(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
-                   BandRows rows, const Descriptor& views, const MetTarget& target, bool is_probe);
+                   BandRows rows, const Descriptor& views, const MetTarget& target, MetRound round);
   // `color`: of the structure, opaque. `params`: the views, the extras and all points of the lens,
   // as for the walk. Waits as above.
   void record(vk::CommandBuffer commands, const StructureSlot& structure,
@@ -68,12 +67,12 @@ class LensGatherer {
     auto operator<=>(const Variant&) const = default;
   };
 
-  const ComputePass& listPass(bool reads_by_address, bool is_probe);
+  const ComputePass& listPass(bool reads_by_address);
   const ComputePass& gatherPass(const Variant& variant);
 
   const Device* device_;
   std::mutex mutex_;  // guards what follows
-  std::map<std::pair<bool, bool>, std::unique_ptr<ComputePass>> list_passes_;
+  std::map<bool, std::unique_ptr<ComputePass>> list_passes_;
   std::map<Variant, std::unique_ptr<ComputePass>> gather_passes_;
 };
 

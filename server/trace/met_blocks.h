@@ -17,11 +17,17 @@ struct MetBlocks {
 MetBlocks metBlocks(const AtlasLayout& layout, BandRows rows);
 // Bytes of the lists of a band with so many rows, wherever it begins.
 uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max);
-// Of the list of those of them that are not settled.
-uint64_t unsettledBytes(uint64_t lists_bytes);
+// Of the list of those of them that are not complete.
+uint64_t incompleteBytes(uint64_t lists_bytes);
 
-// Rays of each px that are walked before blocks are looked at: those that are settled have no more.
-// A quarter of all: what they have not met is missed the less the more there are.
-uint32_t probedCount(const TraceJob& job);
+// The walked rays of each px come in rounds [first, end), after each of which blocks are looked at:
+// those that are complete have no more. Each round is as many as all before it: what they have not
+// met is missed the less, the more there are.
+struct MetRound {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+// That of a sample, of so many.
+MetRound metRound(uint32_t sample, uint32_t sample_count);
 
 }  // namespace viewloom

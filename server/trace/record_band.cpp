@@ -3,7 +3,6 @@
 // that can be read.
 #include "base/check.h"
 #include "gpu/barrier.h"
-#include "shared/lens_abi.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
@@ -62,9 +61,6 @@ void ViewTracer::beginBand(vk::CommandBuffer commands,
                       vk::BufferCopy{.size = TraceSlot::lensOffset(job) +
                                              std::span(job.layout->lens_points).size_bytes()});
   recordClear(commands, slot.counters_, 0);
-  if (job.mayGather()) {
-    commands.fillBuffer(slot.unsettled_.handle(), 0, sizeof(abi::UnsettledHead), 0);
-  }
   if (hasUnusedPixels(job)) {
     commands.fillBuffer(slot.sampleTarget(job).handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
     // The second stage of a lens writes px of views alone.

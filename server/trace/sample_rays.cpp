@@ -63,31 +63,27 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
   }
 }
 
-// Rays that are walked add their light, and leave what they met: blocks where the first of them
-// met one sheet have no more of them. The second stage makes px of the sums.
+// Rays that are walked add their light, and leave what they met: blocks where a round of them met
+// nothing new have no more of them. The second stage makes px of the sums.
 void ViewTracer::recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
                                    const TraceJob& job, BandRows rows, const BandPart& part,
                                    TraceSlot& slot) {
   std::vector<Descriptor> params = describeParams(job, 0, 0, slot);
-  const MetTarget met{slot.met_, slot.met_lists_, slot.unsettled_};
-  const uint32_t probed_count = probedCount(job);
+  const MetTarget met{slot.met_, slot.met_lists_, slot.incomplete_};
   for (uint32_t sample = part.first_sample; sample < part.end_sample; ++sample) {
-    if (sample == probed_count) {
-      gatherer_.recordLists(commands, structure, job, rows, params.front(), met, true);
-    }
+    const MetRound round = metRound(sample, job.sample_count);
     const Rays rays{.sample = sample,
                     .through_lens = true,
                     .wanted = abi::kWantMet | abi::kWantSum,
-                    .is_of_blocks = sample >= probed_count};
+                    .is_of_blocks = round.first > 0};
     const Descriptor band = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
     recordWalk(commands, {structure, job, 0, rays, slot, band}, rows);
     recordComputeBarrier(commands);
+    if (sample + 1 == round.end) {
+      gatherer_.recordLists(commands, structure, job, rows, params.front(), met, round);
+    }
   }
   if (part.walks()) return;
-  if (part.first_row == 0) {
-    gatherer_.recordLists(commands, structure, job, rows, params.front(), met,
-                          probed_count == job.sample_count);
-  }
   const TileRays rays = raysOf(job, 0, 0);
   const ColorAverager::Color color =
       averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));

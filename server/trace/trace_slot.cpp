@@ -179,8 +179,8 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
                            .debug_name = "met surfaces"});
     met_lists_ =
         Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
-    unsettled_ = Buffer(device, {.size_bytes = unsettledBytes(shape.met_lists_bytes),
-                                 .debug_name = "unsettled blocks"});
+    incomplete_ = Buffer(device, {.size_bytes = incompleteBytes(shape.met_lists_bytes),
+                                  .debug_name = "incomplete blocks"});
   }
   if (shape.reflects) addReflections(device, area_px);
 }
@@ -221,7 +221,7 @@ uint64_t TraceSlot::sizeBytes() const {
   }
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
          sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
-         unsettled_.sizeBytes() + hits_.sizeBytes() + reflected_.sizeBytes() +
+         incomplete_.sizeBytes() + hits_.sizeBytes() + reflected_.sizeBytes() +
          reflection_settings_.sizeBytes() + paths_.sizeBytes();
 }
 

@@ -141,8 +141,8 @@ class TraceSlot {
   Buffer sums_;     // light of those before it
   Buffer met_;      // what rays through a lens met
   Buffer met_lists_;
-  Buffer unsettled_;  // blocks of px
-  Buffer hits_;       // abi::RayRecord, where reflections begin; empty where records_ has them
+  Buffer incomplete_;  // blocks of px
+  Buffer hits_;        // abi::RayRecord, where reflections begin; empty where records_ has them
   Buffer reflection_settings_;  // of each walk
   Buffer paths_;                // abi::ReflectedPath, of several walks
   Buffer reflected_;            // abi::ReflectedLight

@@ -42,7 +42,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingBand, DescriptorKind::kStorage},
                                      {abi::kBindingSums, DescriptorKind::kStorage},
-                                     {abi::kBindingUnsettled, DescriptorKind::kStorage}};
+                                     {abi::kBindingIncomplete, DescriptorKind::kStorage}};
 
 // Of one view, neighbours in a row. Views see about what the source sees.
 uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
@@ -251,12 +251,12 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   const bool sums = (walk.rays.wanted & abi::kWantSum) != 0;
   descriptors.push_back(usedOr(abi::kBindingSums, sums, walk.slot.sums_, walk.target));
   descriptors.push_back(
-      usedOr(abi::kBindingUnsettled, walk.rays.is_of_blocks, walk.slot.unsettled_, walk.target));
+      usedOr(abi::kBindingIncomplete, walk.rays.is_of_blocks, walk.slot.incomplete_, walk.target));
   walk_views.recordDescriptors(commands, descriptors);
   const abi::TracePush push = describeBand(walk, color.texels, rows);
   if (walk.rays.is_of_blocks) {
-    walk_views.recordIndirect(commands, push, walk.slot.unsettled_,
-                              offsetof(abi::UnsettledHead, group_count));
+    walk_views.recordIndirect(commands, push, walk.slot.incomplete_,
+                              offsetof(abi::IncompleteHead, group_count));
   } else {
     walk_views.record(
         commands, push,

@@ -75,7 +75,7 @@ class ViewTracer {
     uint32_t sample = 0;
     bool through_lens = false;
     uint32_t wanted = 0;        // abi::kWant... flags
-    bool is_of_blocks = false;  // of px in blocks that are not settled alone
+    bool is_of_blocks = false;  // of px in blocks that are not complete alone
   };
 
   // One of the walks of a job, and where its answers go.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which px an invocation of trace/walk_views.comp traces. The includer has `push`, `unsettled` and
+// Which px an invocation of trace/walk_views.comp traces. The includer has `push`, `incomplete` and
 // the constants of that.
 #ifndef VIEWLOOM_LIB_WALK_TASKS_GLSL_
 #define VIEWLOOM_LIB_WALK_TASKS_GLSL_
@@ -54,14 +54,14 @@ Task taskOfRow() {
 Task taskOfBlock() {
   const BlockGrid grid = gridOf(push);
   const uint entry = gl_GlobalInvocationID.x / kMetBlockSide_px;
-  const uint list = entry < unsettled.count ? unsettled_blocks[entry] : 0u;
+  const uint list = entry < incomplete.count ? incomplete_blocks[entry] : 0u;
   const uint per_row = blocksPerRow(grid);
   const uvec2 at_block = uvec2(list % per_row, list / per_row);
   const uvec2 tile = tileOfBlock(grid, at_block);
   const MetBlock block = metBlock(grid, at_block);
   const uint row = block.first_row + gl_GlobalInvocationID.x % kMetBlockSide_px;
   Task task;
-  task.exists = entry < unsettled.count && row < block.end_row;
+  task.exists = entry < incomplete.count && row < block.end_row;
   task.tile = tile.y * grid.tile_count.x + tile.x;
   task.run.lead = 0u;
   task.run.trail = 0u;

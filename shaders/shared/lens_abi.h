@@ -25,8 +25,8 @@ struct GatherPush {
   uint piece_row;        // of the band: where the rows begin that are gathered
   uint walked_count;     // points of the lens that are for walked rays
   uint point_count;      // and those for gathered ones
-  uint sample_count;     // walked rays of a px
-  uint probed_count;     // of them, those that px of settled blocks have
+  uint first_sample;     // of the round of walked rays that is listed
+  uint end_sample;
 };
 
 // A plane of 1/Z over the image of the source: surfaces of a layer that walked rays met lie on it,
@@ -43,19 +43,22 @@ VIEWLOOM_ABI_CONST float kSheetReach_px = 0.25f;
 // What the walked rays of a block met. Of one that met more sheets, the walked rays are all there
 // is: the count is kMetTooMany.
 struct MetList {
+  uint walked_count;  // rays of each px
   uint count;
   uint kinds;  // kMet...
   MetSheet sheets[kMetSheetMax];
 };
 VIEWLOOM_ABI_CONST uint kMetTooMany = 0xffu;
-// The first rays of its px met one sheet, or the background, all of them: no more are walked.
+// The first rays of its px met one sheet, or the background, all of them.
 VIEWLOOM_ABI_CONST uint kMetSettled = 1u;
 VIEWLOOM_ABI_CONST uint kMetSeesBackground = 2u;  // some ray
 VIEWLOOM_ABI_CONST uint kMetSeesAssumed = 4u;     // some ray, without having met it
+// It is settled, or a round of rays met nothing new: no more are walked.
+VIEWLOOM_ABI_CONST uint kMetComplete = 8u;
 
-// The blocks of a band that are not settled, and how many groups of kTraceGroupSize invocations it
+// The blocks of a band that are not complete, and how many groups of kTraceGroupSize invocations it
 // takes for one of each of their rows.
-struct UnsettledHead {
+struct IncompleteHead {
   uvec3 group_count;
   uint count;  // of the uints that follow: places of blocks in the lists
 };
@@ -68,11 +71,11 @@ VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: MetList per block
 // storage: vec2[kLensPatternArea_px]: where rays pass through the lens, by place in the pattern; of
 // the second stage, [point][kLensPatternArea_px]
 VIEWLOOM_ABI_CONST uint kBindingLensPoints = 19u;
-VIEWLOOM_ABI_CONST uint kBindingUnsettled = 23u;  // storage: UnsettledHead, and uints
+VIEWLOOM_ABI_CONST uint kBindingIncomplete = 23u;  // storage: IncompleteHead, and uints
 
 #ifdef __cplusplus
-static_assert(sizeof(MetList) == 200);
-static_assert(sizeof(UnsettledHead) == 16);
+static_assert(sizeof(MetList) == 204);
+static_assert(sizeof(IncompleteHead) == 16);
 static_assert(sizeof(GatherPush) == 124);
 #endif
 

@@ -51,9 +51,9 @@ layout(set = 0, binding = kBindingSums, scalar) readonly buffer Sums {
 // Rays that are compared with a sheet at a time.
 const uint kAtOnce = 4u;
 
-LensRay lensRay(ViewParams view, uint pattern_index, uint point) {
+LensRay lensRay(ViewParams view, vec3 direction, uint pattern_index, uint point) {
   const vec2 at = lens_points[point * kLensPatternArea_px + pattern_index];
-  return LensRay(view.lens_px_m * at, besideOf(point));
+  return makeLensRay(view, direction, view.lens_px_m * at, besideOf(point));
 }
 
 // What a ray has met so far; no layer: nothing.
@@ -79,10 +79,11 @@ bool isOwnSurface(uint layer, Extent extent, ivec2 cell, vec2 at, float inv_z) {
 void compare(MetSheet sheet, uint kinds, Extent extent, ViewParams view, vec3 direction,
              LensRay rays[kAtOnce], inout Nearest nearest[kAtOnce]) {
   const float least_inv_z = (kinds & kMetSeesAssumed) != 0u ? 0.0 : -1.0;
-  const PlaneParts parts = partsOf(sheet.plane, view, direction);
+  // Of all rays as of the middle one: reach changes little from px to px.
+  const vec3 middle = meets(sheet.plane, LensRay(view.eye, direction));
+  const float reach = 2.0 * sheetReach(view, middle.xy / max(middle.z, kTowardsMin));
   for (uint i = 0u; i < kAtOnce; ++i) {
-    const float depth = depthAt(parts, view, rays[i]);
-    const vec3 point = eyeOf(view, rays[i]) + depth * directionOf(view, direction, rays[i]);
+    const vec3 point = meets(sheet.plane, rays[i]);
     const vec2 at = point.xy / point.z;
     const ivec2 cell = clamp(ivec2(floor(at)), ivec2(0), extent.size_px - 1);
     const uvec2 facet = loadFacet(push.layers, sheet.layer, extent, cell);
@@ -90,9 +91,8 @@ void compare(MetSheet sheet, uint kinds, Extent extent, ViewParams view, vec3 di
     const bool is_inside = all(greaterThanEqual(at, vec2(0.0))) &&
                            all(lessThan(at, vec2(extent.size_px)));
     const float beyond_inv_z = max(nearest[i].inv_z, least_inv_z);
-    const bool holds = depth > 0.0 && point.z > 0.0 && is_inside && inv_z > beyond_inv_z &&
-                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <=
-                           2.0 * sheetReach(view, at) &&
+    const bool holds = point.z > 0.0 && is_inside && inv_z > beyond_inv_z &&
+                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <= reach &&
                        isOwnSurface(sheet.layer, extent, cell, at, inv_z);
     nearest[i].inv_z = holds ? inv_z : nearest[i].inv_z;
     nearest[i].layer = holds ? sheet.layer : nearest[i].layer;
@@ -133,12 +133,11 @@ vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
 
 // In mode exact: what a ray sees that has met this, as light. It is this if nothing of the source
 // stands nearer, and apart from it, all the way there. Negative if it never comes to the source.
-vec3 exactLight(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, Nearest met) {
+vec3 exactLight(Scene scene, ViewParams view, LensRay lens_ray, Nearest met) {
   const bool is_met = met.layer < kLayerCountMax;
-  view.eye = eyeOf(view, lens_ray);
-  const vec3 along = directionOf(view, direction, lens_ray);
-  const Ray ray = makeAnyRay(view.eye * scene.inv_z_near, along, vec2(scene.extent.size_px),
-                             scene.inv_z_near);
+  view.eye = lens_ray.eye;
+  const Ray ray = makeAnyRay(view.eye * scene.inv_z_near, lens_ray.direction,
+                             vec2(scene.extent.size_px), scene.inv_z_near);
   if (ray.t_begin >= ray.t_end) return vec3(-1.0);
   const vec2 end_px = is_met ? vec2(met.cell) + 0.5 : (ray.start + ray.extent).xy;
   const float bound = startBound(scene, min(ray.start.xy, end_px), max(ray.start.xy, end_px));
@@ -148,9 +147,8 @@ vec3 exactLight(Scene scene, ViewParams view, vec3 direction, LensRay lens_ray, 
 }
 
 // What a ray sees that has met this; negative if it is left out.
-vec3 lightOfRay(Scene scene, ViewParams view, vec3 direction, LensRay ray, Nearest met,
-                vec3 light_of_none) {
-  if (kIsExact) return exactLight(scene, view, direction, ray, met);
+vec3 lightOfRay(Scene scene, ViewParams view, LensRay ray, Nearest met, vec3 light_of_none) {
+  if (kIsExact) return exactLight(scene, view, ray, met);
   return met.layer < kLayerCountMax ? lightOf(met, scene.extent) : light_of_none;
 }
 
@@ -183,14 +181,11 @@ struct PointRange {
 // Of a px of a settled block: nothing stands before the sheet, which is everywhere.
 LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_index,
                     MetSheet sheet, PointRange points, LightSum sum) {
-  const PlaneParts parts = partsOf(sheet.plane, view, direction);
   for (uint point = points.first; point < points.end; ++point) {
-    const LensRay ray = lensRay(view, pattern_index, point);
-    const float depth = depthAt(parts, view, ray);
-    const vec3 at = eyeOf(view, ray) + depth * directionOf(view, direction, ray);
+    const vec3 at = meets(sheet.plane, lensRay(view, direction, pattern_index, point));
     const ivec2 cell = ivec2(floor(at.xy / at.z));
     const ivec2 inside = clamp(cell, ivec2(0), scene.extent.size_px - 1);
-    const bool is_met = depth > 0.0 && cell == inside;
+    const bool is_met = at.z > 0.0 && cell == inside;
     const vec3 light = lightOf(Nearest(0.0, sheet.layer, inside), scene.extent);
     sum.light += is_met ? light : vec3(0.0);
     sum.count += is_met ? 1u : 0u;
@@ -206,7 +201,7 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
     LensRay rays[kAtOnce];
     Nearest nearest[kAtOnce];
     for (uint i = 0u; i < kAtOnce; ++i) {
-      rays[i] = lensRay(view, pattern_index, min(point + i, points.end - 1u));
+      rays[i] = lensRay(view, direction, pattern_index, min(point + i, points.end - 1u));
       nearest[i] = Nearest(-1.0, kLayerCountMax, ivec2(0));
     }
     for (uint i = 0u; i < sheet_count; ++i) {
@@ -214,7 +209,7 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
     }
     for (uint i = 0u; i < kAtOnce; ++i) {
       if (point + i >= points.end) continue;
-      const vec3 seen = lightOfRay(scene, view, direction, rays[i], nearest[i], light_of_none);
+      const vec3 seen = lightOfRay(scene, view, rays[i], nearest[i], light_of_none);
       if (seen.r < 0.0) continue;
       sum.light += seen;
       ++sum.count;
@@ -227,13 +222,15 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
 vec3 lightOfPx(Scene scene, ViewParams view, uvec2 px, uint list, vec3 walked_light) {
   const uint kinds = lists[list].kinds;
   const bool is_settled = (kinds & kMetSettled) != 0u;
+  const bool is_complete = (kinds & kMetComplete) != 0u;
   const uint sheet_count = lists[list].count;
   const uint pattern_index = lensPatternIndex(px);
   const vec2 middle = vec2(px) + 0.5;
   const vec3 direction =
       view.direction + middle.x * view.direction_dx + middle.y * view.direction_dy;
-  LightSum sum = LightSum(walked_light, is_settled ? push.probed_count : push.sample_count);
-  const uint first = is_settled ? push.probed_count : push.walked_count;
+  LightSum sum = LightSum(walked_light, lists[list].walked_count);
+  // What is not walked is gathered.
+  const uint first = is_complete ? lists[list].walked_count : push.walked_count;
   // Exact rays of settled blocks are looked at as all others are.
   const bool gathers = sheet_count > 0u && sheet_count != kMetTooMany;
   const bool is_filled = is_settled && !kIsExact;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sheets that the walked rays of each block of 8x8 px met (shaders/README.md, A lens), in the
-// order in which they are found: an invocation a block. What lies outside the band is not looked
-// at.
+// The sheets that a round of walked rays of each block of 8x8 px met (shaders/README.md, A lens),
+// in the order in which they are found, after those of the rounds before: an invocation a block.
+// Blocks that are not complete are listed. What lies outside the band is not looked at.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -10,8 +10,6 @@
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-// After the first rays of all px: sees which blocks need more. Else goes on with those.
-layout(constant_id = kOwnConstants + 0u) const bool kIsProbe = true;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;
 };
@@ -24,10 +22,9 @@ layout(set = 0, binding = kBindingMet, scalar) readonly buffer Met {
 layout(set = 0, binding = kBindingMetLists, scalar) buffer MetLists {
   MetList lists[];
 };
-
-layout(set = 0, binding = kBindingUnsettled, scalar) buffer Unsettled {
-  UnsettledHead unsettled;
-  uint unsettled_blocks[];
+layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
+  IncompleteHead incomplete;
+  uint incomplete_blocks[];
 };
 
 #include "lib/met_blocks.glsl"
@@ -48,24 +45,43 @@ bool isOf(MetSheet sheet, uint layer, vec3 at, float inv_z, float reach) {
   return sheet.layer == layer && abs(dot(sheet.plane, at) - inv_z) <= reach;
 }
 
-void listUnsettled(uint list) {
-  const uint place = atomicAdd(unsettled.count, 1u);
-  unsettled_blocks[place] = list;
+void listIncomplete(uint list) {
+  const uint place = atomicAdd(incomplete.count, 1u);
+  incomplete_blocks[place] = list;
   const uint kBlocksPerGroup = kTraceGroupSize / kMetBlockSide_px;
-  if (place % kBlocksPerGroup == 0u) atomicAdd(unsettled.group_count.x, 1u);
+  if (place % kBlocksPerGroup == 0u) atomicAdd(incomplete.group_count.x, 1u);
+}
+
+// What a block has met by now, and whether that is all. Gathered rays that meet nothing are taken
+// to be as the walked ones where rays are assumed to see something: of these, there cannot be
+// enough.
+void endRound(uint list, uint count_before, uint kinds_before, uint sheet_count, uint kinds,
+              bool is_empty) {
+  const uint count = sheet_count > kMetSheetMax ? kMetTooMany : sheet_count;
+  const bool is_first = push.first_sample == 0u;
+  const bool is_one = kinds == 0u ? count == 1u : kinds == kMetSeesBackground && count == 0u;
+  const bool is_known = count == count_before && kinds == kinds_before && count != kMetTooMany &&
+                        (kinds & kMetSeesAssumed) == 0u;
+  const bool is_complete = is_empty || (is_first ? is_one : is_known);
+  lists[list].walked_count = push.end_sample;
+  lists[list].count = count;
+  lists[list].kinds =
+      kinds | (is_first && is_one ? kMetSettled : 0u) | (is_complete ? kMetComplete : 0u);
+  if (!is_complete) listIncomplete(list);
 }
 
 void main() {
   const uvec2 at_block = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
   const BlockGrid grid = gridOf(push);
   if (at_block.x >= blocksPerRow(grid)) return;
-  if (kIsProbe && at_block == uvec2(0u)) unsettled.group_count.yz = uvec2(1u);
+  if (at_block == uvec2(0u)) incomplete.group_count.yz = uvec2(1u);
   const uint list = at_block.y * blocksPerRow(grid) + at_block.x;
-  const uint first_sample = kIsProbe ? 0u : push.probed_count;
-  const uint end_sample = kIsProbe ? push.probed_count : push.sample_count;
-  uint count = kIsProbe ? 0u : lists[list].count;
-  uint kinds = kIsProbe ? 0u : lists[list].kinds;
-  const bool is_done = !kIsProbe && ((kinds & kMetSettled) != 0u || count == kMetTooMany);
+  const bool is_first = push.first_sample == 0u;
+  const uint count_before = is_first ? 0u : lists[list].count;
+  const uint kinds_before = is_first ? 0u : lists[list].kinds;
+  if ((kinds_before & kMetComplete) != 0u) return;
+  uint count = count_before;
+  uint kinds = kinds_before;
   const MetBlock block = metBlock(grid, at_block);
   const uvec2 tile = tileOfBlock(grid, at_block);
   const ViewParams view = views[tile.y * grid.tile_count.x + tile.x];
@@ -73,15 +89,16 @@ void main() {
   MetSheet last = MetSheet(vec3(0.0), kLayerCountMax);
   const uint width = block.end_x - block.first_x;
   const uint px_count = width * (block.end_row - block.first_row);
-  const bool is_idle = is_done || view.is_used == 0u;
-  const uint name_count = is_idle ? 0u : px_count * (end_sample - first_sample);
+  const bool is_empty = view.is_used == 0u || px_count == 0u;
+  const bool is_idle = is_empty || count == kMetTooMany;
+  const uint name_count = is_idle ? 0u : px_count * (push.end_sample - push.first_sample);
   for (uint i = 0u; i < name_count; ++i) {
     const uint sample_index = i / px_count;
     const uint in_block = i - sample_index * px_count;
     const uint y = block.first_row + in_block / width;
     const uint x = block.first_x + in_block % width;
     const uint name =
-        met[((first_sample + sample_index) * push.row_count + y) * push.atlas_width_px + x];
+        met[((push.first_sample + sample_index) * push.row_count + y) * push.atlas_width_px + x];
     const bool is_met = name != kMetBackground && name != kMetAssumed;
     kinds |= name == kMetBackground ? kMetSeesBackground : 0u;
     kinds |= name == kMetAssumed ? kMetSeesAssumed : 0u;
@@ -103,10 +120,5 @@ void main() {
       ++count;
     }
   }
-  if (is_done) return;
-  lists[list].count = count > kMetSheetMax ? kMetTooMany : count;
-  const bool is_settled = kIsProbe && (kinds == 0u ? count == 1u
-                                       : kinds == kMetSeesBackground && count == 0u);
-  lists[list].kinds = kinds | (is_settled ? kMetSettled : 0u);
-  if (kIsProbe && !is_settled) listUnsettled(list);
+  endRound(list, count_before, kinds_before, min(count, kMetSheetMax + 1u), kinds, is_empty);
 }

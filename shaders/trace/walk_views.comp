@@ -30,7 +30,7 @@ layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
 layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kShows... of some tile
 layout(constant_id = kOwnConstants + 11u) const bool kThroughLens = false;
-// Of blocks that are not settled alone, an invocation a row of a block.
+// Of blocks that are not complete alone, an invocation a row of a block.
 layout(constant_id = kOwnConstants + 12u) const bool kIsOfBlocks = false;
 // Each px has an eye of its own, or several.
 const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens;
@@ -67,9 +67,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 layout(set = 0, binding = kBindingSums, scalar) buffer Sums {
   vec3 sums[];
 };
-layout(set = 0, binding = kBindingUnsettled, scalar) readonly buffer Unsettled {
-  UnsettledHead unsettled;
-  uint unsettled_blocks[];
+layout(set = 0, binding = kBindingIncomplete, scalar) readonly buffer Incomplete {
+  IncompleteHead incomplete;
+  uint incomplete_blocks[];
 };
 
 #include "lib/class_counts.glsl"
