@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses how finely the display is traced: as finely as a moving picture allows.
+// Chooses how finely the display is traced: as finely as a moving picture allows, and one that
+// stands still in full detail.
 
 // Of the preset's width and height. A step halves the number of rays.
 const kDetails = [1, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125];
@@ -26,6 +27,11 @@ const kHoldFirst_ms = 12_000;
 const kHoldMax_ms = 300_000;
 const kProven_ms = 240_000;  // a try that lasted as long has not failed
 
+// A picture stands still if none follows for as long, and for so many times what this one took to
+// make, and to come after the one before: the next is not just late.
+const kStill_ms = 2000;
+const kStillTimes = 4;
+
 const kMsPerNs = 1e-6;
 
 export class AutoDetail {
@@ -36,6 +42,7 @@ export class AutoDetail {
   #raised_ms = null;                // the newest try of more detail, until it is given back
   #held_until_ms = -Infinity;
   #hold_ms = kHoldFirst_ms;
+  #moving = null;  // the detail before a picture stood still
 
   // onChange(): detail is another
   constructor(onChange) {
@@ -77,6 +84,18 @@ export class AutoDetail {
     this.#judge(now_ms);
   }
 
+  // Time passes: to be called every second or so, as long as the server answers.
+  look(now_ms) {
+    const [before, last] = this.#shown.slice(-2);
+    const newest = last ?? before;
+    if (!newest || this.detail === kDetails[0] || now_ms < this.#held_until_ms) return;
+    const interval_ms = last ? last.time_ms - before.time_ms : 0;
+    const usual_ms = Math.max(newest.fixed_ms + newest.traced_ms, interval_ms);
+    if (now_ms - newest.time_ms < Math.max(kStill_ms, kStillTimes * usual_ms)) return;
+    this.#moving = this.detail;
+    this.#take(0, now_ms);
+  }
+
   #judge(now_ms) {
     const measured = this.#measure();
     if (!measured) return;
@@ -87,7 +106,11 @@ export class AutoDetail {
     const index = kDetails.indexOf(this.detail);
     const better = rate_hz < wanted_hz ? this.#lower(index, measured)
         : now_ms >= this.#held_until_ms ? this.#higher(index, measured) : index;
-    if (better !== index) this.#take(better, now_ms);
+    if (better === index) return;
+    // It moves again: what was found for that is not looked for once more.
+    const known = better > index && this.#moving ? kDetails.indexOf(this.#moving) : 0;
+    this.#moving = null;
+    this.#take(Math.max(better, known), now_ms);
   }
 
   // Over the atlases noted; null as long as they say nothing.

@@ -241,6 +241,11 @@ byId('stream').addEventListener('change', ({target}) => {
   watch(target.value);
 });
 
+setInterval(() => {
+  const isWatched = root.dataset.state === 'live' && !document.hidden;
+  if (isWatched && display.isAutomatic) autoDetail.look(performance.now());
+}, 1000);
+
 // Nobody looks: the display need not be traced.
 document.addEventListener('visibilitychange', () => {
   clearTimeout(hiddenTimer);

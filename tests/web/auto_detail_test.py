@@ -78,9 +78,27 @@ class AutoDetail(unittest.TestCase):
                 self.assertEqual(chosen[-1][1], 1)
                 self.assertEqual(len(chosen), 2, chosen)
 
-    def test_a_pause_of_the_publisher_changes_nothing(self):
-        chosen, _ = self.simulate(120, full_ms=1280, pause=[40, 70])
-        self.assertEqual([time_s for time_s, _ in chosen if time_s > 30], [])
+    def test_a_picture_that_stands_still_is_shown_in_full_detail(self):
+        for full_ms in (60, 1280, 6000):
+            with self.subTest(full_ms=full_ms):
+                chosen, shown = self.simulate(60, full_ms=full_ms, pause=[0.1, 1000])
+                self.assertEqual(len(chosen), 2, chosen)
+                self.assertEqual(chosen[-1][1], 1)
+                self.assertLess(chosen[-1][0], 5)
+                self.assertEqual(shown[-1]["detail"], 1)
+
+    def test_who_moves_again_after_a_pause_gets_back_the_detail_that_moves(self):
+        chosen, shown = self.simulate(120, full_ms=1280, pause=[40, 70])
+        late = [(time_s, detail) for time_s, detail in chosen if time_s > 30]
+        self.assertEqual([detail for _, detail in late], [1, 0.25], chosen)
+        self.assertLess(late[0][0], 40 + 4)
+        self.assertLess(late[1][0], 70 + 6)
+        self.assertGreaterEqual(rate(shown, 80, 120), WANTED_HZ)
+
+    def test_a_server_that_serves_others_between_is_not_taken_to_stand_still(self):
+        # An atlas is made in 40 ms, and comes every 4 s.
+        chosen, _ = self.simulate(120, full_ms=320, fixed_ms=20, others_ms=4000)
+        self.assertLessEqual(len(chosen), 8, chosen)
 
     def test_detail_that_costs_nothing_is_not_given_away(self):
         # Whatever the detail, building takes too long for a moving picture.
