@@ -21,15 +21,14 @@ HWY_INLINE Columns columnsOf(const RunLanes& run, const RowRays& rays) {
   return {rays.columnOf(run.begin, run.begin_w), rays.columnOf(run.end, run.end_w)};
 }
 
-// Notes which pieces from `k` on cover px; false: none does.
-HWY_INLINE bool noteCovering(size_t k, size_t count, const Columns& columns, SweptRow& swept) {
+// Notes which pieces from `k` on cover px.
+HWY_INLINE void noteCovering(size_t k, size_t count, const Columns& columns, SweptRow& swept) {
   const auto covers = hn::And(hn::Lt(columns.from, columns.to), hn::FirstN(kInts, count - k));
-  if (hn::AllFalse(kInts, covers)) return false;
+  if (hn::AllFalse(kInts, covers)) return;
   hn::StoreU(columns.from, kInts, swept.from.data() + k);
   hn::StoreU(columns.to, kInts, swept.to.data() + k);
   int32_t* const end = swept.covering.data() + swept.covering_count;
   swept.covering_count += storeThose(kInts, hn::Iota(kInts, int32_t(k)), covers, end);
-  return true;
 }
 
 // The px whose rays meet each step.

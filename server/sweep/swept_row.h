@@ -67,13 +67,13 @@ struct SweptRow {
   AlignedArray<int32_t> fill_texel;
   AlignedArray<uint8_t> block_has_hole;
   EdgeBlends blends;
+  // Where these are few: where rays are at inv_z 0, and how they go on from there.
+  AlignedArray<float> start_px, eye_px_m, per_eye_m_px;
   // By run, bridge or silhouette.
   AlignedArray<int32_t> from;
   AlignedArray<int32_t> to;
   AlignedArray<int32_t> covering;  // indices of those that cover px
   uint32_t covering_count = 0;
-  // By px, where these are few: where rays are at inv_z 0, and how they go on from there.
-  AlignedArray<float> start_px, eye_px_m, per_eye_m_px;
   AlignedArray<float> inv_z_at, inv_z_step, texel_at, texel_step;
 
   // `piece_count`: runs, or steps, of a row of the source.

@@ -93,15 +93,15 @@ void LensGatherer::recordLists(vk::CommandBuffer commands, const StructureSlot& 
                                const TraceJob& job, BandRows rows, const Descriptor& views,
                                const MetTarget& target, MetRound round) {
   const MetBlocks blocks = metBlocks(*job.layout, rows);
+  recordComputeToTransfer(commands);
+  commands.fillBuffer(target.incomplete.handle(), 0, sizeof(abi::IncompleteHead), 0);
+  recordTransferToCompute(commands);
   if (blocks.row_count == 0) return;
   const Descriptor descriptors[] = {structure.structure().asTexels(abi::kBindingStructure), views,
                                     wholeBuffer(abi::kBindingMet, target.met),
                                     wholeBuffer(abi::kBindingMetLists, target.lists),
                                     wholeBuffer(abi::kBindingIncomplete, target.incomplete)};
   const ComputePass& list = listPass(structure.readsByAddress());
-  recordComputeToTransfer(commands);
-  commands.fillBuffer(target.incomplete.handle(), 0, sizeof(abi::IncompleteHead), 0);
-  recordTransferToCompute(commands);
   list.recordDescriptors(commands, descriptors);
   list.record(commands, describeGather(structure, nullptr, job, {rows, 0, 0}, round),
               groupCount(blocks.per_row), blocks.row_count);

@@ -2,6 +2,7 @@
 // One atlas to be traced: where its views lie and what each sees of the source.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -103,13 +104,18 @@ struct TraceJob {
   size_t tileCount() const { return tiles.size() / (size_t{sample_count} * walk_count); }
   bool hasEyesBeside() const { return !bounds.empty(); }
   bool hasLens() const { return layout->lens.has_value(); }
+  // Whether rays of a px are from beside its eye, but for a lens.
+  bool hasFilter() const {
+    return std::ranges::any_of(
+        layout->samples, [](const RaySample& sample) { return sample.eye_m != glm::dvec2(0.0); });
+  }
   // Whether there may be a second stage of the lens: one structure, each px with one eye, nothing
   // that the walked rays alone know, and room.
   bool mayGather() const {
     const uint64_t met_bytes =
         uint64_t{layout->size_px.width} * kBandRowsMax * sample_count * sizeof(uint32_t);
     return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
-           !layout->depth_codes && !reflects() && met_bytes <= kMetBytesMax;
+           !hasFilter() && !layout->depth_codes && !reflects() && met_bytes <= kMetBytesMax;
   }
   // Px are made of several rays' light.
   bool sumsLight() const { return sample_count > 1 || mayGather(); }

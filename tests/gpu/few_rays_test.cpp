@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "gpu/sweep_under_test.h"
@@ -37,6 +39,7 @@ class FewRays : public testing::Test {
     for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
       SCOPED_TRACE(hwy::TargetName(target));
       hwy::SetSupportedTargetsForTest(target);
+      px_count_ = hit_count_ = differing_count_ = 0;
       oracle::Random random(7);
       for (uint64_t seed = 0; seed < kSceneCount; ++seed) {
         const oracle::Scene scene = oracle::randomScene(seed);
@@ -46,9 +49,9 @@ class FewRays : public testing::Test {
         row_ = &builder_.build(sweep_.source().rowSource(), y_px, 1e-3F, float(kEyeMax_px_m));
         check(random);
       }
+      EXPECT_GT(hit_count_, px_count_ / 4);
+      EXPECT_LE(double(differing_count_), kExcusedShareMax * double(px_count_));
     }
-    EXPECT_GT(hit_count_, px_count_ / 4);
-    EXPECT_LE(double(differing_count_), kExcusedShareMax * double(px_count_));
   }
 
   std::vector<PaintedPixel> paint(const SweepView& view, uint32_t width_px) {

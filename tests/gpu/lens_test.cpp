@@ -80,7 +80,6 @@ TEST_F(Lens, isTracedInPartsOfBoundedWork) {
   EXPECT_EQ(BandParts(jobOf(480, 8, 32), kRows).count(), 2u) << "the two stages";
 }
 
-// What earlier rounds have not met is missed by none that is larger.
 TEST(MetRounds, areAsManyRaysAsAllBeforeThem) {
   for (const uint32_t sample_count : {1U, 2U, 7U, 8U, kWalkedSamplesMax}) {
     uint32_t end = 0;
@@ -89,11 +88,8 @@ TEST(MetRounds, areAsManyRaysAsAllBeforeThem) {
       EXPECT_EQ(round.first, end);
       EXPECT_GT(round.end, round.first);
       EXPECT_EQ(metRound(round.end - 1, sample_count).first, round.first);
-      if (round.first == 0) {
-        EXPECT_LE(round.end, std::max(sample_count / 4, 1U));
-      } else {
-        EXPECT_EQ(round.end, std::min(2 * round.first, sample_count));
-      }
+      EXPECT_EQ(round.end, round.first == 0 ? std::max(sample_count / 4, 1U)
+                                            : std::min(2 * round.first, sample_count));
       end = round.end;
     }
     EXPECT_EQ(end, sample_count);
