@@ -159,8 +159,8 @@ void ViewTracer::fillParams(std::span<const StructureSlot* const> structures, co
                 tiles.size_bytes());
   }
   // Each sample's point, and those of the second stage after them.
-  const std::span points(job.layout->lens_points);
-  std::memcpy(to + TraceSlot::lensOffset(job), points.data(), points.size_bytes());
+  const auto points = std::as_bytes(std::span(job.layout->lens_points));
+  std::ranges::copy(points, to + TraceSlot::lensOffset(job));
 }
 
 std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t walk,
