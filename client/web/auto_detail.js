@@ -106,11 +106,11 @@ export class AutoDetail {
     const index = kDetails.indexOf(this.detail);
     const better = rate_hz < wanted_hz ? this.#lower(index, measured)
         : now_ms >= this.#held_until_ms ? this.#higher(index, measured) : index;
-    if (better === index) return;
-    // It moves again: what was found for that is not looked for once more.
+    // It moves again, and not with all detail: how much does is not looked for once more.
     const known = better > index && this.#moving ? kDetails.indexOf(this.#moving) : 0;
-    this.#moving = null;
-    this.#take(Math.max(better, known), now_ms);
+    const isMoving = rate_hz * kStill_ms > 1000;
+    if (isMoving || better !== index) this.#moving = null;
+    if (better !== index) this.#take(Math.max(better, known), now_ms);
   }
 
   // Over the atlases noted; null as long as they say nothing.

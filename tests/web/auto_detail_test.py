@@ -95,6 +95,12 @@ class AutoDetail(unittest.TestCase):
         self.assertLess(late[1][0], 70 + 6)
         self.assertGreaterEqual(rate(shown, 80, 120), WANTED_HZ)
 
+    def test_what_moved_before_a_still_picture_is_forgotten_once_more_detail_moves(self):
+        chosen, _ = self.simulate(
+            60, full_ms=60, pause=[0.1, 10], changes=[[30, {"full_ms": 160}]])
+        late = [detail for time_s, detail in chosen if time_s > 10]
+        self.assertEqual(late[:1], [0.7], chosen)
+
     def test_a_server_that_serves_others_between_is_not_taken_to_stand_still(self):
         # An atlas is made in 40 ms, and comes every 4 s.
         chosen, _ = self.simulate(120, full_ms=320, fixed_ms=20, others_ms=4000)
