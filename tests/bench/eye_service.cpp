@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -104,6 +105,25 @@ DisplaySpec quilt(SizePx size_px) {
       .value();
 }
 
+// When in each interval a head moves, from 0 to 1.
+struct Phase {
+  double of_interval = 0;
+  size_t head = 0;
+};
+
+// In the order of time. Clients know nothing of one another: multiples of the golden ratio lie in
+// no lattice, and leave no large gap.
+std::vector<Phase> phasesOf(const EyeLoad& load) {
+  std::vector<Phase> phases;
+  for (size_t head = 0; head < load.viewer_count; ++head) {
+    const double turns = load.is_all_at_once ? 0 : double(head) * std::numbers::phi;
+    phases.push_back({turns - std::floor(turns), head});
+  }
+  std::stable_sort(phases.begin(), phases.end(),
+                   [](const Phase& a, const Phase& b) { return a.of_interval < b.of_interval; });
+  return phases;
+}
+
 class EyeBench {
  public:
   EyeBench(const Device& device, const std::vector<FramePtr>& frames, const EyeLoad& load)
@@ -128,7 +148,8 @@ class EyeBench {
     if (load_.quilt_px.area() > 0) quilt_ = enter(quilt(load_.quilt_px), nullptr);
     publishNext();
     for (const Viewer& viewer : viewers_) viewer.book->waitForAtlases(1);
-    move(0);  // the kernels of the eyes' own method compile
+    // The kernels of the eyes' own method compile.
+    for (size_t head = 0; head < viewers_.size(); ++head) move(head, 0);
     for (const Viewer& viewer : viewers_) viewer.book->waitForAtlases(2);
     std::jthread frames_come([this](const std::stop_token& stop) { feedQuilt(stop); });
     for (const Viewer& viewer : viewers_) viewer.book->start();
@@ -172,25 +193,25 @@ class EyeBench {
     }
   }
 
-  // All heads, each at a place of its own.
-  void move(int64_t tick) {
-    for (size_t i = 0; i < viewers_.size(); ++i) {
-      const double time_s = double(tick) / load_.rate_hz + 0.37 * double(i);
-      EyePoses poses = headAt(load_.motion, time_s);
-      poses.time_ns = tick + 1;
-      poses.received_ns = clock_.nowNs();
-      viewers_[i].eyes->put(std::move(poses));
-      broadcaster_.announceEyes(viewers_[i].subscription->displayId());
-    }
+  // Each head is at a place of its own.
+  void move(size_t head, int64_t tick) {
+    EyePoses poses = headAt(load_.motion, double(tick) / load_.rate_hz + 0.37 * double(head));
+    poses.time_ns = tick + 1;
+    poses.received_ns = clock_.nowNs();
+    viewers_[head].eyes->put(std::move(poses));
+    broadcaster_.announceEyes(viewers_[head].subscription->displayId());
   }
 
   void moveOnTime() {
+    const std::vector<Phase> phases = phasesOf(load_);
     const auto begin = std::chrono::steady_clock::now();
     const auto tick_count = int64_t(load_.seconds * load_.rate_hz);
     for (int64_t tick = 1; tick <= tick_count; ++tick) {
-      std::this_thread::sleep_until(
-          begin + std::chrono::nanoseconds(int64_t(1e9 / load_.rate_hz * double(tick))));
-      move(tick);
+      for (const Phase& phase : phases) {
+        const double due_ns = 1e9 / load_.rate_hz * (double(tick) + phase.of_interval);
+        std::this_thread::sleep_until(begin + std::chrono::nanoseconds(int64_t(due_ns)));
+        move(phase.head, tick);
+      }
     }
   }
 

@@ -20,7 +20,8 @@ enum class HeadMotion : uint8_t {
 
 struct EyeLoad {
   uint32_t viewer_count = 1;
-  double rate_hz = 90;  // of each viewer's poses
+  double rate_hz = 90;          // of each viewer's poses
+  bool is_all_at_once = false;  // all heads move at one instant; else each at its own
   HeadMotion motion = HeadMotion::kFree;
   SizePx eye_px{960, 540};
   // Of a quilt on the same stream, traced again and again; 0x0 = none.

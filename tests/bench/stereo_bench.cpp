@@ -41,6 +41,11 @@ struct NamedLoad {
   EyeLoad load;
 };
 
+std::string nameOf(const std::string& head, const EyeLoad& load) {
+  return head + ", " + std::to_string(load.viewer_count) + " at " +
+         std::to_string(int(load.rate_hz)) + " Hz";
+}
+
 std::vector<NamedLoad> eyeLoads(const Arguments& arguments) {
   const uint32_t by = arguments.miniature;
   std::vector<NamedLoad> loads;
@@ -52,15 +57,17 @@ std::vector<NamedLoad> eyeLoads(const Arguments& arguments) {
       for (const double rate_hz : {kHeadset_hz, kFlood_hz}) {
         load.viewer_count = viewer_count;
         load.rate_hz = rate_hz;
-        loads.push_back({head + ", " + std::to_string(viewer_count) + " at " +
-                             std::to_string(int(rate_hz)) + " Hz",
-                         load});
+        load.is_all_at_once = rate_hz == kFlood_hz;  // no timer tells such phases apart
+        loads.push_back({nameOf(head, load), load});
       }
     }
-    load.viewer_count = 1;
     load.rate_hz = kHeadset_hz;
+    load.is_all_at_once = true;
+    loads.push_back({nameOf(head, load) + ", all at once", load});
+    load.is_all_at_once = false;
+    load.viewer_count = 1;
     load.quilt_px = {kQuilt_px.width / by, kQuilt_px.height / by};
-    loads.push_back({head + ", 1 at 90 Hz beside a quilt", load});
+    loads.push_back({nameOf(head, load) + " beside a quilt", load});
   }
   return loads;
 }
