@@ -9,6 +9,11 @@ void BegunRuns::remove(const AtlasRun& run) {
   std::erase_if(runs_, [&](const AtlasRunPtr& begun) { return begun.get() == &run; });
 }
 
+bool BegunRuns::hasTracked() const {
+  return std::any_of(runs_.begin(), runs_.end(),
+                     [](const AtlasRunPtr& run) { return run->isTracked(); });
+}
+
 AtlasRunPtr BegunRuns::soonest() const {
   const auto soonest = std::min_element(
       runs_.begin(), runs_.end(),

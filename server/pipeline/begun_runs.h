@@ -17,6 +17,7 @@ class BegunRuns {
   void clear() { runs_.clear(); }
   bool isEmpty() const { return runs_.empty(); }
 
+  bool hasTracked() const;
   // What goes first on a device; nullptr = nothing has begun.
   AtlasRunPtr soonest() const;
   // Of those that would have to wait for the first, the one whose turn it is, if it is that.

@@ -7,59 +7,128 @@
 #include "base/check.h"
 
 namespace viewloom {
+namespace {
+
+// Poses that nothing has followed for so many of their intervals are the last for now.
+constexpr int64_t kIntervalsToSilence = 2;
+
+PoseTimes newerOf(const PoseTimes& a, const PoseTimes& b) {
+  return a.received_ns < b.received_ns ? b : a;
+}
+
+// The tracked displays that might begin.
+struct Heads {
+  int64_t now_ns = 0;
+  int64_t count = 0;
+  int64_t freshest_ns = 0;  // when the newest of all their poses came
+
+  bool areFresh(const PoseTimes& poses) const {
+    const int64_t age_ns = now_ns - poses.received_ns;
+    return poses.interval_ns <= 0 || age_ns * count < poses.interval_ns ||
+           age_ns > kIntervalsToSilence * poses.interval_ns ||
+           poses.received_ns >= freshest_ns - kAlikePoses_ns;
+  }
+};
+
+}  // namespace
 
 std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
-  const auto same_picture = [&](const AtlasJob& waiting) {
-    return waiting.picture_key == job.picture_key;
-  };
-  const auto older = std::find_if(waiting_.begin(), waiting_.end(), same_picture);
+  const auto older = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.job.picture_key == job.picture_key;
+  });
   if (older == waiting_.end()) {
-    waiting_.push_back(std::move(job));
+    waiting_.push_back({std::move(job)});
     return std::nullopt;
   }
-  if (older->structure == job.structure) {
-    if (!older->ticket) older->ticket = std::move(job.ticket);
-    older->is_for_eyes &= job.is_for_eyes;
+  AtlasJob& kept = older->job;
+  job.poses = kept.poses = newerOf(kept.poses, job.poses);
+  if (kept.structure == job.structure) {
+    if (!kept.ticket) kept.ticket = std::move(job.ticket);
+    kept.is_for_eyes &= job.is_for_eyes;
     return std::nullopt;
   }
-  if (job.structure->serial < older->structure->serial) return job;
-  job.deadline_ns = std::min(job.deadline_ns, older->deadline_ns);
-  return std::exchange(*older, std::move(job));
+  if (job.structure->serial < kept.structure->serial) return job;
+  job.deadline_ns = std::min(job.deadline_ns, kept.deadline_ns);
+  return std::exchange(kept, std::move(job));
 }
 
 bool JobQueue::isBusy(const std::string& picture_key) const {
   return begun_.contains(picture_key) ||
-         std::any_of(waiting_.begin(), waiting_.end(),
-                     [&](const AtlasJob& waiting) { return waiting.picture_key == picture_key; });
+         std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+           return waiting.job.picture_key == picture_key;
+         });
 }
 
-std::vector<AtlasJob>::const_iterator JobQueue::soonest() const {
-  auto best = waiting_.end();
-  for (auto job = waiting_.begin(); job != waiting_.end(); ++job) {
-    if (begun_.contains(job->picture_key)) continue;
-    if (best == waiting_.end() || job->deadline_ns < best->deadline_ns) best = job;
+bool JobQueue::mayBegin(const Waiting& waiting) const {
+  return !begun_.contains(waiting.job.picture_key);
+}
+
+bool JobQueue::mayBeginTracked(const Waiting& waiting) const {
+  return waiting.job.is_tracked && mayBegin(waiting);
+}
+
+template <typename Counts>
+const JobQueue::Waiting* JobQueue::soonest(const Counts& counts) const {
+  const Waiting* best = nullptr;
+  for (const Waiting& waiting : waiting_) {
+    if (!counts(waiting)) continue;
+    if (best == nullptr || waiting.job.deadline_ns < best->job.deadline_ns) best = &waiting;
   }
   return best;
 }
 
+const JobQueue::Waiting* JobQueue::soonest() const {
+  return soonest([this](const Waiting& waiting) { return mayBegin(waiting); });
+}
+
 std::optional<int64_t> JobQueue::soonestDeadlineNs() const {
-  const auto job = soonest();
-  if (job == waiting_.end()) return std::nullopt;
-  return job->deadline_ns;
+  const Waiting* const waiting = soonest();
+  if (waiting == nullptr) return std::nullopt;
+  return waiting->job.deadline_ns;
 }
 
 bool JobQueue::hasTracked() const {
-  return std::any_of(waiting_.begin(), waiting_.end(), [&](const AtlasJob& job) {
-    return job.is_tracked && !begun_.contains(job.picture_key);
+  return std::any_of(waiting_.begin(), waiting_.end(),
+                     [this](const Waiting& waiting) { return mayBeginTracked(waiting); });
+}
+
+bool JobQueue::isSoonestTracked() const {
+  const Waiting* const waiting = soonest();
+  return waiting != nullptr && waiting->job.is_tracked;
+}
+
+const JobQueue::Waiting* JobQueue::nextTracked(int64_t now_ns) const {
+  Heads heads{.now_ns = now_ns};
+  for (const Waiting& waiting : waiting_) {
+    if (!mayBeginTracked(waiting)) continue;
+    ++heads.count;
+    heads.freshest_ns = std::max(heads.freshest_ns, waiting.job.poses.received_ns);
+  }
+  const auto passed_count_max = kRoundsPassed * size_t(heads.count);
+  const Waiting* const passed_over = soonest([&](const Waiting& waiting) {
+    return mayBeginTracked(waiting) && waiting.passed_count >= passed_count_max;
+  });
+  if (passed_over != nullptr) return passed_over;
+  return soonest([&](const Waiting& waiting) {
+    return mayBeginTracked(waiting) && heads.areFresh(waiting.job.poses);
   });
 }
 
-AtlasJob JobQueue::begin() {
-  const auto job = soonest();
-  VIEWLOOM_CHECK(job != waiting_.end());
-  AtlasJob taken = *job;
-  waiting_.erase(job);
+AtlasJob JobQueue::take(const Waiting* waiting) {
+  VIEWLOOM_CHECK(waiting != nullptr);
+  AtlasJob taken = waiting->job;
+  waiting_.erase(waiting_.begin() + (waiting - waiting_.data()));
   begun_.insert(taken.picture_key);
+  return taken;
+}
+
+AtlasJob JobQueue::begin() {
+  return take(soonest());
+}
+
+AtlasJob JobQueue::beginTracked(int64_t now_ns) {
+  AtlasJob taken = take(nextTracked(now_ns));
+  for (Waiting& waiting : waiting_) waiting.passed_count += mayBeginTracked(waiting) ? 1 : 0;
   return taken;
 }
 
@@ -68,7 +137,9 @@ void JobQueue::finish(const std::string& picture_key) {
 }
 
 std::vector<AtlasJob> JobQueue::clear() {
-  return std::exchange(waiting_, {});
+  std::vector<AtlasJob> jobs;
+  for (Waiting& waiting : std::exchange(waiting_, {})) jobs.push_back(std::move(waiting.job));
+  return jobs;
 }
 
 }  // namespace viewloom

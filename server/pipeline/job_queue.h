@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which atlas is traced next: soonest deadline first, newest structure of each picture.
+// Which atlas is traced next: soonest deadline first, newest structure of each picture; of tracked
+// displays one whose eyes have just moved.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 
 #include "pipeline/frame_ticket.h"
 #include "pipeline/resident_structure.h"
+#include "publish/eye_track.h"
 #include "temporal/camera_motion.h"
 
 namespace viewloom {
@@ -30,11 +32,32 @@ struct AtlasJob {
   FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
   bool is_for_eyes = false;  // that have moved since the display was given this structure
   bool is_tracked = false;   // of a tracked display
+  PoseTimes poses = {};      // of its eyes
   std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
 };
 
-// Jobs that have not begun, at most one per picture. Thread-safety: none; the trace loop's.
+// Poses that came so close together are as good as each other, however fast they come: a small part
+// of the interval of any headset.
+inline constexpr int64_t kAlikePoses_ns = 500'000;
+
+// How often all tracked displays may go before one that waits, which then goes first whatever the
+// age of its poses. So seldom that no p99 tells: were it chance whose poses are fresh, one wait in
+// e^5 = 148 would be as long.
+inline constexpr uint32_t kRoundsPassed = 5;
+
+// Jobs that have not begun, at most one per picture.
+//
+// When more heads move than there are answers for, not all poses get one, and who is next decides
+// how old those are that do. Heads whose poses are fresh go first: those of all others are soon
+// replaced. Of n heads that wait, poses are fresh for an nth of the interval in which they come, as
+// then about one of the heads has some; so are any within kAlikePoses_ns of the freshest, and those
+// that nothing has followed for two intervals. Of these heads the one with the soonest deadline is
+// next: it has waited longest. One that others have gone before kRoundsPassed * n times is next in
+// any case. So none is passed over more than (kRoundsPassed + 1) * n - 1 times: the n - 1 others
+// may be as late.
+//
+// Thread-safety: none; the trace loop's.
 class JobQueue {
  public:
   // Of two jobs for the same picture the one with the newer structure stays and takes the sooner
@@ -42,23 +65,39 @@ class JobQueue {
   // is returned. With the same structure the two become one.
   std::optional<AtlasJob> push(AtlasJob job);
 
+  size_t waitingCount() const { return waiting_.size(); }
   // A job of the picture waits, or has begun.
   bool isBusy(const std::string& picture_key) const;
 
   // The soonest deadline of a job that may begin; none while its picture is being traced.
   std::optional<int64_t> soonestDeadlineNs() const;
-  // Whether one of a tracked display may begin.
+  // Whether one of a tracked display may begin, and whether the soonest is one.
   bool hasTracked() const;
-  // Takes that job; no other of its picture may begin until finish().
+  bool isSoonestTracked() const;
+  // Takes the soonest job, or of tracked displays the one that is next by now; no other of its
+  // picture may begin until finish().
   AtlasJob begin();
+  AtlasJob beginTracked(int64_t now_ns);
   void finish(const std::string& picture_key);
   // Forgets the jobs that have not begun.
   std::vector<AtlasJob> clear();
 
  private:
-  std::vector<AtlasJob>::const_iterator soonest() const;
+  struct Waiting {
+    AtlasJob job;
+    size_t passed_count = 0;  // of tracked displays that have begun before it, and might not have
+  };
 
-  std::vector<AtlasJob> waiting_;
+  bool mayBegin(const Waiting& waiting) const;
+  bool mayBeginTracked(const Waiting& waiting) const;
+  // Of those that count, or of all that may begin; nullptr = none.
+  template <typename Counts>
+  const Waiting* soonest(const Counts& counts) const;
+  const Waiting* soonest() const;
+  const Waiting* nextTracked(int64_t now_ns) const;
+  AtlasJob take(const Waiting* waiting);
+
+  std::vector<Waiting> waiting_;
   std::set<std::string> begun_;
 };
 

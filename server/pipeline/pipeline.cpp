@@ -141,7 +141,8 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
                   .structure = resident,
                   .deadline_ns = deadlineNs(display->spec),
                   .ticket = ticket,
-                  .is_tracked = isTracked(display->spec)});
+                  .is_tracked = isTracked(display->spec),
+                  .poses = display->eyes ? display->eyes->times() : PoseTimes{}});
   }
   ticks.offer(stream.name, newest, ticket);
   gpu_wake_up.ring();
@@ -209,12 +210,14 @@ void Pipeline::serveEyes(const ActiveDisplay& display) {
   if (!stream) return;
   const ResidentPtr resident = stream->resident();
   if (!resident) return;
-  loops_->traces.offer({.picture_key = display.picture_key,
-                        .structure = resident,
-                        .deadline_ns = loops_->deadlineNs(display.spec),
-                        .is_for_eyes = true,
-                        .is_tracked = true});
-  loops_->gpu_wake_up.ring();
+  const bool is_new = loops_->traces.offer({.picture_key = display.picture_key,
+                                            .structure = resident,
+                                            .deadline_ns = loops_->deadlineNs(display.spec),
+                                            .is_for_eyes = true,
+                                            .is_tracked = true,
+                                            .poses = display.eyes->times()});
+  // Thousands of poses a second would each take a core from those who answer them.
+  if (is_new) loops_->gpu_wake_up.ring();
 }
 
 void Pipeline::drain() {

@@ -24,6 +24,9 @@ class SlotPool {
   // From now on so many. Those too many go as they come back.
   void setCountMax(size_t slot_count_max) { shelf_->setCountMax(slot_count_max); }
 
+  // Whether take() would find one. Of those that take and ask from one thread: it stays so.
+  bool hasRoom() const { return shelf_->hasRoom(); }
+
   // A slot for which `fits(slot)`: a free one, else one that `make()` allocates, in the place of a
   // free misfit once slot_count_max slots exist. nullptr = all are lent. What make() throws passes.
   template <typename Fits, typename Make>
@@ -58,6 +61,11 @@ class SlotPool {
       std::unique_ptr<Slot> slot = std::move(*fitting);
       free_slots.erase(fitting);
       return slot;
+    }
+
+    bool hasRoom() {
+      std::lock_guard lock(mutex);
+      return slot_count < slot_count_max || !free_slots.empty();
     }
 
     // Room for one more slot; frees a misfit for it if need be.

@@ -54,11 +54,13 @@ TraceLoop::TraceLoop(const PipelineLinks& links, Timeline& timeline,
   }
 }
 
-void TraceLoop::offer(AtlasJob job) {
+bool TraceLoop::offer(AtlasJob job) {
   std::optional<AtlasJob> replaced;  // let go after the lock: its ticket may report
   std::lock_guard lock(mutex_);
+  const size_t count_before = jobs_.waitingCount();
   replaced = jobs_.push(std::move(job));
   if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
+  return jobs_.waitingCount() > count_before;
 }
 
 bool TraceLoop::offerUnlessBusy(const AtlasJob& job) {
@@ -109,6 +111,11 @@ std::shared_ptr<StripTrace> TraceLoop::takeSlot(const AtlasRun& run) {
                          [&] { return std::make_unique<StripTrace>(links_.device, ring.largest); });
 }
 
+// One head at a time: who is next depends on the poses that there are when it is his turn.
+bool TraceLoop::hasRoomForEyes() const {
+  return !begun_.hasTracked() && swept_eyes_.hasRoom();
+}
+
 // Begins jobs as long as one is due before everything that has begun, or all that has is long, or
 // eyes wait and nobody's are served.
 void TraceLoop::beginDueJobs() {
@@ -121,7 +128,9 @@ void TraceLoop::beginDueJobs() {
       const bool is_due = due_ns && (!run || run->isLong() || *due_ns < run->job.deadline_ns);
       const bool eyes_wait = run && !run->isTracked() && jobs_.hasTracked();
       if (!is_due && !eyes_wait) return;
-      job = jobs_.begin();
+      const bool is_tracked = jobs_.isSoonestTracked();
+      if (is_tracked && !hasRoomForEyes()) return;
+      job = is_tracked ? jobs_.beginTracked(links_.clock.nowNs()) : jobs_.begin();
     }
     if (!begin(*job)) {
       std::lock_guard lock(mutex_);

@@ -32,8 +32,9 @@ class TraceLoop {
             EncodePool& encoders, AtlasPublisher& publisher, PictureCache& pictures,
             uint32_t slot_count, const std::function<void()>& on_slot_return);
 
-  // Replaces a job of the same picture and an older structure that has not begun.
-  void offer(AtlasJob job);
+  // Replaces a job of the same picture and an older structure that has not begun. True: none of the
+  // picture has waited so far. Else nothing new can begin: what one waits for wakes the loop.
+  bool offer(AtlasJob job);
   // An atlas of the picture waits or is on its way.
   bool isBusy(const std::string& picture_key) {
     std::lock_guard lock(mutex_);
@@ -74,6 +75,7 @@ class TraceLoop {
 
   std::shared_ptr<StripTrace> takeSlot(const AtlasRun& run);
   void beginDueJobs();
+  bool hasRoomForEyes() const;
   bool begin(AtlasJob& job);
   Unserved takeUnserved(const AtlasJob& job);
   bool submitPartOf(const AtlasRunPtr& run);

@@ -61,21 +61,23 @@ class PipelineEyesFirstTest : public PipelineFixture {
         &clock_);
     server_->offer(syntheticFrame(1));
     const auto first = std::make_shared<FirstAtlas>("first", log_);
-    subscribe(smallQuilt({64, 40}), first);
+    waitUntilBegun(subscribe(smallQuilt({64, 40}), first));
     clock_.hold(first->wait());
-    subscribe(spec, held_, std::move(eyes));
+    waitUntilBegun(subscribe(spec, held_, std::move(eyes)));
     clock_.waitUntilHeld();
   }
 
-  // Returns when its first atlas has begun.
   uint64_t subscribe(const DisplaySpec& spec, const std::shared_ptr<Subscriber>& subscriber,
                      EyeTrackPtr eyes = nullptr) {
     auto subscription =
         server_->broadcaster.subscribe("scene", spec, {}, subscriber, std::move(eyes));
     subscriptions_.push_back(*std::move(subscription));
-    const uint64_t id = subscriptions_.back()->displayId();
-    while (server_->broadcaster.layout(id) == nullptr) std::this_thread::yield();
-    return id;
+    return subscriptions_.back()->displayId();
+  }
+
+  // Returns when the first atlas of a display has begun.
+  void waitUntilBegun(uint64_t display_id) {
+    while (server_->broadcaster.layout(display_id) == nullptr) std::this_thread::yield();
   }
 
   GateClock clock_;
@@ -110,7 +112,7 @@ TEST_F(PipelineEyesFirstTest, servesEyesBeforeTheRestOfAQuiltThatIsLongOverdue) 
   holdWithin(smallQuilt({320, 1200}), nullptr, 1);
   clock_.advance(kHour_ns);
   const auto eyes = std::make_shared<FirstAtlas>("eyes", log_);
-  subscribe(trackedEyes(), eyes, std::make_shared<EyeTrack>());
+  waitUntilBegun(subscribe(trackedEyes(), eyes, std::make_shared<EyeTrack>()));
   clock_.letGo();
   eyes->wait();
   held_->wait();
