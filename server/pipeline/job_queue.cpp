@@ -9,7 +9,7 @@
 namespace viewloom {
 namespace {
 
-// Poses that nothing has followed for so many of their intervals are the last for now.
+// Poses that nothing has followed for so many of their intervals are taken to be the last.
 constexpr int64_t kIntervalsToSilence = 2;
 
 PoseTimes newerOf(const PoseTimes& a, const PoseTimes& b) {

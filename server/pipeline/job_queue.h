@@ -43,7 +43,9 @@ inline constexpr int64_t kAlikePoses_ns = 500'000;
 
 // How often all tracked displays may go before one that waits, which then goes first whatever the
 // age of its poses. So seldom that no p99 tells: were it chance whose poses are fresh, one wait in
-// e^5 = 148 would be as long.
+// e^5 = 148 would be as long. Of eight heads that move at random times, 2.4 of them answered in
+// an interval of 90 Hz, the p99 of age is in the median of 50 sets 4.3 ms with 5, 5.6 with 3 and
+// 8.9 with 2, and none is passed over more than 36, 23 and 16 times (moving_heads_test's server).
 inline constexpr uint32_t kRoundsPassed = 5;
 
 // Jobs that have not begun, at most one per picture.
