@@ -151,7 +151,7 @@ Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
 }
 
 constexpr size_t kHeadCount = 8;
-// So that three of eight heads at 90 Hz can be answered each time.
+// So that 2.4 of eight heads at 90 Hz can be answered each time.
 constexpr int64_t kAnswer_ns = 4'670'000;
 
 TEST(JobQueueOfMovingHeads, answersFreshPosesOfHeadsThatMoveEachAtItsOwnTime) {
