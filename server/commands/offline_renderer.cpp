@@ -37,8 +37,14 @@ void reserve(const TraceOutputs& outputs, RenderedAtlas& atlas) {
 
 }  // namespace
 
-OfflineRenderer::OfflineRenderer(const Device& device)
-    : device_(device), timeline_(device), recorder_(device), builder_(device), tracer_(device) {}
+OfflineRenderer::OfflineRenderer(const Device& device, GatheringPlace gathering_place)
+    : device_(device),
+      gathering_place_(gathering_place),
+      timeline_(device),
+      recorder_(device),
+      builder_(device),
+      tracer_(device),
+      gatherers_(workers_.workerCount()) {}
 
 void OfflineRenderer::build(const Frame& frame, const std::optional<Pose>& camera_pose) {
   focal_stats_.reset();
@@ -61,6 +67,22 @@ std::vector<SourceStats> OfflineRenderer::stats() const {
 void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot) {
   tracer_.recordBand(recorder_.begin(), structure_->parts(), job, rows, slot, nullptr);
   timeline_.wait(recorder_.submit(timeline_));
+  if (job.gathers_on_host) gatherLens(job, rows, slot);
+}
+
+void OfflineRenderer::gatherLens(const TraceJob& job, BandRows rows, TraceSlot& slot) {
+  const HostStructure structure = hostStructure(structure_->firstPart());
+  std::vector<BandRows> pieces;
+  while (rows.row_count > 0) {
+    pieces.push_back(firstGathered(*job.layout, rows));
+    rows.first_row += pieces.back().row_count;
+    rows.row_count -= pieces.back().row_count;
+  }
+  const uint32_t first_row = pieces.front().first_row;
+  workers_.forEach(uint32_t(pieces.size()), [&](uint32_t index, uint32_t worker) {
+    const BandRows piece = pieces[index];
+    gatherers_[worker].gather(structure, job, bandOf(slot, piece, piece.first_row - first_row));
+  });
 }
 
 absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
@@ -78,7 +100,10 @@ absl::StatusOr<RenderedAtlas> OfflineRenderer::render(
   RenderedAtlas atlas;
   atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
   reserve(outputs, atlas);
-  const TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, shown_camera_), sources_);
+  TraceJob job = makeTraceJob(atlas.layout, spec, displayPose(spec, shown_camera_), sources_);
+  if (gathering_place_ == GatheringPlace::kHost) {
+    settleGathering(isInReach(device_, structure_->firstPart().shape()), job);
+  }
   const SizePx size_px = atlas.layout->size_px;
   TraceSlot slot(device_, slotShape(job, std::min(kBandRows, size_px.height), outputs));
   for (uint32_t row = 0; row < size_px.height; row += kBandRows) {

@@ -7,10 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "base/worker_pool.h"
 #include "display/atlas_layout.h"
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/timeline.h"
+#include "lens/band_gatherer.h"
 #include "structure/frame_structure.h"
 #include "trace/view_tracer.h"
 
@@ -27,11 +29,18 @@ struct RenderedAtlas {
   ReflectionCounts reflections;
 };
 
+// Where a lens's second stage is gathered (shaders/README.md, A lens).
+enum class GatheringPlace : uint8_t {
+  kHost,   // by the CPU, where that can be
+  kDevice  // by the device alone
+};
+
 // The device must outlive it. Throws vk::SystemError when the device fails or has no room.
 // Thread-safety: none; one thread at a time.
 class OfflineRenderer {
  public:
-  explicit OfflineRenderer(const Device& device);
+  explicit OfflineRenderer(const Device& device,
+                           GatheringPlace gathering_place = GatheringPlace::kHost);
 
   // Makes this frame the one that is rendered from here on, for displays that stand where the
   // camera of its first source does; or did at another time, if that is given: then they keep the
@@ -48,12 +57,16 @@ class OfflineRenderer {
 
  private:
   void traceBand(const TraceJob& job, BandRows rows, TraceSlot& slot);
+  void gatherLens(const TraceJob& job, BandRows rows, TraceSlot& slot);
 
   const Device& device_;
+  const GatheringPlace gathering_place_;
   Timeline timeline_;
   CommandRecorder recorder_;
   StructureBuilder builder_;
   ViewTracer tracer_;
+  WorkerPool workers_;
+  std::vector<BandGatherer> gatherers_;  // one a worker
   std::optional<FrameStructure> structure_;
   std::vector<SeenSource> sources_;
   Camera shown_camera_;

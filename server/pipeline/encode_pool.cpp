@@ -68,7 +68,7 @@ void EncodePool::stop() {
 }
 
 void EncodePool::run() {
-  Worker worker{.encoder = BandEncoder(bytes_), .sweeper = {}};
+  Worker worker{.encoder = BandEncoder(bytes_), .sweeper = {}, .gatherer = {}};
   while (auto task = tasks_.pop()) {
     const bool is_tracked =
         (task->part.sweep ? task->part.sweep->run() : task->traced.run)->isTracked();
@@ -83,9 +83,24 @@ void EncodePool::run() {
   }
 }
 
+// True when the strip's px are as they are to be shown.
+bool EncodePool::gatherPiece(TracedStrip& strip, BandGatherer& gatherer) {
+  const AtlasRun& run = *strip.run;
+  if (!run.picture->gathers_on_host) return true;
+  const uint32_t row_count = run.rowCount(strip.strip);
+  const BandRows rest = {run.firstRow(strip.strip) + strip.gathered_rows,
+                         row_count - strip.gathered_rows};
+  const BandRows piece = firstGathered(*run.picture->layout, rest);
+  gatherer.gather(hostStructure(run.job.structure->build->walked->structure.firstPart()),
+                  *run.picture, bandOf(strip.trace->slot, piece, strip.gathered_rows));
+  strip.gathered_rows += piece.row_count;
+  return strip.gathered_rows == row_count;
+}
+
 void EncodePool::serve(TracedStrip strip, Worker& worker) {
   timeline_.wait(strip.timeline_value);
   AtlasRun& run = *strip.run;
+  if (!gatherPiece(strip, worker.gatherer)) return tasks_.resume(std::move(strip));
   const TraceSlot& slot = strip.trace->slot;
   run.noteTraced(slot.coverage(), links_.clock.nowNs(), slot.reflections());
   const SizePx size_px = {run.picture->layout->size_px.width, run.rowCount(strip.strip)};

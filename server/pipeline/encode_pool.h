@@ -10,6 +10,7 @@
 #include "base/byte_pool.h"
 #include "encode/band_encoder.h"
 #include "gpu/timeline.h"
+#include "lens/band_gatherer.h"
 #include "pipeline/atlas_publisher.h"
 #include "pipeline/encode_queue.h"
 
@@ -33,12 +34,14 @@ class EncodePool {
   struct Worker {
     BandEncoder encoder;
     ViewSweeper sweeper;
+    BandGatherer gatherer;
   };
   // A strip in host memory.
   struct StripPlanes;
 
   void run();
   void serve(TracedStrip strip, Worker& worker);
+  static bool gatherPiece(TracedStrip& strip, BandGatherer& gatherer);
   void serve(SweepPart part, Worker& worker);
   void encode(AtlasRun& run, const StripPlanes& planes, BandEncoder& encoder);
   void encodeOutput(AtlasRun& run, const StripPlanes& planes, AtlasOutput& output,

@@ -26,6 +26,14 @@ void EncodeQueue::push(SweepRunPtr sweep) {
   filled_.notify_one();
 }
 
+void EncodeQueue::resume(TracedStrip strip) {
+  {
+    std::lock_guard lock(mutex_);
+    strips_.push_front(std::move(strip));
+  }
+  filled_.notify_one();
+}
+
 // Whoever takes something wakes the next thread for what is left, from where it runs itself. Woken
 // all at once, two threads were put on one core of two in every fifth atlas, and stayed there for
 // as long as it took.

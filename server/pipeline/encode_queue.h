@@ -21,6 +21,7 @@ struct TracedStrip {
   uint32_t strip = 0;
   std::shared_ptr<StripTrace> trace;
   uint64_t timeline_value = 0;
+  uint32_t gathered_rows = 0;  // of its lens, where the CPU gathers that
 };
 
 // A part of an atlas that is swept: rows of its plan, or, once all are swept, a strip to pack.
@@ -47,6 +48,8 @@ class EncodeQueue {
   // Waits for room. Dropped once the queue is closed.
   void push(TracedStrip strip);
   void push(SweepRunPtr sweep);
+  // A strip that was popped, of which more is left to do: goes on before other strips.
+  void resume(TracedStrip strip);
   // Waits for something to do. Empty once the queue is closed and everything in it is done.
   std::optional<EncodeTask> pop();
   // A piece that was popped is swept.

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "lens/host_structure.h"
+
 namespace viewloom {
 
 std::shared_ptr<StructureBuild> FrameBuilder::takeSlot(SlotPool<StructureBuild>& slots,
@@ -47,6 +49,7 @@ void FrameBuilder::build(const FramePtr& frame, std::shared_ptr<StructureBuild> 
     structure.stats.bad_normals_count += layer.bad_normals_count;
     structure.stats.bad_motions_count += layer.bad_motions_count;
   }
+  structure.is_in_reach = isInReach(links_.device, slot->shapes.front());
   structure.build = std::move(slot);
 }
 

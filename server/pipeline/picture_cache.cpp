@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "display/depth_budget.h"
+#include "lens/band_gatherer.h"
 #include "trace/display_sources.h"
 
 namespace viewloom {
@@ -31,7 +32,8 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   const bool keeps_mirrors = haveMirrors(entry.aim.sources) == haveMirrors(aim.sources);
   const bool is_aimed =
       (aim.standsInOnly() && entry.aim.standsInOnly() && keeps_mirrors) || aim == entry.aim;
-  bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
+  bool is_new = entry.layout == nullptr || entry.defaults != source.defaults ||
+                entry.eyes != eyes || entry.is_in_reach != source.is_in_reach;
   if (is_new) {
     VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
   }
@@ -49,9 +51,11 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                       std::make_shared<TraceJob>(
                           makeTraceJob(entry.layout, display.spec, aim.display_pose, aim.sources)));
   }
+  settleGathering(source.is_in_reach, *entry.jobs.front());
   entry.defaults = source.defaults;
   entry.eyes = eyes;
   entry.aim = aim;
+  entry.is_in_reach = source.is_in_reach;
   return entry.jobs.front();
 }
 

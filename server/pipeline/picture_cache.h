@@ -53,6 +53,7 @@ class PictureCache {
     std::shared_ptr<const AtlasLayout> layout;    // of all that
     std::vector<std::shared_ptr<TraceJob>> jobs;  // the last aimed is in front
     Aim aim;                                      // of the last
+    bool is_in_reach = false;                     // ResidentStructure::is_in_reach
   };
 
   absl::Status layOut(const DisplaySpec& spec, const StreamDefaults& defaults,

@@ -24,6 +24,7 @@ class StreamRetimer;
 struct ResidentStructure {
   std::string stream;
   std::shared_ptr<StructureBuild> build;
+  bool is_in_reach = false;  // of the CPU, once it can be walked (lens/host_structure.h)
   uint64_t serial = 0;  // counts the structures of the server, from 1
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;      // the publisher's clock

@@ -82,7 +82,10 @@ LayeredBufferOptions invZOptions(const Device& device, const FrameShape& shape) 
 }
 
 LayeredBufferOptions structureOptions(const Device& device, const FrameShape& shape) {
-  return dividedAsNeeded(undividedStructure(shape), device, shape);
+  LayeredBufferOptions options = undividedStructure(shape);
+  // The CPU reads it, too, where it is the device (lens/host_structure.h).
+  if (device.info().is_software) options.intent = MemoryIntent::kReadback;
+  return dividedAsNeeded(options, device, shape);
 }
 
 bool mustDivide(const Device& device, const FrameShape& shape) {

@@ -173,9 +173,14 @@ void StructureSlot::describe(const Frame& frame, const SourcePart& part) {
   }
 }
 
-SourceStats StructureSlot::stats() const {
+abi::MeasuredHead StructureSlot::measuredHead() const {
   abi::MeasuredHead measured;
   std::memcpy(&measured, measured_readback_.mapped().data(), sizeof measured);
+  return measured;
+}
+
+SourceStats StructureSlot::stats() const {
+  const abi::MeasuredHead measured = measuredHead();
   const bool has_surface = measured.inv_z_min_bits <= measured.inv_z_max_bits;
   return {.depth_step = measured.depth_step,
           .noise_sigma = measured.noise_sigma,

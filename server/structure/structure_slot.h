@@ -37,6 +37,7 @@ class StructureSlot {
   // Of the uploaded part.
   const Camera& sourceCamera() const { return source_camera_; }
   // Once the build's submission is done.
+  abi::MeasuredHead measuredHead() const;
   SourceStats stats() const;
   // Of its first layer, as percentiles in stats are.
   DepthSpread depthSpread() const;

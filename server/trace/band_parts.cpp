@@ -14,7 +14,7 @@ uint32_t perPart(uint64_t each_rays, uint32_t count_max) {
 
 BandParts::BandParts(const TraceJob& job, BandRows rows)
     : sample_rays_(uint64_t{job.layout->size_px.width} * rows.row_count * job.walk_count),
-      sample_count_(job.sample_count),
+      sample_count_(job.gathers_on_host ? 1 : job.sample_count),
       row_count_(rows.row_count) {
   samples_per_part_ = job.reflects() ? 1 : perPart(sample_rays_, sample_count_);
   walk_count_ = (sample_count_ + samples_per_part_ - 1) / samples_per_part_;

@@ -94,6 +94,9 @@ struct TraceJob {
   uint32_t background_rgb = 0;
   std::optional<ReflectionSpec> reflection = std::nullopt;  // as the display asks
   bool has_mirrors = false;                                 // some source mirrors
+  // Its lens is gathered by the CPU (lens/band_gatherer.h), over what the middle rays see: those
+  // alone are traced.
+  bool gathers_on_host = false;
 
   // Whether reflected rays are to be traced.
   bool reflects() const { return reflection.has_value() && has_mirrors; }
@@ -114,11 +117,11 @@ struct TraceJob {
   bool mayGather() const {
     const uint64_t met_bytes =
         uint64_t{layout->size_px.width} * kBandRowsMax * sample_count * sizeof(uint32_t);
-    return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
+    return hasLens() && !gathers_on_host && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
            !hasFilter() && !layout->depth_codes && !reflects() && met_bytes <= kMetBytesMax;
   }
   // Px are made of several rays' light.
-  bool sumsLight() const { return sample_count > 1 || mayGather(); }
+  bool sumsLight() const { return !gathers_on_host && (sample_count > 1 || mayGather()); }
 };
 
 // The tiles that tell of all rays of a walk: their own, or those that enclose them.

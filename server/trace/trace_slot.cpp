@@ -229,6 +229,16 @@ std::span<const uint32_t> TraceSlot::color() const {
   return readAs<uint32_t>(color_, shape_.outputs.color == ColorForm::kRgba ? band_px_.area() : 0);
 }
 
+std::span<uint32_t> TraceSlot::mutableColor() {
+  const std::span<const uint32_t> read = color();
+  return {const_cast<uint32_t*>(read.data()), read.size()};
+}
+
+std::span<float> TraceSlot::mutableLinear() {
+  const std::span<const float> read = linear();
+  return {const_cast<float*>(read.data()), read.size()};
+}
+
 std::span<const uint8_t> TraceSlot::ycbcr() const {
   return readAs<uint8_t>(color_, shape_.outputs.color == ColorForm::kRgba ? 0 : colorBytes());
 }

@@ -85,6 +85,8 @@ class TraceSlot {
   // Once the band's submission is done. Rows from the top, packed.
   // Of the two forms of colour, the one that is not asked for is empty.
   std::span<const uint32_t> color() const;  // uint32_t[rows][width]: R, G, B, 255 in memory order
+  std::span<uint32_t> mutableColor();
+  std::span<float> mutableLinear();
   std::span<const uint8_t> ycbcr() const;   // as YcbcrLayout of the band
   std::span<const float> depth() const;     // float[rows][width], 1/m
   std::span<const uint8_t> mask() const;    // uint8_t[rows][width], RayClass

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lens/gather_kernels.h"
+
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lens/gather_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sweep/vectors_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viewloom::HWY_NAMESPACE {
+
+// A number for each px of the block.
+template <typename T>
+struct alignas(64) OfPx {
+  T at[kBlockArea_px];
+};
+using IntOfPx = OfPx<int32_t>;
+
+// Homogeneous px of the source.
+struct Point3 {
+  Vec x, y, z;
+};
+
+HWY_INLINE Vec loadPx(const OfBlock& of_px, size_t p) {
+  return hn::Load(kFloats, of_px.data() + p);
+}
+
+HWY_INLINE Vec dot3(const glm::vec3& plane, const Point3& point) {
+  return hn::MulAdd(set(plane.x), point.x,
+                    hn::MulAdd(set(plane.y), point.y, hn::Mul(set(plane.z), point.z)));
+}
+
+HWY_INLINE Point3 moved(const Point3& from, Vec x, const glm::vec3& along_x, Vec y,
+                        const glm::vec3& along_y) {
+  return {hn::MulAdd(x, set(along_x.x), hn::MulAdd(y, set(along_y.x), from.x)),
+          hn::MulAdd(x, set(along_x.y), hn::MulAdd(y, set(along_y.y), from.y)),
+          hn::MulAdd(x, set(along_x.z), hn::MulAdd(y, set(along_y.z), from.z))};
+}
+
+// A vector of rays of the block.
+struct LensRay {
+  Point3 eye, direction;
+};
+
+// The rays of a point of the lens, of all px. From the eye on, homogeneous px of the source for a
+// metre along the view's axis.
+struct LensRays {
+  OfBlock eye_x, eye_y, eye_z, x, y, z;
+
+  HWY_INLINE LensRay at(size_t p) const {
+    return {{loadPx(eye_x, p), loadPx(eye_y, p), loadPx(eye_z, p)},
+            {loadPx(x, p), loadPx(y, p), loadPx(z, p)}};
+  }
+};
+
+// The middle rays of the block's px.
+struct Directions {
+  OfBlock x, y, z;
+
+  explicit Directions(const GatheredRays& rays) {
+    const abi::ViewParams& view = rays.view;
+    for (size_t p = 0; p < kBlockArea_px; ++p) {
+      const float px = rays.first_x_px + float(p % abi::kMetBlockSide_px) + 0.5F;
+      const float py = rays.first_y_px + float(p / abi::kMetBlockSide_px) + 0.5F;
+      const glm::vec3 direction = view.direction + px * view.direction_dx + py * view.direction_dy;
+      x[p] = direction.x;
+      y[p] = direction.y;
+      z[p] = direction.z;
+    }
+  }
+};
+
+// As makeLensRay in shaders/lib/lens_rays.glsl.
+HWY_INLINE LensRay lensRay(const abi::ViewParams& view, const Directions& directions,
+                           const LensPoint& point, size_t p) {
+  const Vec moved_x = hn::Mul(set(view.lens_px_m.x), hn::Load(kFloats, point.x.data() + p));
+  const Vec moved_y = hn::Mul(set(-view.lens_px_m.y), hn::Load(kFloats, point.y.data() + p));
+  const Vec step_x = hn::NegMulAdd(set(view.lens_inv_focus), moved_x, set(point.beside_x_px));
+  const Vec step_y = hn::NegMulAdd(set(view.lens_inv_focus), moved_y, set(point.beside_y_px));
+  const Point3 eye{set(view.eye.x), set(view.eye.y), set(view.eye.z)};
+  const Point3 direction{loadPx(directions.x, p), loadPx(directions.y, p), loadPx(directions.z, p)};
+  return {moved(eye, moved_x, view.direction_dx, moved_y, view.direction_dy),
+          moved(direction, step_x, view.direction_dx, step_y, view.direction_dy)};
+}
+
+HWY_INLINE void raysOf(const abi::ViewParams& view, const Directions& directions,
+                       const LensPoint& point, LensRays& rays) {
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    const LensRay ray = lensRay(view, directions, point, p);
+    hn::Store(ray.eye.x, kFloats, rays.eye_x.data() + p);
+    hn::Store(ray.eye.y, kFloats, rays.eye_y.data() + p);
+    hn::Store(ray.eye.z, kFloats, rays.eye_z.data() + p);
+    hn::Store(ray.direction.x, kFloats, rays.x.data() + p);
+    hn::Store(ray.direction.y, kFloats, rays.y.data() + p);
+    hn::Store(ray.direction.z, kFloats, rays.z.data() + p);
+  }
+}
+
+// The image as vectors compare with it.
+struct Image {
+  explicit Image(const HostStructure& structure)
+      : width_px(int32_t(structure.size_px.width)),
+        height_px(int32_t(structure.size_px.height)),
+        width(set(float(width_px))),
+        height(set(float(height_px))) {}
+
+  const int32_t width_px, height_px;
+  const Vec width, height;
+};
+
+// Where a ray meets a sheet.
+struct Meeting {
+  Vec x, y;            // the nearest place of the image
+  Mask is_met;         // from the front
+  Mask is_inside;      // the image, and met
+  IntVec column, row;  // of the image, whatever the place is
+};
+
+// As `meets` in shaders/lib/lens_rays.glsl.
+HWY_INLINE Meeting meet(const glm::vec3& plane, const LensRay& ray, const Image& image) {
+  constexpr float kTowardsMin = 1e-20F;
+  const Vec one = set(1);
+  const Vec in_front = hn::Sub(one, dot3(plane, ray.eye));
+  const Vec towards = hn::Max(dot3(plane, ray.direction), set(kTowardsMin));
+  const auto along = [&](Vec eye, Vec direction) {
+    return hn::MulAdd(towards, eye, hn::Mul(in_front, direction));
+  };
+  const Vec z = along(ray.eye.z, ray.direction.z);
+  const Vec zero = hn::Zero(kFloats);
+  const Mask is_met = hn::And(hn::Gt(in_front, zero), hn::Gt(z, zero));
+  const Vec scale = hn::Div(one, hn::IfThenElse(is_met, z, one));
+  const Vec x = hn::Mul(along(ray.eye.x, ray.direction.x), scale);
+  const Vec y = hn::Mul(along(ray.eye.y, ray.direction.y), scale);
+  Meeting at;
+  at.x = hn::Min(hn::Max(x, zero), image.width);
+  at.y = hn::Min(hn::Max(y, zero), image.height);
+  at.is_met = is_met;
+  at.is_inside = hn::And(is_met, hn::And(hn::Eq(x, at.x), hn::Eq(y, at.y)));
+  const auto cellOf = [](Vec place, int32_t count) {
+    const IntVec cell = hn::Max(hn::ConvertTo(kInts, place), hn::Zero(kInts));
+    return hn::Min(cell, hn::Set(kInts, count - 1));
+  };
+  at.column = cellOf(at.x, image.width_px);
+  at.row = cellOf(at.y, image.height_px);
+  return at;
+}
+
+struct Light {
+  Vec red, green, blue;
+};
+
+// As linearFromSrgb in shaders/lib/srgb.glsl, of codes 0..255.
+HWY_INLINE Vec lightOfCode(Vec code) {
+  const Vec srgb = hn::Mul(code, set(1.0F / 255));
+  Vec curve = hn::MulAdd(set(-0.1167994F), srgb, set(0.5265083F));
+  curve = hn::MulAdd(curve, srgb, set(0.5603838F));
+  curve = hn::MulAdd(curve, srgb, set(0.02840018F));
+  curve = hn::MulAdd(curve, srgb, set(0.001046527F));
+  return hn::IfThenElse(hn::Le(srgb, set(0.04045F)), hn::Mul(srgb, set(1.0F / 12.92F)), curve);
+}
+
+HWY_INLINE Light lightOf(WordVec rgba) {
+  const auto channel = [&](WordVec shifted) {
+    const WordVec code = hn::And(shifted, hn::Set(kWords, 255));
+    return lightOfCode(hn::ConvertTo(kFloats, hn::BitCast(kInts, code)));
+  };
+  return {channel(rgba), channel(hn::ShiftRight<8>(rgba)), channel(hn::ShiftRight<16>(rgba))};
+}
+
+// As codesFromLinear in shaders/lib/srgb.glsl.
+HWY_INLINE Vec codeOfLight(Vec light) {
+  const Vec clipped = hn::Min(hn::Max(light, hn::Zero(kFloats)), set(1));
+  const Vec root = hn::Sqrt(clipped);
+  Vec curve = hn::MulAdd(set(131.81537F), root, set(-413.74127F));
+  curve = hn::MulAdd(curve, root, set(517.73502F));
+  curve = hn::MulAdd(curve, root, set(-357.54774F));
+  curve = hn::MulAdd(curve, root, set(387.04785F));
+  curve = hn::MulAdd(curve, root, set(-10.2261349F));
+  return hn::IfThenElse(hn::Le(clipped, set(0.0031308F)), hn::Mul(clipped, set(12.92F * 255)),
+                        curve);
+}
+
+HWY_INLINE void addTo(OfBlock& sums, size_t p, Vec value) {
+  hn::Store(hn::Add(loadPx(sums, p), value), kFloats, sums.data() + p);
+}
+
+HWY_INLINE void add(BlockLight& sums, size_t p, const Light& light, Vec count) {
+  addTo(sums.red, p, light.red);
+  addTo(sums.green, p, light.green);
+  addTo(sums.blue, p, light.blue);
+  addTo(sums.count, p, count);
+}
+
+void MeanOf(const BlockLight& light, BlockCodes& codes) {
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    const Vec share = hn::Div(set(1), hn::Max(loadPx(light.count, p), set(1)));
+    const auto code = [&](const OfBlock& sums, OfBlock& to) {
+      hn::Store(codeOfLight(hn::Mul(loadPx(sums, p), share)), kFloats, to.data() + p);
+    };
+    code(light.red, codes.red);
+    code(light.green, codes.green);
+    code(light.blue, codes.blue);
+  }
+}
+
+HWY_INLINE Light lightOfThose(Mask those, WordVec texel) {
+  const Light light = lightOf(texel);
+  return {hn::IfThenElseZero(those, light.red), hn::IfThenElseZero(those, light.green),
+          hn::IfThenElseZero(those, light.blue)};
+}
+
+// Texels are fetched one by one, which is faster than gathers, and read as vectors long after.
+HWY_INLINE void fetch(const uint32_t* HWY_RESTRICT from, const IntOfPx& indices,
+                      OfPx<uint32_t>& to) {
+  for (size_t p = 0; p < kBlockArea_px; ++p) to.at[p] = from[indices.at[p]];
+}
+
+void GatherOnSheet(const GatheredRays& rays, BlockLight& light) {
+  const HostStructure& structure = rays.structure;
+  const abi::MetSheet& sheet = rays.sheets.front();
+  const Directions directions(rays);
+  const Image image(structure);
+  const uint32_t* const color = structure.color + size_t{sheet.layer} * structure.color_stride;
+  IntOfPx indices;
+  OfBlock is_met;
+  OfPx<uint32_t> texels;
+  for (const LensPoint& point : rays.points) {
+    for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+      const Meeting at = meet(sheet.plane, lensRay(rays.view, directions, point, p), image);
+      hn::Store(hn::Add(hn::Mul(at.row, hn::Set(kInts, image.width_px)), at.column), kInts,
+                indices.at + p);
+      const Mask counts = rays.fills_border ? at.is_met : at.is_inside;
+      hn::Store(hn::IfThenElseZero(counts, set(1)), kFloats, is_met.data() + p);
+    }
+    fetch(color, indices, texels);
+    for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+      const Vec count = loadPx(is_met, p);
+      const Mask those = hn::Gt(count, hn::Zero(kFloats));
+      add(light, p, lightOfThose(those, hn::Load(kWords, texels.at + p)), count);
+    }
+  }
+}
+
+// Where the rays of a point meet a sheet.
+struct Meetings {
+  OfBlock beside_x, beside_y;  // px beside the middle of the facet there
+  OfBlock inv_z;               // of the sheet; NaN where it is not met
+  OfBlock is_beyond;           // the image: 1, else 0
+  IntOfPx texels;              // of all layers
+  IntOfPx facets;
+};
+
+// What the rays of a point have met so far.
+struct Nearest {
+  OfBlock inv_z;   // < 0: none of the surfaces
+  IntOfPx texels;  // where, or as below
+  IntOfPx sheets;  // a bit: which
+};
+constexpr int32_t kNothing = -1;
+constexpr int32_t kBackground = -2;
+// In place of 1/Z, so that any surface is nearer.
+constexpr float kInvZOfNothing = -2;
+constexpr float kInvZBeyond = -1;
+
+HWY_INLINE void beginPoint(Nearest& nearest) {
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    hn::Store(set(kInvZOfNothing), kFloats, nearest.inv_z.data() + p);
+    hn::Store(hn::Set(kInts, kNothing), kInts, nearest.texels.at + p);
+  }
+}
+
+// Whether a ray ends beyond the image: what it has not met by then, it leaves before.
+HWY_INLINE Mask endsBeyond(const Point3& direction, const Image& image) {
+  const Vec zero = hn::Zero(kFloats);
+  const Mask is_low = hn::Or(hn::Lt(direction.x, zero), hn::Lt(direction.y, zero));
+  const Mask is_high = hn::Or(hn::Gt(direction.x, hn::Mul(image.width, direction.z)),
+                              hn::Gt(direction.y, hn::Mul(image.height, direction.z)));
+  return hn::Or(is_low, is_high);
+}
+
+// Beyond the image a surface of its border goes on as the sheet has it.
+HWY_INLINE void meetSheet(const GatheredRays& rays, const Image& image, const LensRays& lens_rays,
+                          const abi::MetSheet& sheet, Meetings& met) {
+  const HostStructure& structure = rays.structure;
+  const IntVec first_texel = hn::Set(kInts, int32_t(sheet.layer * structure.color_stride));
+  const Vec half = set(0.5F);
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    const LensRay ray = lens_rays.at(p);
+    const Meeting at = meet(sheet.plane, ray, image);
+    hn::Store(hn::Sub(hn::Sub(at.x, hn::ConvertTo(kFloats, at.column)), half), kFloats,
+              met.beside_x.data() + p);
+    hn::Store(hn::Sub(hn::Sub(at.y, hn::ConvertTo(kFloats, at.row)), half), kFloats,
+              met.beside_y.data() + p);
+    const Mask is_beyond = hn::AndNot(at.is_inside, at.is_met);
+    const Vec inv_z = hn::MulAdd(set(sheet.plane.x), at.x,
+                                 hn::MulAdd(set(sheet.plane.y), at.y, set(sheet.plane.z)));
+    hn::Store(hn::IfThenElse(at.is_met, inv_z, hn::NaN(kFloats)), kFloats, met.inv_z.data() + p);
+    hn::Store(hn::IfThenElseZero(is_beyond, set(1)), kFloats, met.is_beyond.data() + p);
+    const IntVec pitch = hn::Set(kInts, int32_t(structure.padded_width));
+    hn::Store(hn::Add(hn::Mul(at.row, pitch), at.column), kInts, met.facets.at + p);
+    const IntVec texel =
+        hn::Add(hn::Add(hn::Mul(at.row, hn::Set(kInts, image.width_px)), at.column), first_texel);
+    const auto is_background = hn::RebindMask(
+        kInts, rays.fills_border ? noLane() : hn::And(is_beyond, endsBeyond(ray.direction, image)));
+    hn::Store(hn::IfThenElse(is_background, hn::Set(kInts, kBackground), texel), kInts,
+              met.texels.at + p);
+  }
+}
+
+// Of the facets where a sheet is met, those count that lie within its reach.
+HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met, float reach,
+                              int32_t sheet_bit, Nearest& nearest) {
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    WordVec inv_z_bits;
+    WordVec slope_bits;
+    hn::LoadInterleaved2(kWords, reinterpret_cast<const uint32_t*>(facets.at + p), inv_z_bits,
+                         slope_bits);
+    const Vec slope_x = hn::BitCast(kFloats, hn::ShiftLeft<16>(slope_bits));
+    const Vec slope_y = hn::BitCast(kFloats, hn::And(slope_bits, hn::Set(kWords, 0xffff0000U)));
+    // No facet is no number, which nothing is near to.
+    const Vec middle = hn::Abs(hn::BitCast(kFloats, inv_z_bits));
+    const Vec leaning = hn::MulAdd(slope_x, loadPx(met.beside_x, p),
+                                   hn::MulAdd(slope_y, loadPx(met.beside_y, p), middle));
+    const Mask is_below = hn::Lt(leaning, hn::Zero(kFloats));
+    const Vec facet = hn::IfThenElse(is_below, hn::Zero(kFloats), leaning);
+    const Vec off = hn::Abs(hn::Sub(facet, loadPx(met.inv_z, p)));
+    const Mask is_beyond = hn::Gt(loadPx(met.is_beyond, p), hn::Zero(kFloats));
+    const Vec inv_z = hn::IfThenElse(is_beyond, set(kInvZBeyond), facet);
+    const Vec before = loadPx(nearest.inv_z, p);
+    const Mask holds = hn::And(hn::Le(off, set(reach)), hn::Gt(inv_z, before));
+    hn::Store(hn::IfThenElse(holds, inv_z, before), kFloats, nearest.inv_z.data() + p);
+    const auto take = [&](IntVec value, IntOfPx& of_px) {
+      const IntVec known = hn::Load(kInts, of_px.at + p);
+      hn::Store(hn::IfThenElse(hn::RebindMask(kInts, holds), value, known), kInts, of_px.at + p);
+    };
+    take(hn::Load(kInts, met.texels.at + p), nearest.texels);
+    take(hn::Set(kInts, sheet_bit), nearest.sheets);
+  }
+}
+
+// What a ray sees: the texel of what it met, or of what it is taken to see instead.
+HWY_INLINE WordVec seenTexel(const GatheredRays& rays, const Nearest& nearest,
+                             const OfPx<uint32_t>& texels,
+                             const std::array<uint32_t, kBlockArea_px>& fallback, size_t p) {
+  const IntVec place = hn::Load(kInts, nearest.texels.at + p);
+  const auto is = [&](int32_t value) {
+    return hn::RebindMask(kWords, hn::Eq(place, hn::Set(kInts, value)));
+  };
+  const WordVec met = hn::Load(kWords, texels.at + p);
+  const WordVec known = hn::IfThenElse(is(kBackground), hn::Set(kWords, rays.background), met);
+  return hn::IfThenElse(is(kNothing), hn::LoadU(kWords, fallback.data() + p), known);
+}
+
+// Adds the bits of the sheets that rays met, and all bits where one met none within the image, or
+// at its border, if that goes on.
+HWY_INLINE void noteMet(const GatheredRays& rays, const Nearest& nearest, size_t p,
+                        WordVec& met_sheets, WordVec& met_none) {
+  const Vec inv_z = loadPx(nearest.inv_z, p);
+  const auto isFrom = [&](float least) {
+    return hn::RebindMask(kWords, hn::Ge(inv_z, set(least)));
+  };
+  const WordVec bit = hn::Load(kWords, reinterpret_cast<const uint32_t*>(nearest.sheets.at) + p);
+  met_sheets = hn::Or(met_sheets, hn::IfThenElseZero(isFrom(kInvZBeyond), bit));
+  const auto is_met = isFrom(rays.fills_border ? kInvZBeyond : 0.0F);
+  met_none = hn::Or(met_none, hn::VecFromMask(kWords, hn::Not(is_met)));
+}
+
+MetSheets GatherOnSheets(const GatheredRays& rays,
+                         const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light) {
+  const HostStructure& structure = rays.structure;
+  const Directions directions(rays);
+  const Image image(structure);
+  LensRays lens_rays;
+  Meetings met;
+  Nearest nearest;
+  OfPx<uint64_t> facets;
+  IntOfPx indices;
+  OfPx<uint32_t> texels;
+  WordVec met_sheets = hn::Zero(kWords);
+  WordVec met_none = hn::Zero(kWords);
+  for (const LensPoint& point : rays.points) {
+    raysOf(rays.view, directions, point, lens_rays);
+    beginPoint(nearest);
+    for (size_t i = 0; i < rays.sheets.size(); ++i) {
+      const abi::MetSheet& sheet = rays.sheets[i];
+      meetSheet(rays, image, lens_rays, sheet, met);
+      const abi::uvec2* const from = structure.level(sheet.layer, abi::kLevelFacets);
+      for (size_t p = 0; p < kBlockArea_px; ++p) {
+        std::memcpy(facets.at + p, from + met.facets.at[p], sizeof(uint64_t));
+      }
+      // Facets beside those that a sheet stands for may lie as far off once more.
+      compareFacets(facets, met, 2 * rays.reach, int32_t(1U << i), nearest);
+    }
+    for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+      const IntVec texel = hn::Load(kInts, nearest.texels.at + p);
+      hn::Store(hn::Max(texel, hn::Zero(kInts)), kInts, indices.at + p);
+    }
+    fetch(structure.color, indices, texels);
+    for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+      const WordVec texel = seenTexel(rays, nearest, texels, fallback, p);
+      add(light, p, lightOf(texel), set(1));
+      noteMet(rays, nearest, p, met_sheets, met_none);
+    }
+  }
+  MetSheets result;
+  for (size_t lane = 0; lane < hn::Lanes(kFloats); ++lane) {
+    result.sheets |= hn::ExtractLane(met_sheets, lane);
+    result.is_all &= hn::ExtractLane(met_none, lane) == 0;
+  }
+  return result;
+}
+
+}  // namespace viewloom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viewloom {
+
+HWY_EXPORT(GatherOnSheet);
+HWY_EXPORT(GatherOnSheets);
+HWY_EXPORT(MeanOf);
+
+void gatherOnSheet(const GatheredRays& rays, BlockLight& light) {
+  HWY_DYNAMIC_DISPATCH(GatherOnSheet)(rays, light);
+}
+
+MetSheets gatherOnSheets(const GatheredRays& rays,
+                         const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light) {
+  return HWY_DYNAMIC_DISPATCH(GatherOnSheets)(rays, fallback, light);
+}
+
+void meanOf(const BlockLight& light, BlockCodes& codes) {
+  HWY_DYNAMIC_DISPATCH(MeanOf)(light, codes);
+}
+
+}  // namespace viewloom
+#endif

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lens/sheet_list.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace viewloom {
+namespace {
+
+bool isEmpty(const RectPx& rect) {
+  return !(rect.low.x < rect.high.x && rect.low.y < rect.high.y);
+}
+
+RectPx common(const RectPx& a, const RectPx& b) {
+  return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+// 1/m: what moves a ray through the rim of the lens by kSheetReach_px there, at px `at` of the
+// source. As shaders/lib/met_sheets.glsl.
+float sheetReach(const abi::ViewParams& view, glm::vec2 at) {
+  const glm::vec2 along_x = glm::vec2(view.direction_dx) - at * view.direction_dx.z;
+  const glm::vec2 along_y = glm::vec2(view.direction_dy) - at * view.direction_dy.z;
+  const float rim_px_m =
+      std::max(glm::length(view.lens_px_m.x * along_x), glm::length(view.lens_px_m.y * along_y));
+  const float beside_px_m = glm::length(glm::vec2(view.eye) - at * view.eye.z);
+  return abi::kSheetReach_px / std::max(beside_px_m + rim_px_m, 1e-30F);
+}
+
+}  // namespace
+
+// What a search looks at.
+struct SheetList::Search {
+  const HostStructure& structure;
+  const Beam& beam;
+  const RectPx image;
+  glm::uvec2 first_root{0}, last_root{0};  // cells of the last level
+
+  // Where rays may be within a cell, while 1/Z is in its range; beyond the image, its border
+  // counts.
+  RectPx metWithin(const RectPx& cell, float least_inv_z, float largest_inv_z) const {
+    RectPx rect = beam.rectOver(std::max(least_inv_z, 0.0F), std::max(largest_inv_z, 0.0F));
+    rect.low = glm::min(rect.low, image.high - 1.0F);
+    rect.high = glm::max(rect.high, glm::vec2(1));
+    return common(common(rect, cell), image);
+  }
+
+  // The search is among the nodes of a part of the image, or those at its border.
+  void aimAt(const RectPx& part) {
+    const auto rootAt = [&](glm::vec2 place) {
+      return glm::uvec2(glm::clamp(place, glm::vec2(0), image.high - 1.0F)) >> abi::kLevelLast;
+    };
+    first_root = rootAt(part.low);
+    last_root = rootAt(part.high);
+  }
+
+  // The next node that is not below this one. False: there is none.
+  bool next(CellAt& at) const {
+    while (at.level != abi::kLevelLast) {
+      if ((at.cell.x & 1) == 0) return ++at.cell.x, true;
+      at.cell.x &= ~1U;
+      if ((at.cell.y & 1) == 0) return ++at.cell.y, true;
+      at = {at.level + 1, at.cell >> 1U};
+    }
+    if (++at.cell.x > last_root.x) at.cell = {first_root.x, at.cell.y + 1};
+    return at.cell.y <= last_root.y;
+  }
+
+  // Whether the layer before has the same surface there.
+  bool isOfLayerBefore(uint32_t layer, const CellAt& at, glm::vec2 offset, float inv_z) const {
+    if (layer == 0) return false;
+    const SurfaceCell front = surfaceCell(structure, layer - 1, at.level, at.cell);
+    return front.is_plane &&
+           front.at(offset) - inv_z <= structure.connectionTolerance(front.at(offset));
+  }
+};
+
+bool SheetList::isKnown(uint32_t layer, glm::vec2 at, float inv_z) const {
+  return std::any_of(sheets_.begin(), sheets_.begin() + count_, [&](const abi::MetSheet& sheet) {
+    return sheet.layer == layer &&
+           std::abs(glm::dot(sheet.plane, glm::vec3(at, 1)) - inv_z) <= reach_;
+  });
+}
+
+void SheetList::add(uint32_t layer, glm::vec2 at, float inv_z, glm::vec2 slope) {
+  if (count_ == sheets_.size()) {
+    is_too_many_ = true;
+    return;
+  }
+  sheets_[count_++] = {.plane = {slope, inv_z - glm::dot(slope, at)}, .layer = layer};
+}
+
+// Of a plane that lies there, the part that rays may meet.
+void SheetList::findPlane(const Search& search, uint32_t layer, const CellAt& at,
+                          const SurfaceCell& cell, RectPx met) {
+  const glm::vec2 center = at.center();
+  glm::vec2 offset = 0.5F * (met.low + met.high) - center;
+  const float half_range = glm::dot(glm::abs(cell.slope), 0.5F * (met.high - met.low)) + cell.error;
+  met = search.metWithin(met, cell.at(offset) - half_range, cell.at(offset) + half_range);
+  if (isEmpty(met)) return;
+  offset = 0.5F * (met.low + met.high) - center;
+  const float inv_z = cell.at(offset);
+  if (isKnown(layer, center + offset, inv_z)) return;
+  if (search.isOfLayerBefore(layer, at, offset, inv_z)) return;
+  add(layer, center + offset, inv_z, cell.slope);
+}
+
+// Facets lie alone where their node is no plane: their slopes tell little, so they face the source.
+void SheetList::findFacets(const Search& search, uint32_t layer, const RectPx& met) {
+  const glm::uvec2 first(met.low);
+  const glm::uvec2 end(glm::ceil(met.high));
+  for (uint32_t y = first.y; y < end.y && !is_too_many_; ++y) {
+    for (uint32_t x = first.x; x < end.x; ++x) {
+      const CellAt at{abi::kLevelFacets, {x, y}};
+      const SurfaceCell facet = surfaceCell(search.structure, layer, at.level, at.cell);
+      if (!facet.is_plane) continue;
+      const glm::vec2 center = at.center();
+      if (isKnown(layer, center, facet.inv_z)) continue;
+      if (isEmpty(search.metWithin(at.rect(), facet.range.x, facet.range.y))) continue;
+      if (search.isOfLayerBefore(layer, at, glm::vec2(0), facet.inv_z)) continue;
+      add(layer, center, facet.inv_z, facet.slope);
+    }
+  }
+}
+
+// Nodes that no ray may meet are passed over, whole planes become sheets, and boxes are looked
+// into.
+void SheetList::findIn(const Search& search, uint32_t layer) {
+  CellAt at{abi::kLevelLast, search.first_root};
+  do {
+    for (;;) {
+      const SurfaceCell cell = surfaceCell(search.structure, layer, at.level, at.cell);
+      const RectPx met = search.metWithin(at.rect(), cell.range.x, cell.range.y);
+      if (isEmpty(met) || cell.range.y < 0) break;
+      if (cell.is_plane)
+        findPlane(search, layer, at, cell, met);
+      else if (at.level == abi::kLevelFirst)
+        findFacets(search, layer, met);
+      else {
+        at = {at.level - 1, at.cell << 1U};
+        continue;
+      }
+      break;
+    }
+  } while (!is_too_many_ && search.next(at));
+}
+
+// Whether all that the first layer has where rays meet the first sheet is that sheet.
+bool SheetList::isEverywhere(Search& search, float inv_z_near) const {
+  const glm::vec3 plane = sheets_.front().plane;
+  RectPx met = search.beam.rectOver(0, inv_z_near);
+  // Where rays meet it tells the range of its 1/Z, and that where rays meet it.
+  for (int round = 0; round < 2; ++round) {
+    const glm::vec2 middle = 0.5F * (met.low + met.high);
+    const float inv_z = glm::dot(plane, glm::vec3(middle, 1));
+    const float half_range = glm::dot(glm::abs(glm::vec2(plane)), met.high - middle) + reach_;
+    met = search.beam.rectOver(std::max(inv_z - half_range, 0.0F),
+                               std::max(inv_z + half_range, 0.0F));
+  }
+  if (glm::any(glm::lessThan(met.low, search.image.low)) ||
+      glm::any(glm::greaterThan(met.high, search.image.high))) {
+    return false;
+  }
+  search.aimAt(met);
+  CellAt at{abi::kLevelLast, search.first_root};
+  do {
+    for (;;) {
+      const RectPx part = common(at.rect(), met);
+      if (isEmpty(part)) break;
+      const SurfaceCell cell = surfaceCell(search.structure, 0, at.level, at.cell);
+      const glm::vec2 center = 0.5F * (part.low + part.high);
+      if (cell.is_plane) {
+        if (!isKnown(0, center, cell.at(center - at.center()))) return false;
+        break;
+      }
+      if (cell.range.y < 0) return false;
+      if (at.level == abi::kLevelFirst) {
+        if (!hasOnlyKnown(search, part)) return false;
+        break;
+      }
+      at = {at.level - 1, at.cell << 1U};
+    }
+  } while (search.next(at));
+  return true;
+}
+
+bool SheetList::hasOnlyKnown(const Search& search, const RectPx& part) const {
+  const glm::uvec2 first(part.low);
+  const glm::uvec2 end(glm::ceil(part.high));
+  for (uint32_t y = first.y; y < end.y; ++y) {
+    for (uint32_t x = first.x; x < end.x; ++x) {
+      const SurfaceCell facet = surfaceCell(search.structure, 0, abi::kLevelFacets, {x, y});
+      if (!facet.is_plane || !isKnown(0, glm::vec2(x, y) + 0.5F, facet.inv_z)) return false;
+    }
+  }
+  return true;
+}
+
+void SheetList::find(const HostStructure& structure, const abi::ViewParams& view, glm::vec2 low_px,
+                     glm::vec2 high_px) {
+  count_ = 0;
+  is_too_many_ = false;
+  is_settled_ = false;
+  const float inv_z_near = std::max(structure.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
+  const Beam beam(view, low_px, high_px, inv_z_near);
+  const glm::vec2 size_px(structure.size_px.width, structure.size_px.height);
+  Search search{structure, beam, {glm::vec2(0), size_px}};
+  // That changes little from px to px: what is seen in the middle, far away, tells it for all.
+  const RectPx far = beam.rectOver(0, 0);
+  reach_ = sheetReach(view, 0.5F * (far.low + far.high));
+  search.aimAt(beam.rectOver(0, inv_z_near));
+  for (uint32_t layer = 0; layer < structure.layer_count && !is_too_many_; ++layer) {
+    findIn(search, layer);
+    // Nothing behind it is seen.
+    is_settled_ = layer == 0 && count_ == 1 && isEverywhere(search, inv_z_near);
+    if (is_settled_) return;
+  }
+}
+
+}  // namespace viewloom

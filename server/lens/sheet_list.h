@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surfaces that rays of a block of px may meet, as few planes (shaders/README.md, A lens).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <glm/vec2.hpp>
+
+#include "lens/beam.h"
+#include "lens/cells.h"
+#include "lens/host_structure.h"
+#include "shared/lens_abi.h"
+#include "shared/trace_abi.h"
+
+namespace viewloom {
+
+// Thread-safety: none.
+class SheetList {
+ public:
+  // What the rays of px [low, high) of a tile may meet. They all go where the source looks.
+  void find(const HostStructure& structure, const abi::ViewParams& view, glm::vec2 low_px,
+            glm::vec2 high_px);
+
+  // In the order in which they were found.
+  std::span<const abi::MetSheet> sheets() const { return {sheets_.data(), count_}; }
+  // There are more than kMetSheetMax.
+  bool isTooMany() const { return is_too_many_; }
+  // 1/m: surfaces that lie no further off a sheet are those that it stands for.
+  float reach() const { return reach_; }
+  // Every ray meets the first sheet, and nothing before it.
+  bool isSettled() const { return is_settled_; }
+
+ private:
+  struct Search;
+
+  void findIn(const Search& search, uint32_t layer);
+  void findPlane(const Search& search, uint32_t layer, const CellAt& at, const SurfaceCell& cell,
+                 RectPx met);
+  void findFacets(const Search& search, uint32_t layer, const RectPx& met);
+  bool isEverywhere(Search& search, float inv_z_near) const;
+  bool hasOnlyKnown(const Search& search, const RectPx& part) const;
+  bool isKnown(uint32_t layer, glm::vec2 at, float inv_z) const;
+  void add(uint32_t layer, glm::vec2 at, float inv_z, glm::vec2 slope);
+
+  std::array<abi::MetSheet, 32> sheets_;
+  uint32_t count_ = 0;
+  float reach_ = 0;
+  bool is_too_many_ = false;
+  bool is_settled_ = false;
+};
+
+}  // namespace viewloom
