@@ -164,6 +164,7 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
                           .points = points_,
                           .sheets = list_.sheets(),
                           .reach = list_.reach(),
+                          .may_leave = list_.mayLeave(),
                           .fills_border = job.outside_fill == OutsideFill::kBorder,
                           .background = redFirst(job.background_rgb)};
   const uint32_t first_y = std::max(block_px.y, tile.first_y);

@@ -102,23 +102,45 @@ HWY_INLINE void raysOf(const abi::ViewParams& view, const Directions& directions
 
 // The image as vectors compare with it.
 struct Image {
-  explicit Image(const HostStructure& structure)
-      : width_px(int32_t(structure.size_px.width)),
-        height_px(int32_t(structure.size_px.height)),
-        width(set(float(width_px))),
-        height(set(float(height_px))) {}
+  explicit Image(SizePx size_px)
+      : width(set(float(size_px.width))),
+        height(set(float(size_px.height))),
+        last_column(set(float(size_px.width - 1))),
+        last_row(set(float(size_px.height - 1))) {}
 
-  const int32_t width_px, height_px;
-  const Vec width, height;
+  const Vec width, height, last_column, last_row;
 };
+
+// A coordinate of a place: which px of the image that is in, or the nearest.
+struct Cell {
+  Vec first;  // the px's own first place
+  IntVec index;
+};
+
+// Of the way along an axis of the image. Whatever the place is, the px is one of the image.
+HWY_INLINE Cell cellOf(Vec place, Vec last) {
+  const Vec first = hn::Min(hn::Floor(place), last);
+  // Above 2^23 the steps of floats are 1.
+  const WordVec bits = hn::BitCast(kWords, hn::Add(first, set(0x1p23F)));
+  return {first, hn::BitCast(kInts, hn::And(bits, hn::Set(kWords, 0x7fffff)))};
+}
+
+// 0 also in place of what is no number.
+HWY_INLINE Vec atLeastZero(Vec value) {
+  return hn::IfThenElseZero(hn::Gt(value, hn::Zero(kFloats)), value);
+}
 
 // Where a ray meets a sheet.
 struct Meeting {
-  Vec x, y;            // the nearest place of the image
-  Mask is_met;         // from the front
-  Mask is_inside;      // the image, and met
-  IntVec column, row;  // of the image, whatever the place is
+  Vec x, y;        // the nearest place of the image
+  Mask is_met;     // from the front
+  Mask is_inside;  // the image, and met
+  Cell column, row;
 };
+
+HWY_INLINE IntVec indexOf(const Meeting& at, uint32_t pitch) {
+  return hn::Add(hn::Mul(at.row.index, hn::Set(kInts, int32_t(pitch))), at.column.index);
+}
 
 // As `meets` in shaders/lib/lens_rays.glsl.
 HWY_INLINE Meeting meet(const glm::vec3& plane, const LensRay& ray, const Image& image) {
@@ -132,20 +154,16 @@ HWY_INLINE Meeting meet(const glm::vec3& plane, const LensRay& ray, const Image&
   const Vec z = along(ray.eye.z, ray.direction.z);
   const Vec zero = hn::Zero(kFloats);
   const Mask is_met = hn::And(hn::Gt(in_front, zero), hn::Gt(z, zero));
-  const Vec scale = hn::Div(one, hn::IfThenElse(is_met, z, one));
+  const Vec scale = hn::Div(one, z);
   const Vec x = hn::Mul(along(ray.eye.x, ray.direction.x), scale);
   const Vec y = hn::Mul(along(ray.eye.y, ray.direction.y), scale);
   Meeting at;
-  at.x = hn::Min(hn::Max(x, zero), image.width);
-  at.y = hn::Min(hn::Max(y, zero), image.height);
+  at.x = hn::Min(atLeastZero(x), image.width);
+  at.y = hn::Min(atLeastZero(y), image.height);
   at.is_met = is_met;
   at.is_inside = hn::And(is_met, hn::And(hn::Eq(x, at.x), hn::Eq(y, at.y)));
-  const auto cellOf = [](Vec place, int32_t count) {
-    const IntVec cell = hn::Max(hn::ConvertTo(kInts, place), hn::Zero(kInts));
-    return hn::Min(cell, hn::Set(kInts, count - 1));
-  };
-  at.column = cellOf(at.x, image.width_px);
-  at.row = cellOf(at.y, image.height_px);
+  at.column = cellOf(at.x, image.last_column);
+  at.row = cellOf(at.y, image.last_row);
   return at;
 }
 
@@ -223,7 +241,7 @@ void GatherOnSheet(const GatheredRays& rays, BlockLight& light) {
   const HostStructure& structure = rays.structure;
   const abi::MetSheet& sheet = rays.sheets.front();
   const Directions directions(rays);
-  const Image image(structure);
+  const Image image(structure.size_px);
   const uint32_t* const color = structure.color + size_t{sheet.layer} * structure.color_stride;
   IntOfPx indices;
   OfBlock is_met;
@@ -231,8 +249,7 @@ void GatherOnSheet(const GatheredRays& rays, BlockLight& light) {
   for (const LensPoint& point : rays.points) {
     for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
       const Meeting at = meet(sheet.plane, lensRay(rays.view, directions, point, p), image);
-      hn::Store(hn::Add(hn::Mul(at.row, hn::Set(kInts, image.width_px)), at.column), kInts,
-                indices.at + p);
+      hn::Store(indexOf(at, structure.size_px.width), kInts, indices.at + p);
       const Mask counts = rays.fills_border ? at.is_met : at.is_inside;
       hn::Store(hn::IfThenElseZero(counts, set(1)), kFloats, is_met.data() + p);
     }
@@ -249,7 +266,7 @@ void GatherOnSheet(const GatheredRays& rays, BlockLight& light) {
 struct Meetings {
   OfBlock beside_x, beside_y;  // px beside the middle of the facet there
   OfBlock inv_z;               // of the sheet; NaN where it is not met
-  OfBlock is_beyond;           // the image: 1, else 0
+  OfBlock is_beyond;           // the image: 1, else 0; of rays that may leave it
   IntOfPx texels;              // of all layers
   IntOfPx facets;
 };
@@ -291,29 +308,29 @@ HWY_INLINE void meetSheet(const GatheredRays& rays, const Image& image, const Le
   for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
     const LensRay ray = lens_rays.at(p);
     const Meeting at = meet(sheet.plane, ray, image);
-    hn::Store(hn::Sub(hn::Sub(at.x, hn::ConvertTo(kFloats, at.column)), half), kFloats,
-              met.beside_x.data() + p);
-    hn::Store(hn::Sub(hn::Sub(at.y, hn::ConvertTo(kFloats, at.row)), half), kFloats,
-              met.beside_y.data() + p);
-    const Mask is_beyond = hn::AndNot(at.is_inside, at.is_met);
+    hn::Store(hn::Sub(hn::Sub(at.x, at.column.first), half), kFloats, met.beside_x.data() + p);
+    hn::Store(hn::Sub(hn::Sub(at.y, at.row.first), half), kFloats, met.beside_y.data() + p);
     const Vec inv_z = hn::MulAdd(set(sheet.plane.x), at.x,
                                  hn::MulAdd(set(sheet.plane.y), at.y, set(sheet.plane.z)));
     hn::Store(hn::IfThenElse(at.is_met, inv_z, hn::NaN(kFloats)), kFloats, met.inv_z.data() + p);
-    hn::Store(hn::IfThenElseZero(is_beyond, set(1)), kFloats, met.is_beyond.data() + p);
-    const IntVec pitch = hn::Set(kInts, int32_t(structure.padded_width));
-    hn::Store(hn::Add(hn::Mul(at.row, pitch), at.column), kInts, met.facets.at + p);
-    const IntVec texel =
-        hn::Add(hn::Add(hn::Mul(at.row, hn::Set(kInts, image.width_px)), at.column), first_texel);
-    const auto is_background = hn::RebindMask(
-        kInts, rays.fills_border ? noLane() : hn::And(is_beyond, endsBeyond(ray.direction, image)));
-    hn::Store(hn::IfThenElse(is_background, hn::Set(kInts, kBackground), texel), kInts,
-              met.texels.at + p);
+    hn::Store(indexOf(at, structure.padded_width), kInts, met.facets.at + p);
+    IntVec texel = hn::Add(indexOf(at, structure.size_px.width), first_texel);
+    if (rays.may_leave) {
+      const Mask is_beyond = hn::AndNot(at.is_inside, at.is_met);
+      hn::Store(hn::IfThenElseZero(is_beyond, set(1)), kFloats, met.is_beyond.data() + p);
+      if (!rays.fills_border) {
+        const Mask is_background = hn::And(is_beyond, endsBeyond(ray.direction, image));
+        texel = hn::IfThenElse(hn::RebindMask(kInts, is_background), hn::Set(kInts, kBackground),
+                               texel);
+      }
+    }
+    hn::Store(texel, kInts, met.texels.at + p);
   }
 }
 
 // Of the facets where a sheet is met, those count that lie within its reach.
 HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met, float reach,
-                              int32_t sheet_bit, Nearest& nearest) {
+                              bool may_leave, int32_t sheet_bit, Nearest& nearest) {
   for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
     WordVec inv_z_bits;
     WordVec slope_bits;
@@ -328,8 +345,11 @@ HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met,
     const Mask is_below = hn::Lt(leaning, hn::Zero(kFloats));
     const Vec facet = hn::IfThenElse(is_below, hn::Zero(kFloats), leaning);
     const Vec off = hn::Abs(hn::Sub(facet, loadPx(met.inv_z, p)));
-    const Mask is_beyond = hn::Gt(loadPx(met.is_beyond, p), hn::Zero(kFloats));
-    const Vec inv_z = hn::IfThenElse(is_beyond, set(kInvZBeyond), facet);
+    Vec inv_z = facet;
+    if (may_leave) {
+      const Mask is_beyond = hn::Gt(loadPx(met.is_beyond, p), hn::Zero(kFloats));
+      inv_z = hn::IfThenElse(is_beyond, set(kInvZBeyond), facet);
+    }
     const Vec before = loadPx(nearest.inv_z, p);
     const Mask holds = hn::And(hn::Le(off, set(reach)), hn::Gt(inv_z, before));
     hn::Store(hn::IfThenElse(holds, inv_z, before), kFloats, nearest.inv_z.data() + p);
@@ -373,7 +393,7 @@ MetSheets GatherOnSheets(const GatheredRays& rays,
                          const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light) {
   const HostStructure& structure = rays.structure;
   const Directions directions(rays);
-  const Image image(structure);
+  const Image image(structure.size_px);
   LensRays lens_rays;
   Meetings met;
   Nearest nearest;
@@ -393,7 +413,7 @@ MetSheets GatherOnSheets(const GatheredRays& rays,
         std::memcpy(facets.at + p, from + met.facets.at[p], sizeof(uint64_t));
       }
       // Facets beside those that a sheet stands for may lie as far off once more.
-      compareFacets(facets, met, 2 * rays.reach, int32_t(1U << i), nearest);
+      compareFacets(facets, met, 2 * rays.reach, rays.may_leave, int32_t(1U << i), nearest);
     }
     for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
       const IntVec texel = hn::Load(kInts, nearest.texels.at + p);

@@ -16,6 +16,11 @@ bool isEmpty(const RectPx& rect) {
   return !(rect.low.x < rect.high.x && rect.low.y < rect.high.y);
 }
 
+bool isWithin(const RectPx& rect, const RectPx& other) {
+  return glm::all(glm::greaterThanEqual(rect.low, other.low)) &&
+         glm::all(glm::lessThanEqual(rect.high, other.high));
+}
+
 RectPx common(const RectPx& a, const RectPx& b) {
   return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
@@ -161,10 +166,7 @@ bool SheetList::isEverywhere(Search& search, float inv_z_near) const {
     met = search.beam.rectOver(std::max(inv_z - half_range, 0.0F),
                                std::max(inv_z + half_range, 0.0F));
   }
-  if (glm::any(glm::lessThan(met.low, search.image.low)) ||
-      glm::any(glm::greaterThan(met.high, search.image.high))) {
-    return false;
-  }
+  if (!isWithin(met, search.image)) return false;
   search.aimAt(met);
   CellAt at{abi::kLevelLast, search.first_root};
   do {
@@ -212,7 +214,9 @@ void SheetList::find(const HostStructure& structure, const abi::ViewParams& view
   // That changes little from px to px: what is seen in the middle, far away, tells it for all.
   const RectPx far = beam.rectOver(0, 0);
   reach_ = sheetReach(view, 0.5F * (far.low + far.high));
-  search.aimAt(beam.rectOver(0, inv_z_near));
+  const RectPx whole = beam.rectOver(0, inv_z_near);
+  may_leave_ = !isWithin(whole, search.image);
+  search.aimAt(whole);
   for (uint32_t layer = 0; layer < structure.layer_count && !is_too_many_; ++layer) {
     findIn(search, layer);
     // Nothing behind it is seen.

@@ -29,6 +29,8 @@ class SheetList {
   bool isTooMany() const { return is_too_many_; }
   // 1/m: surfaces that lie no further off a sheet are those that it stands for.
   float reach() const { return reach_; }
+  // Some rays pass beyond the image.
+  bool mayLeave() const { return may_leave_; }
   // Every ray meets the first sheet, and nothing before it.
   bool isSettled() const { return is_settled_; }
 
@@ -48,6 +50,7 @@ class SheetList {
   uint32_t count_ = 0;
   float reach_ = 0;
   bool is_too_many_ = false;
+  bool may_leave_ = false;
   bool is_settled_ = false;
 };
 
