@@ -51,8 +51,7 @@ bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
 }  // namespace
 
 void settleGathering(bool is_in_reach, TraceJob& job) {
-  job.gathers_on_host = false;
-  job.gathers_on_host = is_in_reach && job.mayGather() && !job.layout->lens->is_exact &&
+  job.gathers_on_host = is_in_reach && job.hasSecondStage() && !job.layout->lens->is_exact &&
                         std::ranges::all_of(job.tilesOf(0), [&](const abi::ViewParams& view) {
                           return view.is_used == 0 || looksForward(view, job.layout->tile_size_px);
                         });
@@ -188,6 +187,7 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
   for (uint32_t y = first_y; y < end_y; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
       const size_t from = inBlock(y) + x;
+      if (light_.count[from] == 0) continue;  // it stays as the middle ray sees it
       const size_t to = firstOfRow(y) + x;
       const float codes[] = {codes_.red[from], codes_.green[from], codes_.blue[from]};
       band.color[to] = uint32_t(codes[0] + 0.5F) | uint32_t(codes[1] + 0.5F) << 8 |

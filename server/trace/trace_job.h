@@ -112,13 +112,17 @@ struct TraceJob {
     return std::ranges::any_of(
         layout->samples, [](const RaySample& sample) { return sample.eye_m != glm::dvec2(0.0); });
   }
-  // Whether there may be a second stage of the lens: one structure, each px with one eye, nothing
-  // that the walked rays alone know, and room.
+  // Whether there may be a second stage of the lens: one structure, each px with one eye, and
+  // nothing that the walked rays alone know.
+  bool hasSecondStage() const {
+    return hasLens() && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
+           !hasFilter() && !layout->depth_codes && !reflects();
+  }
+  // Whether the device gathers it: there is room for what its walked rays meet.
   bool mayGather() const {
     const uint64_t met_bytes =
         uint64_t{layout->size_px.width} * kBandRowsMax * sample_count * sizeof(uint32_t);
-    return hasLens() && !gathers_on_host && layout->lens->gathered_count > 0 && walk_count == 1 && !hasEyesBeside() &&
-           !hasFilter() && !layout->depth_codes && !reflects() && met_bytes <= kMetBytesMax;
+    return hasSecondStage() && !gathers_on_host && met_bytes <= kMetBytesMax;
   }
   // Px are made of several rays' light.
   bool sumsLight() const { return !gathers_on_host && (sample_count > 1 || mayGather()); }

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/lens_scene.h"
-#include "commands/offline_renderer.h"
 #include "scoring/image_score.h"
 #include "shared/lens_abi.h"
 #include "support/truth/picture_frame.h"
@@ -131,7 +130,7 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
                                   const std::vector<LensWay>& ways) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
   const std::vector<float> truth = truthOf(instant, scoring);
-  OfflineRenderer renderer(device);
+  OfflineRenderer renderer(device, scoring.place);
   std::vector<LensScore> scores;
   uint32_t built_layers = 0;
   double pinhole_ms = 0;
@@ -167,18 +166,24 @@ Json qualityOfLens(const Device& device) {
         {.layer_count = layers, .walked_count = 8, .gathered_count = 32, .is_exact = true});
   }
   Json rows = Json::array();
-  for (const LensScore& score : lensScores(device, {}, ways)) {
-    rows.push_back({{"layers", score.way.layer_count},
-                    {"walked", score.way.walked_count},
-                    {"gathered", score.way.gathered_count},
-                    {"mode", score.way.is_exact ? "exact" : "fast"},
-                    {"psnr_db", score.psnr_db},
-                    {"mean_error", score.mean_error},
-                    {"level_db", score.level_db},
-                    {"seams", score.seams},
-                    {"trace_ms", score.trace_ms},
-                    {"pinhole_traces", score.pinholes}});
-  }
+  const auto add = [&](GatheringPlace place, const std::vector<LensWay>& added) {
+    for (const LensScore& score : lensScores(device, {.place = place}, added)) {
+      rows.push_back({{"layers", score.way.layer_count},
+                      {"walked", score.way.walked_count},
+                      {"gathered", score.way.gathered_count},
+                      {"mode", score.way.is_exact ? "exact" : "fast"},
+                      {"place", place == GatheringPlace::kHost ? "host" : "device"},
+                      {"psnr_db", score.psnr_db},
+                      {"mean_error", score.mean_error},
+                      {"level_db", score.level_db},
+                      {"seams", score.seams},
+                      {"trace_ms", score.trace_ms},
+                      {"pinhole_traces", score.pinholes}});
+    }
+  };
+  add(GatheringPlace::kHost, ways);
+  std::erase_if(ways, [](const LensWay& way) { return way.gathered_count == 0 || way.is_exact; });
+  add(GatheringPlace::kDevice, ways);
   return rows;
 }
 

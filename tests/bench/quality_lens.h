@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "commands/offline_renderer.h"
 #include "display/lens.h"
 #include "frame/size.h"
 #include "gpu/device.h"
@@ -37,6 +38,7 @@ struct LensScoring {
   uint32_t round_count = 5;        // of each trace, for the median
   double radius_m = 0.02;          // of the lens
   double aside_m = 0;              // of the view, to the right of the source
+  GatheringPlace place = GatheringPlace::kHost;
 };
 
 // The cluttered room, in focus at a third of its depth.

@@ -12,6 +12,9 @@ namespace {
 
 class Lens : public ThroughLens {
  protected:
+  // A source that ends in the view: the second stage beside as many walked rays.
+  void expectBlurredEnd(GatheringPlace place);
+
   // Of two views beside each other.
   static TraceJob jobOf(uint32_t width_px, uint32_t walked_count, uint32_t gathered_count) {
     DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {width_px, 64}}};
@@ -96,9 +99,10 @@ TEST(MetRounds, areAsManyRaysAsAllBeforeThem) {
   }
 }
 
-// The second stage beside as many walked rays, where the source ends in the view: neither blur that
-// ends with it nor blocks.
-TEST_F(Lens, blursTheEndOfTheSourceIntoTheBackground) {
+// Neither blur that ends with it nor blocks.
+void Lens::expectBlurredEnd(GatheringPlace place) {
+  renderer_.emplace(device(), place);
+  renderer_->build(*test::syntheticFrame(1, kSource_px));
   ViewCamera camera;
   camera.pose.position_m = {0.1, 0, 0};
   camera.projection = Fov{-0.6, 0.6, 0.4, -0.4};  // wider than the source
@@ -119,6 +123,14 @@ TEST_F(Lens, blursTheEndOfTheSourceIntoTheBackground) {
   const auto background_count = std::count(walked.color.begin(), walked.color.end(), 0xffff00ff);
   EXPECT_GT(background_count, walked.color.size() / 10);
   EXPECT_LT(background_count, walked.color.size() / 2);
+}
+
+TEST_F(Lens, blursTheEndOfTheSourceIntoTheBackground) {
+  expectBlurredEnd(GatheringPlace::kHost);
+}
+
+TEST_F(Lens, blursTheEndOfTheSourceIntoTheBackgroundOnTheDevice) {
+  expectBlurredEnd(GatheringPlace::kDevice);
 }
 
 TEST_F(Lens, leavesWhatNoViewCoversBlack) {

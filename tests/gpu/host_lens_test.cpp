@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lens that the CPU gathers, beside rays that the device walks one by one.
+#include "lens/band_gatherer.h"
+
+#include <random>
+
+#include "gpu/through_lens.h"
+#include "lens/host_structure.h"
+#include "lens/sheet_list.h"
+#include "trace/display_sources.h"
+
+namespace viewloom {
+namespace {
+
+class HostLens : public ThroughLens {
+ protected:
+  void SetUp() override {
+    ThroughLens::SetUp();
+    if (IsSkipped()) return;
+    if (!device().info().is_software) GTEST_SKIP() << "the device gathers: it is not the CPU";
+  }
+
+  static DisplaySpec withLens(decltype(DisplaySpec::kind) kind) {
+    DisplaySpec spec{.kind = std::move(kind)};
+    spec.lens = walkedLens();
+    return spec;
+  }
+
+  // 8 + 32 rays, gathered, and 8 walked ones, beside 64 walked ones; codes, root mean square.
+  void expectNearerThanFew(DisplaySpec spec, double share) {
+    const RenderedAtlas few = render(spec);
+    spec.lens->walked_count = 64;
+    const RenderedAtlas many = render(spec);
+    spec.lens->walked_count = kWalked;
+    spec.lens->gathered_count = 32;
+    const RenderedAtlas gathered = render(spec);
+    const double few_codes = differenceOf(few, many);
+    const double gathered_codes = differenceOf(gathered, many);
+    std::cout << "rms " << few_codes << " codes of few rays, " << gathered_codes << " gathered\n";
+    EXPECT_LT(gathered_codes, share * few_codes);
+  }
+};
+
+// Of 8 independent rays beside 40, noise alone would be sqrt(8 / 40) = 0.45; evenly spread as they
+// are, it is less.
+constexpr double kNoiseShare = 0.5;
+// Where much is hidden, what is assumed differs, too.
+constexpr double kAssumedShare = 0.7;
+
+TEST_F(HostLens, looksAsManyRaysFromTheSourcesPlace) {
+  ViewCamera camera;
+  camera.projection = Fov{-0.25, 0.25, 0.15, -0.15};
+  expectNearerThanFew(withLens(CamerasSpec{.cameras = {camera}, .tile_size_px = {320, 192}}),
+                      kNoiseShare);
+}
+
+TEST_F(HostLens, looksAsManyRaysInAQuilt) {
+  expectNearerThanFew(
+      withLens(QuiltSpec{.columns = 3, .rows = 2, .size_px = {484, 262}, .view_cone_rad = 0.3}),
+      kAssumedShare);
+}
+
+TEST_F(HostLens, looksAsManyRaysWhereAViewIsTurnedAndHasSteppedForward) {
+  ViewCamera camera;
+  camera.pose.position_m = {0.05, -0.02, -0.3};
+  camera.pose.orientation = glm::angleAxis(0.15, glm::normalize(glm::dvec3(0.3, 1, 2)));
+  camera.projection = Fov{-0.2, 0.15, 0.12, -0.12};
+  expectNearerThanFew(
+      withLens(CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 120}, .columns = 1}),
+      kAssumedShare);
+}
+
+// Whoever gathers which rows, and however many at once.
+TEST_F(HostLens, isTheSameInPieces) {
+  DisplaySpec spec =
+      withLens(QuiltSpec{.columns = 2, .rows = 3, .size_px = {220, 211}, .view_cone_rad = 0.2});
+  spec.lens->gathered_count = 8;
+  const auto completed = completeDisplaySpec(spec);
+  ASSERT_TRUE(completed.ok()) << completed.status();
+  const FramePtr frame = test::syntheticFrame(1, kSource_px);
+  FrameStructure structure(device(), shapesOf(*frame));
+  structure.upload(*frame);
+  StructureBuilder builder(device());
+  Timeline timeline(device());
+  CommandRecorder recorder(device());
+  structure.recordBuild(recorder.begin(), builder);
+  timeline.wait(recorder.submit(timeline));
+  const SourceFormat& source = frame->format.sources.front();
+  const SeenSource seen = seenSource(source);
+  const auto layout = makeAtlasLayout(
+      *completed, streamDefaults(source.camera.intrinsics, kSource_px, structure.stats().front()));
+  ASSERT_TRUE(layout.ok()) << layout.status();
+  const auto shared = std::make_shared<AtlasLayout>(*layout);
+  TraceJob job = makeTraceJob(shared, *completed, Pose{}, std::span(&seen, 1));
+  settleGathering(isInReach(device(), structure.firstPart().shape()), job);
+  ASSERT_TRUE(job.gathers_on_host);
+
+  const HostStructure host = hostStructure(structure.firstPart());
+  const size_t width_px = shared->size_px.width;
+  const std::vector<uint32_t> middle(shared->size_px.area(), 0xff808080);
+  const auto gatheredIn = [&](uint32_t row_count) {
+    std::vector<uint32_t> color = middle;
+    BandGatherer gatherer;
+    for (uint32_t row = 0; row < shared->size_px.height; row += row_count) {
+      const uint32_t count = std::min(row_count, shared->size_px.height - row);
+      gatherer.gather(host, job,
+                      {.rows = {row, count},
+                       .color = std::span(color).subspan(row * width_px, count * width_px),
+                       .linear = {}});
+    }
+    return color;
+  };
+  const std::vector<uint32_t> whole = gatheredIn(shared->size_px.height);
+  EXPECT_NE(whole, middle);
+  EXPECT_EQ(gatheredIn(8), whole);
+  EXPECT_EQ(gatheredIn(13), whole);
+  // As those do it who gather a strip: all rows, once.
+  uint32_t row = 0;
+  while (row < shared->size_px.height) {
+    const BandRows rest = {row, shared->size_px.height - row};
+    const BandRows piece = firstGathered(*shared, rest);
+    EXPECT_EQ(piece.first_row, row);
+    ASSERT_GT(piece.row_count, 0u);
+    row += piece.row_count;
+  }
+  EXPECT_EQ(row, shared->size_px.height);
+}
+
+// The first surface that rays of a block pass through, by small steps through the facets: none is
+// missing in the list.
+TEST_F(HostLens, listsWhateverRaysMeet) {
+  const FramePtr frame = test::syntheticFrame(1, kSource_px);
+  FrameStructure structure(device(), shapesOf(*frame));
+  structure.upload(*frame);
+  StructureBuilder builder(device());
+  Timeline timeline(device());
+  CommandRecorder recorder(device());
+  structure.recordBuild(recorder.begin(), builder);
+  timeline.wait(recorder.submit(timeline));
+  const HostStructure host = hostStructure(structure.firstPart());
+
+  const float focal_px = float(frame->format.sources.front().camera.intrinsics.focal_px.x);
+  abi::ViewParams view{};
+  view.eye = {0.06F * focal_px, -0.03F * focal_px, 0};
+  view.direction = {0, 0, 1};
+  view.direction_dx = {2, 0, 0};
+  view.direction_dy = {0, 2, 0};
+  view.lens_px_m = glm::vec2(0.01F * focal_px);  // steps of the view are two px of the source
+  view.lens_inv_focus = 0.5F;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0, 1);
+  SheetList list;
+  uint32_t met_count = 0;
+  uint32_t missing_count = 0;
+  uint32_t settled_count = 0;
+  for (float y = 0; y < 88; y += 8) {
+    for (float x = 0; x < 160; x += 8) {
+      list.find(host, view, {x, y}, {x + 8, y + 8});
+      settled_count += list.isSettled();
+      for (int ray = 0; ray < 16; ++ray) {
+        const glm::vec2 px(x + 8 * unit(random), y + 8 * unit(random));
+        const float angle = 6.2831853F * unit(random);
+        const float radius = std::sqrt(unit(random));
+        const glm::vec2 moved(view.lens_px_m.x * radius * std::cos(angle),
+                              view.lens_px_m.y * radius * std::sin(angle));
+        const glm::vec2 far = 2.0F * (px - view.lens_inv_focus * moved);
+        const glm::vec2 eye = glm::vec2(view.eye) + 2.0F * moved;
+        // Along the ray, nearest first: what it was in front of, and is behind now.
+        std::array<bool, abi::kLayerCountMax> in_front{};
+        glm::ivec2 cell_before(-1);
+        bool is_met = false;
+        constexpr int kSteps = 4000;
+        for (int step = 0; step <= kSteps && !is_met; ++step) {
+          const float inv_z = host.inv_z_max * 1.001F * float(kSteps - step) / kSteps;
+          const glm::vec2 place = far + inv_z * eye;
+          const glm::ivec2 cell(glm::floor(place));
+          if (cell.x < 0 || cell.y < 0 || cell.x >= int(kSource_px.width) ||
+              cell.y >= int(kSource_px.height)) {
+            cell_before = glm::ivec2(-1);
+            continue;
+          }
+          for (uint32_t layer = 0; layer < host.layer_count && !is_met; ++layer) {
+            const SurfaceCell facet = surfaceCell(host, layer, abi::kLevelFacets, glm::uvec2(cell));
+            const float surface = facet.is_plane ? facet.at(place - glm::vec2(cell) - 0.5F) : -1.0F;
+            const bool is_in_front = inv_z > surface;
+            const bool passes = cell == cell_before && in_front[layer] && !is_in_front;
+            in_front[layer] = is_in_front;
+            if (!passes) continue;
+            is_met = true;
+            ++met_count;
+            bool is_listed = false;
+            for (const abi::MetSheet& sheet : list.sheets()) {
+              const float off = glm::dot(sheet.plane, glm::vec3(place, 1)) - surface;
+              is_listed |= sheet.layer == layer && std::abs(off) <= 2 * list.reach();
+            }
+            missing_count += !is_listed;
+          }
+          cell_before = cell;
+        }
+      }
+    }
+  }
+  std::cout << met_count << " met, " << missing_count << " of them missing; " << settled_count
+            << " blocks settled\n";
+  EXPECT_GT(met_count, 2000u);
+  EXPECT_GT(settled_count, 20u);
+  EXPECT_LE(missing_count, met_count / 500);
+}
+
+}  // namespace
+}  // namespace viewloom
