@@ -31,14 +31,14 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
                                TraceSlot& slot) {
   // What else is wanted than colour is that of the ray through the middle of px and lens.
   const uint32_t wanted = wantedFlags(slot.shape_.outputs);
-  const bool has_middle_apart = job.hasLens() && !job.gathers_on_host && (wanted & ~abi::kWantLinear) != 0;
-  if (has_middle_apart && part.walks() && part.first_sample == 0) {
-    recordRays(commands, structures, job, rows, {.wanted = wanted & ~abi::kWantLinear}, slot);
-    recordComputeBarrier(commands);
-  }
   if (job.gathers_on_host) {
     recordRays(commands, structures, job, rows, {.wanted = wanted}, slot);
     return;
+  }
+  const bool has_middle_apart = job.hasLens() && (wanted & ~abi::kWantLinear) != 0;
+  if (has_middle_apart && part.walks() && part.first_sample == 0) {
+    recordRays(commands, structures, job, rows, {.wanted = wanted & ~abi::kWantLinear}, slot);
+    recordComputeBarrier(commands);
   }
   if (job.mayGather() && !seesThrough(*structures[0])) {
     recordLensSamples(commands, *structures[0], job, rows, part, slot);
