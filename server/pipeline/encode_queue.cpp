@@ -10,7 +10,10 @@ void EncodeQueue::push(TracedStrip strip) {
   std::unique_lock lock(mutex_);
   room_.wait(lock, [this] { return is_closed_ || strips_.size() < strip_count_max_; });
   if (is_closed_) return;
-  strips_.push_back(std::move(strip));
+  const auto later = std::find_if(strips_.begin(), strips_.end(), [&](const TracedStrip& other) {
+    return other.run->picture->gathers_on_host && goesFirst(*strip.run, *other.run);
+  });
+  strips_.insert(later, std::move(strip));
   filled_.notify_one();
 }
 
@@ -29,7 +32,10 @@ void EncodeQueue::push(SweepRunPtr sweep) {
 void EncodeQueue::resume(TracedStrip strip) {
   {
     std::lock_guard lock(mutex_);
-    strips_.push_front(std::move(strip));
+    const auto later = std::find_if(strips_.begin(), strips_.end(), [&](const TracedStrip& other) {
+      return !goesFirst(*other.run, *strip.run);
+    });
+    strips_.insert(later, std::move(strip));
   }
   filled_.notify_one();
 }

@@ -38,8 +38,8 @@ struct EncodeTask {
 };
 
 // Of several atlases the one that is due soonest goes first, of tracked displays before all others,
-// also between two parts of another; the device's strips keep their order, and go before sweeps
-// that are due no sooner.
+// also between two parts of another; the device's strips keep their order, but for those whose lens
+// is gathered part by part, and go before sweeps that are due no sooner.
 // Thread-safety: all methods may be called from any thread.
 class EncodeQueue {
  public:
@@ -48,7 +48,7 @@ class EncodeQueue {
   // Waits for room. Dropped once the queue is closed.
   void push(TracedStrip strip);
   void push(SweepRunPtr sweep);
-  // A strip that was popped, of which more is left to do: goes on before other strips.
+  // A strip that was popped, of which parts are left: goes on before strips that do not go first.
   void resume(TracedStrip strip);
   // Waits for something to do. Empty once the queue is closed and everything in it is done.
   std::optional<EncodeTask> pop();
