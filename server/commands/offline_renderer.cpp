@@ -81,7 +81,8 @@ void OfflineRenderer::gatherLens(const TraceJob& job, BandRows rows, TraceSlot& 
   const uint32_t first_row = pieces.front().first_row;
   workers_.forEach(uint32_t(pieces.size()), [&](uint32_t index, uint32_t worker) {
     const BandRows piece = pieces[index];
-    gatherers_[worker].gather(structure, job, bandOf(slot, piece, piece.first_row - first_row));
+    gatherers_[worker].gather(structure, job,
+                              bandOf(slot, *job.layout, piece, piece.first_row - first_row));
   });
 }
 

@@ -21,8 +21,8 @@ float besideOf(uint32_t point, double step) {
   return float(place - std::floor(place) - 0.5);
 }
 
-// Px that are gathered at once: about a millisecond of a core.
-constexpr uint32_t kGathered_px = 1 << 12;
+// Rays that are gathered at once, but for whole rows of blocks: about a millisecond of a core.
+constexpr uint32_t kGatheredRays = 160'000;
 
 // The first row after this one with which blocks begin.
 uint32_t nextBlockRow(const AtlasLayout& layout, uint32_t row) {
@@ -36,13 +36,23 @@ uint32_t nextBlockRow(const AtlasLayout& layout, uint32_t row) {
 // where that is little, blocks of px see all of the source.
 constexpr float kForwardMin = 0.05F;
 
+// And the most that they are moved by for a metre, px: nothing that is made of them overflows.
+constexpr float kMoved_px_max = 1e12F;
+
+bool isBounded(const abi::vec3& moved) {
+  return std::abs(moved.x) < kMoved_px_max && std::abs(moved.y) < kMoved_px_max &&
+         std::abs(moved.z) < kMoved_px_max;
+}
+
 bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
+  const abi::vec3 lens_x = view.lens_px_m.x * view.direction_dx;
+  const abi::vec3 lens_y = view.lens_px_m.y * view.direction_dy;
+  if (!isBounded(view.eye) || !isBounded(lens_x) || !isBounded(lens_y)) return false;
+  const float beside = view.lens_inv_focus * (std::abs(lens_x.z) + std::abs(lens_y.z));
   const auto isForward = [&](uint32_t x, uint32_t y) {
-    const float z =
-        view.direction.z + float(x) * view.direction_dx.z + float(y) * view.direction_dy.z;
-    const float lens = view.lens_inv_focus * (std::abs(view.lens_px_m.x * view.direction_dx.z) +
-                                              std::abs(view.lens_px_m.y * view.direction_dy.z));
-    return z - lens > kForwardMin;
+    const abi::vec3 direction =
+        view.direction + float(x) * view.direction_dx + float(y) * view.direction_dy;
+    return direction.z - beside > kForwardMin && isBounded(direction);
   };
   return isForward(0, 0) && isForward(tile_px.width, 0) && isForward(0, tile_px.height) &&
          isForward(tile_px.width, tile_px.height);
@@ -59,14 +69,15 @@ void settleGathering(bool is_in_reach, TraceJob& job) {
 
 BandRows firstGathered(const AtlasLayout& layout, BandRows rows) {
   const uint32_t end = rows.first_row + rows.row_count;
-  const uint32_t enough = std::max(kGathered_px / layout.size_px.width, 1U);
+  const uint64_t row_rays = uint64_t{layout.size_px.width} * layout.lens->pointCount();
+  const uint64_t enough = std::max<uint64_t>(kGatheredRays / row_rays, 1);
   uint32_t row = rows.first_row;
   while (row < end && row - rows.first_row < enough) row = nextBlockRow(layout, row);
   return {rows.first_row, std::min(row, end) - rows.first_row};
 }
 
-GatheredBand bandOf(TraceSlot& slot, BandRows rows, uint32_t first_row) {
-  const size_t width_px = slot.shape().width_px;
+GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, BandRows rows, uint32_t first_row) {
+  const size_t width_px = layout.size_px.width;
   const auto rowsOf = [&](auto plane, size_t per_px) {
     if (plane.empty()) return plane;
     return plane.subspan(first_row * width_px * per_px, rows.row_count * width_px * per_px);
@@ -123,6 +134,7 @@ void BandGatherer::gather(const HostStructure& structure, const TraceJob& job,
                     .end_y = inTile(end)};
     // Those that show depth have no lens.
     if (tile.view.is_used == 0 || tile.view.lens_px_m.x == 0) continue;
+    if (tile.first_y == tile.end_y) continue;
     for (uint32_t y = tile.first_y / kSide_px * kSide_px; y < tile.end_y; y += kSide_px) {
       for (uint32_t x = 0; x < tile_px.width; x += kSide_px) {
         gatherBlock(structure, job, tile, {x, y}, band);
@@ -189,7 +201,10 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
       const size_t from = inBlock(y) + x;
       if (light_.count[from] == 0) continue;  // it stays as the middle ray sees it
       const size_t to = firstOfRow(y) + x;
-      const float codes[] = {codes_.red[from], codes_.green[from], codes_.blue[from]};
+      // The fit of the curve of sRGB may be a little off both ends.
+      const auto within = [](float code) { return std::clamp(code, 0.0F, 255.0F); };
+      const float codes[] = {within(codes_.red[from]), within(codes_.green[from]),
+                             within(codes_.blue[from])};
       band.color[to] = uint32_t(codes[0] + 0.5F) | uint32_t(codes[1] + 0.5F) << 8 |
                        uint32_t(codes[2] + 0.5F) << 16 | 0xff000000;
       if (band.linear.empty()) continue;

@@ -30,9 +30,9 @@ struct GatheredBand {
   std::span<float> linear;    // float[rows][width][4], sRGB-encoded; empty where it is not wanted
 };
 
-// These rows of the atlas in the slot of a band, `first_row` rows below its first. The device is
-// done with it.
-GatheredBand bandOf(TraceSlot& slot, BandRows rows, uint32_t first_row);
+// These rows of the atlas in the slot of a band of it, `first_row` rows below its first. The device
+// is done with it.
+GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, BandRows rows, uint32_t first_row);
 
 // Keeps what a block needs on its way. Thread-safety: none; one a thread. Several may have rows of
 // one band.

@@ -92,7 +92,8 @@ bool EncodePool::gatherPiece(TracedStrip& strip, BandGatherer& gatherer) {
                          row_count - strip.gathered_rows};
   const BandRows piece = firstGathered(*run.picture->layout, rest);
   gatherer.gather(hostStructure(run.job.structure->build->walked->structure.firstPart()),
-                  *run.picture, bandOf(strip.trace->slot, piece, strip.gathered_rows));
+                  *run.picture,
+                  bandOf(strip.trace->slot, *run.picture->layout, piece, strip.gathered_rows));
   strip.gathered_rows += piece.row_count;
   return strip.gathered_rows == row_count;
 }

@@ -32,10 +32,11 @@ void EncodeQueue::push(SweepRunPtr sweep) {
 void EncodeQueue::resume(TracedStrip strip) {
   {
     std::lock_guard lock(mutex_);
-    const auto later = std::find_if(strips_.begin(), strips_.end(), [&](const TracedStrip& other) {
-      return !goesFirst(*other.run, *strip.run);
+    // Who came before those has not long to wait for them: they are packed.
+    const auto sooner = std::find_if(strips_.rbegin(), strips_.rend(), [&](const auto& other) {
+      return goesFirst(*other.run, *strip.run);
     });
-    strips_.insert(later, std::move(strip));
+    strips_.insert(sooner.base(), std::move(strip));
   }
   filled_.notify_one();
 }
@@ -70,7 +71,8 @@ std::optional<EncodeTask> EncodeQueue::take() {
 }
 
 // The sweep that the next part is of: the first that has one to hand out, or the first of others
-// if that is their turn. nullptr = a strip goes before it, or there is none.
+// if that is their turn. nullptr = a strip goes before it, or it is the turn of that, or there is
+// none.
 SweepRunPtr EncodeQueue::nextSweep() const {
   SweepRunPtr first, other;
   for (const SweepRunPtr& sweep : sweeps_) {
@@ -83,7 +85,10 @@ SweepRunPtr EncodeQueue::nextSweep() const {
   const AtlasRunPtr strip = strips_.empty() ? nullptr : strips_.front().run;
   const bool is_sweep = first && (!strip || goesFirst(*first->run(), *strip));
   const AtlasRunPtr next = is_sweep ? first->run() : strip;
-  if (other && next->isTracked() && turn_.isOver()) return other;
+  if (next && next->isTracked() && turn_.isOver()) {
+    if (other) return other;
+    if (strip && !strip->isTracked()) return nullptr;
+  }
   return is_sweep ? first : nullptr;
 }
 

@@ -44,6 +44,30 @@ TEST_F(PipelineBytesTest, doNotDependOnWhoElseWatchesOrOnTheNumberOfThreads) {
                   *one_of_many.subscriber->waitForAtlases(1).front());
 }
 
+// Memory that a wider atlas was traced in before serves narrower ones, too.
+TEST_F(PipelineBytesTest, ofALensDoNotDependOnWhatWasTracedBefore) {
+  DisplaySpec blurred = smallQuilt({400, 300});
+  blurred.lens = LensSpec{
+      .aperture_radius_m = 0.02, .focus_distance_m = 2, .walked_count = 4, .gathered_count = 16};
+  Server alone(device());
+  const Viewer single = watch(alone, blurred);
+  alone.offer(syntheticFrame(1));
+  ASSERT_THAT(single.subscriber->waitForAtlases(1), SizeIs(1));
+
+  Server shared(device());
+  DisplaySpec wide = smallQuilt({1000, 600});
+  wide.lens = blurred.lens;
+  {
+    const Viewer before = watch(shared, wide);
+    shared.offer(syntheticFrame(1));
+    ASSERT_THAT(before.subscriber->waitForAtlases(1), SizeIs(1));
+  }
+  const Viewer after = watch(shared, blurred);
+  ASSERT_THAT(after.subscriber->waitForAtlases(1), SizeIs(1));
+  expectSameBytes(*single.subscriber->waitForAtlases(1).front(),
+                  *after.subscriber->waitForAtlases(1).front());
+}
+
 // The colour of one display goes to the encoder as planes; beside another chroma, or lossless
 // colour, as RGB.
 TEST_F(PipelineBytesTest, doNotDependOnTheFormInWhichColourIsEncoded) {

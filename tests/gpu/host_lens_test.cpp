@@ -52,6 +52,9 @@ class HostLens : public ThroughLens {
     spec.lens->walked_count = kWalked;
     spec.lens->gathered_count = 32;
     const RenderedAtlas gathered = render(spec);
+    renderer_.emplace(device(), GatheringPlace::kDevice);
+    renderer_->build(*test::syntheticFrame(1, kSource_px));
+    EXPECT_NE(gathered.color, render(spec).color) << "it was the device that gathered";
     const double few_codes = differenceOf(few, many);
     const double gathered_codes = differenceOf(gathered, many);
     std::cout << "rms " << few_codes << " codes of few rays, " << gathered_codes << " gathered\n";

@@ -64,6 +64,17 @@ TEST_F(EncodeQueueTest, aStripGoesBeforePartsOfALensThatAreDueLater) {
   EXPECT_EQ(popName(), "late0");
 }
 
+TEST_F(EncodeQueueTest, aLensThatGoesOnDoesNotPassWhatIsDueSooner) {
+  push(runOf("lens", 200, true), 0);
+  EXPECT_EQ(popName(), "lens0");
+  push(runOf("late", 300, false), 0);
+  push(runOf("soon", 100, false), 0);
+  queue_.resume(std::move(popped_));
+  EXPECT_EQ(popName(), "late0");
+  EXPECT_EQ(popName(), "soon0");
+  EXPECT_EQ(popName(), "lens0");
+}
+
 TEST_F(EncodeQueueTest, whatHasBegunIsHandedOutAfterTheQueueIsClosed) {
   push(runOf("lens", 200, true), 0);
   EXPECT_EQ(popName(), "lens0");
