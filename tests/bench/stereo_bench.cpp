@@ -46,13 +46,6 @@ std::string nameOf(const std::string& head, const EyeLoad& load) {
          std::to_string(int(load.rate_hz)) + " Hz";
 }
 
-// So few px that two cores can answer all poses of so many heads.
-NamedLoad smallEyes(const std::string& head, EyeLoad load) {
-  constexpr uint32_t kShare = 4;
-  load.eye_px = {load.eye_px.width / kShare, load.eye_px.height / kShare};
-  return {nameOf(head, load) + ", small", load};
-}
-
 std::vector<NamedLoad> eyeLoads(const Arguments& arguments) {
   const uint32_t by = arguments.miniature;
   std::vector<NamedLoad> loads;
@@ -72,7 +65,6 @@ std::vector<NamedLoad> eyeLoads(const Arguments& arguments) {
     load.is_all_at_once = true;
     loads.push_back({nameOf(head, load) + ", all at once", load});
     load.is_all_at_once = false;
-    if (motion == HeadMotion::kAside) loads.push_back(smallEyes(head, load));
     load.viewer_count = 1;
     load.quilt_px = {kQuilt_px.width / by, kQuilt_px.height / by};
     loads.push_back({nameOf(head, load) + " beside a quilt", load});
