@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/band_params.h"
+
 namespace viewloom {
 namespace {
 
 constexpr uint32_t kSide_px = abi::kMetBlockSide_px;
 static_assert(kSide_px == kLensPatternSide_px, "points of a block are those of the pattern");
 
-// 0xRRGGBB as the atlas has it.
-uint32_t redFirst(uint32_t rgb) {
-  return (rgb >> 16 & 0xff) | (rgb & 0xff00) | (rgb & 0xff) << 16 | 0xff000000;
-}
+constexpr uint32_t kOpaqueBlack = 0xff000000;
 
 // As besideOf in shaders/lib/lens_rays.glsl.
 float besideOf(uint32_t point, double step) {
@@ -177,7 +176,7 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
                           .reach = list_.reach(),
                           .may_leave = list_.mayLeave(),
                           .fills_border = job.outside_fill == OutsideFill::kBorder,
-                          .background = redFirst(job.background_rgb)};
+                          .background = redFirst(job.background_rgb) | kOpaqueBlack};
   const uint32_t first_y = std::max(block_px.y, tile.first_y);
   const uint32_t end_y = std::min(end_px.y, tile.end_y);
   const auto firstOfRow = [&](uint32_t y) {
@@ -206,7 +205,7 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
       const float codes[] = {within(codes_.red[from]), within(codes_.green[from]),
                              within(codes_.blue[from])};
       band.color[to] = uint32_t(codes[0] + 0.5F) | uint32_t(codes[1] + 0.5F) << 8 |
-                       uint32_t(codes[2] + 0.5F) << 16 | 0xff000000;
+                       uint32_t(codes[2] + 0.5F) << 16 | kOpaqueBlack;
       if (band.linear.empty()) continue;
       for (size_t c = 0; c < 3; ++c) band.linear[4 * to + c] = codes[c] / 255;
     }
