@@ -32,7 +32,7 @@ void EncodeQueue::push(SweepRunPtr sweep) {
 void EncodeQueue::resume(TracedStrip strip) {
   {
     std::lock_guard lock(mutex_);
-    // Who came before those has not long to wait for them: they are packed.
+    // What stands before those goes, too: that is only packed.
     const auto sooner = std::find_if(strips_.rbegin(), strips_.rend(), [&](const auto& other) {
       return goesFirst(*other.run, *strip.run);
     });
