@@ -36,7 +36,29 @@ float sheetReach(const abi::ViewParams& view, glm::vec2 at) {
   return abi::kSheetReach_px / std::max(beside_px_m + rim_px_m, 1e-30F);
 }
 
+// What does not fit in so few sheets as there may be is looked for anew with twice the reach; even
+// where rays pass by all of a scene of which no two px lie in a plane, few rounds are needed: at
+// 2^12 times a quarter of a px, blocks see single sheets.
+constexpr int kRoundsMax = 12;
+
 }  // namespace
+
+// A rectangle of a plane.
+struct SheetList::PlanePart {
+  PlanePart(const CellAt& cell_at, const SurfaceCell& cell, const RectPx& rect)
+      : at(0.5F * (rect.low + rect.high)),
+        half_size(0.5F * (rect.high - rect.low)),
+        inv_z(cell.at(at - cell_at.center())),
+        slope(cell.slope) {}
+  // Of a facet, alone.
+  PlanePart(const CellAt& cell_at, const SurfaceCell& facet)
+      : at(cell_at.center()), inv_z(facet.inv_z), slope(facet.slope) {}
+
+  glm::vec2 at;  // the middle, px
+  glm::vec2 half_size{0};
+  float inv_z;
+  glm::vec2 slope;
+};
 
 // What a search looks at.
 struct SheetList::Search {
@@ -76,42 +98,41 @@ struct SheetList::Search {
   }
 
   // Whether the layer before has the same surface there.
-  bool isOfLayerBefore(uint32_t layer, const CellAt& at, glm::vec2 offset, float inv_z) const {
+  bool isOfLayerBefore(uint32_t layer, const CellAt& at, const PlanePart& part) const {
     if (layer == 0) return false;
     const SurfaceCell front = surfaceCell(structure, layer - 1, at.level, at.cell);
-    return front.is_plane &&
-           front.at(offset) - inv_z <= structure.connectionTolerance(front.at(offset));
+    const float inv_z = front.at(part.at - at.center());
+    return front.is_plane && inv_z - part.inv_z <= structure.connectionTolerance(inv_z);
   }
 };
 
-bool SheetList::isKnown(uint32_t layer, glm::vec2 at, float inv_z) const {
+bool SheetList::isKnown(uint32_t layer, const PlanePart& part) const {
   return std::any_of(sheets_.begin(), sheets_.begin() + count_, [&](const abi::MetSheet& sheet) {
-    return sheet.layer == layer &&
-           std::abs(glm::dot(sheet.plane, glm::vec3(at, 1)) - inv_z) <= reach_;
+    const glm::vec2 off_slope = glm::abs(glm::vec2(sheet.plane) - part.slope);
+    const float off = std::abs(glm::dot(sheet.plane, glm::vec3(part.at, 1)) - part.inv_z);
+    return sheet.layer == layer && off + glm::dot(off_slope, part.half_size) <= reach_;
   });
 }
 
-void SheetList::add(uint32_t layer, glm::vec2 at, float inv_z, glm::vec2 slope) {
+void SheetList::add(uint32_t layer, const PlanePart& part) {
   if (count_ == sheets_.size()) {
     is_too_many_ = true;
     return;
   }
-  sheets_[count_++] = {.plane = {slope, inv_z - glm::dot(slope, at)}, .layer = layer};
+  sheets_[count_++] = {.plane = {part.slope, part.inv_z - glm::dot(part.slope, part.at)},
+                       .layer = layer};
 }
 
 // Of a plane that lies there, the part that rays may meet.
 void SheetList::findPlane(const Search& search, uint32_t layer, const CellAt& at,
                           const SurfaceCell& cell, RectPx met) {
-  const glm::vec2 center = at.center();
-  glm::vec2 offset = 0.5F * (met.low + met.high) - center;
-  const float half_range = glm::dot(glm::abs(cell.slope), 0.5F * (met.high - met.low)) + cell.error;
-  met = search.metWithin(met, cell.at(offset) - half_range, cell.at(offset) + half_range);
+  const PlanePart whole(at, cell, met);
+  const float half_range = glm::dot(glm::abs(cell.slope), whole.half_size) + cell.error;
+  met = search.metWithin(met, whole.inv_z - half_range, whole.inv_z + half_range);
   if (isEmpty(met)) return;
-  offset = 0.5F * (met.low + met.high) - center;
-  const float inv_z = cell.at(offset);
-  if (isKnown(layer, center + offset, inv_z)) return;
-  if (search.isOfLayerBefore(layer, at, offset, inv_z)) return;
-  add(layer, center + offset, inv_z, cell.slope);
+  const PlanePart part(at, cell, met);
+  if (isKnown(layer, part) || search.isOfLayerBefore(layer, at, part)) return;
+  add(layer, part);
 }
 
 // Facets lie alone where their node is no plane: their slopes tell little, so they face the source.
@@ -123,17 +144,17 @@ void SheetList::findFacets(const Search& search, uint32_t layer, const RectPx& m
       const CellAt at{abi::kLevelFacets, {x, y}};
       const SurfaceCell facet = surfaceCell(search.structure, layer, at.level, at.cell);
       if (!facet.is_plane) continue;
-      const glm::vec2 center = at.center();
-      if (isKnown(layer, center, facet.inv_z)) continue;
+      const PlanePart part(at, facet);
+      if (isKnown(layer, part)) continue;
       if (isEmpty(search.metWithin(at.rect(), facet.range.x, facet.range.y))) continue;
-      if (search.isOfLayerBefore(layer, at, glm::vec2(0), facet.inv_z)) continue;
-      add(layer, center, facet.inv_z, facet.slope);
+      if (search.isOfLayerBefore(layer, at, part)) continue;
+      add(layer, part);
     }
   }
 }
 
-// Nodes that no ray may meet are passed over, whole planes become sheets, and boxes are looked
-// into.
+// Nodes that no ray may meet are passed over, planes whose facets are all within reach become
+// sheets, and others are looked into, as boxes are.
 void SheetList::findIn(const Search& search, uint32_t layer) {
   CellAt at{abi::kLevelLast, search.first_root};
   do {
@@ -141,7 +162,7 @@ void SheetList::findIn(const Search& search, uint32_t layer) {
       const SurfaceCell cell = surfaceCell(search.structure, layer, at.level, at.cell);
       const RectPx met = search.metWithin(at.rect(), cell.range.x, cell.range.y);
       if (isEmpty(met) || cell.range.y < 0) break;
-      if (cell.is_plane)
+      if (cell.is_plane && cell.error <= reach_)
         findPlane(search, layer, at, cell, met);
       else if (at.level == abi::kLevelFirst)
         findFacets(search, layer, met);
@@ -174,9 +195,8 @@ bool SheetList::isEverywhere(Search& search, float inv_z_near) const {
       const RectPx part = common(at.rect(), met);
       if (isEmpty(part)) break;
       const SurfaceCell cell = surfaceCell(search.structure, 0, at.level, at.cell);
-      const glm::vec2 center = 0.5F * (part.low + part.high);
-      if (cell.is_plane) {
-        if (!isKnown(0, center, cell.at(center - at.center()))) return false;
+      if (cell.is_plane && cell.error <= reach_) {
+        if (!isKnown(0, PlanePart(at, cell, part))) return false;
         break;
       }
       if (cell.range.y < 0) return false;
@@ -195,8 +215,9 @@ bool SheetList::hasOnlyKnown(const Search& search, const RectPx& part) const {
   const glm::uvec2 end(glm::ceil(part.high));
   for (uint32_t y = first.y; y < end.y; ++y) {
     for (uint32_t x = first.x; x < end.x; ++x) {
-      const SurfaceCell facet = surfaceCell(search.structure, 0, abi::kLevelFacets, {x, y});
-      if (!facet.is_plane || !isKnown(0, glm::vec2(x, y) + 0.5F, facet.inv_z)) return false;
+      const CellAt at{abi::kLevelFacets, {x, y}};
+      const SurfaceCell facet = surfaceCell(search.structure, 0, at.level, at.cell);
+      if (!facet.is_plane || !isKnown(0, PlanePart(at, facet))) return false;
     }
   }
   return true;
@@ -204,9 +225,6 @@ bool SheetList::hasOnlyKnown(const Search& search, const RectPx& part) const {
 
 void SheetList::find(const HostStructure& structure, const abi::ViewParams& view, glm::vec2 low_px,
                      glm::vec2 high_px) {
-  count_ = 0;
-  is_too_many_ = false;
-  is_settled_ = false;
   const float inv_z_near = std::max(structure.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   const Beam beam(view, low_px, high_px, inv_z_near);
   const glm::vec2 size_px(structure.size_px.width, structure.size_px.height);
@@ -217,7 +235,17 @@ void SheetList::find(const HostStructure& structure, const abi::ViewParams& view
   const RectPx whole = beam.rectOver(0, inv_z_near);
   may_leave_ = !isWithin(whole, search.image);
   search.aimAt(whole);
-  for (uint32_t layer = 0; layer < structure.layer_count && !is_too_many_; ++layer) {
+  for (int round = 0; round < kRoundsMax; ++round, reach_ *= 2) {
+    findAll(search, inv_z_near);
+    if (!is_too_many_) break;
+  }
+}
+
+void SheetList::findAll(Search& search, float inv_z_near) {
+  count_ = 0;
+  is_too_many_ = false;
+  is_settled_ = false;
+  for (uint32_t layer = 0; layer < search.structure.layer_count && !is_too_many_; ++layer) {
     findIn(search, layer);
     // Nothing behind it is seen.
     is_settled_ = layer == 0 && count_ == 1 && isEverywhere(search, inv_z_near);

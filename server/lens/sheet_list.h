@@ -25,8 +25,6 @@ class SheetList {
 
   // In the order in which they were found.
   std::span<const abi::MetSheet> sheets() const { return {sheets_.data(), count_}; }
-  // There are more than kMetSheetMax.
-  bool isTooMany() const { return is_too_many_; }
   // 1/m: surfaces that lie no further off a sheet are those that it stands for.
   float reach() const { return reach_; }
   // Some rays pass beyond the image.
@@ -35,16 +33,18 @@ class SheetList {
   bool isSettled() const { return is_settled_; }
 
  private:
+  struct PlanePart;
   struct Search;
 
+  void findAll(Search& search, float inv_z_near);
   void findIn(const Search& search, uint32_t layer);
   void findPlane(const Search& search, uint32_t layer, const CellAt& at, const SurfaceCell& cell,
                  RectPx met);
   void findFacets(const Search& search, uint32_t layer, const RectPx& met);
   bool isEverywhere(Search& search, float inv_z_near) const;
   bool hasOnlyKnown(const Search& search, const RectPx& part) const;
-  bool isKnown(uint32_t layer, glm::vec2 at, float inv_z) const;
-  void add(uint32_t layer, glm::vec2 at, float inv_z, glm::vec2 slope);
+  bool isKnown(uint32_t layer, const PlanePart& part) const;
+  void add(uint32_t layer, const PlanePart& part);
 
   std::array<abi::MetSheet, 32> sheets_;
   uint32_t count_ = 0;
