@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/light_of_codes.h"
+#include "lens/open_rays.h"
 #include "trace/band_params.h"
 
 namespace viewloom {
@@ -55,6 +57,14 @@ bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
   };
   return isForward(0, 0) && isForward(tile_px.width, 0) && isForward(0, tile_px.height) &&
          isForward(tile_px.width, tile_px.height);
+}
+
+void addLight(uint32_t texel, float count, uint32_t p, BlockLight& light) {
+  const std::array<float, 256>& of_codes = lightOfCodes();
+  light.red[p] += count * of_codes[texel & 255];
+  light.green[p] += count * of_codes[texel >> 8 & 255];
+  light.blue[p] += count * of_codes[texel >> 16 & 255];
+  light.count[p] += count;
 }
 
 }  // namespace
@@ -146,18 +156,45 @@ void BandGatherer::gather(const HostStructure& structure, const TraceJob& job,
 void BandGatherer::gatherRays(GatheredRays rays, uint32_t first_count) {
   const std::span<const LensPoint> points = rays.points;
   rays.points = points.first(first_count);
-  const MetSheets met = gatherOnSheets(rays, fallback_, light_);
+  open_.clear();
+  MetSheets met = gatherOnSheets(rays, light_, &open_);
+  guess(rays);
   met_.clear();
   for (size_t i = 0; i < rays.sheets.size(); ++i) {
     if ((met.sheets >> i & 1) != 0) met_.push_back(rays.sheets[i]);
   }
   rays.points = points.subspan(first_count);
+  if (!met_.empty()) rays.sheets = met_;
   if (met_.size() == 1 && met.is_all) {
-    rays.sheets = met_;
     gatherOnSheet(rays, light_);
   } else {
-    if (!met_.empty()) rays.sheets = met_;
-    gatherOnSheets(rays, fallback_, light_);
+    const MetSheets of_others = gatherOnSheets(rays, light_, nullptr);
+    for (size_t p = 0; p < kBlockArea_px; ++p) met.open_count[p] += of_others.open_count[p];
+  }
+  addGuesses(met.open_count);
+}
+
+// What is looked for along every open ray of the first stage serves those of the second.
+void BandGatherer::guess(const GatheredRays& rays) {
+  guesses_ = {};
+  for (const OpenRay& open : open_) {
+    const int32_t texel = guessSeen(rays, open);
+    addLight(texel < 0 ? middle_[open.px] : rays.structure.color[texel], 1, open.px, guesses_);
+  }
+}
+
+void BandGatherer::addGuesses(const OfBlock& open_count) {
+  for (uint32_t p = 0; p < kBlockArea_px; ++p) {
+    if (open_count[p] == 0) continue;
+    if (guesses_.count[p] == 0) {
+      addLight(middle_[p], open_count[p], p, light_);
+      continue;
+    }
+    const float share = open_count[p] / guesses_.count[p];
+    light_.red[p] += share * guesses_.red[p];
+    light_.green[p] += share * guesses_.green[p];
+    light_.blue[p] += share * guesses_.blue[p];
+    light_.count[p] += open_count[p];
   }
 }
 
@@ -188,9 +225,9 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
   if (list_.isSettled()) {
     gatherOnSheet(rays, light_);
   } else {
-    fallback_.fill(0);
+    middle_.fill(0);
     for (uint32_t y = first_y; y < end_y; ++y) {
-      std::copy_n(&band.color[firstOfRow(y)], width, &fallback_[inBlock(y)]);
+      std::copy_n(&band.color[firstOfRow(y)], width, &middle_[inBlock(y)]);
     }
     gatherRays(rays, layout.lens->walked_count);
   }
@@ -198,8 +235,10 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
   for (uint32_t y = first_y; y < end_y; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
       const size_t from = inBlock(y) + x;
-      if (light_.count[from] == 0) continue;  // it stays as the middle ray sees it
       const size_t to = firstOfRow(y) + x;
+      const bool is_guessed = (band.color[to] & kOpaqueBlack) == 0;
+      band.color[to] |= kOpaqueBlack;
+      if (is_guessed || light_.count[from] == 0) continue;  // it stays as it was walked
       // The fit of the curve of sRGB may be a little off both ends.
       const auto within = [](float code) { return std::clamp(code, 0.0F, 255.0F); };
       const float codes[] = {within(codes_.red[from]), within(codes_.green[from]),

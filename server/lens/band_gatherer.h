@@ -47,13 +47,17 @@ class BandGatherer {
 
   void takePoints(const AtlasLayout& layout);
   void gatherRays(GatheredRays rays, uint32_t first_count);
+  void guess(const GatheredRays& rays);
+  void addGuesses(const OfBlock& open_count);
   void gatherBlock(const HostStructure& structure, const TraceJob& job, const Tile& tile,
                    glm::uvec2 block_px, const GatheredBand& band);
 
   std::vector<LensPoint> points_;
   SheetList list_;
-  std::vector<abi::MetSheet> met_;  // of them, what rays have met
-  std::array<uint32_t, kBlockArea_px> fallback_;
+  std::vector<abi::MetSheet> met_;              // of them, what rays have met
+  std::array<uint32_t, kBlockArea_px> middle_;  // what the middle rays of the px see
+  std::vector<OpenRay> open_;
+  BlockLight guesses_;
   BlockLight light_;
   BlockCodes codes_;
 };

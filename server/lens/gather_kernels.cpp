@@ -146,35 +146,47 @@ HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met,
   }
 }
 
-// What a ray sees: the texel of what it met, or of what it is taken to see instead.
-HWY_INLINE WordVec seenTexel(const GatheredRays& rays, const Nearest& nearest,
-                             const OfPx<uint32_t>& texels,
-                             const std::array<uint32_t, kBlockArea_px>& fallback, size_t p) {
-  const IntVec place = hn::Load(kInts, nearest.texels.at + p);
-  const auto is = [&](int32_t value) {
-    return hn::RebindMask(kWords, hn::Eq(place, hn::Set(kInts, value)));
-  };
-  const WordVec met = hn::Load(kWords, texels.at + p);
-  const WordVec known = hn::IfThenElse(is(kBackground), hn::Set(kWords, rays.background), met);
-  return hn::IfThenElse(is(kNothing), hn::LoadU(kWords, fallback.data() + p), known);
-}
+// Of the rays of any point, by lanes.
+struct MetWords {
+  WordVec sheets;  // bits of those that were met
+  WordVec none;  // all bits where one met none within the image, or at its border, if that goes on
+};
 
-// Adds the bits of the sheets that rays met, and all bits where one met none within the image, or
-// at its border, if that goes on.
-HWY_INLINE void noteMet(const GatheredRays& rays, const Nearest& nearest, size_t p,
-                        WordVec& met_sheets, WordVec& met_none) {
+HWY_INLINE void noteMet(const GatheredRays& rays, const Nearest& nearest, size_t p, MetWords& met) {
   const Vec inv_z = loadPx(nearest.inv_z, p);
   const auto isFrom = [&](float least) {
     return hn::RebindMask(kWords, hn::Ge(inv_z, set(least)));
   };
   const WordVec bit = hn::Load(kWords, reinterpret_cast<const uint32_t*>(nearest.sheets.at) + p);
-  met_sheets = hn::Or(met_sheets, hn::IfThenElseZero(isFrom(kInvZBeyond), bit));
+  met.sheets = hn::Or(met.sheets, hn::IfThenElseZero(isFrom(kInvZBeyond), bit));
   const auto is_met = isFrom(rays.fills_border ? kInvZBeyond : 0.0F);
-  met_none = hn::Or(met_none, hn::VecFromMask(kWords, hn::Not(is_met)));
+  met.none = hn::Or(met.none, hn::VecFromMask(kWords, hn::Not(is_met)));
 }
 
-MetSheets GatherOnSheets(const GatheredRays& rays,
-                         const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light) {
+// Adds the light of what the rays of a point met.
+HWY_INLINE void addMet(const GatheredRays& rays, const Nearest& nearest,
+                       const OfPx<uint32_t>& texels, BlockLight& light) {
+  for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
+    const IntVec place = hn::Load(kInts, nearest.texels.at + p);
+    const auto is = [&](int32_t value) { return hn::Eq(place, hn::Set(kInts, value)); };
+    const WordVec texel =
+        hn::IfThenElse(hn::RebindMask(kWords, is(kBackground)), hn::Set(kWords, rays.background),
+                       hn::Load(kWords, texels.at + p));
+    const Mask is_met = hn::Not(hn::RebindMask(kFloats, is(kNothing)));
+    add(light, p, lightOfThose(is_met, texel), hn::IfThenElseZero(is_met, set(1)));
+  }
+}
+
+HWY_INLINE void noteOpen(const Nearest& nearest, uint32_t point, OfBlock& count,
+                         std::vector<OpenRay>* open) {
+  for (uint32_t p = 0; p < kBlockArea_px; ++p) {
+    if (nearest.texels.at[p] != kNothing) continue;
+    ++count[p];
+    if (open) open->push_back({p, point});
+  }
+}
+
+MetSheets GatherOnSheets(const GatheredRays& rays, BlockLight& light, std::vector<OpenRay>* open) {
   const HostStructure& structure = rays.structure;
   const Directions directions(rays);
   const Image image(structure.size_px);
@@ -184,10 +196,10 @@ MetSheets GatherOnSheets(const GatheredRays& rays,
   OfPx<uint64_t> facets;
   IntOfPx indices;
   OfPx<uint32_t> texels;
-  WordVec met_sheets = hn::Zero(kWords);
-  WordVec met_none = hn::Zero(kWords);
-  for (const LensPoint& point : rays.points) {
-    raysOf(rays.view, directions, point, lens_rays);
+  MetWords met_words{hn::Zero(kWords), hn::Zero(kWords)};
+  MetSheets result;
+  for (uint32_t point = 0; point < rays.points.size(); ++point) {
+    raysOf(rays.view, directions, rays.points[point], lens_rays);
     beginPoint(nearest);
     for (size_t i = 0; i < rays.sheets.size(); ++i) {
       const abi::MetSheet& sheet = rays.sheets[i];
@@ -199,21 +211,20 @@ MetSheets GatherOnSheets(const GatheredRays& rays,
       // Facets beside those that a sheet stands for may lie as far off once more.
       compareFacets(facets, met, 2 * rays.reach, rays.may_leave, int32_t(1U << i), nearest);
     }
+    bool is_some_open = false;
     for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
       const IntVec texel = hn::Load(kInts, nearest.texels.at + p);
       hn::Store(hn::Max(texel, hn::Zero(kInts)), kInts, indices.at + p);
+      is_some_open |= !hn::AllFalse(kInts, hn::Eq(texel, hn::Set(kInts, kNothing)));
+      noteMet(rays, nearest, p, met_words);
     }
     fetch(structure.color, indices, texels);
-    for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
-      const WordVec texel = seenTexel(rays, nearest, texels, fallback, p);
-      add(light, p, lightOf(texel), set(1));
-      noteMet(rays, nearest, p, met_sheets, met_none);
-    }
+    addMet(rays, nearest, texels, light);
+    if (is_some_open) noteOpen(nearest, point, result.open_count, open);
   }
-  MetSheets result;
   for (size_t lane = 0; lane < hn::Lanes(kFloats); ++lane) {
-    result.sheets |= hn::ExtractLane(met_sheets, lane);
-    result.is_all &= hn::ExtractLane(met_none, lane) == 0;
+    result.sheets |= hn::ExtractLane(met_words.sheets, lane);
+    result.is_all &= hn::ExtractLane(met_words.none, lane) == 0;
   }
   return result;
 }
@@ -232,9 +243,8 @@ void gatherOnSheet(const GatheredRays& rays, BlockLight& light) {
   HWY_DYNAMIC_DISPATCH(GatherOnSheet)(rays, light);
 }
 
-MetSheets gatherOnSheets(const GatheredRays& rays,
-                         const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light) {
-  return HWY_DYNAMIC_DISPATCH(GatherOnSheets)(rays, fallback, light);
+MetSheets gatherOnSheets(const GatheredRays& rays, BlockLight& light, std::vector<OpenRay>* open) {
+  return HWY_DYNAMIC_DISPATCH(GatherOnSheets)(rays, light, open);
 }
 
 void meanOf(const BlockLight& light, BlockCodes& codes) {

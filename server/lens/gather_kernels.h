@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "lens/host_structure.h"
 #include "shared/lens_abi.h"
@@ -55,17 +56,23 @@ struct BlockCodes {
 // border, or is left out if that does not go on.
 void gatherOnSheet(const GatheredRays& rays, BlockLight& light);
 
+// A ray that met no sheet.
+struct OpenRay {
+  uint32_t px = 0;     // of the block
+  uint32_t point = 0;  // of the points
+};
+
 // What rays met.
 struct MetSheets {
-  uint32_t sheets = 0;  // bit i: sheet i
-  bool is_all = true;   // every ray met one, or the image's border if that goes on
+  uint32_t sheets = 0;   // bit i: sheet i
+  bool is_all = true;    // every ray met one, or the image's border if that goes on
+  OfBlock open_count{};  // rays that met none, and added nothing
 };
 
 // Adds rays that meet the nearest facet of those that are within the reach of a sheet where they
-// meet that. One that meets none is taken to see what the px has in `fallback`, red in the low
-// byte; but if it meets a sheet beyond the image, what is there.
-MetSheets gatherOnSheets(const GatheredRays& rays,
-                         const std::array<uint32_t, kBlockArea_px>& fallback, BlockLight& light);
+// meet that; of a ray that meets a sheet beyond the image, what is there. `open`, if it is given,
+// gets those that meet neither.
+MetSheets gatherOnSheets(const GatheredRays& rays, BlockLight& light, std::vector<OpenRay>* open);
 
 // The mean of all rays.
 void meanOf(const BlockLight& light, BlockCodes& codes);

@@ -5,23 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/light_of_codes.h"
+
 namespace viewloom {
 namespace {
-
-// IEC 61966-2-1.
-float lightOfCode(int code) {
-  const double srgb = code / 255.0;
-  return float(srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4));
-}
-
-const std::array<float, 256>& lightOfCodes() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> light;
-    for (int code = 0; code < 256; ++code) light[size_t(code)] = lightOfCode(code);
-    return light;
-  }();
-  return table;
-}
 
 // Steps of the root of light that are told apart. From code to code there are 18 or more, so that a
 // mean is off by half a code and an eighteenth of that at most.

@@ -22,7 +22,7 @@ namespace viewloom {
 struct MetTarget {
   const Buffer& met;         // of each ray: uint32_t[sample][row][width]
   const Buffer& lists;       // of metListsBytes()
-  const Buffer& incomplete;  // of incompleteBytes()
+  const Buffer& incomplete;  // abi::IncompleteHead, and room for all blocks
 };
 
 // What is read and written beside the structure.

@@ -40,8 +40,9 @@ uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max) {
          sizeof(abi::MetList);
 }
 
-uint64_t incompleteBytes(uint64_t lists_bytes) {
-  return sizeof(abi::IncompleteHead) + lists_bytes / sizeof(abi::MetList) * sizeof(uint32_t);
+uint64_t incompleteCount(const TraceJob& job, uint32_t row_count_max) {
+  if (job.gathers_on_host) return uint64_t{job.layout->size_px.width} * row_count_max;
+  return job.mayGather() ? metListsBytes(*job.layout, row_count_max) / sizeof(abi::MetList) : 0;
 }
 
 MetRound metRound(uint32_t sample, uint32_t sample_count) {

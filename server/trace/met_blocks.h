@@ -17,8 +17,8 @@ struct MetBlocks {
 MetBlocks metBlocks(const AtlasLayout& layout, BandRows rows);
 // Bytes of the lists of a band with so many rows, wherever it begins.
 uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max);
-// Of the list of those of them that are not complete.
-uint64_t incompleteBytes(uint64_t lists_bytes);
+// What may be listed as incomplete: blocks where the device gathers a lens, px where the host does.
+uint64_t incompleteCount(const TraceJob& job, uint32_t row_count_max);
 
 // The walked rays of each px come in rounds [first, end), after each of which blocks are looked at:
 // those that are complete have no more. Each round is as many as all before it: what they have not

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rays of each px: one, or several whose light is averaged.
 #include "gpu/barrier.h"
+#include "shared/lens_abi.h"
 #include "trace/band_params.h"
 #include "trace/view_tracer.h"
 
@@ -32,7 +33,7 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
   // What else is wanted than colour is that of the ray through the middle of px and lens.
   const uint32_t wanted = wantedFlags(slot.shape_.outputs);
   if (job.gathers_on_host) {
-    recordRays(commands, structures, job, rows, {.wanted = wanted}, slot);
+    recordMiddleRays(commands, structures, job, rows, wanted, slot);
     return;
   }
   const bool has_middle_apart = job.hasLens() && (wanted & ~abi::kWantLinear) != 0;
@@ -65,6 +66,22 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
     if (job.sumsLight() && !job.reflects())
       blender_.record(commands, blended, job.layout->samples, sample);
   }
+}
+
+// Of a lens that the host gathers. What a middle ray is taken to see that ends behind something
+// would be as sharp as without a lens: there the rays of the first stage are walked.
+void ViewTracer::recordMiddleRays(vk::CommandBuffer commands,
+                                  std::span<const StructureSlot* const> structures,
+                                  const TraceJob& job, BandRows rows, uint32_t wanted,
+                                  TraceSlot& slot) {
+  const abi::IncompleteHead none{.group_count = {0, 1, 1}, .count = 0};
+  commands.updateBuffer<abi::IncompleteHead>(slot.incomplete_.handle(), 0, none);
+  recordTransferToCompute(commands);
+  recordRays(commands, structures, job, rows, {.wanted = wanted, .lists_hidden = true}, slot);
+  recordComputeBarrier(commands);
+  const uint32_t count = job.layout->lens->walked_count;
+  recordRays(commands, structures, job, rows,
+             {.wanted = wanted & abi::kWantLinear, .count_of_hidden = count}, slot);
 }
 
 // Rays that are walked add their light, and leave what they met: blocks where a round of them met

@@ -59,8 +59,8 @@ bool TraceSlotShape::holds(const TraceSlotShape& other) const {
          tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
          sample_count >= other.sample_count && lens_point_count >= other.lens_point_count &&
          sums_light >= other.sums_light && met_count >= other.met_count &&
-         met_lists_bytes >= other.met_lists_bytes && outputs == other.outputs &&
-         (reflects || !other.reflects);
+         met_lists_bytes >= other.met_lists_bytes && incomplete_count >= other.incomplete_count &&
+         outputs == other.outputs && (reflects || !other.reflects);
 }
 
 void TraceSlotShape::include(const TraceSlotShape& other) {
@@ -73,6 +73,7 @@ void TraceSlotShape::include(const TraceSlotShape& other) {
   sums_light = sums_light || other.sums_light;
   met_count = std::max(met_count, other.met_count);
   met_lists_bytes = std::max(met_lists_bytes, other.met_lists_bytes);
+  incomplete_count = std::max(incomplete_count, other.incomplete_count);
   reflects = reflects || other.reflects;
 }
 
@@ -87,6 +88,7 @@ TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const Trac
           .sums_light = job.sumsLight(),
           .met_count = job.mayGather() ? job.sample_count : 0,
           .met_lists_bytes = job.mayGather() ? metListsBytes(layout, row_count_max) : 0,
+          .incomplete_count = incompleteCount(job, row_count_max),
           .outputs = outputs,
           .reflects = job.reflects()};
 }
@@ -179,8 +181,11 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
                            .debug_name = "met surfaces"});
     met_lists_ =
         Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
-    incomplete_ = Buffer(device, {.size_bytes = incompleteBytes(shape.met_lists_bytes),
-                                  .debug_name = "incomplete blocks"});
+  }
+  if (shape.incomplete_count > 0) {
+    incomplete_ = Buffer(device, {.size_bytes = sizeof(abi::IncompleteHead) +
+                                                shape.incomplete_count * sizeof(uint32_t),
+                                  .debug_name = "incomplete"});
   }
   if (shape.reflects) addReflections(device, area_px);
 }

@@ -22,8 +22,9 @@ struct TraceSlotShape {
   uint32_t sample_count = 1;
   uint32_t lens_point_count = 0;  // of all px of the pattern
   bool sums_light = false;
-  uint32_t met_count = 0;        // rays a px of which it is kept what they met
-  uint64_t met_lists_bytes = 0;  // 0 = no second stage of a lens
+  uint32_t met_count = 0;         // rays a px of which it is kept what they met
+  uint64_t met_lists_bytes = 0;   // 0 = no second stage of a lens on the device
+  uint64_t incomplete_count = 0;  // blocks or px that may be walked further
   TraceOutputs outputs;
   bool reflects = false;  // TraceJob::reflects
 
@@ -87,10 +88,10 @@ class TraceSlot {
   std::span<const uint32_t> color() const;  // uint32_t[rows][width]: R, G, B, 255 in memory order
   std::span<uint32_t> mutableColor();
   std::span<float> mutableLinear();
-  std::span<const uint8_t> ycbcr() const;   // as YcbcrLayout of the band
-  std::span<const float> depth() const;     // float[rows][width], 1/m
-  std::span<const uint8_t> mask() const;    // uint8_t[rows][width], RayClass
-  std::span<const float> linear() const;    // float[rows][width][4], sRGB-encoded
+  std::span<const uint8_t> ycbcr() const;  // as YcbcrLayout of the band
+  std::span<const float> depth() const;    // float[rows][width], 1/m
+  std::span<const uint8_t> mask() const;   // uint8_t[rows][width], RayClass
+  std::span<const float> linear() const;   // float[rows][width][4], sRGB-encoded
   std::span<const abi::RayRecord> records() const;
   Coverage coverage() const;
   ReflectionCounts reflections() const;
@@ -143,7 +144,7 @@ class TraceSlot {
   Buffer sums_;     // light of those before it
   Buffer met_;      // what rays through a lens met
   Buffer met_lists_;
-  Buffer incomplete_;  // blocks of px
+  Buffer incomplete_;  // abi::IncompleteHead
   Buffer hits_;        // abi::RayRecord, where reflections begin; empty where records_ has them
   Buffer reflection_settings_;  // of each walk
   Buffer paths_;                // abi::ReflectedPath, of several walks

@@ -110,7 +110,9 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.rays,
                                   variant.shown_beside,
                                   variant.through_lens,
-                                  variant.is_of_blocks};
+                                  variant.is_of_blocks,
+                                  variant.lists_hidden,
+                                  variant.rays_of_hidden};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -237,7 +239,9 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
             .rays = raySourceOf(layout),
             .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job),
             .through_lens = walk.rays.through_lens,
-            .is_of_blocks = walk.rays.is_of_blocks});
+            .is_of_blocks = walk.rays.is_of_blocks,
+            .lists_hidden = walk.rays.lists_hidden,
+            .rays_of_hidden = walk.rays.count_of_hidden});
   std::vector<Descriptor> descriptors =
       describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
   for (const Descriptor& descriptor :
@@ -250,11 +254,12 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   }
   const bool sums = (walk.rays.wanted & abi::kWantSum) != 0;
   descriptors.push_back(usedOr(abi::kBindingSums, sums, walk.slot.sums_, walk.target));
-  descriptors.push_back(
-      usedOr(abi::kBindingIncomplete, walk.rays.is_of_blocks, walk.slot.incomplete_, walk.target));
+  const bool is_indirect = walk.rays.is_of_blocks || walk.rays.count_of_hidden > 0;
+  descriptors.push_back(usedOr(abi::kBindingIncomplete, is_indirect || walk.rays.lists_hidden,
+                               walk.slot.incomplete_, walk.target));
   walk_views.recordDescriptors(commands, descriptors);
   const abi::TracePush push = describeBand(walk, color.texels, rows);
-  if (walk.rays.is_of_blocks) {
+  if (is_indirect) {
     walk_views.recordIndirect(commands, push, walk.slot.incomplete_,
                               offsetof(abi::IncompleteHead, group_count));
   } else {

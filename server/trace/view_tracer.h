@@ -66,6 +66,8 @@ class ViewTracer {
     uint32_t shown_beside;  // abi::kShows... flags that some tile has
     uint32_t through_lens;
     uint32_t is_of_blocks;
+    uint32_t lists_hidden;
+    uint32_t rays_of_hidden;
 
     auto operator<=>(const Variant&) const = default;
   };
@@ -76,6 +78,9 @@ class ViewTracer {
     bool through_lens = false;
     uint32_t wanted = 0;        // abi::kWant... flags
     bool is_of_blocks = false;  // of px in blocks that are not complete alone
+    bool lists_hidden = false;  // px whose ray ends behind something
+    // Not 0: the mean of so many rays through the lens, of px that are listed alone; alpha 0.
+    uint32_t count_of_hidden = 0;
   };
 
   // One of the walks of a job, and where its answers go.
@@ -119,6 +124,9 @@ class ViewTracer {
   void endBand(vk::CommandBuffer commands, TraceSlot& slot);
   void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
                      const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
+  void recordMiddleRays(vk::CommandBuffer commands,
+                        std::span<const StructureSlot* const> structures, const TraceJob& job,
+                        BandRows rows, uint32_t wanted, TraceSlot& slot);
   void recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
                          const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
   uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,

@@ -23,6 +23,12 @@ void storeCodes(uint index, vec3 codes) {
   }
 }
 
+// Alpha 0 says that what the px shows is hidden.
+void storeHidden(uint index, vec3 codes) {
+  storeCodes(index, codes);
+  band[index] = packCodes(codes) & ~kOpaqueCode;
+}
+
 void storeColor(uint index, Seen seen) {
   storeCodes(index, codesOfBlend(seen.color));
 }

@@ -54,7 +54,7 @@ Task taskOfRow() {
 Task taskOfBlock() {
   const BlockGrid grid = gridOf(push);
   const uint entry = gl_GlobalInvocationID.x / kMetBlockSide_px;
-  const uint list = entry < incomplete.count ? incomplete_blocks[entry] : 0u;
+  const uint list = entry < incomplete.count ? incomplete_list[entry] : 0u;
   const uint per_row = blocksPerRow(grid);
   const uvec2 at_block = uvec2(list % per_row, list / per_row);
   const uvec2 tile = tileOfBlock(grid, at_block);

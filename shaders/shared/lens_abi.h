@@ -56,11 +56,11 @@ VIEWLOOM_ABI_CONST uint kMetSeesAssumed = 4u;     // some ray, without having me
 // It is settled, or a round of rays met nothing new: no more are walked.
 VIEWLOOM_ABI_CONST uint kMetComplete = 8u;
 
-// The blocks of a band that are not complete, and how many groups of kTraceGroupSize invocations it
-// takes for one of each of their rows.
+// What of a band is not complete, and how many groups of kTraceGroupSize invocations that takes: of
+// blocks one for each of their rows, of px one each.
 struct IncompleteHead {
   uvec3 group_count;
-  uint count;  // of the uints that follow: places of blocks in the lists
+  uint count;  // of the uints that follow: places of blocks in the lists, or of px in the band
 };
 
 // In place of a surface: nothing, and what is assumed where rays pass behind what is known.

@@ -32,8 +32,12 @@ layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kSho
 layout(constant_id = kOwnConstants + 11u) const bool kThroughLens = false;
 // Of blocks that are not complete alone, an invocation a row of a block.
 layout(constant_id = kOwnConstants + 12u) const bool kIsOfBlocks = false;
+// Px whose ray ends behind something are listed.
+layout(constant_id = kOwnConstants + 13u) const bool kListsHidden = false;
+// Not 0: of such px alone, an invocation each, the mean of so many rays through a lens; alpha 0.
+layout(constant_id = kOwnConstants + 14u) const uint kRaysOfHidden = 0u;
 // Each px has an eye of its own, or several.
-const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens;
+const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens || kRaysOfHidden > 0u;
 const bool kIsLayered = kColorFormat == kColorRgba16f;
 const bool kLooksBehind = (kShownBeside & kShowsBehind) != 0u;
 const bool kSeesThrough = kIsLayered || kLooksBehind;
@@ -67,15 +71,16 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 layout(set = 0, binding = kBindingSums, scalar) buffer Sums {
   vec3 sums[];
 };
-layout(set = 0, binding = kBindingIncomplete, scalar) readonly buffer Incomplete {
+layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
   IncompleteHead incomplete;
-  uint incomplete_blocks[];
+  uint incomplete_list[];
 };
 
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
 #include "lib/edge_blend.glsl"
 #include "lib/face_ray.glsl"
+#include "lib/px_bits.glsl"
 #include "lib/pushed_scene.glsl"
 #include "lib/px_view.glsl"
 #include "lib/ray_answer.glsl"
@@ -131,21 +136,12 @@ struct Traced {
   FaceStretch stretch;  // of a face of a cube map
 };
 
-Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
-                  vec3 background) {
+// The ray of a place of a tile, from the view's eye. `bound`: of where it may start.
+Traced traceRay(Scene scene, ViewParams view, vec2 tile_px, vec3 near_eye, float bound,
+                vec3 background) {
   Traced traced;
-  const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
-  traced.is_used = aim.is_used;
-  view = viewOfPx(view, aim, uvec2(run.first_x + i, uint(run.tile_y)));
-  if (kHasOwnEyes) {
-    if (kEyesInPlane) view.eye.z = 0.0;
-    near_eye = view.eye * scene.inv_z_near;
-  }
   traced.view = view;
-  traced.direction = rayDirection(view, aim.tile_px);
-  if (kHasOwnEyes) {
-    bound = boundBetween(scene, near_eye, traced.direction, traced.direction);
-  }
+  traced.direction = rayDirection(view, tile_px);
   const vec2 size_px = vec2(scene.extent.size_px);
   const Ray ray =
       kIsCubeFace ? makeFaceRay(near_eye, traced.direction, size_px, scene.inv_z_near,
@@ -168,8 +164,60 @@ Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, 
   return traced;
 }
 
+// From an eye that no other ray has.
+Traced traceFromOwnEye(Scene scene, ViewParams view, vec2 tile_px, vec3 background) {
+  if (kEyesInPlane) view.eye.z = 0.0;
+  const vec3 near_eye = view.eye * scene.inv_z_near;
+  const vec3 direction = rayDirection(view, tile_px);
+  const float bound = boundBetween(scene, near_eye, direction, direction);
+  return traceRay(scene, view, tile_px, near_eye, bound, background);
+}
+
+Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
+                  vec3 background) {
+  const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
+  view = viewOfPx(view, aim, uvec2(run.first_x + i, uint(run.tile_y)));
+  Traced traced;
+  if (kHasOwnEyes)
+    traced = traceFromOwnEye(scene, view, aim.tile_px, background);
+  else
+    traced = traceRay(scene, view, aim.tile_px, near_eye, bound, background);
+  traced.is_used = aim.is_used;
+  return traced;
+}
+
+#include "lib/hidden_px.glsl"
+
 bool isOwn(Run run, uint i) {
   return i >= run.lead && i + run.trail < run.count;
+}
+
+// Few px lie at edges: they are traced once more, which costs less than to look at all. Hidden ones
+// are left.
+void blendEdges(Scene scene, ViewParams view, Run run, uvec2 edges, uvec2 hidden, float bound) {
+  const vec3 near_eye = view.eye * scene.inv_z_near;
+  const vec3 background = blendOfBackground();
+  uvec2 pixels = edges | (edges << 1u) | uvec2(0u, edges.x >> 31u);
+  Seen before;
+  vec3 own_before = vec3(0.0);
+  for (;;) {
+    if (isNever(scene, 8u) || (pixels.x | pixels.y) == 0u) break;
+    const uint px_index = lowestBit(pixels);
+    Seen seen = tracePixel(scene, view, run, px_index, near_eye, bound, background).seen;
+    const vec3 own = seen.color;
+    if (px_index > 0u && isIn(edges, px_index - 1u)) {
+      blendAcross(scene, before, seen, own_before, own);
+      const bool stays = !isOwn(run, px_index - 1u) || isIn(hidden, px_index - 1u);
+      if (!stays) storeColor(run.first_index + px_index - 1u, before);
+    }
+    if (isOwn(run, px_index) && !isIn(hidden, px_index)) {
+      storeColor(run.first_index + px_index, seen);
+    }
+    before = seen;
+    own_before = own;
+    pixels = withoutLowestBit(pixels);
+    if ((pixels.x | pixels.y) == 0u) break;
+  }
 }
 
 void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
@@ -178,6 +226,7 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
   const vec3 background = blendOfBackground();
   // Bit i: an edge may lie between px i and i + 1.
   uvec2 edges = uvec2(0u);
+  uvec2 hidden = uvec2(0u);
   float inv_z_before = 0.0;
   uint i = 0u;
   for (;;) {
@@ -198,42 +247,27 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
       storeShown(run.first_index + i, px.view, px.seen, inv_z);
       storeOthers(run.first_index + i, px.walk, px.is_known, px.ray, px.view.eye, px.direction);
       count(counts, classOf(px.walk));
+      if (kListsHidden && endsBehind(px.walk)) {
+        hidden |= bitOf(i);
+        listHidden(run.first_index + i);
+      }
     }
     const bool may_be_edge = !kIsOneOfSeveral && !kHasOwnEyes && i > 0u &&
                              (kShownBeside & view.shows) == 0u &&
                              mayBeEdge(scene, inv_z_before, px.seen.inv_z);
-    const uint bit = may_be_edge ? 1u << ((i - 1u) & 31u) : 0u;
-    edges |= i > 32u ? uvec2(0u, bit) : uvec2(bit, 0u);
+    edges |= may_be_edge ? bitOf(i - 1u) : uvec2(0u);
     inv_z_before = px.seen.inv_z;
     ++i;
     if (i == run.count) break;
   }
-
-  // Few px lie at edges: they are traced once more, which costs less than to look at all.
-  uvec2 pixels = edges | (edges << 1u) | uvec2(0u, edges.x >> 31u);
-  Seen before;
-  vec3 own_before = vec3(0.0);
-  for (;;) {
-    if (isNever(scene, 8u) || (pixels.x | pixels.y) == 0u) break;
-    const uint px_index = pixels.x != 0u ? uint(findLSB(pixels.x)) : 32u + uint(findLSB(pixels.y));
-    Seen seen = tracePixel(scene, view, run, px_index, near_eye, bound, background).seen;
-    const vec3 own = seen.color;
-    const uint edge_word = px_index > 32u ? edges.y : edges.x;
-    const bool has_edge = px_index > 0u && (edge_word >> ((px_index - 1u) & 31u) & 1u) != 0u;
-    if (has_edge) {
-      blendAcross(scene, before, seen, own_before, own);
-      if (isOwn(run, px_index - 1u)) storeColor(run.first_index + px_index - 1u, before);
-    }
-    if (isOwn(run, px_index)) storeColor(run.first_index + px_index, seen);
-    before = seen;
-    own_before = own;
-    pixels = pixels.x != 0u ? uvec2(pixels.x & (pixels.x - 1u), pixels.y)
-                            : uvec2(0u, pixels.y & (pixels.y - 1u));
-    if ((pixels.x | pixels.y) == 0u) break;
-  }
+  blendEdges(scene, view, run, edges, hidden, bound);
 }
 
 void main() {
+  if (kRaysOfHidden > 0u) {
+    traceHidden(pushedScene((push.fill & kFillBorder) != 0u));
+    return;
+  }
   Task task;
   if (kIsOfBlocks)
     task = taskOfBlock();

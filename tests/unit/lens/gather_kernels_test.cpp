@@ -22,7 +22,6 @@ namespace {
 constexpr SizePx kImage_px = {40, 24};
 constexpr uint32_t kPadded_px = 64;
 constexpr uint32_t kArea_px = kImage_px.width * kImage_px.height;
-constexpr uint32_t kFallback = 0xff0000ff;
 constexpr uint32_t kBackground = 0xffff00ff;
 constexpr float kReach = 0.01F;  // 1/m
 // Codes that binary32 may move a mean by, and the fits of the curve of sRGB: 0.06 and 0.09 codes
@@ -133,8 +132,9 @@ double codeOf(double light) {
   return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }
 
-// What a ray of a px sees of the sheets, one after the other.
-uint32_t seen(const Scene& scene, const GatheredRays& rays, const LensPoint& point, size_t p) {
+// What a ray of a px sees of the sheets, one after the other, if it meets one.
+std::optional<uint32_t> seen(const Scene& scene, const GatheredRays& rays, const LensPoint& point,
+                             size_t p) {
   const abi::ViewParams& view = rays.view;
   const glm::dvec2 moved(view.lens_px_m.x * point.x[p], -view.lens_px_m.y * point.y[p]);
   const glm::dvec2 px(rays.first_x_px + float(p % 8) + 0.5F + point.beside_x_px,
@@ -145,7 +145,7 @@ uint32_t seen(const Scene& scene, const GatheredRays& rays, const LensPoint& poi
   const glm::dvec3 eye = glm::dvec3(view.eye) + moved.x * dx + moved.y * dy;
   const glm::dvec3 direction = glm::dvec3(view.direction) + step.x * dx + step.y * dy;
   double nearest = -2;
-  uint32_t color = kFallback;
+  std::optional<uint32_t> color;
   for (const abi::MetSheet& sheet : rays.sheets) {
     const glm::dvec3 plane(sheet.plane);
     // The point eye + s direction lies on the plane: plane . point = 1.
@@ -172,14 +172,23 @@ uint32_t seen(const Scene& scene, const GatheredRays& rays, const LensPoint& poi
   return color;
 }
 
-// The share of px whose mean of the rays' light is another.
-double differingShare(const Scene& scene, const GatheredRays& rays, const BlockCodes& codes) {
+// The share of px whose mean of the rays that meet something is another, or of other rays.
+double differingShare(const Scene& scene, const GatheredRays& rays, const BlockLight& of_rays) {
+  BlockCodes codes;
+  meanOf(of_rays, codes);
   uint32_t differing = 0;
   for (size_t p = 0; p < kBlockArea_px; ++p) {
     glm::dvec3 light(0);
-    for (const LensPoint& point : rays.points) light += lightOf(seen(scene, rays, point, p));
-    light /= double(rays.points.size());
-    const bool is_same = std::abs(codeOf(light.r) - codes.red[p]) <= kCodeTolerance &&
+    uint32_t count = 0;
+    for (const LensPoint& point : rays.points) {
+      const std::optional<uint32_t> color = seen(scene, rays, point, p);
+      if (!color) continue;
+      light += lightOf(*color);
+      ++count;
+    }
+    light /= std::max(count, 1U);
+    const bool is_same = float(count) == of_rays.count[p] &&
+                         std::abs(codeOf(light.r) - codes.red[p]) <= kCodeTolerance &&
                          std::abs(codeOf(light.g) - codes.green[p]) <= kCodeTolerance &&
                          std::abs(codeOf(light.b) - codes.blue[p]) <= kCodeTolerance;
     differing += !is_same;
@@ -214,20 +223,25 @@ class GatherKernels : public ::testing::TestWithParam<int64_t> {
 };
 
 TEST_P(GatherKernels, seeTheNearestFacetOnASheet) {
-  std::array<uint32_t, kBlockArea_px> fallback;
-  fallback.fill(kFallback);
   uint32_t block_count = 0;
   uint32_t many_sheets_count = 0;
+  size_t all_open_count = 0;
   double share = 0;
   for (const bool fills_border : {false, true}) {
     for (float y = 0; y < 32; y += 8) {
       for (float x = 0; x < 48; x += 8) {
         const GatheredRays rays = raysAt(x, y, fills_border);
         BlockLight light{};
-        BlockCodes codes;
-        const MetSheets met = gatherOnSheets(rays, fallback, light);
-        meanOf(light, codes);
-        share += differingShare(scene_, rays, codes);
+        std::vector<OpenRay> open;
+        const MetSheets met = gatherOnSheets(rays, light, &open);
+        share += differingShare(scene_, rays, light);
+        OfBlock open_count{};
+        for (const OpenRay& ray : open) ++open_count[ray.px];
+        EXPECT_EQ(open_count, met.open_count);
+        for (size_t p = 0; p < kBlockArea_px; ++p) {
+          EXPECT_EQ(light.count[p] + open_count[p], float(points_.size()));
+        }
+        all_open_count += open.size();
         many_sheets_count += std::popcount(met.sheets) > 1;
         ++block_count;
       }
@@ -235,11 +249,10 @@ TEST_P(GatherKernels, seeTheNearestFacetOnASheet) {
   }
   EXPECT_LE(share / block_count, kTiedShareMax);
   EXPECT_GT(many_sheets_count, 8u);
+  EXPECT_GT(all_open_count, 100u);
 }
 
 TEST_P(GatherKernels, seeASheetThatIsEverywhereAsOneOfMany) {
-  std::array<uint32_t, kBlockArea_px> fallback;
-  fallback.fill(kFallback);
   // Far from the board; its right end lies beyond the image.
   GatheredRays rays = raysAt(32, 16, true);
   const std::vector<abi::MetSheet> wall = {{abi::vec3(kWall), 0}};
@@ -247,13 +260,11 @@ TEST_P(GatherKernels, seeASheetThatIsEverywhereAsOneOfMany) {
   BlockLight of_one{};
   BlockLight of_many{};
   gatherOnSheet(rays, of_one);
-  const MetSheets met = gatherOnSheets(rays, fallback, of_many);
+  const MetSheets met = gatherOnSheets(rays, of_many, nullptr);
   EXPECT_TRUE(met.is_all);
   EXPECT_EQ(met.sheets, 1u);
   EXPECT_EQ(of_one.count, of_many.count);
-  BlockCodes codes;
-  meanOf(of_one, codes);
-  EXPECT_LE(differingShare(scene_, rays, codes), kTiedShareMax);
+  EXPECT_LE(differingShare(scene_, rays, of_one), kTiedShareMax);
 }
 
 TEST_P(GatherKernels, leaveOutWhatIsBehindTheEye) {

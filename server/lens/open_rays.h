@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rays through a lens are taken to see that met nothing they could have: as walks have it
+// (shaders/README.md, The walk).
+#pragma once
+
+#include <cstdint>
+
+#include "lens/gather_kernels.h"
+
+namespace viewloom {
+
+inline constexpr int32_t kNoTexel = -1;
+
+// The texel, in the color of all layers, that an open ray of these is taken to see: the far side of
+// a silhouette that it passed behind; or what it passed into, if that was no silhouette but a
+// surface that no sheet stands for. kNoTexel: it passed behind nothing that it could be told by.
+int32_t guessSeen(const GatheredRays& rays, const OpenRay& open);
+
+}  // namespace viewloom
