@@ -98,6 +98,7 @@ int32_t guessSeen(const GatheredRays& rays, const OpenRay& open) {
     // It begins in front of everything: somewhere between it passes behind something.
     float front = std::max(structure.inv_z_max * abi::kInvZNearMargin, behind);
     float way_px = glm::length(path.pace) * (front - behind);
+    if (!std::isfinite(way_px)) continue;  // an eye so far away that halving would never end
     for (; way_px > kPassage_px; way_px /= 2) {
       const float middle = 0.5F * (front + behind);
       (passing.isBehind(middle) ? behind : front) = middle;
