@@ -2,6 +2,7 @@
 // What the passes over a band tell their kernels, in the form in which they take it.
 #pragma once
 
+#include "gpu/barrier.h"
 #include "gpu/descriptor.h"
 #include "shared/trace_abi.h"
 #include "trace/trace_job.h"
@@ -25,6 +26,14 @@ inline uint32_t redFirst(uint32_t rgb) {
 
 inline uint32_t groupCount(uint32_t invocation_count) {
   return (invocation_count + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize;
+}
+
+// Of abi::IncompleteHead: nothing is on it, whatever used it before.
+inline void recordEmptyList(vk::CommandBuffer commands, const Buffer& list) {
+  recordComputeToTransfer(commands);
+  commands.updateBuffer<abi::IncompleteHead>(list.handle(), 0,
+                                             {{.group_count = {0, 1, 1}, .count = 0}});
+  recordTransferToCompute(commands);
 }
 
 inline Descriptor wholeBuffer(uint32_t binding, const Buffer& buffer) {

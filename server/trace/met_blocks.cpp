@@ -41,7 +41,8 @@ uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max) {
 }
 
 uint64_t incompleteCount(const TraceJob& job, uint32_t row_count_max) {
-  if (job.gathers_on_host) return uint64_t{job.layout->size_px.width} * row_count_max;
+  // Px of a run that was not finished are listed once more.
+  if (job.gathers_on_host) return 2 * uint64_t{job.layout->size_px.width} * row_count_max;
   return job.mayGather() ? metListsBytes(*job.layout, row_count_max) / sizeof(abi::MetList) : 0;
 }
 

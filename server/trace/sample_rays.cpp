@@ -74,9 +74,7 @@ void ViewTracer::recordMiddleRays(vk::CommandBuffer commands,
                                   std::span<const StructureSlot* const> structures,
                                   const TraceJob& job, BandRows rows, uint32_t wanted,
                                   TraceSlot& slot) {
-  const abi::IncompleteHead none{.group_count = {0, 1, 1}, .count = 0};
-  commands.updateBuffer<abi::IncompleteHead>(slot.incomplete_.handle(), 0, none);
-  recordTransferToCompute(commands);
+  recordEmptyList(commands, slot.incomplete_);
   recordRays(commands, structures, job, rows, {.wanted = wanted, .lists_hidden = true}, slot);
   recordComputeBarrier(commands);
   const uint32_t count = job.layout->lens->walked_count;

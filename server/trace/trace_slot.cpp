@@ -6,7 +6,7 @@
 #include "gpu/barrier.h"
 #include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
-#include "trace/met_blocks.h"
+#include "trace/px_runs.h"
 
 namespace viewloom {
 namespace {
@@ -42,6 +42,12 @@ uint64_t pathsBytes(const TraceSlotShape& shape) {
          sizeof(abi::ReflectedPath);
 }
 
+// No more runs of px are in a band, each of which may be left unfinished.
+uint64_t runCountMax(const TraceSlotShape& shape) {
+  const uint64_t begun = std::min(shape.tile_count_max, shape.width_px);
+  return shape.row_count_max * (shape.width_px / kRunPixelsMin + begun);
+}
+
 template <typename T>
 std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
@@ -53,45 +59,6 @@ uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
 }
 
 }  // namespace
-
-bool TraceSlotShape::holds(const TraceSlotShape& other) const {
-  return width_px >= other.width_px && row_count_max >= other.row_count_max &&
-         tile_count_max >= other.tile_count_max && walk_count >= other.walk_count &&
-         sample_count >= other.sample_count && lens_point_count >= other.lens_point_count &&
-         sums_light >= other.sums_light && met_count >= other.met_count &&
-         met_lists_bytes >= other.met_lists_bytes && incomplete_count >= other.incomplete_count &&
-         outputs == other.outputs && (reflects || !other.reflects);
-}
-
-void TraceSlotShape::include(const TraceSlotShape& other) {
-  width_px = std::max(width_px, other.width_px);
-  row_count_max = std::max(row_count_max, other.row_count_max);
-  tile_count_max = std::max(tile_count_max, other.tile_count_max);
-  walk_count = std::max(walk_count, other.walk_count);
-  sample_count = std::max(sample_count, other.sample_count);
-  lens_point_count = std::max(lens_point_count, other.lens_point_count);
-  sums_light = sums_light || other.sums_light;
-  met_count = std::max(met_count, other.met_count);
-  met_lists_bytes = std::max(met_lists_bytes, other.met_lists_bytes);
-  incomplete_count = std::max(incomplete_count, other.incomplete_count);
-  reflects = reflects || other.reflects;
-}
-
-TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs) {
-  const AtlasLayout& layout = *job.layout;
-  return {.width_px = layout.size_px.width,
-          .row_count_max = row_count_max,
-          .tile_count_max = uint32_t(job.tileCount()),
-          .walk_count = job.walk_count,
-          .sample_count = job.sample_count,
-          .lens_point_count = uint32_t(layout.lens_points.size()),
-          .sums_light = job.sumsLight(),
-          .met_count = job.mayGather() ? job.sample_count : 0,
-          .met_lists_bytes = job.mayGather() ? metListsBytes(layout, row_count_max) : 0,
-          .incomplete_count = incompleteCount(job, row_count_max),
-          .outputs = outputs,
-          .reflects = job.reflects()};
-}
 
 AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
   const uint64_t row_bytes = answersRowBytes(width_px, walk_count);
@@ -187,6 +154,11 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
                                                 shape.incomplete_count * sizeof(uint32_t),
                                   .debug_name = "incomplete"});
   }
+  if (device.info().is_software) {
+    unfinished_ = Buffer(
+        device, {.size_bytes = sizeof(abi::IncompleteHead) + runCountMax(shape) * sizeof(uint32_t),
+                 .debug_name = "unfinished"});
+  }
   if (shape.reflects) addReflections(device, area_px);
 }
 
@@ -226,8 +198,8 @@ uint64_t TraceSlot::sizeBytes() const {
   }
   return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
          sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
-         incomplete_.sizeBytes() + hits_.sizeBytes() + reflected_.sizeBytes() +
-         reflection_settings_.sizeBytes() + paths_.sizeBytes();
+         incomplete_.sizeBytes() + unfinished_.sizeBytes() + hits_.sizeBytes() +
+         reflected_.sizeBytes() + reflection_settings_.sizeBytes() + paths_.sizeBytes();
 }
 
 std::span<const uint32_t> TraceSlot::color() const {

@@ -11,31 +11,9 @@
 #include "gpu/descriptor.h"
 #include "shared/trace_abi.h"
 #include "trace/trace_job.h"
+#include "trace/trace_slot_shape.h"
 
 namespace viewloom {
-
-struct TraceSlotShape {
-  uint32_t width_px = 0;
-  uint32_t row_count_max = 0;
-  uint32_t tile_count_max = 0;
-  uint32_t walk_count = 1;
-  uint32_t sample_count = 1;
-  uint32_t lens_point_count = 0;  // of all px of the pattern
-  bool sums_light = false;
-  uint32_t met_count = 0;         // rays a px of which it is kept what they met
-  uint64_t met_lists_bytes = 0;   // 0 = no second stage of a lens on the device
-  uint64_t incomplete_count = 0;  // blocks or px that may be walked further
-  TraceOutputs outputs;
-  bool reflects = false;  // TraceJob::reflects
-
-  // Whether a slot of this shape can hold a band of that one.
-  bool holds(const TraceSlotShape& other) const;
-  // Makes it hold those of that one, too, which has the same outputs.
-  void include(const TraceSlotShape& other);
-};
-
-// That of bands of a job, of so many rows at most.
-TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs);
 
 // A plane that kernels write and the CPU reads. On a device whose memory is the CPU's, one buffer;
 // elsewhere a device buffer and the copy of it.
@@ -145,6 +123,7 @@ class TraceSlot {
   Buffer met_;      // what rays through a lens met
   Buffer met_lists_;
   Buffer incomplete_;  // abi::IncompleteHead
+  Buffer unfinished_;  // the same, of runs; of a software device
   Buffer hits_;        // abi::RayRecord, where reflections begin; empty where records_ has them
   Buffer reflection_settings_;  // of each walk
   Buffer paths_;                // abi::ReflectedPath, of several walks

@@ -11,22 +11,11 @@
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
 #include "trace/met_blocks.h"
+#include "trace/px_runs.h"
 #include "trace/ray_sources.h"
 
 namespace viewloom {
 namespace {
-
-// With fewer columns than lanes of a subgroup, neighbouring lanes take neighbouring runs of a view
-// instead of neighbouring views.
-constexpr uint32_t kColumnsForViewLanes = 5;
-// A run traces a px more at both of its ends.
-constexpr uint32_t kPixelsOnHardware = 8;
-// A software device pays more for an invocation than for a ray, and has few lanes to fill; as long
-// as the px still share a bound where they start, which is found in a few nodes of 32 px. Lanes
-// that are runs of one view have more in common if these are shorter.
-constexpr uint32_t kPixelsOnSoftware[] = {60, 32, 16};
-constexpr uint32_t kPixelsOnSoftwareInLanes = 16;
-constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 
 // Of several sources each says from where on it has seen rays, which what others see is compared
 // with: that may be nearer than anything it holds itself, as where that is nothing but sky. With
@@ -42,20 +31,8 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingBand, DescriptorKind::kStorage},
                                      {abi::kBindingSums, DescriptorKind::kStorage},
-                                     {abi::kBindingIncomplete, DescriptorKind::kStorage}};
-
-// Of one view, neighbours in a row. Views see about what the source sees.
-uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
-                     const AtlasLayout& layout) {
-  if (!device.is_software) return kPixelsOnHardware;
-  if (layout.columns < kColumnsForViewLanes) return kPixelsOnSoftwareInLanes;
-  for (const uint32_t pixels : kPixelsOnSoftware) {
-    const uint64_t run_width_px =
-        uint64_t{pixels} * structure.shape().depth_px.width / layout.tile_size_px.width;
-    if (run_width_px <= kRunWidthMax_px) return pixels;
-  }
-  return kPixelsOnHardware;
-}
+                                     {abi::kBindingIncomplete, DescriptorKind::kStorage},
+                                     {abi::kBindingUnfinished, DescriptorKind::kStorage}};
 
 uint32_t shownBeside(const TraceJob& job) {
   uint32_t flags = 0;
@@ -112,7 +89,8 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.through_lens,
                                   variant.is_of_blocks,
                                   variant.lists_hidden,
-                                  variant.rays_of_hidden};
+                                  variant.rays_of_hidden,
+                                  device_->info().is_software};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -210,38 +188,40 @@ abi::TracePush ViewTracer::describeBand(const Walk& walk, const LayeredBuffer& c
   return push;
 }
 
-void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
+ViewTracer::Variant ViewTracer::variantOf(const Walk& walk, uint32_t color_format) const {
   const AtlasLayout& layout = *walk.job.layout;
   const StructureSlot& structure = walk.structure;
   const TileRays rays = raysOf(walk.job, walk.index, walk.rays.sample);
   const double inv_z_max = structure.stats().inv_z_max;
-  const bool lanes_are_views = layout.columns >= kColumnsForViewLanes;
-  const uint32_t pixels = pixelsOfRun(device_->info(), structure, layout);
   const bool is_one_of_several = walk.job.walk_count > 1;
   const bool eyes_in_plane = eyesAreInPlane(
       rays.tiles, is_one_of_several ? std::max(inv_z_max, kInvZOfOthers) : inv_z_max);
   // Of rays between others, plain as well if they are linear in their eye, all at one depth.
   const bool rays_are_plain =
       (eyes_in_plane || !rays.are_bounds) && raysArePlain(rays.tiles, rays.tile_px, inv_z_max);
+  return {.reads_by_address = structure.readsByAddress(),
+          .wanted = is_one_of_several ? 0 : walk.rays.wanted,
+          .color_format = color_format,
+          .pixels_per_invocation = pixelsOfRun(device_->info(), structure, layout),
+          .lanes_are_views = lanesAreViews(layout),
+          .color_is_scaled = structure.shape().colorIsScaled(),
+          .rays_are_plain = rays_are_plain,
+          .eyes_in_plane = eyes_in_plane,
+          .is_one_of_several = is_one_of_several,
+          .is_cube_face = structure.shape().is_cube_face,
+          .rays = raySourceOf(layout),
+          .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job),
+          .through_lens = walk.rays.through_lens,
+          .is_of_blocks = walk.rays.is_of_blocks,
+          .lists_hidden = walk.rays.lists_hidden,
+          .rays_of_hidden = walk.rays.count_of_hidden};
+}
+
+void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
+  const StructureSlot& structure = walk.structure;
+  const TileRays rays = raysOf(walk.job, walk.index, walk.rays.sample);
   const ColorAverager::Color color =
       averager_.record(commands, structure, colorReach(rays.tiles, rays.tile_px));
-  const ComputePass& walk_views =
-      pass({.reads_by_address = structure.readsByAddress(),
-            .wanted = is_one_of_several ? 0 : walk.rays.wanted,
-            .color_format = color.format,
-            .pixels_per_invocation = pixels,
-            .lanes_are_views = lanes_are_views,
-            .color_is_scaled = structure.shape().colorIsScaled(),
-            .rays_are_plain = rays_are_plain,
-            .eyes_in_plane = eyes_in_plane,
-            .is_one_of_several = is_one_of_several,
-            .is_cube_face = structure.shape().is_cube_face,
-            .rays = raySourceOf(layout),
-            .shown_beside = is_one_of_several ? 0 : shownBeside(walk.job),
-            .through_lens = walk.rays.through_lens,
-            .is_of_blocks = walk.rays.is_of_blocks,
-            .lists_hidden = walk.rays.lists_hidden,
-            .rays_of_hidden = walk.rays.count_of_hidden});
   std::vector<Descriptor> descriptors =
       describeParams(walk.job, walk.index, walk.rays.sample, walk.slot);
   for (const Descriptor& descriptor :
@@ -257,17 +237,27 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   const bool is_indirect = walk.rays.is_of_blocks || walk.rays.count_of_hidden > 0;
   descriptors.push_back(usedOr(abi::kBindingIncomplete, is_indirect || walk.rays.lists_hidden,
                                walk.slot.incomplete_, walk.target));
+  const bool may_stop = device_->info().is_software && !is_indirect;
+  descriptors.push_back(
+      usedOr(abi::kBindingUnfinished, may_stop, walk.slot.unfinished_, walk.target));
+  if (may_stop) recordEmptyList(commands, walk.slot.unfinished_);
+  const Variant variant = variantOf(walk, color.format);
+  const ComputePass& walk_views = pass(variant);
   walk_views.recordDescriptors(commands, descriptors);
-  const abi::TracePush push = describeBand(walk, color.texels, rows);
+  abi::TracePush push = describeBand(walk, color.texels, rows);
+  constexpr uint64_t kGroupsOffset = offsetof(abi::IncompleteHead, group_count);
   if (is_indirect) {
-    walk_views.recordIndirect(commands, push, walk.slot.incomplete_,
-                              offsetof(abi::IncompleteHead, group_count));
-  } else {
-    walk_views.record(
-        commands, push,
-        groupCount((layout.tile_size_px.width + pixels - 1) / pixels * layout.columns),
-        rows.row_count);
+    walk_views.recordIndirect(commands, push, walk.slot.incomplete_, kGroupsOffset);
+    return;
   }
+  const AtlasLayout& layout = *walk.job.layout;
+  const uint32_t pixels = variant.pixels_per_invocation;
+  const uint32_t runs = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
+  walk_views.record(commands, push, groupCount(runs), rows.row_count);
+  if (!may_stop) return;
+  recordComputeBarrier(commands);
+  push.fill |= abi::kFillUnfinished;
+  walk_views.recordIndirect(commands, push, walk.slot.unfinished_, kGroupsOffset);
 }
 
 }  // namespace viewloom

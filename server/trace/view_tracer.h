@@ -100,6 +100,7 @@ class ViewTracer {
   static std::vector<Descriptor> describeParams(const TraceJob& job, uint32_t walk, uint32_t sample,
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
+  Variant variantOf(const Walk& walk, uint32_t color_format) const;
   void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
   void recordReflections(vk::CommandBuffer commands,
                          std::span<const StructureSlot* const> structures, const TraceJob& job,

@@ -21,20 +21,31 @@ struct Run {
 struct Task {
   Run run;
   uint tile;
+  uint id;  // of runs of rows: which of the band
   bool exists;
 };
 
-Task taskOfRow() {
+// Runs of a row of a tile.
+uint runsOfTile() {
+  return (sizeOf(push.tile_size_px).x + kPixelsPerInvocation - 1u) / kPixelsPerInvocation;
+}
+
+// And of a row of the band.
+uint runsOfRow() {
+  return runsOfTile() * sizeOf(push.tile_grid).x;
+}
+
+Task taskOfRun(uint invocation, uint band_row) {
   const uvec2 tile_size = sizeOf(push.tile_size_px);
   const uvec2 tile_grid = sizeOf(push.tile_grid);
-  const uint row = push.first_row + gl_WorkGroupID.y;
-  const uint invocation = gl_GlobalInvocationID.x;
-  const uint runs = (tile_size.x + kPixelsPerInvocation - 1u) / kPixelsPerInvocation;
+  const uint runs = runsOfTile();
+  const uint row = push.first_row + band_row;
   const uint column = kLanesAreViews ? invocation % tile_grid.x : invocation / runs;
   const uint run_in_tile = kLanesAreViews ? invocation / tile_grid.x : invocation % runs;
   const uint tile_row =
       row < push.padding_top_px ? tile_grid.y : (row - push.padding_top_px) / tile_size.y;
   Task task;
+  task.id = band_row * runsOfRow() + invocation;
   task.exists = run_in_tile < runs && column < tile_grid.x && tile_row < tile_grid.y;
   task.tile = task.exists ? tile_row * tile_grid.x + column : 0u;
   const uint first_x = run_in_tile * kPixelsPerInvocation;
@@ -47,7 +58,7 @@ Task taskOfRow() {
       min(first_x + kPixelsPerInvocation, tile_size.x) + task.run.trail - task.run.first_x;
   task.run.tile_y = float(row - push.padding_top_px - tile_row * tile_size.y) + 0.5;
   task.run.first_index =
-      gl_WorkGroupID.y * push.atlas_width_px + column * tile_size.x + task.run.first_x;
+      band_row * push.atlas_width_px + column * tile_size.x + task.run.first_x;
   return task;
 }
 
@@ -61,6 +72,7 @@ Task taskOfBlock() {
   const MetBlock block = metBlock(grid, at_block);
   const uint row = block.first_row + gl_GlobalInvocationID.x % kMetBlockSide_px;
   Task task;
+  task.id = 0u;
   task.exists = entry < incomplete.count && row < block.end_row;
   task.tile = tile.y * grid.tile_count.x + tile.x;
   task.run.lead = 0u;

@@ -56,13 +56,6 @@ VIEWLOOM_ABI_CONST uint kMetSeesAssumed = 4u;     // some ray, without having me
 // It is settled, or a round of rays met nothing new: no more are walked.
 VIEWLOOM_ABI_CONST uint kMetComplete = 8u;
 
-// What of a band is not complete, and how many groups of kTraceGroupSize invocations that takes: of
-// blocks one for each of their rows, of px one each.
-struct IncompleteHead {
-  uvec3 group_count;
-  uint count;  // of the uints that follow: places of blocks in the lists, or of px in the band
-};
-
 // In place of a surface: nothing, and what is assumed where rays pass behind what is known.
 VIEWLOOM_ABI_CONST uint kMetBackground = 0xfffffffeu;
 VIEWLOOM_ABI_CONST uint kMetAssumed = 0xffffffffu;
@@ -75,7 +68,6 @@ VIEWLOOM_ABI_CONST uint kBindingIncomplete = 23u;  // storage: IncompleteHead, a
 
 #ifdef __cplusplus
 static_assert(sizeof(MetList) == 204);
-static_assert(sizeof(IncompleteHead) == 16);
 static_assert(sizeof(GatherPush) == 124);
 #endif
 

@@ -208,6 +208,16 @@ struct TracePush {
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
 VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin here, or paths of mirrors
+// Of runs that are listed as unfinished alone (lib/unfinished_runs.glsl).
+VIEWLOOM_ABI_CONST uint kFillUnfinished = 0x4000000u;
+
+// What of a band is still to be walked, and how many groups of kTraceGroupSize invocations that
+// takes: of blocks one invocation for each of their rows, of px one each, of runs a group each.
+struct IncompleteHead {
+  uvec3 group_count;
+  uint count;  // of the uints that follow: places of blocks in the lists, of px in the band, or
+               // which run, and its first px
+};
 
 // Means of colour along an axis; texels of the source's layers.
 struct AveragePush {
@@ -218,6 +228,7 @@ struct AveragePush {
   float last_weight;  // of the furthest samples to both sides
 };
 
+VIEWLOOM_ABI_CONST uint kBindingUnfinished = 25u;  // storage: IncompleteHead, and uints
 VIEWLOOM_ABI_CONST uint kBindingMeans = 14u;  // storage, written: uint per texel of all layers
 
 // One of several samples of a band's px, added to the sums of those before; the last one makes px
@@ -275,6 +286,7 @@ static_assert(sizeof(AveragePush) == 104);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(BlendPush) == 32);
 static_assert(sizeof(RayRecord) == 24);
+static_assert(sizeof(IncompleteHead) == 16);
 #endif
 
 VIEWLOOM_ABI_END

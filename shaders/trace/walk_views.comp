@@ -36,6 +36,8 @@ layout(constant_id = kOwnConstants + 12u) const bool kIsOfBlocks = false;
 layout(constant_id = kOwnConstants + 13u) const bool kListsHidden = false;
 // Not 0: of such px alone, an invocation each, the mean of so many rays through a lens; alpha 0.
 layout(constant_id = kOwnConstants + 14u) const uint kRaysOfHidden = 0u;
+// Of a software device, runs that were not finished are listed.
+layout(constant_id = kOwnConstants + 15u) const bool kListsUnfinished = false;
 // Each px has an eye of its own, or several.
 const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens || kRaysOfHidden > 0u;
 const bool kIsLayered = kColorFormat == kColorRgba16f;
@@ -75,6 +77,10 @@ layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
   IncompleteHead incomplete;
   uint incomplete_list[];
 };
+layout(set = 0, binding = kBindingUnfinished, scalar) buffer Unfinished {
+  IncompleteHead unfinished;
+  uint unfinished_list[];
+};
 
 #include "lib/class_counts.glsl"
 #include "lib/color.glsl"
@@ -85,8 +91,9 @@ layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
 #include "lib/px_view.glsl"
 #include "lib/ray_answer.glsl"
 #include "lib/ray_light.glsl"
-#include "lib/ray_start.glsl"
+#include "lib/run_bound.glsl"
 #include "lib/store_px.glsl"
+#include "lib/unfinished_runs.glsl"
 #include "lib/walk.glsl"
 #include "lib/walk_tasks.glsl"
 
@@ -101,27 +108,6 @@ Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
   seen.px_per_inv_z = px_per_inv_z;
   seen.clean = cleanShare(ray).x;
   return seen;
-}
-
-// The bound where rays may start that lie between two. Rays between two plain ones are plain, and
-// pass no cell outside the rectangle around those.
-float boundBetween(Scene scene, vec3 near_eye, vec3 first, vec3 last) {
-  if (!kRaysArePlain && !(isPlainRay(near_eye, first) && isPlainRay(near_eye, last))) {
-    return scene.inv_z_near;
-  }
-  const vec2 first_end = first.xy / first.z;
-  const vec2 last_end = last.xy / last.z;
-  const vec2 first_start = first_end * (1.0 - near_eye.z) + near_eye.xy;
-  const vec2 last_start = last_end * (1.0 - near_eye.z) + near_eye.xy;
-  const vec2 low_px = min(min(first_start, last_start), min(first_end, last_end));
-  const vec2 high_px = max(max(first_start, last_start), max(first_end, last_end));
-  return startBound(scene, low_px, high_px);
-}
-
-// Of a run whose rays come from one eye.
-float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
-  const vec3 first = rayDirection(view, vec2(float(run.first_x) + 0.5, run.tile_y));
-  return boundBetween(scene, near_eye, first, first + float(run.count - 1u) * view.direction_dx);
 }
 
 // A px of a run, traced.
@@ -220,7 +206,8 @@ void blendEdges(Scene scene, ViewParams view, Run run, uvec2 edges, uvec2 hidden
   }
 }
 
-void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
+void traceRun(Scene scene, ViewParams view, Task task, inout uvec3 counts) {
+  const Run run = task.run;
   const vec3 near_eye = view.eye * scene.inv_z_near;
   const float bound = boundOfRun(scene, view, near_eye, run);
   const vec3 background = blendOfBackground();
@@ -261,6 +248,13 @@ void traceRun(Scene scene, ViewParams view, Run run, inout uvec3 counts) {
     if (i == run.count) break;
   }
   blendEdges(scene, view, run, edges, hidden, bound);
+  // The px at which loops were ended is wrong, or one whose edges were blended: all are walked once
+  // more. But light that is summed already stays so.
+  if (kListsUnfinished && !isOfUnfinished() && areLoopsOver(scene)) {
+    const bool is_summed = (kWanted & kWantSum) != 0u;
+    counts = is_summed ? counts : uvec3(0u);
+    listUnfinished(task, is_summed ? i : 0u);
+  }
 }
 
 void main() {
@@ -271,15 +265,17 @@ void main() {
   Task task;
   if (kIsOfBlocks)
     task = taskOfBlock();
+  else if (isOfUnfinished())
+    task = taskOfUnfinished();
   else
-    task = taskOfRow();
+    task = taskOfRun(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
   ViewParams view = views[task.tile];
 
   uvec3 counts = uvec3(0u);
   if (kEyesInPlane) view.eye.z = 0.0;
   if (task.exists && view.is_used != 0u) {
     const Scene scene = pushedScene((push.fill & kFillBorder) != 0u);
-    traceRun(scene, view, task.run, counts);
+    traceRun(scene, view, task, counts);
   }
   // All px have the rays that are counted.
   if (kIsOneOfSeveral || kIsOfBlocks) return;
