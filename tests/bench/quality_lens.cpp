@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "bench/lens_scene.h"
+#include "commands/median.h"
 #include "scoring/image_score.h"
 #include "shared/lens_abi.h"
 #include "support/truth/picture_frame.h"
@@ -37,29 +39,37 @@ DisplaySpec displayOf(const LensScoring& scoring, const LensWay* way) {
   return *std::move(completed);
 }
 
-struct Rendered {
-  RenderedAtlas atlas;
-  double trace_ms = 0;
-};
+RenderedAtlas render(OfflineRenderer& renderer, const DisplaySpec& spec, bool is_linear) {
+  auto atlas = renderer.render(spec, {.linear = is_linear}, [](uint32_t, uint32_t) {});
+  if (!atlas.ok()) throw std::runtime_error(std::string(atlas.status().message()));
+  return *std::move(atlas);
+}
 
 // Everything around the trace is left out but what bands of it take to be submitted.
-Rendered render(OfflineRenderer& renderer, const DisplaySpec& spec, bool is_linear,
-                uint32_t round_count) {
-  std::vector<double> times_ms;
-  std::optional<RenderedAtlas> rendered;
-  for (uint32_t round = 0; round <= round_count; ++round) {
-    const auto begun = std::chrono::steady_clock::now();
-    auto atlas = renderer.render(spec, {.linear = is_linear}, [](uint32_t, uint32_t) {});
-    const auto ended = std::chrono::steady_clock::now();
-    if (!atlas.ok()) throw std::runtime_error(std::string(atlas.status().message()));
-    rendered = *std::move(atlas);
-    // The first compiles.
-    if (round > 0) {
-      times_ms.push_back(std::chrono::duration<double, std::milli>(ended - begun).count());
+double renderMs(OfflineRenderer& renderer, const DisplaySpec& spec) {
+  const auto begun = std::chrono::steady_clock::now();
+  render(renderer, spec, false);
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
+      .count();
+}
+
+// The view through the lens and without one, in turn.
+void measure(OfflineRenderer& renderer, const LensScoring& scoring, LensScore& result) {
+  if (scoring.round_count == 0) return;
+  const DisplaySpec sharp = displayOf(scoring, nullptr);
+  const DisplaySpec blurred = displayOf(scoring, &result.way);
+  std::vector<double> sharp_ms, blurred_ms;
+  for (uint32_t round = 0; round <= scoring.round_count; ++round) {
+    sharp_ms.push_back(renderMs(renderer, sharp));
+    blurred_ms.push_back(renderMs(renderer, blurred));
+    // The first compile.
+    if (round == 0) {
+      sharp_ms.clear();
+      blurred_ms.clear();
     }
   }
-  std::nth_element(times_ms.begin(), times_ms.begin() + times_ms.size() / 2, times_ms.end());
-  return {*std::move(rendered), times_ms.empty() ? 0 : times_ms[times_ms.size() / 2]};
+  result.trace_ms = medianOf(blurred_ms);
+  result.pinhole_ms = medianOf(sharp_ms);
 }
 
 // Of what lies further in than blur reaches: beyond the image nothing is known.
@@ -129,61 +139,80 @@ FramePtr roomFrame(const truth::Instant& instant, uint32_t width_px, uint32_t la
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
-  const std::vector<float> truth = truthOf(instant, scoring);
+  const std::vector<float> truth =
+      scoring.true_ray_count > 0 ? truthOf(instant, scoring) : std::vector<float>{};
   OfflineRenderer renderer(device, scoring.place);
   std::vector<LensScore> scores;
   uint32_t built_layers = 0;
-  double pinhole_ms = 0;
   for (const LensWay& way : ways) {
     if (way.layer_count != built_layers) {
       built_layers = way.layer_count;
       renderer.build(*roomFrame(instant, scoring.source_width_px, built_layers));
-      const DisplaySpec sharp = displayOf(scoring, nullptr);
-      pinhole_ms = render(renderer, sharp, false, scoring.round_count).trace_ms;
     }
-    const DisplaySpec spec = displayOf(scoring, &way);
     LensScore result{.way = way};
-    const RenderedAtlas atlas = render(renderer, spec, true, 0).atlas;
-    score(atlas, truth, result);
-    result.seams = seamsOf(atlas, truth);
-    result.trace_ms = render(renderer, spec, false, scoring.round_count).trace_ms;
-    result.pinholes = result.trace_ms / pinhole_ms;
+    if (!truth.empty()) {
+      const RenderedAtlas atlas = render(renderer, displayOf(scoring, &way), true);
+      score(atlas, truth, result);
+      result.seams = seamsOf(atlas, truth);
+    }
+    measure(renderer, scoring, result);
     scores.push_back(result);
   }
   return scores;
 }
 
+namespace {
+
+Json jsonOf(const LensScoring& scoring, const LensScore& score) {
+  Json row = {{"source_width_px", scoring.source_width_px},
+              {"view_width_px", scoring.view_width_px},
+              {"layers", score.way.layer_count},
+              {"walked", score.way.walked_count},
+              {"gathered", score.way.gathered_count},
+              {"mode", score.way.is_exact ? "exact" : "fast"},
+              {"place", scoring.place == GatheringPlace::kHost ? "host" : "device"}};
+  if (scoring.true_ray_count > 0) {
+    row.update({{"psnr_db", score.psnr_db},
+                {"mean_error", score.mean_error},
+                {"level_db", score.level_db},
+                {"seams", score.seams}});
+  }
+  row["trace_ms"] = score.trace_ms;
+  row["pinhole_traces"] = score.trace_ms / score.pinhole_ms;
+  return row;
+}
+
+}  // namespace
+
 Json qualityOfLens(const Device& device) {
-  std::vector<LensWay> ways;
-  for (const uint32_t layers : {1, 2, 3}) {
+  constexpr uint32_t kLayerCounts[] = {1, 2, 3};
+  std::vector<LensWay> ways, gathered, balanced;
+  for (const uint32_t layers : kLayerCounts) {
     for (const uint32_t walked : {1, 2, 4, 8, 16, 40}) {
       ways.push_back({.layer_count = layers, .walked_count = walked});
     }
     for (const uint32_t walked : {2, 4, 8, 16}) {
-      ways.push_back({.layer_count = layers, .walked_count = walked, .gathered_count = 4 * walked});
+      const LensWay way{
+          .layer_count = layers, .walked_count = walked, .gathered_count = 4 * walked};
+      ways.push_back(way);
+      gathered.push_back(way);
+      if (walked == 8) balanced.push_back(way);
     }
     ways.push_back(
         {.layer_count = layers, .walked_count = 8, .gathered_count = 32, .is_exact = true});
   }
   Json rows = Json::array();
-  const auto add = [&](GatheringPlace place, const std::vector<LensWay>& added) {
-    for (const LensScore& score : lensScores(device, {.place = place}, added)) {
-      rows.push_back({{"layers", score.way.layer_count},
-                      {"walked", score.way.walked_count},
-                      {"gathered", score.way.gathered_count},
-                      {"mode", score.way.is_exact ? "exact" : "fast"},
-                      {"place", place == GatheringPlace::kHost ? "host" : "device"},
-                      {"psnr_db", score.psnr_db},
-                      {"mean_error", score.mean_error},
-                      {"level_db", score.level_db},
-                      {"seams", score.seams},
-                      {"trace_ms", score.trace_ms},
-                      {"pinhole_traces", score.pinholes}});
+  const auto add = [&](const LensScoring& scoring, const std::vector<LensWay>& added) {
+    for (const LensScore& score : lensScores(device, scoring, added)) {
+      rows.push_back(jsonOf(scoring, score));
     }
   };
-  add(GatheringPlace::kHost, ways);
-  std::erase_if(ways, [](const LensWay& way) { return way.gathered_count == 0 || way.is_exact; });
-  add(GatheringPlace::kDevice, ways);
+  add({}, ways);
+  add({.place = GatheringPlace::kDevice}, gathered);
+  // What views cost that are as large as those of displays.
+  add({.view_width_px = 640, .true_ray_count = 0}, balanced);
+  add({.view_width_px = 960, .true_ray_count = 0}, balanced);
+  add({.source_width_px = 1920, .view_width_px = 960, .true_ray_count = 0}, balanced);
   return rows;
 }
 

@@ -28,14 +28,14 @@ struct LensScore {
   double level_db = 0;    // all of the light, beside what is true
   double seams = 0;       // steps of the error between blocks of px, beside those inside: 1 is none
   double trace_ms = 0;    // median
-  double pinholes = 0;    // the same, in traces of the view without a lens
+  double pinhole_ms = 0;  // the same of the view without a lens, traced in turn with it
 };
 
 struct LensScoring {
   uint32_t source_width_px = 960;
   uint32_t view_width_px = 320;
-  uint32_t true_ray_count = 1024;  // a px
-  uint32_t round_count = 5;        // of each trace, for the median
+  uint32_t true_ray_count = 1024;  // a px; 0: what it is worth is not asked
+  uint32_t round_count = 11;       // of each trace, for the median; 0: what it costs is not
   double radius_m = 0.02;          // of the lens
   double aside_m = 0;              // of the view, to the right of the source
   GatheringPlace place = GatheringPlace::kHost;
