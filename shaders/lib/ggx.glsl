@@ -49,22 +49,30 @@ float unshadowed(float cosine_in, float cosine_out, float alpha) {
   return seen / (seen + shadowing(cosine_in, alpha));
 }
 
-// The i-th of `count` places in a unit square, for a px. Those of 4x4 px together spread evenly (R2
-// of Roberts); blocks are turned against each other. The same in every frame.
-vec2 samplePlace(uint i, uint count, uvec2 px, uint ray_index) {
+// Fractions of 2^32.
+float inUnit(uint place) {
+  return float(place >> 8) * (1.0 / 16777216.0);
+}
+
+// The i-th of `count` places in a unit square, for a px: a lattice, one in each stratum along x, so
+// that the i-th rays of neighbouring px go about the same way. Those of 4x4 px are moved against
+// each other by R2 of Roberts, and blocks at random; further bounces go by other lattices. The same
+// in every frame.
+vec2 samplePlace(uint i, uint count, uint bounce, uvec2 px, uint ray_index) {
   const uvec2 low = px & 3u;
   const uint crossed = low.x ^ low.y;
   const uint rank =
       ((crossed & 1u) << 3) | ((low.y & 1u) << 2) | (crossed & 2u) | ((low.y >> 1) & 1u);
-  const uint index = rank * count + i;
-  const uvec2 block = (px >> 2) + uvec2(ray_index << 16, 0u);  // tiles have fewer
+  const uvec2 block = (px >> 2) + uvec2(ray_index << 16, bounce << 16);  // tiles have fewer
   uint turn = block.x * 0x9e3779b1u ^ (block.y * 0x85ebca77u + 0x27d4eb2fu);
   turn = (turn ^ (turn >> 15)) * 0x2c1b3c6du;
   turn = (turn ^ (turn >> 12)) * 0x297a2d39u;
   turn ^= turn >> 15;
-  // Fractions of 2^32.
-  const uvec2 place = uvec2(0xc13fa9a9u, 0x91e10da5u) * index + uvec2(turn, turn * 0x9e3779b1u);
-  return vec2(place >> 8) * (1.0 / 16777216.0);
+  const uvec2 own = uvec2(0xc13fa9a9u, 0x91e10da5u) * rank + uvec2(turn, turn * 0x9e3779b1u);
+  const uint across = 0x9e3779b9u + 0xbbe05633u * bounce;
+  const float along = bounce == 0u ? (float(i) + inUnit(own.x)) / float(count)
+                                   : inUnit(own.x + 0xdb4f0b91u * bounce * i);
+  return vec2(along, inUnit(own.y + across * i));
 }
 
 #endif  // VIEWLOOM_LIB_GGX_GLSL_

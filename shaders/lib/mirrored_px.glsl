@@ -73,8 +73,7 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
   vec3 own_share = vec3(1.0);
   for (;;) {
     if (isNever(scene, 11u)) break;
-    const vec2 place = samplePlace(i * settings.bounce_count + bounce,
-                                   count * settings.bounce_count, px, extras.sample_index);
+    const vec2 place = samplePlace(i, count, bounce, px, extras.sample_index);
     turn(mirror, spot, pinhole, place, path);
     const bool is_first = bounce == 0u;
     own_share = is_first ? path.share : own_share;

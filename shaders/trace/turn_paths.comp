@@ -55,9 +55,8 @@ bool isBeside(TilePx at, RayRecord record, out Aim aim, out ViewParams view) {
 // The path turned at a spot of this source, whose mirror this is; `came` is in its camera.
 void goOn(Scene scene, Pinhole pinhole, Spot spot, Mirror mirror, Path came, uvec2 px,
           inout ReflectedPath path) {
-  const vec2 place =
-      samplePlace(push.sample_index * settings.bounce_count + push.bounce,
-                  path.sample_count * settings.bounce_count, px, extras.sample_index);
+  const vec2 place = samplePlace(push.sample_index, path.sample_count, push.bounce, px,
+                                 extras.sample_index);
   turn(mirror, spot, pinhole, place, came);
   const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);
   path.is_on = 1u;

@@ -143,7 +143,7 @@ std::vector<MirrorScene> mirrorScenes() {
   return {{"mirror floor", truth::mirrorFloor(0), 1, 1, {one, looks_up}},
           {"mirror sphere", truth::mirrorSphere(), 1, 1, {one, looks_back, has_cube, is_cube}},
           {"facing mirrors", truth::facingMirrors(), 4, 1, {one, has_cube}},
-          {"rough floor", truth::mirrorFloor(0.4), 1, 128, {one, looks_up}}};
+          {"rough floor", truth::mirrorFloor(0.4), 1, 512, {one, looks_up}}};
 }
 
 }  // namespace viewloom::bench

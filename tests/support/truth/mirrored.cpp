@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace viewloom::truth {
@@ -20,11 +21,10 @@ double smithLambda(double cosine, double alpha) {
 }
 
 // A microfacet's normal by its share of the surface (Walter et al. 2007), z the surface's normal.
-glm::dvec3 microfacet(double alpha, std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const double u = uniform(random);
-  const double angle = 2 * std::numbers::pi * uniform(random);
-  const double cosine = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u));
+// `place`: even in a unit square.
+glm::dvec3 microfacet(double alpha, const glm::dvec2& place) {
+  const double angle = 2 * std::numbers::pi * place.y;
+  const double cosine = std::sqrt((1 - place.x) / (1 + (alpha * alpha - 1) * place.x));
   const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
   return {sine * std::cos(angle), sine * std::sin(angle), cosine};
 }
@@ -49,16 +49,23 @@ class Light {
     if (!gloss.mirrors() || bounce == options_.bounce_count) return own;
     const Ray unit{ray.origin_m + hit.depth * ray.direction, glm::normalize(ray.direction)};
     const uint32_t count = gloss.roughness > 0 ? options_.sample_count : 1;
+    // A lattice, moved at random for each px: even, and its errors are no other px's.
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const glm::dvec2 first(uniform(random_), uniform(random_));
     glm::vec3 sum(0.0F);
-    for (uint32_t i = 0; i < count; ++i) sum += mirrored(unit, hit.normal, gloss, bounce);
+    for (uint32_t i = 0; i < count; ++i) {
+      const glm::dvec2 place((i + first.x) / count, glm::fract(i / std::numbers::phi + first.y));
+      sum += mirrored(unit, hit.normal, gloss, place, bounce);
+    }
     return own + sum / static_cast<float>(count);
   }
 
  private:
   // `at`: from the place on the mirror, in the direction of who came there.
-  glm::vec3 mirrored(const Ray& at, const glm::dvec3& normal, const Gloss& gloss, uint32_t bounce) {
+  glm::vec3 mirrored(const Ray& at, const glm::dvec3& normal, const Gloss& gloss,
+                     const glm::dvec2& place, uint32_t bounce) {
     const double alpha = double{gloss.roughness} * double{gloss.roughness};
-    const glm::dvec3 halfway = alpha > 0 ? around(normal, microfacet(alpha, random_)) : normal;
+    const glm::dvec3 halfway = alpha > 0 ? around(normal, microfacet(alpha, place)) : normal;
     const double to_eye = -glm::dot(at.direction, halfway);
     const glm::dvec3 direction = at.direction + 2 * to_eye * halfway;
     const double cosine_in = glm::dot(direction, normal);
