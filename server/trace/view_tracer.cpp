@@ -90,7 +90,7 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
                                   variant.is_of_blocks,
                                   variant.lists_hidden,
                                   variant.rays_of_hidden,
-                                  device_->info().is_software};
+                                  variant.lists_unfinished};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
@@ -214,7 +214,8 @@ ViewTracer::Variant ViewTracer::variantOf(const Walk& walk, uint32_t color_forma
           .through_lens = walk.rays.through_lens,
           .is_of_blocks = walk.rays.is_of_blocks,
           .lists_hidden = walk.rays.lists_hidden,
-          .rays_of_hidden = walk.rays.count_of_hidden};
+          .rays_of_hidden = walk.rays.count_of_hidden,
+          .lists_unfinished = device_->info().is_software && !walk.rays.areListed()};
 }
 
 void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
@@ -234,19 +235,19 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   }
   const bool sums = (walk.rays.wanted & abi::kWantSum) != 0;
   descriptors.push_back(usedOr(abi::kBindingSums, sums, walk.slot.sums_, walk.target));
-  const bool is_indirect = walk.rays.is_of_blocks || walk.rays.count_of_hidden > 0;
-  descriptors.push_back(usedOr(abi::kBindingIncomplete, is_indirect || walk.rays.lists_hidden,
+  const bool are_listed = walk.rays.areListed();
+  descriptors.push_back(usedOr(abi::kBindingIncomplete, are_listed || walk.rays.lists_hidden,
                                walk.slot.incomplete_, walk.target));
-  const bool may_stop = device_->info().is_software && !is_indirect;
-  descriptors.push_back(
-      usedOr(abi::kBindingUnfinished, may_stop, walk.slot.unfinished_, walk.target));
-  if (may_stop) recordEmptyList(commands, walk.slot.unfinished_);
   const Variant variant = variantOf(walk, color.format);
+  const bool lists_unfinished = variant.lists_unfinished != 0;
+  descriptors.push_back(
+      usedOr(abi::kBindingUnfinished, lists_unfinished, walk.slot.unfinished_, walk.target));
+  if (lists_unfinished) recordEmptyList(commands, walk.slot.unfinished_);
   const ComputePass& walk_views = pass(variant);
   walk_views.recordDescriptors(commands, descriptors);
   abi::TracePush push = describeBand(walk, color.texels, rows);
   constexpr uint64_t kGroupsOffset = offsetof(abi::IncompleteHead, group_count);
-  if (is_indirect) {
+  if (are_listed) {
     walk_views.recordIndirect(commands, push, walk.slot.incomplete_, kGroupsOffset);
     return;
   }
@@ -254,7 +255,7 @@ void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRo
   const uint32_t pixels = variant.pixels_per_invocation;
   const uint32_t runs = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
   walk_views.record(commands, push, groupCount(runs), rows.row_count);
-  if (!may_stop) return;
+  if (!lists_unfinished) return;
   recordComputeBarrier(commands);
   push.fill |= abi::kFillUnfinished;
   walk_views.recordIndirect(commands, push, walk.slot.unfinished_, kGroupsOffset);

@@ -68,6 +68,7 @@ class ViewTracer {
     uint32_t is_of_blocks;
     uint32_t lists_hidden;
     uint32_t rays_of_hidden;
+    uint32_t lists_unfinished;
 
     auto operator<=>(const Variant&) const = default;
   };
@@ -81,6 +82,9 @@ class ViewTracer {
     bool lists_hidden = false;  // px whose ray ends behind something
     // Not 0: the mean of so many rays through the lens, of px that are listed alone; alpha 0.
     uint32_t count_of_hidden = 0;
+
+    // Whether they are those of px or blocks on the slot's list of what is incomplete.
+    bool areListed() const { return is_of_blocks || count_of_hidden > 0; }
   };
 
   // One of the walks of a job, and where its answers go.
