@@ -10,7 +10,7 @@
 
 namespace viewloom {
 
-// But for the last of a row of a tile.
+// No run has fewer, but for the last of a row of a tile.
 inline constexpr uint32_t kRunPixelsMin = 8;
 
 // Of one view, neighbours in a row. Views see about what the source sees.
