@@ -23,7 +23,7 @@ ReflectionScore sharesOf(const HeldBy& held) {
   return score;
 }
 
-void addScores(const Device& device, const MirrorScene& mirrors,
+void addScores(OfflineRenderer& renderer, const MirrorScene& mirrors,
                std::vector<ReflectionScore>& scores) {
   const truth::Instant instant(mirrors.scene, 0);
   const ReflectionSpec effect = mirrors.effect();
@@ -34,7 +34,7 @@ void addScores(const Device& device, const MirrorScene& mirrors,
     const Camera& camera = view.camera;
     const std::vector<glm::vec3> truth = mirrors.truthOf(instant, camera);
     const auto render = [&](const Frame& frame, const std::optional<ReflectionSpec>& reflection) {
-      return renderInWorld(device, frame, {camera}, kMirrorView_px, 1, reflection);
+      return renderInWorld(renderer, frame, {camera}, kMirrorView_px, 1, reflection);
     };
     const auto score = [&](const RenderedAtlas& atlas, const HeldBy& held) {
       return mirrorPsnr(*atlas.layout, atlas.linear, truth, held);
@@ -60,7 +60,8 @@ void addScores(const Device& device, const MirrorScene& mirrors,
 
 std::vector<ReflectionScore> reflectionScores(const Device& device) {
   std::vector<ReflectionScore> scores;
-  for (const MirrorScene& scene : mirrorScenes()) addScores(device, scene, scores);
+  OfflineRenderer renderer(device);
+  for (const MirrorScene& scene : mirrorScenes()) addScores(renderer, scene, scores);
   return scores;
 }
 

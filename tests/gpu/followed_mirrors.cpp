@@ -149,14 +149,18 @@ FramePtr mirroringFrameOf(const oracle::Scene& scene) {
   return frame;
 }
 
-std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage) {
-  const ComputePass pass(device, {.spirv = follow_mirrors_spirv,
-                                  .push_bytes = sizeof(abi::TracePush),
-                                  .descriptors = kSlots,
-                                  .debug_name = "follow mirrors"});
+MirrorFollower::MirrorFollower(const Device& device)
+    : device_(device),
+      kernels_(device),
+      pass_(device, {.spirv = follow_mirrors_spirv,
+                     .push_bytes = sizeof(abi::TracePush),
+                     .descriptors = kSlots,
+                     .debug_name = "follow mirrors"}) {}
+
+std::vector<abi::FollowedRay> MirrorFollower::follow(MirrorStage& stage) {
   std::vector<abi::FollowedRay> followed(stage.layout().size_px.area());
   const uint64_t size_bytes = followed.size() * sizeof(abi::FollowedRay);
-  const ReadablePlane rays(device, size_bytes, "followed rays");
+  const ReadablePlane rays(device_, size_bytes, "followed rays");
   stage.timedMs([&](vk::CommandBuffer commands, const ReflectedRows& rows) {
     const StructureSlot& structure = rows.structure;
     std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
@@ -171,8 +175,8 @@ std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage) {
     }
     commands.fillBuffer(rays.target().handle(), 0, VK_WHOLE_SIZE, 0);
     recordTransferToCompute(commands);
-    pass.recordDescriptors(commands, descriptors);
-    pass.record(commands, rows.push, groupCount(rows.push.atlas_width_px), rows.row_count);
+    pass_.recordDescriptors(commands, descriptors);
+    pass_.record(commands, rows.push, groupCount(rows.push.atlas_width_px), rows.row_count);
     recordComputeToTransfer(commands);
     rays.recordReadback(commands, size_bytes);
     recordTransferToHost(commands);
@@ -182,10 +186,11 @@ std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage) {
   return followed;
 }
 
-FollowedViews followMirrors(const Device& device, const oracle::Scene& scene,
-                            const std::vector<oracle::OutputView>& views, double tolerance_px) {
-  MirrorStage stage(device, *mirroringFrameOf(scene), displayOf(views, tolerance_px));
-  const std::vector<abi::FollowedRay> atlas = follow(device, stage);
+FollowedViews MirrorFollower::follow(const oracle::Scene& scene,
+                                     const std::vector<oracle::OutputView>& views,
+                                     double tolerance_px) {
+  MirrorStage stage(kernels_, *mirroringFrameOf(scene), displayOf(views, tolerance_px));
+  const std::vector<abi::FollowedRay> atlas = follow(stage);
   FollowedViews followed{.stats = stage.stats(), .records = {}, .followed = {}};
   for (uint32_t view = 0; view < views.size(); ++view) {
     appendTile(stage.layout(), view, stage.records(), followed.records);
@@ -220,10 +225,10 @@ std::string JudgedMirrors::summary() const {
   return text.str();
 }
 
-JudgedMirrors judgeMirrors(const Device& device, const oracle::Scene& scene,
+JudgedMirrors judgeMirrors(MirrorFollower& follower, const oracle::Scene& scene,
                            const std::vector<oracle::OutputView>& views, double tolerance_px,
                            const std::string& where) {
-  const FollowedViews traced = followMirrors(device, scene, views, tolerance_px);
+  const FollowedViews traced = follower.follow(scene, views, tolerance_px);
   const oracle::OracleSource source = sourceOf(scene, traced.stats);
   oracle::Judge judge(source, oracle::toleranceOf(source, kNearerThanEye * tolerance_px));
   JudgedMirrors judged;

@@ -20,11 +20,23 @@ struct FollowedViews {
   std::vector<abi::RayRecord> records;  // of the px's own rays; as what follows
   std::vector<abi::FollowedRay> followed;
 };
-FollowedViews followMirrors(const Device& device, const oracle::Scene& scene,
-                            const std::vector<oracle::OutputView>& views, double tolerance_px);
 
-// Of all px of an atlas.
-std::vector<abi::FollowedRay> follow(const Device& device, MirrorStage& stage);
+// Has its kernels compiled. The device must outlive it. Thread-safety: none.
+class MirrorFollower {
+ public:
+  explicit MirrorFollower(const Device& device);
+
+  FollowedViews follow(const oracle::Scene& scene, const std::vector<oracle::OutputView>& views,
+                       double tolerance_px);
+
+ private:
+  // Of all px of an atlas.
+  std::vector<abi::FollowedRay> follow(MirrorStage& stage);
+
+  const Device& device_;
+  MirrorKernels kernels_;
+  ComputePass pass_;
+};
 
 // Of rays that passed behind something, by oracle/passed_body.h.
 struct JudgedBodies {
@@ -48,7 +60,7 @@ struct JudgedMirrors {
   void add(const JudgedMirrors& other);
   std::string summary() const;
 };
-JudgedMirrors judgeMirrors(const Device& device, const oracle::Scene& scene,
+JudgedMirrors judgeMirrors(MirrorFollower& follower, const oracle::Scene& scene,
                            const std::vector<oracle::OutputView>& views, double tolerance_px,
                            const std::string& where);
 

@@ -31,12 +31,12 @@ Descriptor uniform(uint32_t binding, const Buffer& buffer) {
 
 }  // namespace
 
-MirrorStage::MirrorStage(const Device& device, const Frame& frame, const DisplaySpec& display)
-    : device_(device),
-      timeline_(device),
-      recorder_(device),
-      structure_(device, shapesOf(frame)),
-      adder_(device) {
+MirrorStage::MirrorStage(MirrorKernels& kernels, const Frame& frame, const DisplaySpec& display)
+    : kernels_(kernels),
+      device_(kernels.device),
+      timeline_(device_),
+      recorder_(device_),
+      structure_(device_, shapesOf(frame)) {
   build(frame);
   job_ = jobOf(display, seenSource(frame.format.sources.front()), structure_.stats().front());
   if (!job_.reflects()) throw std::runtime_error("the frame mirrors nothing, or the display");
@@ -45,8 +45,7 @@ MirrorStage::MirrorStage(const Device& device, const Frame& frame, const Display
 
 void MirrorStage::build(const Frame& frame) {
   structure_.upload(frame);
-  const StructureBuilder builder(device_);
-  structure_.recordBuild(recorder_.begin(), builder);
+  structure_.recordBuild(recorder_.begin(), kernels_.builder);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
@@ -55,8 +54,8 @@ void MirrorStage::traceOwnRays() {
   own.reflection.reset();
   const uint32_t row_count = layout().size_px.height;
   TraceSlot traced(device_, slotShape(own, row_count, {.linear = true, .records = true}));
-  ViewTracer tracer(device_);
-  tracer.recordBand(recorder_.begin(), structure_.parts(), own, {0, row_count}, traced, nullptr);
+  kernels_.tracer.recordBand(recorder_.begin(), structure_.parts(), own, {0, row_count}, traced,
+                             nullptr);
   timeline_.wait(recorder_.submit(timeline_));
   without_.assign(traced.linear().begin(), traced.linear().end());
   own_records_.assign(traced.records().begin(), traced.records().end());
@@ -155,11 +154,11 @@ std::vector<float> MirrorStage::picture() {
   commands.copyBuffer(before.handle(), linear_.target().handle(),
                       vk::BufferCopy{.size = size_bytes});
   recordTransferToCompute(commands);
-  adder_.recordAdd(commands, job_,
-                   {.rows = {0, layout().size_px.height},
-                    .reflected = reflected_,
-                    .rgba = rgba_,
-                    .linear_address = linear_.target().address()});
+  kernels_.adder.recordAdd(commands, job_,
+                           {.rows = {0, layout().size_px.height},
+                            .reflected = reflected_,
+                            .rgba = rgba_,
+                            .linear_address = linear_.target().address()});
   recordComputeToTransfer(commands);
   linear_.recordReadback(commands, size_bytes);
   recordTransferToHost(commands);

@@ -13,12 +13,22 @@
 
 namespace viewloom {
 
+// Compiled once for many stages. The device must outlive them.
+struct MirrorKernels {
+  explicit MirrorKernels(const Device& of) : device(of), builder(of), tracer(of), adder(of) {}
+
+  const Device& device;
+  StructureBuilder builder;
+  ViewTracer tracer;
+  Reflector adder;
+};
+
 // Of one source. Thread-safety: none.
 class MirrorStage {
  public:
-  // `display`: complete, and asks for reflections. Throws what cannot be shown. The device must
+  // `display`: complete, and asks for reflections. Throws what cannot be shown. The kernels must
   // outlive it.
-  MirrorStage(const Device& device, const Frame& frame, const DisplaySpec& display);
+  MirrorStage(MirrorKernels& kernels, const Frame& frame, const DisplaySpec& display);
 
   const AtlasLayout& layout() const { return *job_.layout; }
   SourceStats stats() const { return structure_.stats().front(); }
@@ -45,6 +55,7 @@ class MirrorStage {
   void describe();
   Buffer filled(const void* from, uint64_t size_bytes, MemoryIntent intent, const char* name);
 
+  MirrorKernels& kernels_;
   const Device& device_;
   Timeline timeline_;
   CommandRecorder recorder_;
@@ -60,7 +71,6 @@ class MirrorStage {
   Buffer reflected_;
   Buffer rgba_;
   ReadablePlane linear_;
-  Reflector adder_;
   std::vector<Descriptor> params_;
 };
 

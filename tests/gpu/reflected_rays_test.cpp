@@ -17,11 +17,12 @@ constexpr double kExcusedShareMax = 0.01;
 constexpr double kExcusedBodiesMax = 0.01;
 
 JudgedMirrors lookAt(const Device& device, uint64_t first_seed, uint64_t seed_count) {
+  MirrorFollower follower(device);
   JudgedMirrors judged;
   for (uint64_t seed = first_seed; seed < first_seed + seed_count; ++seed) {
     oracle::Random random(seed);
     const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
-    judged.add(judgeMirrors(device, oracle::randomScene(seed), views, kTolerance_px,
+    judged.add(judgeMirrors(follower, oracle::randomScene(seed), views, kTolerance_px,
                             "seed " + std::to_string(seed)));
   }
   return judged;

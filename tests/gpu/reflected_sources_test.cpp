@@ -36,13 +36,6 @@ Camera cameraAt(const glm::dvec3& eye_m, SizePx size_px) {
           .intrinsics = {glm::dvec2(kFocal_px), 0.5 * glm::dvec2(size_px.width, size_px.height)}};
 }
 
-FramePtr twice(const Frame& one) {
-  auto both = std::make_shared<Frame>(one);
-  both->format.sources.push_back(one.format.sources.front());
-  both->sources.push_back(one.sources.front());
-  return both;
-}
-
 double otherShare(const RenderedAtlas& a, const RenderedAtlas& b) {
   size_t others = 0;
   for (size_t i = 0; i < a.color.size(); ++i) {

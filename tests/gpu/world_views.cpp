@@ -32,16 +32,29 @@ Value valueOrThrow(absl::StatusOr<Value> value) {
 
 }  // namespace
 
-RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
+FramePtr twice(const Frame& one) {
+  auto both = std::make_shared<Frame>(one);
+  both->format.sources.push_back(one.format.sources.front());
+  both->sources.push_back(one.sources.front());
+  return both;
+}
+
+RenderedAtlas renderInWorld(OfflineRenderer& renderer, const Frame& frame,
                             const std::vector<Camera>& views, SizePx view_px, size_t fineness,
                             const std::optional<ReflectionSpec>& reflection) {
-  OfflineRenderer renderer(device);
   renderer.build(frame);
   DisplaySpec wanted = displayOf(views, view_px, uint32_t(fineness));
   wanted.reflection = reflection;
   const DisplaySpec display = valueOrThrow(completeDisplaySpec(wanted));
   return valueOrThrow(
       renderer.render(display, {.mask = true, .linear = true}, [](uint32_t, uint32_t) {}));
+}
+
+RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
+                            const std::vector<Camera>& views, SizePx view_px, size_t fineness,
+                            const std::optional<ReflectionSpec>& reflection) {
+  OfflineRenderer renderer(device);
+  return renderInWorld(renderer, frame, views, view_px, fineness, reflection);
 }
 
 }  // namespace viewloom
