@@ -17,6 +17,7 @@ constexpr DescriptorSlot kTurnSlots[] = {{abi::kBindingStructure, DescriptorKind
                                          {abi::kBindingViews, DescriptorKind::kStorage},
                                          {abi::kBindingExtras, DescriptorKind::kUniform},
                                          {abi::kBindingReflection, DescriptorKind::kUniform},
+                                         {abi::kBindingAlbedos, DescriptorKind::kStorage},
                                          {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                          {abi::kBindingPaths, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kWalkSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
@@ -93,6 +94,7 @@ void PathReflector::recordTurns(vk::CommandBuffer commands, const PathPiece& pie
                                       .through_lens = piece.through_lens});
   std::vector<Descriptor> descriptors = descriptorsOf(piece);
   descriptors.push_back(piece.lens_points);
+  descriptors.push_back(albedos_.descriptor());
   descriptors.push_back(piece.structure.surface()->asTexels(abi::kBindingSurface));
   turn.recordDescriptors(commands, descriptors);
   turn.record(commands, piece.push, groupCount(piece.push.atlas_width_px), piece.rows.row_count);

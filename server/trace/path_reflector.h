@@ -12,6 +12,7 @@
 #include "gpu/compute_pass.h"
 #include "shared/reflection_abi.h"
 #include "structure/structure_slot.h"
+#include "trace/albedos.h"
 #include "trace/trace_job.h"
 
 namespace viewloom {
@@ -44,7 +45,7 @@ struct MergedPaths {
 // from any thread.
 class PathReflector {
  public:
-  explicit PathReflector(const Device& device) : device_(&device) {}
+  explicit PathReflector(const Device& device) : device_(&device), albedos_(device) {}
 
   // From the surfaces of this walk that rays have met, or the first ones. It mirrors.
   void recordTurns(vk::CommandBuffer commands, const PathPiece& piece);
@@ -73,6 +74,7 @@ class PathReflector {
   const ComputePass& mergePass();
 
   const Device* device_;
+  Albedos albedos_;
   std::mutex mutex_;  // guards what follows
   std::map<TurnVariant, std::unique_ptr<ComputePass>> turn_passes_;
   std::map<WalkVariant, std::unique_ptr<ComputePass>> walk_passes_;

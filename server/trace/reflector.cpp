@@ -22,6 +22,7 @@ constexpr DescriptorSlot kReflectSlots[] = {{abi::kBindingStructure, DescriptorK
                                             {abi::kBindingViews, DescriptorKind::kStorage},
                                             {abi::kBindingExtras, DescriptorKind::kUniform},
                                             {abi::kBindingReflection, DescriptorKind::kUniform},
+                                            {abi::kBindingAlbedos, DescriptorKind::kStorage},
                                             {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                             {abi::kBindingReflected, DescriptorKind::kStorage}};
 constexpr DescriptorSlot kAddSlots[] = {{abi::kBindingReflected, DescriptorKind::kStorage},
@@ -73,7 +74,8 @@ void Reflector::record(vk::CommandBuffer commands, const ReflectedRows& rows) {
                    .through_lens = rows.job.hasLens()});
   std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
   for (const Descriptor& descriptor :
-       {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),
+       {structure.measuredDescriptor(), albedos_.descriptor(),
+        wholeBuffer(abi::kBindingReflected, rows.reflected),
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
         structure.color().asTexels(abi::kBindingColor),

@@ -10,6 +10,7 @@
 
 #include "gpu/compute_pass.h"
 #include "structure/structure_slot.h"
+#include "trace/albedos.h"
 #include "trace/trace_job.h"
 
 namespace viewloom {
@@ -37,7 +38,7 @@ struct ReflectedRows {
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
 class Reflector {
  public:
-  explicit Reflector(const Device& device) : device_(&device) {}
+  explicit Reflector(const Device& device) : device_(&device), albedos_(device) {}
 
   // Of one source. Waits for the compute work before it; what follows may read what is written.
   void record(vk::CommandBuffer commands, const ReflectedRows& rows);
@@ -59,6 +60,7 @@ class Reflector {
   const ComputePass& addPass();
 
   const Device* device_;
+  Albedos albedos_;
   std::mutex mutex_;  // guards what follows
   std::map<Variant, std::unique_ptr<ComputePass>> reflect_passes_;
   std::unique_ptr<ComputePass> add_pass_;

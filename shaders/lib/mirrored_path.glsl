@@ -15,6 +15,9 @@ const float kBlurShare = 0.125;
 const float kStepsOfSurface = 1.0;
 const float kSigmasOfSurface = 4.0;
 
+// As seen along it, one is a mirror, too: no microfacet shows.
+const float kCosineAlong = 1e-4;
+
 struct Path {
   vec3 direction;  // unit length
   vec3 eye;        // where it seems to come from, behind all mirrors so far; m
@@ -22,13 +25,22 @@ struct Path {
   bool is_bent;
 };
 
+// To who looks at it, as a cosine to its normal.
+float cosineTowards(Mirror mirror, Path path) {
+  return dot(-path.direction, mirror.normal);
+}
+
+bool isRough(Mirror mirror, float cosine) {
+  return mirror.roughness > kMirrorRoughness && cosine > kCosineAlong;
+}
+
 // Off a mirror, by its own normal or by that of a microfacet. Who would go on below the surface
 // itself goes along it.
 void turn(Mirror mirror, Spot spot, Pinhole pinhole, vec2 place, inout Path path) {
   const float alpha = mirror.roughness * mirror.roughness;
   const mat3 basis = basisAround(mirror.normal);
   const vec3 towards = -path.direction * basis;
-  const bool is_rough = mirror.roughness > kMirrorRoughness && towards.z > 1e-4;
+  const bool is_rough = isRough(mirror, towards.z);
   const vec3 halfway =
       is_rough ? basis * visibleNormal(towards, alpha, place) : mirror.normal;
   const vec3 facing = hasFault(kFaultNormalTurned) ? vec3(-1.0, 1.0, 1.0) : vec3(1.0);
@@ -38,8 +50,8 @@ void turn(Mirror mirror, Spot spot, Pinhole pinhole, vec2 place, inout Path path
   const float below = hasFault(kFaultNotBent) ? 0.0 : max(-above, 0.0);
   direction = normalize(direction + below * mirror.facet_normal);
   path.share *= fresnel(mirror.light, dot(direction, halfway));
-  const float cosine_out = max(dot(direction, mirror.normal), 1e-4);
-  if (is_rough) path.share *= unshadowed(cosine_out, max(towards.z, 1e-4), alpha);
+  const float cosine_out = max(dot(direction, mirror.normal), kCosineAlong);
+  if (is_rough) path.share *= unshadowed(cosine_out, max(towards.z, kCosineAlong), alpha);
   path.direction = direction;
   const vec3 to_eye = path.eye - metresOf(pinhole, spot.point);
   path.eye -= 2.0 * dot(to_eye, mirror.normal) * mirror.normal;

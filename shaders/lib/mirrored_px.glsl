@@ -28,6 +28,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
   RayRecord at[];
 };
 
+#include "lib/albedo.glsl"
 #include "lib/first_camera.glsl"
 #include "lib/mirrored_path.glsl"
 #include "lib/pushed_scene.glsl"
@@ -55,15 +56,19 @@ Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected);
 
 // All rays of a px.
 struct Gathered {
-  vec3 light;        // without what the first surface takes of it
-  vec3 reflectance;  // what that takes
+  vec3 light_sum;    // of what they find, what the first surface takes
+  vec3 share_sum;    // what it takes of each
+  uint count;
+  vec3 reflectance;  // what it takes of all light
   float distance_m;
 };
 
 Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, Path first_path,
                 float px_angle, uvec2 px, inout uvec3 counts) {
-  const uint count = first_mirror.roughness > kMirrorRoughness ? settings.sample_count : 1u;
-  Gathered sum = Gathered(vec3(0.0), vec3(0.0), 0.0);
+  const float cosine = cosineTowards(first_mirror, first_path);
+  const bool is_rough = isRough(first_mirror, cosine);
+  const uint count = is_rough ? settings.sample_count : 1u;
+  Gathered sum = Gathered(vec3(0.0), vec3(0.0), count, vec3(0.0), 0.0);
   uint i = 0u;
   uint bounce = 0u;
   Spot spot = first;
@@ -100,8 +105,8 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
       path.is_bent = false;
     }
     if (!goes_on) {
-      sum.light += own_share * light / float(count);
-      sum.reflectance += own_share / float(count);
+      sum.light_sum += own_share * light;
+      sum.share_sum += own_share;
       ++i;
       bounce = 0u;
       spot = first;
@@ -111,7 +116,8 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
     }
     if (!goes_on && i >= count) break;
   }
-  sum.light /= max(sum.reflectance, vec3(1e-6));
+  // The shares of few rays have more noise than the light that they find.
+  sum.reflectance = is_rough ? albedoOf(first_mirror, cosine) : sum.share_sum;
   return sum;
 }
 
@@ -138,7 +144,8 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
   const float px_angle = length(metricPoint(pinhole, view.direction_dx));
   const Gathered gathered =
       gather(scene, pinhole, spot, mirror, path, px_angle, tile_px, counts);
-  return packedLight(gathered.light, gathered.reflectance, gathered.distance_m, mirror.roughness,
+  return packedLight(gathered.light_sum, gathered.share_sum, gathered.count,
+                     gathered.reflectance, gathered.distance_m, mirror.roughness,
                      packedPlace(mirror.normal, spot.point.z));
 }
 

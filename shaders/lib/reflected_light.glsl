@@ -29,19 +29,35 @@ uint packedPlace(vec3 normal, float inv_z) {
          (floatBitsToUint(inv_z) & 0xffff0000u);
 }
 
+vec3 reflectanceOf(ReflectedLight light) {
+  const vec3 root = unpackUnorm4x8(light.reflectance).rgb;
+  return root * root;
+}
+
 vec3 normalOfPlace(uint place) {
   const vec2 across = unpackSnorm4x8(place & 0xffffu).xy;
   const float z = abs(across.x) + abs(across.y) - 1.0;
   return normalize(vec3(z > 0.0 ? foldedOctahedron(across) : across, z));
 }
 
-// `light`: before the surface takes its `reflectance` of it.
-ReflectedLight packedLight(vec3 light, vec3 reflectance, float distance_m, float roughness,
-                           uint place) {
-  const vec3 bounded = min(light, vec3(kHalfMax));
+// What rays find together that the surface takes less than this share of what it mirrors from says
+// little of what it mirrors: they go along it.
+const float kTellingShare = 0.05;
+
+float largestOf(vec3 light) {
+  return max(light.r, max(light.g, light.b));
+}
+
+// What is mirrored, by the light that rays found, weighted by what the surface takes of each of
+// them, and by these weights; before it takes its `reflectance` of it.
+ReflectedLight packedLight(vec3 light_sum, vec3 share_sum, uint count, vec3 reflectance,
+                           float distance_m, float roughness, uint place) {
+  const vec3 bounded = min(light_sum / max(share_sum, vec3(1e-6)), vec3(kHalfMax));
+  const bool tells =
+      largestOf(share_sum) >= kTellingShare * float(count) * largestOf(reflectance);
   return ReflectedLight(
       uvec2(packHalf2x16(bounded.rg), packHalf2x16(vec2(bounded.b, distance_m))),
-      packUnorm4x8(vec4(reflectance, roughness)), place);
+      packUnorm4x8(vec4(sqrt(reflectance), roughness)), tells ? place : place | kTellsLittle);
 }
 
 #endif  // VIEWLOOM_LIB_REFLECTED_LIGHT_GLSL_

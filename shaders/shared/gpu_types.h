@@ -29,6 +29,7 @@ using std::pow;
 #define VIEWLOOM_ABI_END }
 #define VIEWLOOM_ABI_CONST inline constexpr
 #define VIEWLOOM_ABI_FUNCTION inline constexpr
+#define VIEWLOOM_ABI_INLINE inline
 
 constexpr uint floatBitsToUint(float value) {
   return std::bit_cast<uint>(value);
@@ -44,6 +45,7 @@ constexpr float uintBitsToFloat(uint bits) {
 #define VIEWLOOM_ABI_END
 #define VIEWLOOM_ABI_CONST const
 #define VIEWLOOM_ABI_FUNCTION
+#define VIEWLOOM_ABI_INLINE
 #endif
 
 #endif  // VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_

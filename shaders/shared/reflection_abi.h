@@ -3,6 +3,7 @@
 #ifndef VIEWLOOM_SHADERS_SHARED_REFLECTION_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_REFLECTION_ABI_H_
 
+#include "shared/ggx.h"
 #include "shared/gpu_types.h"
 #include "shared/surface_abi.h"
 #include "shared/trace_abi.h"
@@ -13,6 +14,7 @@ VIEWLOOM_ABI_CONST uint kBindingSurface = 20u;     // texels of two uints: Surfa
 VIEWLOOM_ABI_CONST uint kBindingReflection = 21u;  // uniform: ReflectionSettings
 VIEWLOOM_ABI_CONST uint kBindingReflected = 22u;   // storage: ReflectedLight per px of a band
 VIEWLOOM_ABI_CONST uint kBindingPaths = 24u;       // storage: ReflectedPath per px of a piece
+VIEWLOOM_ABI_CONST uint kBindingAlbedos = 26u;     // storage: the table of shared/ggx.h
 
 struct ReflectionSettings {
   Address surfaces[kLayerCountMax];  // SurfaceTexel of each layer
@@ -59,9 +61,10 @@ struct ReflectedPath {
   vec3 light;      // that this sample has found
   // Of all samples before.
   vec3 light_sum;
-  vec3 reflectance_sum;
+  vec3 share_sum;
   float distance_sum_m;
   // Of the px's surface, as in ReflectedLight.
+  vec3 reflectance;
   float roughness;
   uint place;
 };
@@ -103,9 +106,12 @@ VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
 // What comes to a px by way of the surface that it shows.
 struct ReflectedLight {
   uvec2 light;  // binary16: red, green, blue; how far what is mirrored lies behind the surface, m
-  uint reflectance;  // of the light so much adds to the px: 0..255 of red, green, blue; roughness
-  uint place;        // the surface's normal in 8 + 8 bits, and the upper half of its inv_z's bits
+  // Of the light so much adds to the px, as square roots: 0..255 of red, green, blue; roughness.
+  uint reflectance;
+  uint place;  // the surface's normal in 8 + 8 bits, and the upper half of its inv_z's bits
 };
+// Bit of `place`, the sign of inv_z: light that says little of what is mirrored.
+VIEWLOOM_ABI_CONST uint kTellsLittle = 1u << 31;
 
 // Push constants of add_reflections.comp.
 struct AddReflectionsPush {
@@ -125,7 +131,7 @@ VIEWLOOM_ABI_CONST uint kFilterRows = 64u;
 
 #ifdef __cplusplus
 static_assert(sizeof(ReflectionSettings) == 148);
-static_assert(sizeof(ReflectedPath) == 156);
+static_assert(sizeof(ReflectedPath) == 168);
 static_assert(sizeof(MergePathsPush) == 68);
 static_assert(sizeof(ReflectedLight) == 16);
 static_assert(sizeof(AddReflectionsPush) == 36);

@@ -36,14 +36,16 @@ struct Px {
   float roughness;
   vec3 normal;
   float inv_z;
+  bool tells;
 };
 
 Px pxAt(uint index) {
   const ReflectedLight bits = reflected_band[index];
   const vec2 blue_distance = unpackHalf2x16(bits.light.y);
-  const vec4 reflectance = unpackUnorm4x8(bits.reflectance);
-  return Px(vec3(unpackHalf2x16(bits.light.x), blue_distance.x), blue_distance.y, reflectance.rgb,
-            reflectance.a, normalOfPlace(bits.place), uintBitsToFloat(bits.place & 0xffff0000u));
+  return Px(vec3(unpackHalf2x16(bits.light.x), blue_distance.x), blue_distance.y,
+            reflectanceOf(bits), unpackUnorm4x8(bits.reflectance).a, normalOfPlace(bits.place),
+            uintBitsToFloat(bits.place & ~kTellsLittle & 0xffff0000u),
+            (bits.place & kTellsLittle) == 0u);
 }
 
 // How far around it a px is averaged, px of the view: half of the width that the blur of what is
@@ -93,7 +95,7 @@ vec3 filtered(ivec2 at, Px own) {
           is_mirror && abs(other.inv_z - own.inv_z) <= kNearestShare * own.inv_z &&
           abs(other.roughness - own.roughness) <= kRoughnessApart &&
           dot(other.normal, own.normal) >= kNormalsMin;
-      const float weight = is_alike ? near : 0.0;
+      const float weight = is_alike && other.tells ? near : 0.0;
       sum += weight * other.light;
       weights += weight;
     }

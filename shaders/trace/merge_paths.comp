@@ -132,14 +132,14 @@ void main() {
     ReflectedPath path = paths[index];
     if (path.is_on != 0u) follow(path, counts);
     if (push.bounce + 1u == push.bounce_count && push.sample_index < path.sample_count) {
-      path.light_sum += path.own_share * path.light / float(path.sample_count);
-      path.reflectance_sum += path.own_share / float(path.sample_count);
+      path.light_sum += path.own_share * path.light;
+      path.share_sum += path.own_share;
     }
     paths[index] = path;
     if (is_last) {
-      const vec3 light = path.light_sum / max(path.reflectance_sum, vec3(1e-6));
-      reflected_band[band_index] = packedLight(light, path.reflectance_sum, path.distance_sum_m,
-                                               path.roughness, path.place);
+      reflected_band[band_index] =
+          packedLight(path.light_sum, path.share_sum, path.sample_count, path.reflectance,
+                      path.distance_sum_m, path.roughness, path.place);
     }
   }
   addReflectionCounts(counts, UintRef(push.counters),

@@ -36,6 +36,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
   RayRecord at[];
 };
 
+#include "lib/albedo.glsl"
 #include "lib/first_camera.glsl"
 #include "lib/mirrored_path.glsl"
 #include "lib/pushed_scene.glsl"
@@ -86,11 +87,14 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   if (all(lessThanEqual(mirror.light, vec3(0.0)))) return;
   const vec3 eye = metricPoint(pinhole, view.eye);
   const vec3 to_spot = metresOf(pinhole, spot.point) - eye;
-  path.sample_count = mirror.roughness > kMirrorRoughness ? settings.sample_count : 1u;
+  const Path came = Path(normalize(to_spot), eye, vec3(1.0), false);
+  const float cosine = cosineTowards(mirror, came);
+  const bool is_rough = isRough(mirror, cosine);
+  path.sample_count = is_rough ? settings.sample_count : 1u;
   path.light = vec3(0.0);
   if (push.sample_index == 0u) {
     path.light_sum = vec3(0.0);
-    path.reflectance_sum = vec3(0.0);
+    path.share_sum = vec3(0.0);
     path.distance_sum_m = 0.0;
     path.roughness = mirror.roughness;
     // The same for all sources.
@@ -99,7 +103,8 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   if (push.sample_index >= path.sample_count) return;
   // Of a px of the view, as what it sees stands on its axis.
   path.px_angle = length(metricPoint(pinhole, view.direction_dx));
-  goOn(scene, pinhole, spot, mirror, Path(normalize(to_spot), eye, vec3(1.0), false), at.px, path);
+  goOn(scene, pinhole, spot, mirror, came, at.px, path);
+  path.reflectance = is_rough ? albedoOf(mirror, cosine) : path.own_share;
 }
 
 // From where a ray met this source.

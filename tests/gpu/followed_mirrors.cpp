@@ -27,6 +27,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingReflection, DescriptorKind::kUniform},
+                                     {abi::kBindingAlbedos, DescriptorKind::kStorage},
                                      {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingReflected, DescriptorKind::kStorage},
                                      {abi::kBindingFollowed, DescriptorKind::kStorage}};
@@ -152,6 +153,7 @@ FramePtr mirroringFrameOf(const oracle::Scene& scene) {
 MirrorFollower::MirrorFollower(const Device& device)
     : device_(device),
       kernels_(device),
+      albedos_(device),
       pass_(device, {.spirv = follow_mirrors_spirv,
                      .push_bytes = sizeof(abi::TracePush),
                      .descriptors = kSlots,
@@ -166,7 +168,7 @@ std::vector<abi::FollowedRay> MirrorFollower::follow(MirrorStage& stage) {
     std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
     for (const Descriptor& descriptor :
          {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),
-          wholeBuffer(abi::kBindingFollowed, rays.target()),
+          wholeBuffer(abi::kBindingFollowed, rays.target()), albedos_.descriptor(),
           structure.structure().asTexels(abi::kBindingStructure),
           structure.structure().asHalfTexels(abi::kBindingStructureHalves),
           structure.color().asTexels(abi::kBindingColor),

@@ -35,6 +35,7 @@ class MirrorFollower {
 
   const Device& device_;
   MirrorKernels kernels_;
+  Albedos albedos_;
   ComputePass pass_;
 };
 

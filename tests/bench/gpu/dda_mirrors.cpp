@@ -21,6 +21,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
                                      {abi::kBindingViews, DescriptorKind::kStorage},
                                      {abi::kBindingExtras, DescriptorKind::kUniform},
                                      {abi::kBindingReflection, DescriptorKind::kUniform},
+                                     {abi::kBindingAlbedos, DescriptorKind::kStorage},
                                      {abi::kBindingLensPoints, DescriptorKind::kStorage},
                                      {abi::kBindingReflected, DescriptorKind::kStorage}};
 
@@ -33,7 +34,8 @@ static_assert(sizeof(MarchPush) == 128);  // what any device takes
 }  // namespace
 
 DdaMirrors::DdaMirrors(const Device& device)
-    : march_(device, {.spirv = dda_mirrors_spirv,
+    : albedos_(device),
+      march_(device, {.spirv = dda_mirrors_spirv,
                       .push_bytes = sizeof(MarchPush),
                       .descriptors = kSlots,
                       .debug_name = "dda mirrors"}) {}
@@ -43,7 +45,8 @@ void DdaMirrors::record(vk::CommandBuffer commands, const ReflectedRows& rows,
   const StructureSlot& structure = rows.structure;
   std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
   for (const Descriptor& descriptor :
-       {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),
+       {structure.measuredDescriptor(), albedos_.descriptor(),
+        wholeBuffer(abi::kBindingReflected, rows.reflected),
         structure.structure().asTexels(abi::kBindingStructure),
         structure.structure().asHalfTexels(abi::kBindingStructureHalves),
         structure.color().asTexels(abi::kBindingColor),

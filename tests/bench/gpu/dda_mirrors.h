@@ -24,6 +24,7 @@ class DdaMirrors {
   void record(vk::CommandBuffer commands, const ReflectedRows& rows, const MarchOptions& options);
 
  private:
+  Albedos albedos_;
   ComputePass march_;
 };
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much rough surfaces mirror, beside what truth finds that samples all microfacets, not only
+// those that are seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/packing.hpp>
+
+#include "gpu/test_device.h"
+#include "gpu/world_views.h"
+#include "support/srgb_transfer.h"
+#include "support/truth/mirrored.h"
+#include "support/truth/picture_frame.h"
+#include "trace/albedos.h"
+
+namespace viewloom {
+namespace {
+
+constexpr SizePx kView_px{32, 24};
+constexpr uint32_t kWhite = 0xffffff;
+
+// Black, alone in even white light.
+truth::Scene plateOf(const truth::Gloss& gloss) {
+  truth::Scene scene;
+  truth::Body& plate =
+      scene.add({.shape = truth::Box{{8, 0, 8}}, .pose = {.position_m = {0, -1, -6}}, .paint = {}});
+  plate.gloss = gloss;
+  return scene;
+}
+
+truth::MirrorOptions whiteLight(uint32_t sample_count) {
+  return {.sample_count = sample_count, .environment = glm::vec3(1)};
+}
+
+// Of the plate, seen at a cosine to its normal.
+glm::vec3 trueAlbedo(const truth::Instant& plate, double cosine, uint32_t sample_count) {
+  const glm::dvec3 direction(0, -cosine, -std::sqrt(1 - cosine * cosine));
+  const truth::Ray ray{.origin_m = glm::dvec3(0, -1, -6) - direction, .direction = direction};
+  return truth::lightAlong(plate, ray, whiteLight(sample_count));
+}
+
+TEST(AlbedoTable, holdsWhatAllMicrofacetsMirror) {
+  constexpr double kApart = 0.004;  // of the table, and of truth with so many samples
+  constexpr uint32_t kSamples = 1 << 16;
+  constexpr uint32_t kLast = abi::kAlbedoSteps - 1;
+  double apart_max = 0;
+  for (const uint32_t row : {3U, 9U, 16U, 24U, kLast}) {
+    const float roughness = float(row) / float(kLast);
+    const truth::Instant all(plateOf({.light = glm::vec3(1), .roughness = roughness}), 0);
+    const truth::Instant some(plateOf({.light = glm::vec3(0.04F), .roughness = roughness}), 0);
+    for (const uint32_t column : {8U, 16U, 24U, kLast}) {
+      const double root = double(column) / kLast;
+      const glm::vec2 parts = glm::unpackUnorm2x16(albedoTable()[row * abi::kAlbedoSteps + column]);
+      const double of_all = trueAlbedo(all, root * root, kSamples).x;
+      const double of_some = trueAlbedo(some, root * root, kSamples).x;
+      const double some_told = 0.04 * double{parts.x} + 0.96 * double{parts.y};
+      SCOPED_TRACE(testing::Message() << "roughness " << roughness << ", cosine " << root * root);
+      EXPECT_NEAR(double{parts.x}, of_all, kApart);
+      EXPECT_NEAR(some_told, of_some, kApart);
+      apart_max =
+          std::max({apart_max, std::abs(double{parts.x} - of_all), std::abs(some_told - of_some)});
+    }
+  }
+  std::cout << "apart by up to " << apart_max << "\n";
+}
+
+// What fills the view, as a source in the view's place has it, and as it is.
+struct SeenPlate {
+  Camera camera;
+  FramePtr frame;
+  std::vector<glm::vec3> truth;
+};
+
+SeenPlate seenPlate(const truth::Gloss& gloss) {
+  const truth::Instant plate(plateOf(gloss), 0);
+  const Camera camera{.pose = {.orientation = glm::dquat(glm::dvec3(-0.9, 0, 0))},
+                      .intrinsics = {glm::dvec2(25), {16, 12}}};
+  const truth::Picture picture =
+      truth::takePicture(plate, camera, {.size_px = kView_px, .layer_count = 1});
+  return {camera, truth::frameOf(picture, 1),
+          truth::takeMirrored(plate, camera, kView_px, whiteLight(2048))};
+}
+
+class RoughMirrors : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    if (!IsSkipped()) renderer_.emplace(device());
+  }
+
+  // By how many codes the picture is off the truth anywhere.
+  double worstOf(const SeenPlate& plate, const Frame& frame, const ReflectionSpec& reflection) {
+    const RenderedAtlas atlas =
+        renderInWorld(*renderer_, frame, {plate.camera}, kView_px, 1, reflection);
+    double worst_codes = 0;
+    for (size_t i = 0; i < plate.truth.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const double truth = srgbFrom(std::min(double{plate.truth[i][c]}, 1.0));
+        const double shown = double{atlas.linear[4 * i + size_t(c)]};
+        worst_codes = std::max(worst_codes, 255 * std::abs(shown - truth));
+      }
+    }
+    return worst_codes;
+  }
+
+ private:
+  std::optional<OfflineRenderer> renderer_;
+};
+
+// Half a code for what px keep of it, one for the table and for truth.
+constexpr double kWorst_codes = 1.5;
+
+// Few rays of a px may all go along the surface, and tell nothing of the light; others beside it
+// do.
+TEST_F(RoughMirrors, takeEvenLightWithoutNoise) {
+  constexpr ReflectionSpec kFiltered{
+      .bounce_count = 1, .sample_count = 1, .environment_rgb = kWhite};
+  constexpr ReflectionSpec kUnfiltered{
+      .bounce_count = 1, .sample_count = 8, .environment_rgb = kWhite, .is_filtered = false};
+  for (const float roughness : {0.1F, 0.4F, 1.0F}) {
+    for (const glm::vec3& light : {glm::vec3(0.04F), glm::vec3(0.9F, 0.6F, 0.3F)}) {
+      const SeenPlate plate = seenPlate({.light = light, .roughness = roughness});
+      for (const FramePtr& frame : {plate.frame, twice(*plate.frame)}) {
+        SCOPED_TRACE(testing::Message() << "roughness " << roughness << ", F0 " << light.x << ", "
+                                        << frame->sources.size() << " sources");
+        const double filtered_codes = worstOf(plate, *frame, kFiltered);
+        const double unfiltered_codes = worstOf(plate, *frame, kUnfiltered);
+        std::cout << roughness << ", " << light.x << ": " << filtered_codes << " and "
+                  << unfiltered_codes << " codes\n";
+        EXPECT_LE(filtered_codes, kWorst_codes);
+        EXPECT_LE(unfiltered_codes, kWorst_codes);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viewloom
