@@ -9,8 +9,6 @@
 
 // As rough as that, a surface is a mirror: what it spreads is less than px show.
 const float kMirrorRoughness = 0.02;
-// Blur hides errors: so much of its width.
-const float kBlurShare = 0.125;
 // Steps of the depth samples, and sigmas of their noise, by which a surface stands out from itself.
 const float kStepsOfSurface = 1.0;
 const float kSigmasOfSurface = 4.0;
@@ -57,12 +55,7 @@ void turn(Mirror mirror, Spot spot, Pinhole pinhole, vec2 place, inout Path path
   path.eye -= 2.0 * dot(to_eye, mirror.normal) * mirror.normal;
 }
 
-// By how much the picture may be moved by errors of what is mirrored, over the view's focal length.
-float movedBy(Mirror mirror, float tolerance_px, float px_angle) {
-  return tolerance_px * px_angle + kBlurShare * mirror.roughness * mirror.roughness;
-}
-
-// By how much what is one with a surface may stand out from it.
+// By how much what is one with a surface may stand out from it. `moved_px`: as for reflectedRay().
 float surfaceError(Scene scene, Pinhole pinhole, Spot spot, vec3 eye, float moved_px) {
   const float cross = length(cross(metricPoint(pinhole, vec3(spot.point.xy, 1.0)), eye));
   const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);

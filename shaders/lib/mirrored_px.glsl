@@ -69,6 +69,7 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
   const bool is_rough = isRough(first_mirror, cosine);
   const uint count = is_rough ? settings.sample_count : 1u;
   Gathered sum = Gathered(vec3(0.0), vec3(0.0), count, vec3(0.0), 0.0);
+  const float moved_px = settings.tolerance_px * px_angle;
   uint i = 0u;
   uint bounce = 0u;
   Spot spot = first;
@@ -83,7 +84,6 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
     const bool is_first = bounce == 0u;
     own_share = is_first ? path.share : own_share;
     path.share = is_first ? vec3(1.0) : path.share;
-    const float moved_px = movedBy(mirror, settings.tolerance_px, px_angle);
     const float error = surfaceError(scene, pinhole, spot, path.eye, moved_px);
     const Reflected reflected =
         reflectedRay(scene, pinhole, startBefore(spot, error), path.direction, path.eye, moved_px);

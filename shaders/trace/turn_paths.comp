@@ -65,7 +65,7 @@ void goOn(Scene scene, Pinhole pinhole, Spot spot, Mirror mirror, Path came, uve
   path.walk = settings.walk;
   path.layer = spot.layer;
   path.spot = spot.point;
-  path.moved_px = movedBy(mirror, settings.tolerance_px, path.px_angle);
+  path.moved_px = settings.tolerance_px * path.px_angle;
   path.surface_error = surfaceError(scene, pinhole, spot, came.eye, path.moved_px);
   path.apart_m = kappa / (spot.point.z * spot.point.z);
   const vec3 start = vec3(spot.point.xy, spot.point.z + path.surface_error);

@@ -15,11 +15,11 @@ using QualityReflectionsTest = GpuTest;
 const std::map<std::string, double> kKnownMin_db = {{"mirror floor", 41.8},
                                                     {"mirror sphere", 36.2},
                                                     {"facing mirrors", 36.6},
-                                                    {"rough floor", 36.8}};
+                                                    {"rough floor", 46.5}};
 const std::map<std::string, double> kAllMin_db = {{"mirror floor", 41.5},
                                                   {"mirror sphere", 24.3},
                                                   {"facing mirrors", 29.7},
-                                                  {"rough floor", 36.8}};
+                                                  {"rough floor", 46.0}};
 // Above the same views without reflections.
 constexpr double kGainMin_db = 20;
 // What no source holds ends in the environment, and little else does.
@@ -36,9 +36,9 @@ constexpr double kFewLeast = 0.001;
 // And so of all px of mirrors: seen 0.89 with two sources, 14 and more with a cube map.
 constexpr double kAllGainMin_db = 0.5;
 // Of all px where others hold nothing else, below the first source by itself. A coarse cube map
-// takes part in what a finer source shows: seen 0.59. Of the mirror floor the first source alone
-// guesses all but perfectly what its rays pass behind, and others guess, too: seen 4.0, and no less
-// than 42.0.
+// takes part in what a finer source shows: seen 0.59. Of the floors the first source alone guesses
+// all but perfectly what its rays pass behind, and others guess, too: seen 4.0, and no less than
+// 42.0.
 constexpr double kLossMax_db = 1.5;
 constexpr double kGuessedLossMax_db = 5;
 constexpr double kGuessedMin_db = 41;
@@ -73,7 +73,7 @@ TEST_F(QualityReflectionsTest, mirrorsShowWhatTheSourcesHold) {
       EXPECT_GE(score.got.elsewhere_db,
                 is_much ? score.alone.elsewhere_db + kElsewhereGainMin_db : kFewMin_db);
     }
-    const bool is_guessed = score.scene == "mirror floor" && score.sources != "one";
+    const bool is_guessed = score.scene.ends_with("floor") && score.sources != "one";
     const double loss_max_db = is_guessed ? kGuessedLossMax_db : kLossMax_db;
     EXPECT_GE(score.got.all_db, score.alone.all_db + (is_much ? kAllGainMin_db : -loss_max_db));
     if (is_guessed) {
