@@ -12,7 +12,7 @@ struct Counts {
   uint32_t bounces;
   uint32_t samples;
 };
-constexpr Counts kCounts[] = {{1, 4}, {2, 8}, {4, 32}};
+constexpr Counts kCounts[] = {{1, 2}, {2, 4}, {4, 16}};
 
 }  // namespace
 

@@ -20,6 +20,7 @@ constexpr SizePx kSource_px{640, 480};
 constexpr double kFocal_px = 480;
 constexpr uint32_t kLayers = 2;
 constexpr uint32_t kEnvironment_rgb = 0x808080;
+constexpr uint32_t kSamples = 8;  // a px of a rough surface
 
 constexpr uint32_t kCubeSide_px = 512;  // of a face
 const Pose kCube{.position_m = {0, 0.1, -0.3}, .orientation = {1, 0, 0, 0}};
@@ -66,7 +67,9 @@ std::vector<MirrorView> mirrorViews() {
 }
 
 ReflectionSpec MirrorScene::effect() const {
-  return {.bounce_count = bounce_count, .environment_rgb = kEnvironment_rgb};
+  return {.bounce_count = bounce_count,
+          .sample_count = kSamples,
+          .environment_rgb = kEnvironment_rgb};
 }
 
 std::vector<glm::vec3> MirrorScene::truthOf(const truth::Instant& instant,
