@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/albedos.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -13,7 +14,7 @@ namespace viewloom {
 namespace {
 
 // A lattice of so many microfacets, of two successive Fibonacci numbers: a and b are off by no more
-// than 0.002 (albedos_test).
+// than 0.002 at the places of the table (rough_mirrors_test).
 constexpr uint32_t kMicrofacets = 377;
 constexpr uint32_t kTurn = 233;
 // Surfaces are not seen from along them, nor is any as smooth as a mirror.
@@ -29,11 +30,11 @@ abi::vec2 albedoParts(float cosine, float roughness) {
     const abi::vec2 place((float(i) + 0.5F) / kMicrofacets,
                           (float(i * kTurn % kMicrofacets) + 0.5F) / kMicrofacets);
     const abi::vec3 halfway = abi::visibleNormal(towards, alpha, place);
-    const float toHalfway = glm::dot(towards, halfway);
-    const float cosine_in = 2 * toHalfway * halfway.z - cosine;
+    const float cosine_half = glm::dot(towards, halfway);
+    const float cosine_in = 2 * cosine_half * halfway.z - cosine;
     if (cosine_in <= 0) continue;  // nothing is mirrored from below
     const float passed = abi::unshadowed(cosine_in, cosine, alpha);
-    sum += passed * abi::vec2(1, abi::fresnelRest(toHalfway));
+    sum += passed * abi::vec2(1, abi::fresnelRest(cosine_half));
   }
   return sum / float(kMicrofacets);
 }
