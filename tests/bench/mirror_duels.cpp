@@ -149,14 +149,13 @@ std::vector<MirrorDuel> mirrorDuels(const Device& device, const MirrorScene& mir
   const Stand& stand = mirrors.stands.front();
   const FramePtr frame = frameOf(instant, stand);
   MirrorKernels kernels(device);
-  Reflector reflector(device);
   DdaMirrors rival(device);
   std::vector<MirrorDuel> duels;
   for (const MirrorView& view : mirrorViews()) {
     MirrorStage stage(kernels, *frame, displayOf(view.camera, mirrors.effect()));
     MirrorDuel duel =
         duelOf(stage, mirrors.truthOf(instant, view.camera), heldBy(instant, stand, view.camera),
-               walksOf(reflector), marchesOf(rival), round_count);
+               walksOf(kernels.reflector), marchesOf(rival), round_count);
     duel.scene = mirrors.name;
     duel.view = view.name;
     duels.push_back(std::move(duel));

@@ -8,6 +8,7 @@
 #include "gpu/mirror_stage.h"
 #include "gpu/shaders/followed_abi.h"
 #include "oracle/judge.h"
+#include "trace/albedos.h"
 
 namespace viewloom {
 

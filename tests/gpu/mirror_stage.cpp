@@ -154,11 +154,11 @@ std::vector<float> MirrorStage::picture() {
   commands.copyBuffer(before.handle(), linear_.target().handle(),
                       vk::BufferCopy{.size = size_bytes});
   recordTransferToCompute(commands);
-  kernels_.adder.recordAdd(commands, job_,
-                           {.rows = {0, layout().size_px.height},
-                            .reflected = reflected_,
-                            .rgba = rgba_,
-                            .linear_address = linear_.target().address()});
+  kernels_.reflector.recordAdd(commands, job_,
+                               {.rows = {0, layout().size_px.height},
+                                .reflected = reflected_,
+                                .rgba = rgba_,
+                                .linear_address = linear_.target().address()});
   recordComputeToTransfer(commands);
   linear_.recordReadback(commands, size_bytes);
   recordTransferToHost(commands);

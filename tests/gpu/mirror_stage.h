@@ -15,12 +15,12 @@ namespace viewloom {
 
 // Compiled once for many stages. The device must outlive them.
 struct MirrorKernels {
-  explicit MirrorKernels(const Device& of) : device(of), builder(of), tracer(of), adder(of) {}
+  explicit MirrorKernels(const Device& of) : device(of), builder(of), tracer(of), reflector(of) {}
 
   const Device& device;
   StructureBuilder builder;
   ViewTracer tracer;
-  Reflector adder;
+  Reflector reflector;
 };
 
 // Of one source. Thread-safety: none.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/gpu/shaders/rival_abi.h"
+#include "trace/albedos.h"
 #include "trace/reflector.h"
 
 namespace viewloom::bench {
