@@ -2,9 +2,17 @@
 #include "pipeline/encode_queue.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace viewloom {
+namespace {
+
+// To be woken takes a thread about as long, and it may be put on a core that is busy.
+constexpr std::chrono::microseconds kLookout{100};
+
+}  // namespace
 
 void EncodeQueue::push(TracedStrip strip) {
   std::unique_lock lock(mutex_);
@@ -14,31 +22,27 @@ void EncodeQueue::push(TracedStrip strip) {
     return other.run->picture->gathers_on_host && goesFirst(*strip.run, *other.run);
   });
   strips_.insert(later, std::move(strip));
-  filled_.notify_one();
+  noteFilled();
 }
 
 void EncodeQueue::push(SweepRunPtr sweep) {
-  {
-    std::lock_guard lock(mutex_);
-    if (is_closed_) return;
-    const auto later = std::find_if(sweeps_.begin(), sweeps_.end(), [&](const SweepRunPtr& other) {
-      return goesFirst(*sweep->run(), *other->run());
-    });
-    sweeps_.insert(later, std::move(sweep));
-  }
-  filled_.notify_one();
+  std::lock_guard lock(mutex_);
+  if (is_closed_) return;
+  const auto later = std::find_if(sweeps_.begin(), sweeps_.end(), [&](const SweepRunPtr& other) {
+    return goesFirst(*sweep->run(), *other->run());
+  });
+  sweeps_.insert(later, std::move(sweep));
+  noteFilled();
 }
 
 void EncodeQueue::resume(TracedStrip strip) {
-  {
-    std::lock_guard lock(mutex_);
-    // What stands before those goes, too: that is only packed.
-    const auto sooner = std::find_if(strips_.rbegin(), strips_.rend(), [&](const auto& other) {
-      return goesFirst(*other.run, *strip.run);
-    });
-    strips_.insert(sooner.base(), std::move(strip));
-  }
-  filled_.notify_one();
+  std::lock_guard lock(mutex_);
+  // What stands before those goes, too: that is only packed.
+  const auto sooner = std::find_if(strips_.rbegin(), strips_.rend(), [&](const auto& other) {
+    return goesFirst(*other.run, *strip.run);
+  });
+  strips_.insert(sooner.base(), std::move(strip));
+  noteFilled();
 }
 
 // Whoever takes something wakes the next thread for what is left, from where it runs itself. Woken
@@ -49,7 +53,7 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   std::optional<EncodeTask> task;
   while (!(task = take())) {
     if (is_closed_ && sweeps_.empty()) return std::nullopt;
-    filled_.wait(lock);
+    waitForMore(lock);
   }
   const bool is_more = nextSweep() || !strips_.empty();
   const bool is_over = is_closed_ && sweeps_.empty() && strips_.empty();
@@ -59,6 +63,23 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   else if (is_more)
     filled_.notify_one();
   return task;
+}
+
+// Between two pieces, strips or answers it is often not for long.
+void EncodeQueue::waitForMore(std::unique_lock<std::mutex>& lock) {
+  const uint32_t seen_count = fill_count_;
+  lock.unlock();
+  const auto end = std::chrono::steady_clock::now() + kLookout;
+  while (fill_count_ == seen_count && std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  lock.lock();
+  if (fill_count_ == seen_count) filled_.wait(lock);
+}
+
+void EncodeQueue::noteFilled() {
+  ++fill_count_;
+  filled_.notify_one();
 }
 
 std::optional<EncodeTask> EncodeQueue::take() {
@@ -106,7 +127,7 @@ SweepPart EncodeQueue::takePart(const SweepRunPtr& sweep) {
 
 void EncodeQueue::noteSwept(SweepRun& sweep) {
   std::lock_guard lock(mutex_);
-  if (++sweep.swept_count == sweep.pieceCount()) filled_.notify_one();
+  if (++sweep.swept_count == sweep.pieceCount()) noteFilled();
 }
 
 void EncodeQueue::noteServed(bool is_tracked, int64_t duration_ns) {
@@ -118,6 +139,7 @@ void EncodeQueue::close() {
   std::lock_guard lock(mutex_);
   is_closed_ = true;
   room_.notify_all();
+  ++fill_count_;
   filled_.notify_all();
 }
 
@@ -127,6 +149,7 @@ void EncodeQueue::clear() {
   std::lock_guard lock(mutex_);
   strips.swap(strips_);
   sweeps.swap(sweeps_);
+  ++fill_count_;
   filled_.notify_all();
 }
 

@@ -2,6 +2,7 @@
 // What encode threads do next: strips that the device has traced, and pieces of atlases to sweep.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -62,6 +63,9 @@ class EncodeQueue {
   void clear();
 
  private:
+  // Until there may be something to take; looks out for a while before it sleeps.
+  void waitForMore(std::unique_lock<std::mutex>& lock);
+  void noteFilled();
   std::optional<EncodeTask> take();
   SweepRunPtr nextSweep() const;
   SweepPart takePart(const SweepRunPtr& sweep);
@@ -70,6 +74,7 @@ class EncodeQueue {
   std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable filled_;
+  std::atomic<uint32_t> fill_count_ = 0;  // changed under the mutex
   std::deque<TracedStrip> strips_;
   std::vector<SweepRunPtr> sweeps_;  // of which parts are left, what goes first in front
   EyesTurn turn_;                    // of those who pop, in ns

@@ -58,7 +58,11 @@ void GpuLoop::run(const std::stop_token& stop) {
     const bool may_begin = !stop.stop_requested();
     if (traces_.submitPart(may_begin)) continue;
     if (!may_begin && !traces_.hasBegun()) return;
-    wake_up_.wait();
+    if (const auto until_ns = traces_.waitsUntilNs(); until_ns && may_begin) {
+      wake_up_.waitFor(links_.clock.napUntil(*until_ns));
+    } else {
+      wake_up_.wait();
+    }
   }
 }
 

@@ -9,26 +9,9 @@
 namespace viewloom {
 namespace {
 
-// Poses that nothing has followed for so many of their intervals are taken to be the last.
-constexpr int64_t kIntervalsToSilence = 2;
-
 PoseTimes newerOf(const PoseTimes& a, const PoseTimes& b) {
   return a.received_ns < b.received_ns ? b : a;
 }
-
-// The tracked displays that might begin.
-struct Heads {
-  int64_t now_ns = 0;
-  int64_t count = 0;
-  int64_t freshest_ns = 0;  // when the newest of all their poses came
-
-  bool areFresh(const PoseTimes& poses) const {
-    const int64_t age_ns = now_ns - poses.received_ns;
-    return poses.interval_ns <= 0 || age_ns * count < poses.interval_ns ||
-           age_ns > kIntervalsToSilence * poses.interval_ns ||
-           poses.received_ns >= freshest_ns - kAlikePoses_ns;
-  }
-};
 
 }  // namespace
 
@@ -97,21 +80,32 @@ bool JobQueue::isSoonestTracked() const {
   return waiting != nullptr && waiting->job.is_tracked;
 }
 
-const JobQueue::Waiting* JobQueue::nextTracked(int64_t now_ns) const {
-  Heads heads{.now_ns = now_ns};
+JobQueue::NextHead JobQueue::nextHead(int64_t now_ns) const {
+  MovingHeads heads(now_ns);
   for (const Waiting& waiting : waiting_) {
-    if (!mayBeginTracked(waiting)) continue;
-    ++heads.count;
-    heads.freshest_ns = std::max(heads.freshest_ns, waiting.job.poses.received_ns);
+    if (mayBeginTracked(waiting)) heads.add(waiting.job.poses);
   }
-  const auto passed_count_max = kRoundsPassed * size_t(heads.count);
-  const Waiting* const passed_over = soonest([&](const Waiting& waiting) {
-    return mayBeginTracked(waiting) && waiting.passed_count >= passed_count_max;
+  const auto passed_count_max = kRoundsPassed * size_t(heads.count());
+  const Waiting* next = soonest([&](const Waiting& waiting) {
+    return mayBeginTracked(waiting) && waiting.passed_count >= passed_count_max &&
+           heads.areAtHand(waiting.job.poses);
   });
-  if (passed_over != nullptr) return passed_over;
-  return soonest([&](const Waiting& waiting) {
-    return mayBeginTracked(waiting) && heads.areFresh(waiting.job.poses);
+  if (next == nullptr) {
+    next = soonest([&](const Waiting& waiting) {
+      return mayBeginTracked(waiting) && heads.areTimely(waiting.job.poses);
+    });
+  }
+  if (next != nullptr) return {next, heads.waitForUntilNs(next->job.poses)};
+  next = soonest([&](const Waiting& waiting) {
+    return mayBeginTracked(waiting) && heads.areNewest(waiting.job.poses);
   });
+  return {next, heads.waitForAnyUntilNs()};
+}
+
+std::optional<int64_t> JobQueue::eyesWaitUntilNs(int64_t now_ns) const {
+  const NextHead next = nextHead(now_ns);
+  const bool may_wait = next.waiting != nullptr && next.waiting->job.is_for_eyes;
+  return may_wait ? next.wait_until_ns : std::nullopt;
 }
 
 AtlasJob JobQueue::take(const Waiting* waiting) {
@@ -127,7 +121,7 @@ AtlasJob JobQueue::begin() {
 }
 
 AtlasJob JobQueue::beginTracked(int64_t now_ns) {
-  AtlasJob taken = take(nextTracked(now_ns));
+  AtlasJob taken = take(nextHead(now_ns).waiting);
   for (Waiting& waiting : waiting_) waiting.passed_count += mayBeginTracked(waiting) ? 1 : 0;
   return taken;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/frame_ticket.h"
+#include "pipeline/moving_heads.h"
 #include "pipeline/resident_structure.h"
 #include "publish/eye_track.h"
 #include "temporal/camera_motion.h"
@@ -37,27 +38,21 @@ struct AtlasJob {
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
 };
 
-// Poses that came so close together are as good as each other, however fast they come: a small part
-// of the interval of any headset.
-inline constexpr int64_t kAlikePoses_ns = 500'000;
-
-// How often all tracked displays may go before one that waits, which then goes first whatever the
-// age of its poses. So seldom that no p99 tells: were it chance whose poses are fresh, one wait in
-// e^5 = 148 would be as long. Of eight heads that move at random times, 2.4 of them answered in
-// an interval of 90 Hz, the p99 of age is in the median of 50 sets 4.3 ms with 5, 5.6 with 3 and
-// 8.9 with 2, and none is passed over more than 36, 23 and 16 times (moving_heads_test's server).
-inline constexpr uint32_t kRoundsPassed = 5;
+// How often all tracked displays may go before one that waits, which then is next. Of eight heads
+// that move at random times, 2.4 of them answered in an interval of 90 Hz, none is passed over more
+// than 26 times with 3, and 42 with 5, which makes no p99 of the age of poses any better
+// (moving_heads_test's server: 2.1 ms in the median of 50 sets).
+inline constexpr uint32_t kRoundsPassed = 3;
 
 // Jobs that have not begun, at most one per picture.
 //
 // When more heads move than there are answers for, not all poses get one, and who is next decides
-// how old those are that do. Heads whose poses are fresh go first: those of all others are soon
-// replaced. Of n heads that wait, poses are fresh for an nth of the interval in which they come, as
-// then about one of the heads has some; so are any within kAlikePoses_ns of the freshest, and those
-// that nothing has followed for two intervals. Of these heads the one with the soonest deadline is
-// next: it has waited longest. One that others have gone before kRoundsPassed * n times is next in
-// any case. So none is passed over more than (kRoundsPassed + 1) * n - 1 times: the n - 1 others
-// may be as late.
+// how old those are that do. Of heads whose poses came just now, or are just about to
+// (MovingHeads), the one with the soonest deadline is next: it has waited longest, and waits for
+// its poses. Else it is whoever's poses come next, if that is soon, or one whose are the newest. Of
+// n heads that wait, one that others have gone before kRoundsPassed * n times is next as soon as
+// its poses are at hand. So no headset is passed over more than (kRoundsPassed + 1) * n times: the
+// others may be as late.
 //
 // Thread-safety: none; the trace loop's.
 class JobQueue {
@@ -76,6 +71,9 @@ class JobQueue {
   // Whether one of a tracked display may begin, and whether the soonest is one.
   bool hasTracked() const;
   bool isSoonestTracked() const;
+  // Until when tracked displays rather wait for poses that are due than begin; empty = they do not.
+  // One that is next and has a new frame to see never does.
+  std::optional<int64_t> eyesWaitUntilNs(int64_t now_ns) const;
   // Takes the soonest job, or of tracked displays the one that is next by now; no other of its
   // picture may begin until finish().
   AtlasJob begin();
@@ -90,13 +88,19 @@ class JobQueue {
     size_t passed_count = 0;  // of tracked displays that have begun before it, and might not have
   };
 
+  // Of tracked displays that may begin, if there are any.
+  struct NextHead {
+    const Waiting* waiting = nullptr;
+    std::optional<int64_t> wait_until_ns;  // rather than begin at once
+  };
+
   bool mayBegin(const Waiting& waiting) const;
   bool mayBeginTracked(const Waiting& waiting) const;
   // Of those that count, or of all that may begin; nullptr = none.
   template <typename Counts>
   const Waiting* soonest(const Counts& counts) const;
   const Waiting* soonest() const;
-  const Waiting* nextTracked(int64_t now_ns) const;
+  NextHead nextHead(int64_t now_ns) const;
   AtlasJob take(const Waiting* waiting);
 
   std::vector<Waiting> waiting_;

@@ -15,11 +15,6 @@ namespace {
 // are taken when it is their turn.
 constexpr size_t kSweptEyesCount = 1;
 
-// Of what a display was shown of the same structure.
-bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
-  return job.tick && shown && !job.tick->shown.looksLike(*shown);
-}
-
 std::vector<const StructureSlot*> partsOf(const AtlasJob& job) {
   const auto& parts = job.structure->build->walked->structure.parts();
   std::vector<const StructureSlot*> all(parts.begin(), parts.end());
@@ -60,7 +55,7 @@ bool TraceLoop::offer(AtlasJob job) {
   const size_t count_before = jobs_.waitingCount();
   replaced = jobs_.push(std::move(job));
   if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
-  return jobs_.waitingCount() > count_before;
+  return jobs_.waitingCount() > count_before || eyes_wait_until_ns_;
 }
 
 bool TraceLoop::offerUnlessBusy(const AtlasJob& job) {
@@ -116,21 +111,31 @@ bool TraceLoop::hasRoomForEyes() const {
   return !begun_.hasTracked() && swept_eyes_.hasRoom();
 }
 
+// Empty while there is no room for it, or it waits for newer poses. Under the lock.
+std::optional<AtlasJob> TraceLoop::nextOfEyes() {
+  if (!hasRoomForEyes()) return std::nullopt;
+  const int64_t now_ns = links_.clock.nowNs();
+  eyes_wait_until_ns_ = jobs_.eyesWaitUntilNs(now_ns);
+  if (eyes_wait_until_ns_) return std::nullopt;
+  return jobs_.beginTracked(now_ns);
+}
+
 // Begins jobs as long as one is due before everything that has begun, or all that has is long, or
-// eyes wait and nobody's are served.
+// eyes wait and nobody's are served. None while eyes wait for newer poses: to begin a quilt would
+// take longer.
 void TraceLoop::beginDueJobs() {
   while (true) {
     std::optional<AtlasJob> job;
     {
       std::lock_guard lock(mutex_);
+      eyes_wait_until_ns_.reset();
       const std::optional<int64_t> due_ns = jobs_.soonestDeadlineNs();
       const AtlasRunPtr run = begun_.soonest();
       const bool is_due = due_ns && (!run || run->isLong() || *due_ns < run->job.deadline_ns);
       const bool eyes_wait = run && !run->isTracked() && jobs_.hasTracked();
       if (!is_due && !eyes_wait) return;
-      const bool is_tracked = jobs_.isSoonestTracked();
-      if (is_tracked && !hasRoomForEyes()) return;
-      job = is_tracked ? jobs_.beginTracked(links_.clock.nowNs()) : jobs_.begin();
+      job = jobs_.isSoonestTracked() ? nextOfEyes() : jobs_.begin();
+      if (!job) return;
     }
     if (!begin(*job)) {
       std::lock_guard lock(mutex_);
@@ -139,36 +144,10 @@ void TraceLoop::beginDueJobs() {
   }
 }
 
-// The displays of the picture that have not got this structure, or a newer one; or have got it, but
-// not as the newest eyes see it, or not from where its camera is by now. A structure that they have
-// not got comes with a job of its own.
-TraceLoop::Unserved TraceLoop::takeUnserved(const AtlasJob& job) {
-  const uint64_t serial = job.structure->serial;
-  const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
-  std::erase_if(served_, [&](const auto& entry) {
-    return std::none_of(all.begin(), all.end(),
-                        [&](const auto& display) { return display->id == entry.first; });
-  });
-  pictures_.keepOnly(all);
-  Unserved unserved;
-  for (const ActiveDisplayPtr& display : all) {
-    if (display->picture_key != job.picture_key) continue;
-    // A tracked display is the only one of its picture.
-    if (display->eyes) unserved.eyes = display->eyes->newest();
-    Served& served = served_[display->id];
-    const bool is_newer = serial > served.serial && !job.is_for_eyes;
-    const bool has_moved =
-        serial == served.serial && (unserved.eyes != served.eyes || hasMoved(job, served.shown));
-    if (!is_newer && !has_moved) continue;
-    served = {serial, unserved.eyes, {}};
-    if (job.tick) served.shown = job.tick->shown;
-    unserved.displays.push_back(display);
-  }
-  return unserved;
-}
-
 bool TraceLoop::begin(AtlasJob& job) {
-  auto [displays, eyes] = takeUnserved(job);
+  const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
+  pictures_.keepOnly(all);
+  auto [displays, eyes] = served_.take(job, all);
   if (displays.empty()) return false;
   const Aim aim = aimOf(*displays.front(), job);
   const auto picture = pictures_.get(*displays.front(), *job.structure, aim, eyes);
@@ -209,7 +188,7 @@ void TraceLoop::latchEyes(AtlasRun& run) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
     run.picture = *picture;
     run.method = *method;
-    served_[display->id].eyes = newest;
+    served_.noteEyes(*display, newest);
     run.eyes = std::move(newest);
   }
   run.begun_ns = links_.clock.nowNs();

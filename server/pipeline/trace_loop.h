@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@
 #include "pipeline/encode_pool.h"
 #include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
+#include "pipeline/served_displays.h"
 #include "pipeline/slot_pool.h"
 #include "pipeline/strip_trace.h"
 #include "structure/structure_builder.h"
@@ -33,7 +34,8 @@ class TraceLoop {
             uint32_t slot_count, const std::function<void()>& on_slot_return);
 
   // Replaces a job of the same picture and an older structure that has not begun. True: none of the
-  // picture has waited so far. Else nothing new can begin: what one waits for wakes the loop.
+  // picture has waited so far, or eyes wait for newer poses. Else nothing new can begin: what one
+  // waits for wakes the loop.
   bool offer(AtlasJob job);
   // An atlas of the picture waits or is on its way.
   bool isBusy(const std::string& picture_key) {
@@ -53,20 +55,13 @@ class TraceLoop {
   // parts of a strip behind. False when there is nothing to do or no free slot.
   bool submitPart(bool may_begin);
   bool hasBegun() const { return !begun_.isEmpty(); }
+  // When nothing was submitted: from when on something may be, whatever happens until then.
+  std::optional<int64_t> waitsUntilNs() {
+    std::lock_guard lock(mutex_);
+    return eyes_wait_until_ns_;
+  }
 
  private:
-  // What the last atlas of a display showed.
-  struct Served {
-    uint64_t serial = 0;  // of its structure
-    EyePosesPtr eyes;
-    std::optional<ShownInstant> shown;  // at a tick
-  };
-  // The displays that a job is for, and by which eyes they are seen.
-  struct Unserved {
-    std::vector<ActiveDisplayPtr> displays;
-    EyePosesPtr eyes;
-  };
-
   // The slots that trace the same planes. They grow to the largest strip that was asked for.
   struct SlotRing {
     TraceSlotShape largest;
@@ -76,8 +71,8 @@ class TraceLoop {
   std::shared_ptr<StripTrace> takeSlot(const AtlasRun& run);
   void beginDueJobs();
   bool hasRoomForEyes() const;
+  std::optional<AtlasJob> nextOfEyes();
   bool begin(AtlasJob& job);
-  Unserved takeUnserved(const AtlasJob& job);
   bool submitPartOf(const AtlasRunPtr& run);
   void latchEyes(AtlasRun& run);
   bool submitSweep(const AtlasRunPtr& run);
@@ -98,10 +93,11 @@ class TraceLoop {
   SlotPool<SweptAtlas> swept_atlases_;
   SlotPool<SweptAtlas> swept_eyes_;  // of tracked displays: no quilt's end is waited for
   BegunRuns begun_;
-  std::map<uint64_t, Served> served_;  // by display, as last begun
+  ServedDisplays served_;
 
   std::mutex mutex_;
-  JobQueue jobs_;  // guarded by mutex_
+  JobQueue jobs_;                              // guarded by mutex_
+  std::optional<int64_t> eyes_wait_until_ns_;  // guarded by mutex_
 };
 
 }  // namespace viewloom

@@ -123,9 +123,9 @@ void measure(const Arguments& arguments) {
     if (load.name.find(arguments.only) == std::string::npos) continue;
     std::cerr << load.name << "\n";
     const EyeFigures figures = measureEyes(device, frames, load.load);
-    // Right after it: hosts that are shared have their hours.
-    const load::Percentiles bare =
-        measureBareWork(figures.made.atMs(0.5), kHeadset_hz, arguments.seconds);
+    // Right after it: hosts that are shared have their hours. As often as poses come.
+    const load::Percentiles bare = measureBareWork(
+        figures.made.atMs(0.5), load.load.viewer_count * load.load.rate_hz, arguments.seconds);
     json["loads"].push_back(resultOf(load, figures, bare));
   }
   if (json["loads"].empty()) {

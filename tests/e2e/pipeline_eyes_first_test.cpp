@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What eyes that move have before all others: the newest of them, and at once.
+#include <chrono>
 #include <future>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -10,6 +12,7 @@
 
 #include "e2e/gate_clock.h"
 #include "e2e/pipeline_fixture.h"
+#include "pipeline/moving_heads.h"
 
 namespace viewloom::test {
 namespace {
@@ -17,7 +20,8 @@ namespace {
 using testing::ElementsAre;
 using testing::SizeIs;
 
-constexpr int64_t kHour_ns = 3600'000'000'000;
+constexpr int64_t kMs_ns = 1'000'000;
+constexpr int64_t kHour_ns = 3'600'000 * kMs_ns;
 
 DisplaySpec trackedEyes() {
   return *completeDisplaySpec(
@@ -117,6 +121,61 @@ TEST_F(PipelineEyesFirstTest, servesEyesBeforeTheRestOfAQuiltThatIsLongOverdue) 
   eyes->wait();
   held_->wait();
   EXPECT_THAT(log_, ElementsAre("first", "eyes", "held"));
+}
+
+// Eyes that move every 10 ms, and could not be served for most of the last of them.
+class PipelineAgedEyesTest : public PipelineFixture {
+ protected:
+  void SetUp() override {
+    PipelineFixture::SetUp();
+    if (IsSkipped()) return;
+    server_ = std::make_unique<Server>(device());
+    server_->offer(syntheticFrame(1));
+    auto subscription =
+        server_->broadcaster.subscribe("scene", trackedEyes(), {}, subscriber_, eyes_);
+    subscription_ = *std::move(subscription);
+    ASSERT_THAT(subscriber_->waitForAtlases(1), SizeIs(1));
+    server_->clock.advance(100 * kMs_ns);
+    moveTo(0.1);
+    ASSERT_THAT(subscriber_->waitForAtlases(2), SizeIs(2));
+    server_->clock.advance(10 * kMs_ns);
+    const int64_t moved_ns = server_->clock.nowNs();
+    server_->clock.advance(8 * kMs_ns);
+    moveTo(0.2, moved_ns);
+    // Time for who does not wait to begin.
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+
+  void moveTo(double x_m, int64_t received_ns) {
+    eyes_->put(eyesAt(x_m, received_ns));
+    server_->broadcaster.announceEyes(subscription_->displayId());
+  }
+  void moveTo(double x_m) { moveTo(x_m, server_->clock.nowNs()); }
+
+  // The third atlas has come, and shows what they see from there.
+  void expectThird(double x_m, int64_t age_ns) {
+    const auto atlases = subscriber_->waitForAtlases(3);
+    ASSERT_THAT(atlases, SizeIs(3));
+    EXPECT_EQ(atlases[2]->layout->views[0].camera.pose.position_m.x, x_m);
+    EXPECT_EQ(atlases[2]->eye_poses_age_ns, age_ns);
+  }
+
+  const EyeTrackPtr eyes_ = std::make_shared<EyeTrack>();
+  const std::shared_ptr<CollectingSubscriber> subscriber_ =
+      std::make_shared<CollectingSubscriber>();
+  std::unique_ptr<Server> server_;
+  std::unique_ptr<Broadcaster::Subscription> subscription_;
+};
+
+TEST_F(PipelineAgedEyesTest, waitForPosesThatAreDue) {
+  server_->clock.advance(1 * kMs_ns);
+  moveTo(0.3);
+  expectThird(0.3, 0);
+}
+
+TEST_F(PipelineAgedEyesTest, doNotWaitForThemForEver) {
+  server_->clock.advance(2 * kMs_ns + kAlikePoses_ns);
+  expectThird(0.2, 10 * kMs_ns + kAlikePoses_ns);
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/served_displays.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewloom {
+namespace {
+
+// Of what a display was shown of the same structure.
+bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
+  return job.tick && shown && !job.tick->shown.looksLike(*shown);
+}
+
+}  // namespace
+
+UnservedDisplays ServedDisplays::take(const AtlasJob& job,
+                                      const std::vector<ActiveDisplayPtr>& all) {
+  const uint64_t serial = job.structure->serial;
+  std::erase_if(served_, [&](const auto& entry) {
+    return std::none_of(all.begin(), all.end(),
+                        [&](const auto& display) { return display->id == entry.first; });
+  });
+  UnservedDisplays unserved;
+  for (const ActiveDisplayPtr& display : all) {
+    if (display->picture_key != job.picture_key) continue;
+    // A tracked display is the only one of its picture.
+    if (display->eyes) unserved.eyes = display->eyes->newest();
+    Served& served = served_[display->id];
+    const bool is_newer = serial > served.serial && !job.is_for_eyes;
+    const bool has_moved =
+        serial == served.serial && (unserved.eyes != served.eyes || hasMoved(job, served.shown));
+    if (!is_newer && !has_moved) continue;
+    served = {serial, unserved.eyes, {}};
+    if (job.tick) served.shown = job.tick->shown;
+    unserved.displays.push_back(display);
+  }
+  return unserved;
+}
+
+void ServedDisplays::noteEyes(const ActiveDisplay& display, EyePosesPtr eyes) {
+  served_[display.id].eyes = std::move(eyes);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What displays were given last, and which of them a job has something new for.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "pipeline/job_queue.h"
+#include "publish/broadcaster.h"
+
+namespace viewloom {
+
+// The displays that a job is for, and by which eyes they are seen.
+struct UnservedDisplays {
+  std::vector<ActiveDisplayPtr> displays;
+  EyePosesPtr eyes;
+};
+
+// Thread-safety: none; the trace loop's.
+class ServedDisplays {
+ public:
+  // Of all that there are, the displays of the picture that have not got this structure, or a newer
+  // one; or have got it, but not as the newest eyes see it, or not from where its camera is by now.
+  // From now on they have. A structure that they have not got comes with a job of its own.
+  UnservedDisplays take(const AtlasJob& job, const std::vector<ActiveDisplayPtr>& all);
+  // A display was taken, and is seen by newer eyes after all.
+  void noteEyes(const ActiveDisplay& display, EyePosesPtr eyes);
+
+ private:
+  // What the last atlas of a display showed.
+  struct Served {
+    uint64_t serial = 0;  // of its structure
+    EyePosesPtr eyes;
+    std::optional<ShownInstant> shown;  // at a tick
+  };
+
+  std::map<uint64_t, Served> served_;  // by display, as last begun
+};
+
+}  // namespace viewloom
