@@ -12,7 +12,6 @@ const float kMirrorRoughness = 0.02;
 // Steps of the depth samples, and sigmas of their noise, by which a surface stands out from itself.
 const float kStepsOfSurface = 1.0;
 const float kSigmasOfSurface = 4.0;
-
 // As seen along it, one is a mirror, too: no microfacet shows.
 const float kCosineAlong = 1e-4;
 

@@ -145,7 +145,8 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
   const Gathered gathered =
       gather(scene, pinhole, spot, mirror, path, px_angle, tile_px, counts);
   return packedLight(gathered.light_sum, gathered.share_sum, gathered.count,
-                     gathered.reflectance, gathered.distance_m, mirror.roughness,
+                     packedReflectance(gathered.reflectance, mirror.roughness),
+                     gathered.distance_m,
                      packedPlace(mirror.normal, spot.point.z));
 }
 

@@ -29,9 +29,39 @@ uint packedPlace(vec3 normal, float inv_z) {
          (floatBitsToUint(inv_z) & 0xffff0000u);
 }
 
-vec3 reflectanceOf(ReflectedLight light) {
-  const vec3 root = unpackUnorm4x8(light.reflectance).rgb;
+// As square roots, with the roughness.
+uint packedReflectance(vec3 reflectance, float roughness) {
+  return packUnorm4x8(vec4(sqrt(reflectance), roughness));
+}
+
+vec3 reflectanceOf(uint packed) {
+  const vec3 root = unpackUnorm4x8(packed).rgb;
   return root * root;
+}
+
+float roughnessOf(uint packed) {
+  return unpackUnorm4x8(packed).a;
+}
+
+// The exponent of a binary16 and three bits of its fraction: within a sixteenth.
+uint packedDistance(float distance_m) {
+  return min(packHalf2x16(vec2(distance_m, 0.0)) + 0x40u, 0x7bffu) >> 7;
+}
+
+float unpackedDistance(uint packed) {
+  return unpackHalf2x16(packed << 7).x;
+}
+
+// Of the light that a px's rays found: 1 in the mean, as square roots of up to so much.
+const float kWeightMax = 16.0;
+
+uint packedWeight(float weight) {
+  return uint(255.0 * sqrt(clamp(weight / kWeightMax, 0.0, 1.0)) + 0.5);
+}
+
+float unpackedWeight(uint packed) {
+  const float root = float(packed) / 255.0;
+  return kWeightMax * root * root;
 }
 
 vec3 normalOfPlace(uint place) {
@@ -40,24 +70,21 @@ vec3 normalOfPlace(uint place) {
   return normalize(vec3(z > 0.0 ? foldedOctahedron(across) : across, z));
 }
 
-// What rays find together that the surface takes less than this share of what it mirrors from says
-// little of what it mirrors: they go along it.
-const float kTellingShare = 0.05;
-
 float largestOf(vec3 light) {
   return max(light.r, max(light.g, light.b));
 }
 
 // What is mirrored, by the light that rays found, weighted by what the surface takes of each of
-// them, and by these weights; before it takes its `reflectance` of it.
-ReflectedLight packedLight(vec3 light_sum, vec3 share_sum, uint count, vec3 reflectance,
-                           float distance_m, float roughness, uint place) {
-  const vec3 bounded = min(light_sum / max(share_sum, vec3(1e-6)), vec3(kHalfMax));
-  const bool tells =
-      largestOf(share_sum) >= kTellingShare * float(count) * largestOf(reflectance);
+// them, and by these weights; before it takes its `reflectance` of it, which is packed.
+ReflectedLight packedLight(vec3 light_sum, vec3 share_sum, uint count, uint reflectance,
+                           float distance_m, uint place) {
+  const vec3 bounded = min(light_sum / max(share_sum, vec3(1e-12)), vec3(kHalfMax));
+  const float taken = largestOf(reflectanceOf(reflectance)) * float(count);
+  const uint beside = packedDistance(distance_m) |
+                      packedWeight(largestOf(share_sum) / max(taken, 1e-12)) << 8;
   return ReflectedLight(
-      uvec2(packHalf2x16(bounded.rg), packHalf2x16(vec2(bounded.b, distance_m))),
-      packUnorm4x8(vec4(sqrt(reflectance), roughness)), tells ? place : place | kTellsLittle);
+      uvec2(packHalf2x16(bounded.rg), packHalf2x16(vec2(bounded.b, 0.0)) | beside << 16),
+      reflectance, place);
 }
 
 #endif  // VIEWLOOM_LIB_REFLECTED_LIGHT_GLSL_

@@ -64,8 +64,7 @@ struct ReflectedPath {
   vec3 share_sum;
   float distance_sum_m;
   // Of the px's surface, as in ReflectedLight.
-  vec3 reflectance;
-  float roughness;
+  uint reflectance;
   uint place;
 };
 
@@ -105,13 +104,13 @@ VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
 
 // What comes to a px by way of the surface that it shows.
 struct ReflectedLight {
-  uvec2 light;  // binary16: red, green, blue; how far what is mirrored lies behind the surface, m
+  // Red, green and blue in binary16; how far what is mirrored lies behind the surface, m, and what
+  // weight the light has among that of others, 8 bits each (lib/reflected_light.glsl).
+  uvec2 light;
   // Of the light so much adds to the px, as square roots: 0..255 of red, green, blue; roughness.
   uint reflectance;
   uint place;  // the surface's normal in 8 + 8 bits, and the upper half of its inv_z's bits
 };
-// Bit of `place`, the sign of inv_z: light that says little of what is mirrored.
-VIEWLOOM_ABI_CONST uint kTellsLittle = 1u << 31;
 
 // Push constants of add_reflections.comp.
 struct AddReflectionsPush {
@@ -131,7 +130,7 @@ VIEWLOOM_ABI_CONST uint kFilterRows = 64u;
 
 #ifdef __cplusplus
 static_assert(sizeof(ReflectionSettings) == 148);
-static_assert(sizeof(ReflectedPath) == 168);
+static_assert(sizeof(ReflectedPath) == 156);
 static_assert(sizeof(MergePathsPush) == 68);
 static_assert(sizeof(ReflectedLight) == 16);
 static_assert(sizeof(AddReflectionsPush) == 36);

@@ -36,16 +36,16 @@ struct Px {
   float roughness;
   vec3 normal;
   float inv_z;
-  bool tells;
+  float weight;  // of its light among that of others
 };
 
 Px pxAt(uint index) {
   const ReflectedLight bits = reflected_band[index];
-  const vec2 blue_distance = unpackHalf2x16(bits.light.y);
-  return Px(vec3(unpackHalf2x16(bits.light.x), blue_distance.x), blue_distance.y,
-            reflectanceOf(bits), unpackUnorm4x8(bits.reflectance).a, normalOfPlace(bits.place),
-            uintBitsToFloat(bits.place & ~kTellsLittle & 0xffff0000u),
-            (bits.place & kTellsLittle) == 0u);
+  const float blue = unpackHalf2x16(bits.light.y).x;
+  return Px(vec3(unpackHalf2x16(bits.light.x), blue),
+            unpackedDistance(bits.light.y >> 16 & 0xffu), reflectanceOf(bits.reflectance),
+            roughnessOf(bits.reflectance), normalOfPlace(bits.place),
+            uintBitsToFloat(bits.place & 0xffff0000u), unpackedWeight(bits.light.y >> 24));
 }
 
 // How far around it a px is averaged, px of the view: half of the width that the blur of what is
@@ -95,7 +95,7 @@ vec3 filtered(ivec2 at, Px own) {
           is_mirror && abs(other.inv_z - own.inv_z) <= kNearestShare * own.inv_z &&
           abs(other.roughness - own.roughness) <= kRoughnessApart &&
           dot(other.normal, own.normal) >= kNormalsMin;
-      const float weight = is_alike && other.tells ? near : 0.0;
+      const float weight = is_alike ? near * other.weight : 0.0;
       sum += weight * other.light;
       weights += weight;
     }

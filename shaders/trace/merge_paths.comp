@@ -139,7 +139,7 @@ void main() {
     if (is_last) {
       reflected_band[band_index] =
           packedLight(path.light_sum, path.share_sum, path.sample_count, path.reflectance,
-                      path.distance_sum_m, path.roughness, path.place);
+                      path.distance_sum_m, path.place);
     }
   }
   addReflectionCounts(counts, UintRef(push.counters),

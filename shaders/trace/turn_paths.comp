@@ -96,7 +96,6 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
     path.light_sum = vec3(0.0);
     path.share_sum = vec3(0.0);
     path.distance_sum_m = 0.0;
-    path.roughness = mirror.roughness;
     // The same for all sources.
     path.place = packedPlace(directionToFirst(mirror.normal), 1.0 / length(to_spot));
   }
@@ -104,7 +103,9 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   // Of a px of the view, as what it sees stands on its axis.
   path.px_angle = length(metricPoint(pinhole, view.direction_dx));
   goOn(scene, pinhole, spot, mirror, came, at.px, path);
-  path.reflectance = is_rough ? albedoOf(mirror, cosine) : path.own_share;
+  if (push.sample_index > 0u) return;
+  path.reflectance = packedReflectance(is_rough ? albedoOf(mirror, cosine) : path.own_share,
+                                       mirror.roughness);
 }
 
 // From where a ray met this source.

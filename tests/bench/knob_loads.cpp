@@ -183,7 +183,7 @@ KnobLoad reflectionsLoad(uint32_t by) {
   TrueAtlas atlas(beside.size_px, 1);
   atlas.add(
       takeMirrored(instant, beside.camera, beside.size_px,
-                   {.bounce_count = 1, .sample_count = 128, .environment = glm::vec3(float(grey))}),
+                   {.bounce_count = 1, .sample_count = 512, .environment = glm::vec3(float(grey))}),
       mirroredKnownFrom(instant, {{source.camera, source.size_px}}, beside.camera, beside.size_px));
   KnobLoad load = atlas.take();
   load.application = "reflections";

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "gpu/through_lens.h"
+#include "gpu/world_views.h"
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/picture_frame.h"
 
@@ -25,14 +26,6 @@ class LensMirrors : public ThroughLens {
     renderer_->build(*one_);
   }
 
-  // The same source twice, which other kernels trace.
-  void buildTwice() {
-    Frame both = *one_;
-    both.format.sources.push_back(one_->format.sources.front());
-    both.sources.push_back(one_->sources.front());
-    renderer_->build(both);
-  }
-
   static DisplaySpec mirrored() {
     ViewCamera camera;
     camera.pose.position_m = {0.02, 0.01, 0};
@@ -53,7 +46,7 @@ TEST_F(LensMirrors, showTheMeanOfWhatTheRaysOfALensFind) {
 }
 
 TEST_F(LensMirrors, showItInSeveralSources) {
-  buildTwice();
+  renderer_->build(*twice(*one_));
   EXPECT_LE(differingOf(mirrored(), 0), kTiedShareMax);
 }
 
