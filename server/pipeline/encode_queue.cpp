@@ -68,18 +68,21 @@ std::optional<EncodeTask> EncodeQueue::pop() {
 // Between two pieces, strips or answers it is often not for long.
 void EncodeQueue::waitForMore(std::unique_lock<std::mutex>& lock) {
   const uint32_t seen_count = fill_count_;
+  ++lookout_count_;
   lock.unlock();
   const auto end = std::chrono::steady_clock::now() + kLookout;
   while (fill_count_ == seen_count && std::chrono::steady_clock::now() < end) {
     std::this_thread::yield();
   }
   lock.lock();
+  --lookout_count_;
   if (fill_count_ == seen_count) filled_.wait(lock);
 }
 
+// Who looks out sees it, also if it is about to sleep.
 void EncodeQueue::noteFilled() {
   ++fill_count_;
-  filled_.notify_one();
+  if (lookout_count_ == 0) filled_.notify_one();
 }
 
 std::optional<EncodeTask> EncodeQueue::take() {

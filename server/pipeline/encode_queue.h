@@ -74,7 +74,9 @@ class EncodeQueue {
   std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable filled_;
-  std::atomic<uint32_t> fill_count_ = 0;  // changed under the mutex
+  // Changes, under the mutex, whenever there may be something to take where there was nothing.
+  std::atomic<uint32_t> fill_count_ = 0;
+  uint32_t lookout_count_ = 0;  // of threads that will look at it before they sleep
   std::deque<TracedStrip> strips_;
   std::vector<SweepRunPtr> sweeps_;  // of which parts are left, what goes first in front
   EyesTurn turn_;                    // of those who pop, in ns

@@ -87,8 +87,10 @@ JobQueue::NextHead JobQueue::nextHead(int64_t now_ns) const {
   }
   const auto passed_count_max = kRoundsPassed * size_t(heads.count());
   const Waiting* next = soonest([&](const Waiting& waiting) {
-    return mayBeginTracked(waiting) && waiting.passed_count >= passed_count_max &&
-           heads.areAtHand(waiting.job.poses);
+    const size_t passed_count = waiting.passed_count;
+    return mayBeginTracked(waiting) && passed_count >= passed_count_max &&
+           (passed_count >= passed_count_max + size_t(heads.count()) ||
+            heads.areAtHand(waiting.job.poses));
   });
   if (next == nullptr) {
     next = soonest([&](const Waiting& waiting) {

@@ -51,8 +51,8 @@ inline constexpr uint32_t kRoundsPassed = 3;
 // (MovingHeads), the one with the soonest deadline is next: it has waited longest, and waits for
 // its poses. Else it is whoever's poses come next, if that is soon, or one whose are the newest. Of
 // n heads that wait, one that others have gone before kRoundsPassed * n times is next as soon as
-// its poses are at hand. So no headset is passed over more than (kRoundsPassed + 1) * n times: the
-// others may be as late.
+// its poses are at hand, and after n more in any case. So none is passed over more than
+// (kRoundsPassed + 2) * n - 1 times: the n - 1 others may be as late.
 //
 // Thread-safety: none; the trace loop's.
 class JobQueue {

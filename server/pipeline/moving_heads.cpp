@@ -22,7 +22,8 @@ void MovingHeads::add(const PoseTimes& poses) {
 bool MovingHeads::areTimely(const PoseTimes& poses) const {
   if (areFresh(poses)) return true;
   const auto due_ns = nextDueNs(poses);
-  return due_ns && 2 * (*due_ns - now_ns_) * count_ < poses.interval_ns;
+  return due_ns && *due_ns - now_ns_ < kAwaited_ns &&
+         2 * (*due_ns - now_ns_) * count_ < poses.interval_ns;
 }
 
 bool MovingHeads::areAtHand(const PoseTimes& poses) const {

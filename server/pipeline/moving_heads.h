@@ -29,10 +29,11 @@ class MovingHeads {
 
   int64_t count() const { return count_; }
   // Of n heads poses came within half an nth of the interval in which they come, or within
-  // kAlikePoses_ns, or are due in half an nth: that is so of about one of the heads. Those that
-  // nothing is due after, as none came before or for two intervals, always are.
+  // kAlikePoses_ns, or are due in half an nth, and in less than kAwaited_ns: that is so of about
+  // one of the heads. Those that nothing is due after, as none came before or for two intervals,
+  // always are.
   bool areTimely(const PoseTimes& poses) const;
-  // The same of kAwaited_ns in place of half an nth.
+  // They came as late as that, or are due in less than kAwaited_ns, or late.
   bool areAtHand(const PoseTimes& poses) const;
   // They came within kAlikePoses_ns of the newest of all.
   bool areNewest(const PoseTimes& poses) const;

@@ -55,7 +55,9 @@ bool TraceLoop::offer(AtlasJob job) {
   const size_t count_before = jobs_.waitingCount();
   replaced = jobs_.push(std::move(job));
   if (replaced) links_.metrics.replaced[HandOver::kTrace].add();
-  return jobs_.waitingCount() > count_before || eyes_wait_until_ns_;
+  const bool is_awaited =
+      eyes_wait_until_ns_ && !jobs_.eyesWaitUntilNs(links_.clock.nowNs()).has_value();
+  return jobs_.waitingCount() > count_before || is_awaited;
 }
 
 bool TraceLoop::offerUnlessBusy(const AtlasJob& job) {

@@ -34,8 +34,8 @@ class TraceLoop {
             uint32_t slot_count, const std::function<void()>& on_slot_return);
 
   // Replaces a job of the same picture and an older structure that has not begun. True: none of the
-  // picture has waited so far, or eyes wait for newer poses. Else nothing new can begin: what one
-  // waits for wakes the loop.
+  // picture has waited so far, or eyes have waited for these poses. Else nothing new can begin:
+  // what one waits for wakes the loop.
   bool offer(AtlasJob job);
   // An atlas of the picture waits or is on its way.
   bool isBusy(const std::string& picture_key) {

@@ -53,7 +53,7 @@ float unpackedDistance(uint packed) {
 }
 
 // Of the light that a px's rays found: 1 in the mean, as square roots of up to so much.
-const float kWeightMax = 16.0;
+const float kWeightMax = 64.0;
 
 uint packedWeight(float weight) {
   return uint(255.0 * sqrt(clamp(weight / kWeightMax, 0.0, 1.0)) + 0.5);
