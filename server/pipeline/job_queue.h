@@ -41,7 +41,7 @@ struct AtlasJob {
 // How often all tracked displays may go before one that waits, which then is next. Of eight heads
 // that move at random times, 2.4 of them answered in an interval of 90 Hz, none is passed over more
 // than 26 times with 3, and 42 with 5, which makes no p99 of the age of poses any better
-// (moving_heads_test's server: 2.1 ms in the median of 50 sets).
+// (answered_heads_test: 2.1 ms in the median of 50 sets).
 inline constexpr uint32_t kRoundsPassed = 3;
 
 // Jobs that have not begun, at most one per picture.

@@ -1,38 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the heads that move is next: by hand, and before a server that has too few answers.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
+// Which of the heads that move is next, by hand.
 #include <gtest/gtest.h>
 
 #include "pipeline/job_queue.h"
-#include "pipeline/resident_structure.h"
+#include "unit/pipeline/head_jobs.h"
 
 namespace viewloom {
 namespace {
-
-constexpr int64_t kMs_ns = 1'000'000;
-constexpr int64_t kSecond_ns = 1000 * kMs_ns;
-constexpr int64_t kHeadset_ns = kSecond_ns / 90;
-
-ResidentPtr someStructure() {
-  static const auto structure = std::make_shared<const ResidentStructure>();
-  return structure;
-}
-
-AtlasJob jobOf(const std::string& head, const PoseTimes& poses, int64_t deadline_ns) {
-  return {.picture_key = head,
-          .structure = someStructure(),
-          .deadline_ns = deadline_ns,
-          .is_for_eyes = true,
-          .is_tracked = true,
-          .poses = poses};
-}
 
 TEST(JobQueueOfMovingHeads, takesEyesThatHaveJustMovedBeforeThoseThatSoonWill) {
   JobQueue queue;
@@ -158,121 +132,6 @@ TEST(JobQueueOfMovingHeads, waitsForThePosesOfOneThatWasPassedOverForTooLong) {
   queue.push(jobOf("stale", {.received_ns = kSecond_ns, .interval_ns = kSecond_ns}, 0));
   EXPECT_EQ(queue.eyesWaitUntilNs(kSecond_ns), std::nullopt);
   EXPECT_EQ(queue.beginTracked(kSecond_ns).picture_key, "stale");
-}
-
-// Poses of one client, at even times.
-struct Head {
-  int64_t interval_ns = kHeadset_ns;
-  int64_t phase_ns = 0;
-};
-
-constexpr int64_t kServed_ns = 60 * kSecond_ns;
-
-// What heads were answered by a server that makes one answer at a time.
-struct Served {
-  std::vector<int64_t> ages_ns;  // of the poses, when their answer began
-  size_t passed_count_max = 0;   // answers to others that began while one head waited
-
-  int64_t ageNs(double share) const {
-    std::vector<int64_t> sorted = ages_ns;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[size_t(share * double(sorted.size() - 1))];
-  }
-  // Of the time, so much was spent on answers.
-  double busyShare(int64_t answer_ns) const {
-    return double(answer_ns) * double(ages_ns.size()) / double(kServed_ns);
-  }
-};
-
-Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
-  JobQueue queue;
-  std::vector<int64_t> next_ns, newest_ns(heads.size());
-  std::vector<size_t> passed_count(heads.size());
-  for (const Head& head : heads) next_ns.push_back(head.phase_ns);
-  Served served;
-  // An answer takes a little more or less each time: nothing stays in step.
-  std::mt19937 random(1);
-  std::uniform_int_distribution<int64_t> more_ns(-answer_ns / 20, answer_ns / 20);
-  std::vector<bool> waits(heads.size());
-  int64_t now_ns = 0;
-  while (now_ns < kServed_ns) {
-    for (size_t i = 0; i < heads.size(); ++i) {
-      for (; next_ns[i] <= now_ns; next_ns[i] += heads[i].interval_ns) {
-        newest_ns[i] = next_ns[i];
-        waits[i] = true;
-        queue.push(jobOf(std::to_string(i), {newest_ns[i], heads[i].interval_ns}, newest_ns[i]));
-      }
-    }
-    if (!queue.hasTracked()) {
-      now_ns = *std::min_element(next_ns.begin(), next_ns.end());
-      continue;
-    }
-    if (const auto until_ns = queue.eyesWaitUntilNs(now_ns)) {
-      now_ns = std::min(*until_ns, *std::min_element(next_ns.begin(), next_ns.end()));
-      continue;
-    }
-    const std::string key = queue.beginTracked(now_ns).picture_key;
-    const size_t head = std::stoul(key);
-    served.ages_ns.push_back(now_ns - newest_ns[head]);
-    waits[head] = false;
-    passed_count[head] = 0;
-    for (size_t i = 0; i < heads.size(); ++i) {
-      if (waits[i]) ++passed_count[i];
-      served.passed_count_max = std::max(served.passed_count_max, passed_count[i]);
-    }
-    now_ns += answer_ns + more_ns(random);
-    queue.finish(key);
-  }
-  return served;
-}
-
-constexpr size_t kHeadCount = 8;
-// So that 2.4 of eight heads at 90 Hz can be answered each time.
-constexpr int64_t kAnswer_ns = 4'670'000;
-
-TEST(JobQueueOfMovingHeads, answersFreshPosesOfHeadsThatMoveEachAtItsOwnTime) {
-  std::vector<Head> heads(kHeadCount);
-  for (size_t i = 0; i < heads.size(); ++i) {
-    const double turns = double(i) * std::numbers::phi;
-    heads[i].phase_ns = int64_t((turns - std::floor(turns)) * double(kHeadset_ns));
-  }
-  const Served served = serve(heads, kAnswer_ns);
-  EXPECT_LE(served.ageNs(0.5), kHeadset_ns / 16);
-  EXPECT_LE(served.ageNs(0.99), kHeadset_ns / 8);
-  EXPECT_GE(served.busyShare(kAnswer_ns), 0.9) << "waits cost more than they should";
-}
-
-TEST(JobQueueOfMovingHeads, answersHeadsThatMoveAtOnceInTurn) {
-  const Served served = serve(std::vector<Head>(kHeadCount), kAnswer_ns);
-  EXPECT_LE(served.passed_count_max, kHeadCount);
-}
-
-// Who waits for the poses of some keeps the phase of these: another's need never be near it.
-TEST(JobQueueOfMovingHeads, answersOneWhosePosesNeverComeWhenSomebodyIsNext) {
-  constexpr int64_t kInterval_ns = kSecond_ns / 60;
-  const Served served =
-      serve({{kInterval_ns, 0}, {kInterval_ns, 6'000'000}, {kInterval_ns, 6'200'000}}, 15'500'000);
-  EXPECT_LT(served.passed_count_max, (kRoundsPassed + 2) * 3);
-}
-
-TEST(JobQueueOfMovingHeads, answersEverybodyWhateverTheirPhasesAndRates) {
-  std::mt19937 random(2026);
-  std::uniform_real_distribution<double> share(0, 1);
-  for (int turn = 0; turn < 50; ++turn) {
-    SCOPED_TRACE(turn);
-    std::vector<Head> heads(kHeadCount);
-    int64_t longest_ns = 0;
-    for (Head& head : heads) {
-      if (turn % 2 == 1) head.interval_ns = int64_t(double(kSecond_ns) / (60 + 84 * share(random)));
-      head.phase_ns = int64_t(share(random) * double(head.interval_ns));
-      longest_ns = std::max(longest_ns, head.interval_ns);
-    }
-    const Served served = serve(heads, kAnswer_ns);
-    EXPECT_LT(served.passed_count_max, (kRoundsPassed + 2) * kHeadCount);
-    EXPECT_LE(served.ageNs(0.5), longest_ns / 8);
-    EXPECT_LE(served.ageNs(0.99), longest_ns / 2);
-    EXPECT_GE(served.busyShare(kAnswer_ns), 0.6);
-  }
 }
 
 }  // namespace
