@@ -132,6 +132,12 @@ void JobQueue::finish(const std::string& picture_key) {
   begun_.erase(picture_key);
 }
 
+void JobQueue::forgetEyes(const std::string& picture_key) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) {
+    return waiting.job.picture_key == picture_key && waiting.job.is_for_eyes;
+  });
+}
+
 std::vector<AtlasJob> JobQueue::clear() {
   std::vector<AtlasJob> jobs;
   for (Waiting& waiting : std::exchange(waiting_, {})) jobs.push_back(std::move(waiting.job));

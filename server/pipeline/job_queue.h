@@ -79,6 +79,9 @@ class JobQueue {
   AtlasJob begin();
   AtlasJob beginTracked(int64_t now_ns);
   void finish(const std::string& picture_key);
+  // An atlas on its way is seen by the newest eyes: a job for these alone is none any more, and
+  // nobody is to wait for what it would.
+  void forgetEyes(const std::string& picture_key);
   // Forgets the jobs that have not begun.
   std::vector<AtlasJob> clear();
 

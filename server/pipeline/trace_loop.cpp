@@ -194,6 +194,9 @@ void TraceLoop::latchEyes(AtlasRun& run) {
     run.eyes = std::move(newest);
   }
   run.begun_ns = links_.clock.nowNs();
+  std::lock_guard lock(mutex_);
+  // Those that have come since have a job, or will.
+  if (display->eyes->newest() == run.eyes) jobs_.forgetEyes(run.job.picture_key);
 }
 
 void TraceLoop::refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) {

@@ -115,6 +115,22 @@ TEST(JobQueueOfMovingHeads, doesNotWaitWithANewFrame) {
   EXPECT_EQ(queue.eyesWaitUntilNs(9 * kMs_ns), std::nullopt);
 }
 
+TEST(JobQueueOfMovingHeads, waitsForNobodyWhosePosesAnAtlasOnItsWayHasTaken) {
+  constexpr PoseTimes kPoses{.received_ns = 8 * kMs_ns, .interval_ns = 10 * kMs_ns};
+  JobQueue queue;
+  queue.push(jobOf("served", kPoses, 1));
+  ASSERT_EQ(queue.beginTracked(0).picture_key, "served");
+  queue.push(jobOf("served", kPoses, 2));
+  queue.forgetEyes("served");
+  queue.finish("served");
+  EXPECT_FALSE(queue.hasTracked());
+  AtlasJob with_frame = jobOf("sees", kPoses, 3);
+  with_frame.is_for_eyes = false;
+  queue.push(with_frame);
+  queue.forgetEyes("sees");
+  EXPECT_TRUE(queue.isBusy("sees")) << "there is a frame to show";
+}
+
 // Who is next in any case takes its own newest poses, and waits for those alone.
 TEST(JobQueueOfMovingHeads, waitsForThePosesOfOneThatWasPassedOverForTooLong) {
   JobQueue queue;
