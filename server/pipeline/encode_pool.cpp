@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/encode_pool.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -14,6 +17,13 @@ constexpr size_t kKeptBandCount = 1024;
 template <typename Sample>
 std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
+}
+
+// Woken, this thread then takes no core from one that is at work: those that begin atlases, receive
+// poses and send bands need one for microseconds. Where that is not allowed all take their turns.
+void computeInBatches() {
+  constexpr sched_param kNoPriority{};
+  pthread_setschedparam(pthread_self(), SCHED_BATCH, &kNoPriority);
 }
 
 }  // namespace
@@ -47,6 +57,7 @@ EncodePool::EncodePool(const PipelineLinks& links, const Timeline& timeline,
       tasks_(queued_count_max) {
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
+      computeInBatches();
       try {
         run();
       } catch (const std::exception& error) {
