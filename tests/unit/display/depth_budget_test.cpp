@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/display/axis_point.h"
+
 namespace viewloom {
 namespace {
 
@@ -70,14 +72,10 @@ QuiltSpec evenQuilt(double focal_distance_m, double view_cone_rad) {
 // How far the image of each px's surface moves between two views, by a textbook pinhole.
 std::vector<double> disparities(const AtlasLayout& layout, size_t a, size_t b,
                                 const std::vector<double>& z_m) {
-  const auto project = [&](size_t view, double z) {
-    const Camera& camera = layout.views[view].camera;
-    return (glm::dvec2(1, -1) * camera.intrinsics.focal_px * glm::dvec2(-camera.pose.position_m) /
-            z) +
-           camera.intrinsics.principal_px;
-  };
+  const Camera& from = layout.views[a].camera;
+  const Camera& to = layout.views[b].camera;
   std::vector<double> moved_px;
-  for (const double z : z_m) moved_px.push_back(glm::length(project(a, z) - project(b, z)));
+  for (const double z : z_m) moved_px.push_back(axisPointStep_px(from, to, z));
   return moved_px;
 }
 
