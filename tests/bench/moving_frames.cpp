@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "support/srgb_transfer.h"
@@ -50,6 +51,110 @@ truth::Picture pictureBeside(const truth::Body& body, double time_s, uint32_t la
   }
   return picture;
 }
+
+// A px of a warp that is linear between px reads no further from the one that came there: past a
+// crack of one px.
+constexpr double kBesideMax_px = 1;
+// Neighbours whose 1/Z differs by more than this share are not of one surface: walls and floors of
+// the room have less from px to px, and its silhouettes more.
+constexpr double kConnectedShare = 0.04;
+
+// What came to a px of a warp.
+struct Arrival {
+  double inv_z = -1;  // 1/m; below 0 = nothing
+  size_t from = 0;    // px of the source
+  glm::dvec2 at_px{0.0};
+};
+
+glm::dvec2 middleOf(size_t px, SizePx size_px) {
+  return {double(px % size_px.width) + 0.5, double(px / size_px.width) + 0.5};
+}
+
+// Of each px the nearest.
+std::vector<Arrival> movedTo(const truth::Picture& picture, const Pose& camera) {
+  const Intrinsics& lens = picture.camera.intrinsics;
+  const Pose view_from_source = compose(inverse(camera), picture.camera.pose);
+  std::vector<Arrival> arrivals(picture.size_px.area());
+  for (size_t px = 0; px < arrivals.size(); ++px) {
+    const double depth_m = picture.layers.front().depth_m[px];
+    const glm::dvec2 at =
+        (middleOf(px, picture.size_px) - lens.principal_px) / lens.focal_px * depth_m;
+    const glm::dvec3 seen_m = view_from_source.orientation * glm::dvec3(at.x, -at.y, -depth_m) +
+                              view_from_source.position_m;
+    if (seen_m.z >= 0) continue;
+    const glm::dvec2 to =
+        lens.principal_px + lens.focal_px * glm::dvec2(seen_m.x, -seen_m.y) / -seen_m.z;
+    const glm::dvec2 cell = glm::floor(to);
+    if (cell.x < 0 || cell.x >= picture.size_px.width) continue;
+    if (cell.y < 0 || cell.y >= picture.size_px.height) continue;
+    Arrival& target = arrivals[size_t(cell.y) * picture.size_px.width + size_t(cell.x)];
+    if (-1 / seen_m.z > target.inv_z) target = {-1 / seen_m.z, px, to};
+  }
+  return arrivals;
+}
+
+void fillAlongRows(std::vector<Arrival>& arrivals, SizePx size_px) {
+  for (size_t first = 0; first < arrivals.size(); first += size_px.width) {
+    const size_t end = first + size_px.width;
+    for (size_t px = first; px < end; ++px) {
+      if (arrivals[px].inv_z >= 0) continue;
+      size_t right = px;
+      while (right < end && arrivals[right].inv_z < 0) ++right;
+      const bool has_left = px > first;
+      if (!has_left && right == end) break;
+      const bool takes_left =
+          has_left && (right == end || arrivals[px - 1].inv_z <= arrivals[right].inv_z);
+      const Arrival farther = arrivals[takes_left ? px - 1 : right];
+      for (; px < right; ++px) arrivals[px] = farther;
+    }
+  }
+}
+
+// Rows to which nothing came, at the top or the bottom, are like the nearest that something came
+// to.
+void fillRows(std::vector<Arrival>& arrivals, SizePx size_px) {
+  const auto row = [&](size_t y) { return arrivals.begin() + ptrdiff_t(y * size_px.width); };
+  const auto isFilled = [&](size_t y) { return row(y)->inv_z >= 0; };
+  for (size_t y = 1; y < size_px.height; ++y) {
+    if (isFilled(y - 1) && !isFilled(y)) std::copy_n(row(y - 1), size_px.width, row(y));
+  }
+  for (size_t y = size_px.height - 1; y > 0; --y) {
+    if (isFilled(y) && !isFilled(y - 1)) std::copy_n(row(y), size_px.width, row(y - 1));
+  }
+}
+
+// The first layer, sRGB-encoded, between its px.
+class PictureReader {
+ public:
+  explicit PictureReader(const truth::Picture& picture)
+      : size_px_(picture.size_px),
+        image_(imageOf(picture)),
+        depth_m_(picture.layers.front().depth_m) {}
+
+  // So far beside the middle of a px, bilinear. Where that is another surface's, its own colour.
+  glm::dvec3 at(size_t px, const glm::dvec2& beside_px) const {
+    const glm::dvec2 place = glm::clamp(middleOf(px, size_px_) - 0.5 + beside_px, glm::dvec2(0),
+                                        glm::dvec2(size_px_.width - 1, size_px_.height - 1));
+    const glm::dvec2 low = glm::floor(place);
+    const glm::dvec2 part = place - low;
+    const glm::dvec2 high(std::min(low.x + 1, size_px_.width - 1.0),
+                          std::min(low.y + 1, size_px_.height - 1.0));
+    return glm::mix(glm::mix(near(px, low.x, low.y), near(px, high.x, low.y), part.x),
+                    glm::mix(near(px, low.x, high.y), near(px, high.x, high.y), part.x), part.y);
+  }
+
+ private:
+  glm::dvec3 near(size_t px, double x, double y) const {
+    const size_t other = size_t(y) * size_px_.width + size_t(x);
+    const double apart = std::abs(double{depth_m_[px]} / double{depth_m_[other]} - 1);
+    const size_t from = apart <= kConnectedShare ? other : px;
+    return {image_.rgb[3 * from], image_.rgb[3 * from + 1], image_.rgb[3 * from + 2]};
+  }
+
+  const SizePx size_px_;
+  const ScoredImage image_;
+  const std::vector<float>& depth_m_;
+};
 
 }  // namespace
 
@@ -122,45 +227,22 @@ ScoredImage imageOf(const truth::Picture& picture) {
   return image;
 }
 
-ScoredImage rowWarp(const truth::Picture& picture, const Pose& camera) {
-  const truth::PictureLayer& layer = picture.layers.front();
-  const ScoredImage source = imageOf(picture);
-  const Intrinsics& lens = picture.camera.intrinsics;
-  const Pose view_from_source = compose(inverse(camera), picture.camera.pose);
-  ScoredImage warped{.size_px = picture.size_px, .rgb = std::vector<float>(source.rgb.size())};
-  std::vector<double> nearest(picture.size_px.area(), -1);  // 1/m; below 0 = a hole
-  const int width = int(picture.size_px.width);
-  const int height = int(picture.size_px.height);
-  for (int px = 0; px < width * height; ++px) {
-    const double depth_m = layer.depth_m[size_t(px)];
-    const glm::dvec2 at =
-        (glm::dvec2(px % width, px / width) + 0.5 - lens.principal_px) / lens.focal_px * depth_m;
-    const glm::dvec3 seen_m = view_from_source.orientation * glm::dvec3(at.x, -at.y, -depth_m) +
-                              view_from_source.position_m;
-    if (seen_m.z >= 0) continue;
-    const glm::dvec2 to =
-        lens.principal_px + lens.focal_px * glm::dvec2(seen_m.x, -seen_m.y) / -seen_m.z;
-    const int x = int(std::floor(to.x)), y = int(std::floor(to.y));
-    if (x < 0 || x >= width || y < 0 || y >= height) continue;
-    const auto target = size_t(y * width + x);
-    if (-1 / seen_m.z <= nearest[target]) continue;
-    nearest[target] = -1 / seen_m.z;
-    for (size_t c = 0; c < 3; ++c) warped.rgb[3 * target + c] = source.rgb[3 * size_t(px) + c];
-  }
-  for (size_t row = 0; row < size_t(height); ++row) {
-    const size_t first = row * size_t(width), end = first + size_t(width);
-    for (size_t px = first; px < end; ++px) {
-      if (nearest[px] >= 0) continue;
-      size_t right = px;
-      while (right < end && nearest[right] < 0) ++right;
-      const bool has_left = px > first;
-      if (!has_left && right == end) break;
-      const bool takes_left = has_left && (right == end || nearest[px - 1] <= nearest[right]);
-      const size_t from = takes_left ? px - 1 : right;
-      for (; px < right; ++px) {
-        for (size_t c = 0; c < 3; ++c) warped.rgb[3 * px + c] = warped.rgb[3 * from + c];
-      }
+ScoredImage rowWarp(const truth::Picture& picture, const Pose& camera, WarpedColor color) {
+  std::vector<Arrival> arrivals = movedTo(picture, camera);
+  fillAlongRows(arrivals, picture.size_px);
+  fillRows(arrivals, picture.size_px);
+  const PictureReader reader(picture);
+  ScoredImage warped{.size_px = picture.size_px, .rgb = {}};
+  warped.rgb.reserve(3 * arrivals.size());
+  for (size_t px = 0; px < arrivals.size(); ++px) {
+    const Arrival& arrival = arrivals[px];
+    glm::dvec2 beside_px(0);
+    if (color == WarpedColor::kBetweenPx) {
+      beside_px =
+          glm::clamp(middleOf(px, picture.size_px) - arrival.at_px, -kBesideMax_px, kBesideMax_px);
     }
+    const glm::dvec3 light = reader.at(arrival.from, beside_px);
+    for (int c = 0; c < 3; ++c) warped.rgb.push_back(float(light[c]));
   }
   return warped;
 }

@@ -45,9 +45,13 @@ FramePtr frameOf(const Sequence& sequence, const truth::Picture& picture, uint32
 // The first layer, sRGB-encoded.
 ScoredImage imageOf(const truth::Picture& picture);
 
+// What a px of a warp takes of the source: the colour of the px that came there, or what lies
+// between px, in proportion, at the place that has come to its middle.
+enum class WarpedColor : uint8_t { kOfPx, kBetweenPx };
+
 // The picture's first layer, px by px moved to a camera of the same size; the nearest stays. Holes
-// take the farther of their neighbours in the row.
-ScoredImage rowWarp(const truth::Picture& picture, const Pose& camera);
+// take the farther of their neighbours in the row; rows of nothing but holes, the next row.
+ScoredImage rowWarp(const truth::Picture& picture, const Pose& camera, WarpedColor color);
 
 double psnrDb(const ScoredImage& got, const ScoredImage& truth);
 

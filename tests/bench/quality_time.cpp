@@ -78,10 +78,13 @@ ScoredImage viewFrom(OfflineRenderer& renderer, const Pose& pose) {
 // Sums of what every dropped frame scores.
 class Scores {
  public:
-  void add(const ScoredImage& truth, const ScoredImage& repeated, const ScoredImage& warped,
-           const ScoredImage& got) {
-    sums_.repeated_db += psnrDb(repeated, truth);
-    sums_.warped_db += psnrDb(warped, truth);
+  // `nearest`: the kept frame that is warped to where the display stands.
+  void add(const truth::Picture& dropped, const truth::Picture& repeated,
+           const truth::Picture& nearest, const Pose& display, const ScoredImage& got) {
+    const ScoredImage truth = imageOf(dropped);
+    sums_.repeated_db += psnrDb(imageOf(repeated), truth);
+    sums_.warped_db += psnrDb(rowWarp(nearest, display, WarpedColor::kOfPx), truth);
+    sums_.blended_db += psnrDb(rowWarp(nearest, display, WarpedColor::kBetweenPx), truth);
     sums_.got_db += psnrDb(got, truth);
     ++count_;
   }
@@ -91,6 +94,7 @@ class Scores {
             .kept_one_of = kept_one_of,
             .repeated_db = sums_.repeated_db / count_,
             .warped_db = sums_.warped_db / count_,
+            .blended_db = sums_.blended_db / count_,
             .got_db = sums_.got_db / count_};
   }
 
@@ -118,8 +122,8 @@ TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
         renderer.build(*carriedFrame(retimer, sequence.frames[kept], shown.carried_ns, shown.things,
                                      Guesses::kStand));
       }
-      scores.add(imageOf(sequence.pictures[index]), imageOf(picture),
-                 rowWarp(picture, shown.source_pose), viewFrom(renderer, shown.source_pose));
+      scores.add(sequence.pictures[index], picture, picture, shown.source_pose,
+                 viewFrom(renderer, shown.source_pose));
     }
   }
   return scores.means(sequence, "predict", kept_one_of);
@@ -147,9 +151,8 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
                         *carriedFrame(before_retimer, sequence.frames[kept - kept_one_of],
                                       from_before_ns, shown.things, Guesses::kGiveWay)));
       const bool is_later_nearer = 2 * (kept - index) <= kept_one_of;
-      scores.add(imageOf(sequence.pictures[index]), imageOf(before),
-                 rowWarp(is_later_nearer ? picture : before, shown.source_pose),
-                 viewFrom(renderer, shown.source_pose));
+      scores.add(sequence.pictures[index], before, is_later_nearer ? picture : before,
+                 shown.source_pose, viewFrom(renderer, shown.source_pose));
     }
   }
   return scores.means(sequence, "interpolate", kept_one_of);
@@ -197,6 +200,7 @@ Json qualityOfTime(const Device& device) {
                     {"kept_one_of", score.kept_one_of},
                     {"repeated_db", score.repeated_db},
                     {"warped_db", score.warped_db},
+                    {"blended_db", score.blended_db},
                     {"got_db", score.got_db}});
     if (score.traced_db) rows.back()["traced_db"] = *score.traced_db;
   }

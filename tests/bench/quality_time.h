@@ -21,6 +21,7 @@ struct TimeScore {
   uint32_t kept_one_of = 2;
   double repeated_db = 0;  // the last frame once more
   double warped_db = 0;    // its px moved to where the display stands, holes filled along rows
+  double blended_db = 0;   // moved so, but with colours in proportion between px
   double got_db = 0;
   // The dropped frames themselves, traced: of sequences of several sources.
   std::optional<double> traced_db = std::nullopt;
