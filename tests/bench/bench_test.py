@@ -16,6 +16,9 @@ PROGRAM = ""
 DIFFER_SHARE_MAX = 0.02
 # A picture of the scene as it is; frames are small here, and their silhouettes coarse.
 PSNR_MIN_DB = 22
+# Of best above draft. A lens and reflections get rays for it: seen 3.9 and 7.4. Of a room of flat
+# walls a coarse tolerance, all that quality sets for the others, loses next to nothing: seen 0.00.
+KNOB_GAIN_MIN_DB = {"views": -0.01, "stereo": -0.01, "lens": 3, "time": -0.01, "reflections": 5}
 
 
 def run(*arguments):
@@ -97,8 +100,7 @@ class BenchTest(unittest.TestCase):
         for name, by_quality in points.items():
             self.assertEqual(list(by_quality), ["draft", "balanced", "best"])
             worse, better = (by_quality[quality]["psnr_db"] for quality in ("draft", "best"))
-            # Of a room of flat walls a coarse tolerance loses next to nothing.
-            self.assertGreater(better, worse - 0.01, name)
+            self.assertGreater(better, worse + KNOB_GAIN_MIN_DB[name], name)
             self.assertGreater(better, PSNR_MIN_DB, name)
             self.assertTrue(all(point["trace_ms"] > 0 for point in by_quality.values()))
 
