@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "base/clock.h"
 #include "e2e/wire_frames.h"
@@ -39,9 +40,12 @@ class ServiceFixture : public DeviceNeededTest {
 
   // A frame of "scene", by a publisher that has left.
   void publishOnce(uint32_t layer_count) {
+    publishOnce(syntheticWireFrame({160, 90}, layer_count, 0));
+  }
+  void publishOnce(WireFrame frame) {
     Publisher publisher(makeChannel(service_->grpcAddress()),
                         {.stream = "scene", .session_id = "", .backoff = {}}, {});
-    publisher.offer(syntheticWireFrame({160, 90}, layer_count, 0));
+    publisher.offer(std::move(frame));
     const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
     ASSERT_TRUE(end.ok()) << end;
   }
