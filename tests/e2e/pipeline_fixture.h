@@ -6,10 +6,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/clock.h"
+#include "base/str_cat.h"
 #include "e2e/collecting_subscriber.h"
 #include "e2e/test_frames.h"
 #include "gpu/test_device.h"
@@ -20,6 +22,14 @@ namespace viewloom::test {
 inline double tracedCount(const Metrics& metrics) {
   return metrics.atlases_traced[TraceMethod::kWalk].value() +
          metrics.atlases_traced[TraceMethod::kSweep].value();
+}
+
+// As the metric says by now; `name` with its labels, if any: "viewloom_x_count{stage=\"build\"}".
+inline double metricValue(const Metrics& metrics, const std::string& name) {
+  const std::string text = strCat("\n", metrics.text());
+  const size_t at = text.find(strCat("\n", name, " "));
+  if (at == std::string::npos) throw std::invalid_argument(name);
+  return std::stod(text.substr(at + name.size() + 2));
 }
 
 // Reports as they come. Thread-safety: all methods may be called from any thread.

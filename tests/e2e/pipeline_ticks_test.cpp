@@ -178,6 +178,47 @@ TEST_F(PipelineTicksTest, reportsAFrameThatNoTickSawAsReplaced) {
   EXPECT_EQ(reports.back().outcome, FrameOutcome::kTraced);
 }
 
+TEST_F(PipelineTicksTest, timesEachAtlasFromItsTickAndCountsTheTicksWithoutOne) {
+  constexpr int64_t kLate_ns = 7 * kMs_ns;  // ticks are seen so late: between two of them
+  constexpr int kAtlasCount = 4;
+  constexpr int kMissedCount = 2;
+  Server server(device());
+  DisplaySpec spec = ticking();
+  spec.temporal->bridge_s = 2;  // longer than the test needs: each tick shows something new
+  const Viewer viewer = watch(server, spec);
+  const auto metric = [&](const char* name) {
+    return metricValue(server.metrics, strCat("viewloom_output_", name));
+  };
+  begin(server, viewer);
+  server.clock.advance(kLate_ns);
+  const int64_t begun_ns = server.clock.nowNs();
+  const double count = metric("delay_seconds_count");
+  const double skipped_count = metric("ticks_skipped_total");
+  double sum_s = metric("delay_seconds_sum");
+  for (int i = 1; i <= kAtlasCount; ++i) {
+    const AtlasPtr atlas = next(server, viewer);
+    ASSERT_EQ(atlas->timing, Timing::kPredicted);
+    // Frames arrive at once, and what is predicted is shown at its tick.
+    const int64_t delay_ns = server.clock.nowNs() - (atlas->shown_time_ns - kStart_ns);
+    EXPECT_EQ(delay_ns % kTick_ns, kLate_ns);
+    sum_s += 1e-9 * double(delay_ns);
+    EXPECT_EQ(metric("delay_seconds_count"), count + i);
+    EXPECT_NEAR(metric("delay_seconds_sum"), sum_s, 1e-9);
+  }
+  // Of several ticks at once the newest alone can bring an atlas; each is one or the other.
+  const double before_count = metric("ticks_skipped_total");
+  server.clock.advance((kMissedCount + 1) * kTick_ns);
+  const auto tick_count = double((server.clock.nowNs() - begun_ns) / kTick_ns);
+  const auto seen_count = [&] {
+    return metric("delay_seconds_count") - count + metric("ticks_skipped_total") - skipped_count;
+  };
+  for (int nap = 0; nap < 20000 && seen_count() < tick_count; ++nap) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(seen_count(), tick_count);
+  EXPECT_GE(metric("ticks_skipped_total"), before_count + kMissedCount);
+}
+
 TEST_F(PipelineTicksTest, leavesDisplaysWithoutARateTheirFrames) {
   Server server(device());
   const Viewer viewer = watch(server, ticking());
