@@ -12,11 +12,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/packing.hpp>
 
+#include "gpu/seen_mirrors.h"
 #include "gpu/test_device.h"
-#include "gpu/world_views.h"
 #include "support/srgb_transfer.h"
-#include "support/truth/mirrored.h"
-#include "support/truth/picture_frame.h"
 #include "trace/albedos.h"
 
 namespace viewloom {
@@ -73,45 +71,27 @@ TEST(AlbedoTable, holdsWhatAllMicrofacetsMirror) {
 
 constexpr uint32_t kTruthRays = 2048 * kView_px.width * kView_px.height;
 
-Camera finer(Camera camera, uint32_t times) {
-  camera.intrinsics.focal_px *= double(times);
-  camera.intrinsics.principal_px *= double(times);
-  return camera;
-}
-
-// What a camera sees of a scene, as a source in its place has it, and as it is.
-struct SeenPlate {
-  Camera camera;
-  SizePx view_px;
-  FramePtr frame;
-  std::vector<glm::vec3> truth;
-};
-
-SeenPlate seenBy(const Camera& camera, SizePx view_px, const truth::Scene& scene) {
-  const truth::Instant plate(scene, 0);
-  const SizePx source_px = {kFiner * kView_px.width, kFiner * kView_px.height};
-  const Camera source = finer(camera, source_px.width / view_px.width);
-  const truth::Picture picture =
-      truth::takePicture(plate, source, {.size_px = source_px, .layer_count = 1});
-  return {camera, view_px, truth::frameOf(picture, 1),
-          truth::takeMirrored(plate, camera, view_px,
-                              whiteLight(kTruthRays / uint32_t(view_px.area())))};
+// What a camera sees of a plate. However many px it has, the source has as many.
+SeenMirrors seenPlateBy(const Camera& camera, SizePx view_px, const truth::Scene& scene) {
+  return seenBy(camera, view_px, scene, {.fineness = kFiner * kView_px.width / view_px.width},
+                whiteLight(kTruthRays / uint32_t(view_px.area())));
 }
 
 // The plate fills the view.
-SeenPlate seenPlate(const truth::Gloss& gloss) {
-  return seenBy({.pose = {.orientation = glm::dquat(glm::dvec3(-0.9, 0, 0))},
-                 .intrinsics = {glm::dvec2(25), {16, 12}}},
-                kView_px, plateOf(gloss));
+SeenMirrors seenPlate(const truth::Gloss& gloss) {
+  return seenPlateBy({.pose = {.orientation = glm::dquat(glm::dvec3(-0.9, 0, 0))},
+                      .intrinsics = {glm::dvec2(25), {16, 12}}},
+                     kView_px, plateOf(gloss));
 }
 
 // Behind it stands a black wall, all of it in view: what comes along the plate is dark.
-SeenPlate plateBeforeWall(const truth::Gloss& gloss, uint32_t times = 1) {
+SeenMirrors plateBeforeWall(const truth::Gloss& gloss, uint32_t times = 1) {
   truth::Scene scene = plateOf(gloss);
   scene.add({.shape = truth::Box{{4, 0.6, 0}}, .pose = {.position_m = {0, -0.4, -4}}, .paint = {}});
   const Camera camera{.pose = {.orientation = glm::dquat(glm::dvec3(-0.3, 0, 0))},
                       .intrinsics = {glm::dvec2(15), {16, 12}}};
-  return seenBy(finer(camera, times), {times * kView_px.width, times * kView_px.height}, scene);
+  return seenPlateBy(finer(camera, times), {times * kView_px.width, times * kView_px.height},
+                     scene);
 }
 
 class RoughMirrors : public GpuTest {
@@ -121,33 +101,13 @@ class RoughMirrors : public GpuTest {
     if (!IsSkipped()) renderer_.emplace(device());
   }
 
-  RenderedAtlas render(const SeenPlate& plate, const Frame& frame,
-                       const ReflectionSpec& reflection) {
-    return renderInWorld(*renderer_, frame, {plate.camera}, plate.view_px, 1, reflection);
-  }
-
-  // By how many codes each channel of each px is off the truth.
-  std::vector<double> apartOf(const SeenPlate& plate, const Frame& frame,
-                              const ReflectionSpec& reflection) {
-    const RenderedAtlas atlas = render(plate, frame, reflection);
-    std::vector<double> apart_codes;
-    for (size_t i = 0; i < plate.truth.size(); ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const double truth = srgbFrom(std::min(double{plate.truth[i][c]}, 1.0));
-        const double shown = double{atlas.linear[4 * i + size_t(c)]};
-        apart_codes.push_back(255 * std::abs(shown - truth));
-      }
-    }
-    return apart_codes;
-  }
-
-  double worstOf(const SeenPlate& plate, const Frame& frame, const ReflectionSpec& reflection) {
-    return std::ranges::max(apartOf(plate, frame, reflection));
+  double worstOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
+    return std::ranges::max(apartCodes(*renderer_, plate, frame, reflection));
   }
 
   // Of px whose truth is light: there the plate is, and mirrors.
-  double rmsOf(const SeenPlate& plate, const Frame& frame, const ReflectionSpec& reflection) {
-    const std::vector<double> apart_codes = apartOf(plate, frame, reflection);
+  double rmsOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
+    const std::vector<double> apart_codes = apartCodes(*renderer_, plate, frame, reflection);
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < plate.truth.size(); ++i) {
@@ -159,8 +119,9 @@ class RoughMirrors : public GpuTest {
   }
 
   // Of all the light that the plate mirrors, how much more is shown.
-  double surplusOf(const SeenPlate& plate, const Frame& frame, const ReflectionSpec& reflection) {
-    const RenderedAtlas atlas = render(plate, frame, reflection);
+  double surplusOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
+    const RenderedAtlas atlas =
+        renderInWorld(*renderer_, frame, {plate.camera}, plate.view_px, 1, reflection);
     double shown = 0;
     double truth = 0;
     for (size_t i = 0; i < plate.truth.size(); ++i) {
@@ -173,7 +134,7 @@ class RoughMirrors : public GpuTest {
 
  private:
   // Else there is the environment, or the wall.
-  static bool mirrors(const SeenPlate& plate, size_t px) {
+  static bool mirrors(const SeenMirrors& plate, size_t px) {
     return plate.truth[px].x > 0 && plate.truth[px].x < 1;
   }
 
@@ -192,7 +153,7 @@ TEST_F(RoughMirrors, takeOfUnevenLightByItsDirection) {
   constexpr ReflectionSpec kManyRays{
       .bounce_count = 1, .sample_count = 64, .environment_rgb = kWhite, .is_filtered = false};
   for (const float roughness : {0.4F, 0.7F}) {
-    const SeenPlate plate = plateBeforeWall({.light = glm::vec3(0.04F), .roughness = roughness});
+    const SeenMirrors plate = plateBeforeWall({.light = glm::vec3(0.04F), .roughness = roughness});
     for (const FramePtr& frame : {plate.frame, twice(*plate.frame)}) {
       SCOPED_TRACE(testing::Message()
                    << "roughness " << roughness << ", " << frame->sources.size() << " sources");
@@ -206,7 +167,7 @@ TEST_F(RoughMirrors, takeOfUnevenLightByItsDirection) {
 // Means over px weigh what the rays of each px weigh.
 TEST_F(RoughMirrors, takeAsMuchOfUnevenLightByFewRays) {
   for (const float roughness : {0.4F, 0.7F}) {
-    const SeenPlate plate =
+    const SeenMirrors plate =
         plateBeforeWall({.light = glm::vec3(0.04F), .roughness = roughness}, kFiner);
     for (const uint32_t sample_count : {1U, 2U}) {
       for (const FramePtr& frame : {plate.frame, twice(*plate.frame)}) {
@@ -231,7 +192,7 @@ TEST_F(RoughMirrors, takeEvenLightWithoutNoise) {
       .bounce_count = 1, .sample_count = 8, .environment_rgb = kWhite, .is_filtered = false};
   for (const float roughness : {0.1F, 0.4F, 1.0F}) {
     for (const glm::vec3& light : {glm::vec3(0.04F), glm::vec3(0.9F, 0.6F, 0.3F)}) {
-      const SeenPlate plate = seenPlate({.light = light, .roughness = roughness});
+      const SeenMirrors plate = seenPlate({.light = light, .roughness = roughness});
       for (const FramePtr& frame : {plate.frame, twice(*plate.frame)}) {
         SCOPED_TRACE(testing::Message() << "roughness " << roughness << ", F0 " << light.x << ", "
                                         << frame->sources.size() << " sources");
