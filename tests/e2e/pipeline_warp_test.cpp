@@ -140,6 +140,25 @@ class PipelineWarpTest : public PipelineFixture {
     return moved_px > kTellsApart_px;
   }
 
+  // The frame, now, of a camera that is there.
+  void offer(Server& server, uint64_t number, const glm::dvec3& place_m) const {
+    auto frame = std::make_shared<Frame>(*truth_.frame());
+    frame->format.number = number;
+    frame->format.capture_time_ns = server.clock.nowNs();
+    frame->format.sources[0].camera.pose.position_m = place_m;
+    frame->times = {server.clock.nowNs(), server.clock.nowNs(), server.clock.nowNs()};
+    server.offer(std::move(frame));
+  }
+
+  // What the source's camera sees by then, having gone on as it did.
+  void expectCarriedOn(const EncodedAtlas& atlas, int64_t step) const {
+    const double since_s = 1e-9 * double(atlas.shown_time_ns - atlas.capture_time_ns);
+    EXPECT_NEAR(since_s, double(step) / kSteps_hz, 1e-8);
+    const Camera seen_from{.pose = {.position_m = since_s * kSpeed_mps},
+                           .intrinsics = intrinsicsFromFov(fovOf(kSource_px, kFocal_px), kEye_px)};
+    expectAsTheWorldIs(truth_.seenBy(seen_from, kEye_px).score(atlas, 0));
+  }
+
   // How often the stage has been timed by now: "upload" and "build" once a frame.
   static double stageCount(const Server& server, const std::string& stage) {
     return metricValue(server.metrics,
@@ -192,15 +211,7 @@ TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
   const auto subscriber = std::make_shared<CollectingSubscriber>();
   const auto subscription =
       *server.broadcaster.subscribe("scene", trackedEyes(), kExact, subscriber, eyes);
-  const auto offer = [&](uint64_t number, const glm::dvec3& place_m) {
-    auto frame = std::make_shared<Frame>(*truth_.frame());
-    frame->format.number = number;
-    frame->format.capture_time_ns = server.clock.nowNs();
-    frame->format.sources[0].camera.pose.position_m = place_m;
-    frame->times = {server.clock.nowNs(), server.clock.nowNs(), server.clock.nowNs()};
-    server.offer(std::move(frame));
-  };
-  offer(1, -kSpeed_mps);
+  offer(server, 1, -kSpeed_mps);
   ASSERT_THAT(subscriber->waitForAtlases(1), SizeIs(1));
   ASSERT_THAT(between.subscriber->waitForAtlases(1), SizeIs(1));
   // The tick that is due then is taken before the frame comes.
@@ -214,7 +225,7 @@ TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
   const double upload_count = stageCount(server, "upload");
   const double build_count = stageCount(server, "build");
   const double built_count = server.metrics.structures_built.value();
-  offer(2, {});
+  offer(server, 2, {});
   ASSERT_THAT(subscriber->waitForAtlases(2), SizeIs(2));
 
   int64_t told_apart = 0;
@@ -227,12 +238,7 @@ TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
       ASSERT_EQ(atlases.size(), count);
       const EncodedAtlas& atlas = *atlases.back();
       EXPECT_EQ(atlas.frame_number, 2u);
-      const double since_s = 1e-9 * double(atlas.shown_time_ns - atlas.capture_time_ns);
-      EXPECT_NEAR(since_s, double(step) / kSteps_hz, 1e-8);
-      const Camera seen_from{
-          .pose = {.position_m = since_s * kSpeed_mps},
-          .intrinsics = intrinsicsFromFov(fovOf(kSource_px, kFocal_px), kEye_px)};
-      expectAsTheWorldIs(truth_.seenBy(seen_from, kEye_px).score(atlas, 0));
+      expectCarriedOn(atlas, step);
     }
     if (step % (kSteps_hz / kPoses_hz) == 0) {
       const int64_t tick = step / (kSteps_hz / kPoses_hz);
