@@ -21,4 +21,8 @@ SizePx lensPictureSize(uint32_t width_px);
 std::vector<float> trueLensPicture(const truth::Instant& instant, const Camera& camera,
                                    SizePx size_px, double radius_m, uint32_t ray_count);
 
+// float[height][width]: the share of such rays that see what only deeper layers of the source hold.
+std::vector<float> hiddenShares(const truth::Instant& instant, const Camera& camera, SizePx size_px,
+                                double radius_m, uint32_t ray_count);
+
 }  // namespace viewloom::bench

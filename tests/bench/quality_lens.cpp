@@ -72,21 +72,46 @@ void measure(OfflineRenderer& renderer, const LensScoring& scoring, LensScore& r
   result.pinhole_ms = medianOf(sharp_ms);
 }
 
+struct TrueView {
+  std::vector<float> light;          // as trueLensPicture() gives it
+  std::vector<float> hidden_shares;  // as hiddenShares()
+};
+
+TrueView trueViewOf(const truth::Instant& instant, const LensScoring& scoring) {
+  if (scoring.true_ray_count == 0) return {};
+  // A px is told from others by its shares of so many.
+  constexpr uint32_t kRaysToHidden = 16;
+  const Camera view = lensCamera(scoring.view_width_px, scoring.aside_m);
+  const SizePx size_px = lensPictureSize(scoring.view_width_px);
+  return {
+      .light = trueLensPicture(instant, view, size_px, scoring.radius_m, scoring.true_ray_count),
+      .hidden_shares = hiddenShares(instant, view, size_px, scoring.radius_m, kRaysToHidden)};
+}
+
+// Of a px's rays.
+constexpr float kHiddenShare = 0.1F;
+
 // Of what lies further in than blur reaches: beyond the image nothing is known.
-void score(const RenderedAtlas& atlas, const std::vector<float>& truth, LensScore& result) {
+void score(const RenderedAtlas& atlas, const TrueView& truth, LensScore& result) {
   const SizePx size_px = atlas.layout->size_px;
   const uint32_t margin_px = size_px.width / 20;
   double squares = 0;
+  double hidden_squares = 0;
   double errors = 0;
   double lights = 0;
   size_t count = 0;
+  size_t hidden_count = 0;
   for (uint32_t y = margin_px; y + margin_px < size_px.height; ++y) {
     for (uint32_t x = margin_px; x + margin_px < size_px.width; ++x) {
       const size_t px = size_t{y} * size_px.width + x;
+      const bool is_hidden = truth.hidden_shares[px] >= kHiddenShare;
       for (size_t c = 0; c < 3; ++c) {
         const double got = atlas.linear[4 * px + c];
-        const double light = truth[3 * px + c];
-        squares += std::pow(got - srgbFromLinear(light), 2);
+        const double light = truth.light[3 * px + c];
+        const double square = std::pow(got - srgbFromLinear(light), 2);
+        squares += square;
+        hidden_squares += is_hidden ? square : 0;
+        hidden_count += is_hidden;
         errors += linearFromSrgb(got) - light;
         lights += light;
         ++count;
@@ -94,14 +119,10 @@ void score(const RenderedAtlas& atlas, const std::vector<float>& truth, LensScor
     }
   }
   result.psnr_db = -10 * std::log10(squares / double(count));
+  result.hidden_psnr_db = -10 * std::log10(hidden_squares / double(hidden_count));
+  result.hidden_px_share = double(hidden_count) / double(count);
   result.mean_error = errors / double(count);
   result.level_db = 10 * std::log10((lights + errors) / lights);
-}
-
-std::vector<float> truthOf(const truth::Instant& instant, const LensScoring& scoring) {
-  return trueLensPicture(instant, lensCamera(scoring.view_width_px, scoring.aside_m),
-                         lensPictureSize(scoring.view_width_px), scoring.radius_m,
-                         scoring.true_ray_count);
 }
 
 // The error's steps between px beside each other, at the sides of the blocks that the second stage
@@ -139,8 +160,7 @@ FramePtr roomFrame(const truth::Instant& instant, uint32_t width_px, uint32_t la
 std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
-  const std::vector<float> truth =
-      scoring.true_ray_count > 0 ? truthOf(instant, scoring) : std::vector<float>{};
+  const TrueView truth = trueViewOf(instant, scoring);
   OfflineRenderer renderer(device, scoring.place);
   std::vector<LensScore> scores;
   uint32_t built_layers = 0;
@@ -150,10 +170,10 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
       renderer.build(*roomFrame(instant, scoring.source_width_px, built_layers));
     }
     LensScore result{.way = way};
-    if (!truth.empty()) {
+    if (!truth.light.empty()) {
       const RenderedAtlas atlas = render(renderer, displayOf(scoring, &way), true);
       score(atlas, truth, result);
-      result.seams = seamsOf(atlas, truth);
+      result.seams = seamsOf(atlas, truth.light);
     }
     measure(renderer, scoring, result);
     scores.push_back(result);

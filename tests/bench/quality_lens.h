@@ -23,9 +23,11 @@ struct LensWay {
 
 struct LensScore {
   LensWay way;
-  double psnr_db = 0;     // sRGB, of all px that the source can show
-  double mean_error = 0;  // signed, of linear light; 0..1
-  double level_db = 0;    // all of the light, beside what is true
+  double psnr_db = 0;          // sRGB, of all px that the source can show
+  double hidden_psnr_db = 0;   // the same of px much of whose light only deeper layers hold
+  double hidden_px_share = 0;  // how many of all those are
+  double mean_error = 0;       // signed, of linear light; 0..1
+  double level_db = 0;         // all of the light, beside what is true
   double seams = 0;       // steps of the error between blocks of px, beside those inside: 1 is none
   double trace_ms = 0;    // median
   double pinhole_ms = 0;  // the same of the view without a lens, traced in turn with it

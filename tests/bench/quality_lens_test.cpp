@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/gathering_places.h"
 #include "gpu/test_device.h"
 
 namespace viewloom::bench {
@@ -14,18 +15,21 @@ namespace {
 
 class QualityOfLens : public GpuTest, public ::testing::WithParamInterface<GatheringPlace> {
  protected:
-  std::vector<LensScore> scoresOf(const std::vector<LensWay>& ways, double aside_m) {
+  std::vector<LensScore> scoresOf(const std::vector<LensWay>& ways, double aside_m,
+                                  uint32_t true_ray_count = 256) {
     const LensScoring scoring{.source_width_px = 480,
                               .view_width_px = 160,
-                              .true_ray_count = 256,
+                              .true_ray_count = true_ray_count,
                               .round_count = 0,
                               .aside_m = aside_m,
                               .place = GetParam()};
     std::vector<LensScore> scores = lensScores(device(), scoring, ways);
     for (const LensScore& score : scores) {
       std::cout << score.way.layer_count << " layers, " << score.way.walked_count << " + "
-                << score.way.gathered_count << ": " << score.psnr_db << " dB, mean error "
-                << score.mean_error << ", seams " << score.seams << "\n";
+                << score.way.gathered_count << ": " << score.psnr_db << " dB, "
+                << score.hidden_psnr_db << " dB in the " << score.hidden_px_share
+                << " hidden ones, mean error " << score.mean_error << ", level " << score.level_db
+                << " dB, seams " << score.seams << "\n";
     }
     return scores;
   }
@@ -58,11 +62,49 @@ TEST_P(QualityOfLens, hasNoSeamsBetweenBlocks) {
   EXPECT_LT(scores[1].seams, scores[0].seams + 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, QualityOfLens,
-                         ::testing::Values(GatheringPlace::kHost, GatheringPlace::kDevice),
-                         [](const auto& place) {
-                           return place.param == GatheringPlace::kHost ? "host" : "device";
-                         });
+// dB that twice as many rays of both stages bring, at the least: half as much noise would be 3, and
+// what is missed of the scene less.
+constexpr double kGainOfRays_db = 0.6;
+// dB that all of the light may be off by: 1 % of it.
+constexpr double kLevelOff_db = 0.05;
+
+TEST_P(QualityOfLens, comesNearerToTheTruthTheMoreRaysFindWhatThereIs) {
+  constexpr uint32_t kTrueRays = 1024;
+  std::vector<LensWay> ways;
+  for (const uint32_t walked : {2, 4, 8, 16}) {
+    ways.push_back({.layer_count = 2, .walked_count = walked, .gathered_count = 4 * walked});
+  }
+  // As many gathered rays: what these lose by a single walked one is what that did not find.
+  ways.push_back({.layer_count = 2, .walked_count = 1, .gathered_count = 128});
+  ways.push_back({.layer_count = 2, .walked_count = 8, .gathered_count = 128});
+  const auto scores = scoresOf(ways, 0, kTrueRays);
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_LT(std::abs(scores[i].level_db), kLevelOff_db) << ways[i].walked_count;
+  }
+  for (size_t i = 1; i < 4; ++i) {
+    EXPECT_GT(scores[i].psnr_db, scores[i - 1].psnr_db + kGainOfRays_db) << ways[i].walked_count;
+  }
+  EXPECT_GT(scores[5].hidden_psnr_db, scores[4].hidden_psnr_db + 1);
+}
+
+// Px beside blurred edges of what is in front.
+TEST_P(QualityOfLens, comesNearerToTheTruthByDeeperLayers) {
+  std::vector<LensWay> ways;
+  for (const uint32_t layers : {1, 2, 3}) {
+    ways.push_back({.layer_count = layers, .walked_count = 8, .gathered_count = 32});
+  }
+  const auto scores = scoresOf(ways, 0.05);
+  // Of all px; the rest are what one layer shows as well.
+  EXPECT_GT(scores[0].hidden_px_share, 0.05);
+  EXPECT_LT(scores[0].hidden_px_share, 0.2);
+  EXPECT_GT(scores[1].hidden_psnr_db, scores[0].hidden_psnr_db + 6);
+  EXPECT_GT(scores[1].psnr_db, scores[0].psnr_db + 3);
+  // dB: little of this room is behind two things, and sheets of one more layer are other sheets.
+  constexpr double kThirdLayerLoss_db = 0.3;
+  EXPECT_GT(scores[2].hidden_psnr_db, scores[1].hidden_psnr_db - kThirdLayerLoss_db);
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, QualityOfLens, kGatheringPlaces, gatheringPlaceName);
 
 }  // namespace
 }  // namespace viewloom::bench
