@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "e2e/render_folder.h"
-#include "files/png_image.h"
 
 namespace viewloom::test {
 namespace {
@@ -45,11 +44,6 @@ class RenderBetweenTest : public RenderTest {
   std::string before(const std::string& file = "before.json") const {
     return "--before " + (folder_ / file).string();
   }
-  std::vector<uint8_t> picture() const {
-    const auto png = files::readPngColor(folder_ / "out" / "view_000.png", false);
-    EXPECT_TRUE(png.ok()) << png.status();
-    return png.ok() ? png->bytes : std::vector<uint8_t>(4 * kWidth * kHeight);
-  }
 
   // The square is the same wherever it is, and so is the wall. Both smooth, so that the light of px
   // at their edges is told apart, and each px unlike its neighbours.
@@ -79,8 +73,7 @@ class RenderBetweenTest : public RenderTest {
     const std::vector<uint8_t> got = picture();
     for (uint32_t x = first; x < end; ++x) {
       for (uint32_t c = 0; c < 3; ++c) {
-        EXPECT_NEAR(got[got.size() / (kWidth * kHeight) * (kRow * kWidth + x) + c],
-                    codeOf(x, kRow, c, left), kCodeTolerance)
+        EXPECT_NEAR(codeAt(got, x, kRow, c), codeOf(x, kRow, c, left), kCodeTolerance)
             << "px " << x << ", channel " << c;
       }
     }

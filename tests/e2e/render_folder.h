@@ -15,6 +15,7 @@
 #include "base/str_cat.h"
 #include "e2e/run_viewloomd.h"
 #include "files/file_bytes.h"
+#include "files/png_image.h"
 #include "files/png_writer.h"
 
 namespace viewloom::test {
@@ -90,6 +91,18 @@ class RenderTest : public testing::Test {
     const std::string prefix = folder_.string() + "/";
     return runViewloomd("render --frame " + prefix + frame + " --display " + prefix + display +
                         " --out " + prefix + "out " + flags);
+  }
+
+  // Of one view, as it was rendered last.
+  std::vector<uint8_t> picture(uint32_t view = 0) const {
+    const std::string name = strCat("view_00", view, ".png");
+    const auto png = files::readPngColor(folder_ / "out" / name, false);
+    EXPECT_TRUE(png.ok()) << png.status();
+    return png.ok() ? png->bytes : std::vector<uint8_t>(4 * kWidth * kHeight);
+  }
+  static int codeAt(const std::vector<uint8_t>& picture, uint32_t x, uint32_t y,
+                    uint32_t channel = 0) {
+    return picture.at(picture.size() / (kWidth * kHeight) * (y * kWidth + x) + channel);
   }
 
   const std::string kIntrinsics =

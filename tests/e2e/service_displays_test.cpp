@@ -6,47 +6,12 @@
 
 #include "e2e/atlas_viewer.h"
 #include "e2e/service_fixture.h"
+#include "e2e/wire_displays.h"
 #include "lib/catalog.h"
 #include "lib/channel.h"
 
 namespace viewloom::test {
 namespace {
-
-v1::OpenDisplay openScene() {
-  v1::OpenDisplay open;
-  open.set_stream("scene");
-  open.set_count(1);
-  open.mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
-  return open;
-}
-
-v1::CamerasDisplay& cameraGrid(v1::OpenDisplay& open) {
-  v1::CamerasDisplay& cameras = *open.mutable_display()->mutable_cameras();
-  cameras.mutable_tile_size()->set_width(61);
-  cameras.mutable_tile_size()->set_height(39);
-  v1::CameraGrid& grid = *cameras.mutable_grid();
-  grid.set_columns(3);
-  grid.set_rows(2);
-  grid.set_spacing_x_m(0.1);
-  grid.set_spacing_y_m(0.08);
-  return cameras;
-}
-
-v1::StereoDisplay& eyes(v1::OpenDisplay& open) {
-  v1::StereoDisplay& stereo = *open.mutable_display()->mutable_stereo();
-  stereo.mutable_eye_size()->set_width(75);
-  stereo.mutable_eye_size()->set_height(131);
-  return stereo;
-}
-
-// A panel of 201 x 130 px.
-v1::LenticularDisplay& panel(v1::OpenDisplay& open) {
-  v1::LenticularDisplay& lenticular = *open.mutable_display()->mutable_lenticular();
-  lenticular.set_calibration_json(
-      R"({"pitch":{"value":40},"slope":{"value":-6.5},"center":{"value":0.3},)"
-      R"("DPI":{"value":320},"screenW":{"value":201},"screenH":{"value":130}})");
-  return lenticular;
-}
 
 double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
   double sum = 0;
@@ -159,10 +124,7 @@ TEST_F(ServiceDisplaysTest, averagesSamplesOfSweptAndWalkedViewsAlike) {
 
 TEST_F(ServiceDisplaysTest, servesMicrolensPanels) {
   v1::OpenDisplay open = openScene();
-  v1::IntegralDisplay& integral = *open.mutable_display()->mutable_integral();
-  integral.set_preset("near_eye_2013");
-  integral.mutable_panel_size()->set_width(320);
-  integral.mutable_panel_size()->set_height(180);
+  microlenses(open);
   const Atlas atlas = atlasOf(open);
   EXPECT_EQ(atlas.header.method(), v1::TRACE_METHOD_WALK);
   const AtlasPicture picture = colorOf(atlas);

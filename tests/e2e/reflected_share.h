@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "viewloom/v1/display_service.pb.h"
+
+namespace viewloom::test {
+
+// Of the rays that mirrors sent on, those that ended somewhere: all, or none where nothing mirrors.
+inline double reflectedShare(const v1::AtlasHeader& header) {
+  const v1::ReflectionShares& shares = header.reflections();
+  return shares.hit() + shares.assumed() + shares.back() + shares.cube() + shares.environment();
+}
+
+}  // namespace viewloom::test
