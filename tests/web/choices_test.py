@@ -126,6 +126,24 @@ class Choices(PageTest):
         self.browser.wait_for(f"!{WATCH}.includes('focusFollowing')")
         self.assertEqual(self.browser.messages, [])
 
+    def test_reflections_are_asked_for_by_a_checkbox(self):
+        self.open()
+        self.assertIn(("checkbox", "Reflections"), self.nodes())
+        for is_on in (True, False):
+            before = self.browser.evaluate(DISPLAY_IDS)
+            self.browser.evaluate("document.getElementById('reflections').scrollIntoView()")
+            self.browser.click("label.check:has(#reflections)")
+            no = "" if is_on else "!"
+            self.browser.wait_for(f"{no}location.search.includes('reflections=2')")
+            self.browser.wait_for(f"{no}{WATCH}.includes('\"reflection\":{{\"bounces\":2}}')")
+            # Another display to the server, as it is another picture.
+            self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
+                                  f"ids[0] !== {before[0]})")
+            self.open(self.browser.evaluate("location.search"))
+            self.assertEqual(
+                self.browser.evaluate("document.getElementById('reflections').checked"), is_on)
+        self.assertEqual(self.browser.messages, [])
+
     def test_a_lens_is_put_before_the_views_by_its_list(self):
         self.open()
         before = self.browser.evaluate(DISPLAY_IDS)

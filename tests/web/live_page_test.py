@@ -47,10 +47,10 @@ class LiveServer:
 
 
 class Publisher:
-    def __init__(self, server):
+    def __init__(self, server, *flags):
         self.process = subprocess.Popen(
             [CLIENT, "--server", f"127.0.0.1:{server.grpc_port}", "publish", "--synthetic",
-             "--stream", "scene", "--size", "320x240", "--fps", "5", "--quiet"])
+             "--stream", "scene", "--size", "320x240", "--fps", "5", "--quiet", *flags])
 
     def stop(self):
         self.process.send_signal(signal.SIGINT)
@@ -66,11 +66,15 @@ def difference(a, b):
 class LivePage(PageTest):
     view_count = COLUMNS * ROWS
 
+    def publish(self, *flags):
+        publisher = Publisher(self.server, *flags)
+        self.addCleanup(lambda: end(publisher.process))
+        return publisher
+
     def setUp(self):
         self.server = LiveServer()
         self.addCleanup(lambda: end(self.server.process))
-        self.publisher = Publisher(self.server)
-        self.addCleanup(lambda: end(self.publisher.process))
+        self.publisher = self.publish()
         self.start_browser()
         self.wait_for_stream()
 
@@ -143,6 +147,40 @@ class LivePage(PageTest):
                            if name.endswith(suffix + ".jpg")]
                 with Image.open(os.path.join(folder, "atlases", name)) as atlas:
                     self.assertEqual(atlas.size, size)
+
+    def test_mirrors_show_what_they_mirror_by_a_checkbox(self):
+        self.publisher.stop()
+        self.publish("--mirrors", "--seconds", "0.1").process.wait(TIMEOUT_S)
+        # What is published stands still from now on; with reflections and without.
+        tiles = [self.tiles(self.still(query)) for query in (DISPLAY, DISPLAY + "&reflections=2")]
+        self.open(f"?stream=scene&{DISPLAY}")
+        view = self.look(0.5)
+        without, mirrored = [of_views[view] for of_views in tiles]
+        apart = difference(without, mirrored)
+        self.assertGreater(apart, 2, "nothing mirrors")
+        self.wait_for_picture(without, apart / 2)
+        for shown in (mirrored, without):
+            self.browser.evaluate("document.getElementById('reflections').scrollIntoView()")
+            self.browser.click("label.check:has(#reflections)")
+            self.look(0.5)
+            self.wait_for_picture(shown, apart / 2)
+
+    def still(self, query):
+        """Reflections may take longer than a still waits."""
+        deadline = time.monotonic() + TIMEOUT_S
+        while time.monotonic() < deadline:
+            reply = fetch(self.server.port, f"/still/scene_qs6x2a0.75.jpg?{query}")
+            if reply.status != 504:
+                self.assertEqual(reply.status, 200, reply.body[:300])
+                return reply.body
+        raise TimeoutError("no still came")
+
+    def wait_for_picture(self, expected, error):
+        """Until the page shows that tile, to such a difference: or fails."""
+        deadline = time.monotonic() + TIMEOUT_S
+        while (got := difference(self.shown_picture().resize(TILE, Image.Resampling.BOX),
+                                 expected)) > error:
+            self.assertLess(time.monotonic(), deadline, f"{got} of at most {error}")
 
     def test_depth_is_that_of_the_scene(self):
         viewer = WebSocket(self.server.port,
