@@ -53,6 +53,11 @@ std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
 }
 
+template <typename T>
+std::span<T> changeAs(ReadablePlane& plane, uint64_t count) {
+  return {reinterpret_cast<T*>(plane.mutableBytes().data()), plane.isEmpty() ? 0 : count};
+}
+
 uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
   return form == ColorForm::kRgba ? size_px.area() * sizeof(uint32_t)
                                   : YcbcrLayout(size_px, form).sizeBytes();
@@ -203,17 +208,15 @@ uint64_t TraceSlot::sizeBytes() const {
 }
 
 std::span<const uint32_t> TraceSlot::color() const {
-  return readAs<uint32_t>(color_, shape_.outputs.color == ColorForm::kRgba ? band_px_.area() : 0);
+  return readAs<uint32_t>(color_, rgbaCount());
 }
 
 std::span<uint32_t> TraceSlot::mutableColor() {
-  const std::span<const uint32_t> read = color();
-  return {const_cast<uint32_t*>(read.data()), read.size()};
+  return changeAs<uint32_t>(color_, rgbaCount());
 }
 
 std::span<float> TraceSlot::mutableLinear() {
-  const std::span<const float> read = linear();
-  return {const_cast<float*>(read.data()), read.size()};
+  return changeAs<float>(linear_, linearCount());
 }
 
 std::span<const uint8_t> TraceSlot::ycbcr() const {
@@ -233,7 +236,7 @@ std::span<const uint8_t> TraceSlot::mask() const {
 }
 
 std::span<const float> TraceSlot::linear() const {
-  return readAs<float>(linear_, band_px_.area() * 4);
+  return readAs<float>(linear_, linearCount());
 }
 
 std::span<const abi::RayRecord> TraceSlot::records() const {

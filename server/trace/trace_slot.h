@@ -27,6 +27,7 @@ class ReadablePlane {
   // Makes what kernels wrote readable: a barrier, and a copy where one is needed.
   void recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const;
   std::span<const std::byte> bytes() const { return readback_.mapped(); }
+  std::span<std::byte> mutableBytes() { return readback_.mapped(); }
 
  private:
   Buffer device_only_;
@@ -83,6 +84,10 @@ class TraceSlot {
   // Of a walk; abi::ReflectionSettings.
   Descriptor reflectionDescriptor(uint32_t walk) const;
   uint64_t colorBytes() const;
+  uint64_t rgbaCount() const {
+    return shape_.outputs.color == ColorForm::kRgba ? band_px_.area() : 0;
+  }
+  uint64_t linearCount() const { return band_px_.area() * 4; }
   // How often it stands at this place in the sets of counters.
   uint32_t counted(uint32_t place) const;
   // Where the walk stores colour.
