@@ -83,15 +83,20 @@ glm::dvec2 throughBlades(Polar at, uint32_t blades, double rotation_rad) {
 }
 
 // With the blur taken off, no surface moves by more than the ghosting limit from view to view: a
-// lens as wide as the way between two eyes blurs a surface by as much as that moves.
+// lens as wide as the way between two eyes blurs a surface by as much as that would move if the
+// plane in focus were the focal plane. It is no wider than that: what ghosts in focus is not
+// helped.
 double automaticRadius_m(const AtlasLayout& layout, const StreamDefaults& defaults,
                          double focus_m) {
-  const double beside_focus = std::max(std::abs(defaults.inv_z_near - 1 / focus_m),
-                                       std::abs(defaults.inv_z_far - 1 / focus_m));
-  const double moved_px = disparityPerInvZ(layout) * beside_focus;
-  if (moved_px <= kGhostingLimit_px) return 0;
-  const double pitch_m = std::max(layout.view_pitch_m.x, layout.view_pitch_m.y);
-  return pitch_m / 2 * (1 - kGhostingLimit_px / moved_px);
+  const double px_per_inv_z = disparityPerInvZ(layout);
+  double share = 0;  // of the way between two eyes
+  for (const double inv_z : {defaults.inv_z_near, defaults.inv_z_far}) {
+    const double moved_px = px_per_inv_z * std::abs(inv_z - 1 / layout.eye_focus_m);
+    const double blurred_px = px_per_inv_z * std::abs(inv_z - 1 / focus_m);
+    const double ghost_px = moved_px - kGhostingLimit_px;
+    if (ghost_px > 0) share = std::max(share, ghost_px < blurred_px ? ghost_px / blurred_px : 1.0);
+  }
+  return share * std::max(layout.view_pitch_m.x, layout.view_pitch_m.y) / 2;
 }
 
 }  // namespace
@@ -141,7 +146,7 @@ absl::StatusOr<std::optional<LensRays>> lensRays(const LensSpec& lens, const Atl
   }
   double radius_m = lens.aperture_radius_m;
   if (lens.has_automatic_aperture) {
-    if (!(disparityPerInvZ(layout) > 0)) {
+    if (!(disparityPerInvZ(layout) > 0) || layout.eye_focus_m == kNoFocus_m) {
       return fieldError(absl::StatusCode::kFailedPrecondition, "effects.lens.automatic_aperture",
                         "came for a display without neighbouring views; accepted for those with a "
                         "depth budget");

@@ -102,6 +102,32 @@ TEST(AutomaticAperture, leavesTheGhostingLimitOfWhatStepsFurthest) {
   }
 }
 
+// What is in focus may stand before or behind the focal plane, to which no surface moves.
+TEST(AutomaticAperture, leavesTheGhostingLimitOfWhatIsBesideAnotherFocus) {
+  const auto leftOf = [](double focus_m, const Range& range) {
+    DisplaySpec spec = withAutomaticLens(evenQuilt(0.7));
+    spec.lens->focus_distance_m = focus_m;
+    const auto layout = layoutOf(spec, range);
+    EXPECT_TRUE(layout.ok() && layout->lens) << layout.status();
+    const auto left_px = [&](double z_m) {
+      return axisPointStep_px(layout->views[0].camera, layout->views[1].camera, z_m) -
+             blur_px(*layout, z_m);
+    };
+    return std::max(left_px(range.near_m), left_px(range.far_m));
+  };
+  EXPECT_NEAR(leftOf(1.8, {.near_m = 1, .far_m = 3}), kGhostingLimit_px, kRounding_px);
+  EXPECT_NEAR(leftOf(4, {.near_m = 1, .far_m = 2.2}), kGhostingLimit_px, kRounding_px);
+}
+
+// No lens hides what ghosts in focus; that is no reason for an endless one.
+TEST(AutomaticAperture, isNoWiderThanTheWayBetweenTwoEyes) {
+  DisplaySpec spec = withAutomaticLens(evenQuilt(0.7));
+  spec.lens->focus_distance_m = 1;
+  const auto layout = layoutOf(spec, {.near_m = 1, .far_m = kFocus_m});
+  ASSERT_TRUE(layout.ok() && layout->lens) << layout.status();
+  EXPECT_DOUBLE_EQ(2 * layout->lens->radius_m, layout->view_pitch_m.x);
+}
+
 TEST(AutomaticAperture, isNoneWhereNoStepIsLonger) {
   const DisplaySpec spec = withAutomaticLens(evenQuilt(0.7));
   const auto stepOf = [](const AtlasLayout& layout, double z_m) {
