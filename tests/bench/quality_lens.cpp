@@ -193,6 +193,8 @@ Json jsonOf(const LensScoring& scoring, const LensScore& score) {
               {"place", scoring.place == GatheringPlace::kHost ? "host" : "device"}};
   if (scoring.true_ray_count > 0) {
     row.update({{"psnr_db", score.psnr_db},
+                {"hidden_psnr_db", score.hidden_psnr_db},
+                {"hidden_px_share", score.hidden_px_share},
                 {"mean_error", score.mean_error},
                 {"level_db", score.level_db},
                 {"seams", score.seams}});
