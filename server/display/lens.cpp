@@ -84,8 +84,8 @@ glm::dvec2 throughBlades(Polar at, uint32_t blades, double rotation_rad) {
 
 // With the blur taken off, no surface moves by more than the ghosting limit from view to view: a
 // lens as wide as the way between two eyes blurs a surface by as much as that would move if the
-// plane in focus were the focal plane. It is no wider than that: what ghosts in focus is not
-// helped.
+// plane in focus were the focal plane. No lens is wider than that: it does not help what ghosts in
+// focus.
 double automaticRadius_m(const AtlasLayout& layout, const StreamDefaults& defaults,
                          double focus_m) {
   const double px_per_inv_z = disparityPerInvZ(layout);
