@@ -32,25 +32,27 @@ glm::dvec2 quasiRandom(uint32_t index) {
   return glm::fract(0.5 + double(index) * glm::dvec2(1 / kRoot, 1 / (kRoot * kRoot)));
 }
 
-// Of a px of the pattern: from the bits of x xor y and of y, the lowest first, as in Bayer's
-// dither.
-uint32_t ditherRank(uint32_t x_px, uint32_t y_px) {
-  uint32_t rank = 0;
-  for (uint32_t bit = 1, weight = kLensPatternArea_px / 4; weight > 0; bit *= 2, weight /= 4) {
-    const uint32_t y_bit = (y_px & bit) != 0 ? 1 : 0;
-    const uint32_t x_bit = (x_px & bit) != 0 ? 1 : 0;
-    rank += weight * (2 * (x_bit ^ y_bit) + y_bit);
+// Along a curve of Z's, from the right: 2x2 px of the pattern follow each other, and four of those.
+uint32_t placeOnCurve(uint32_t x_px, uint32_t y_px) {
+  uint32_t place = 0;
+  for (uint32_t bit = 1, weight = 1; bit < kLensPatternSide_px; bit *= 2, weight *= 4) {
+    place += weight * ((x_px & bit) == 0 ? 1 : 0) + 2 * weight * ((y_px & bit) != 0 ? 1 : 0);
   }
-  return rank;
+  return place;
 }
 
-// Hammersley's point set: no shift is the difference of two points of the R2 sequence, so that no
-// px has the points of another.
-glm::dvec2 shiftOfRank(uint32_t rank) {
-  double inverse = 0;
-  double digit = 0.5;
-  for (uint32_t bits = rank; bits > 0; bits /= 2, digit /= 2) inverse += digit * (bits % 2);
-  return {double(rank) / kLensPatternArea_px, inverse};
+// The first two axes of Sobol's sequence ("On the distribution of points in a cube", 1967): of 4,
+// 16, 64 that follow each other from a multiple of as many on, there is one in each cell of a grid
+// of 2x2, 4x4, 8x8. No shift is the difference of two points of the R2 sequence, so that no px has
+// the points of another.
+glm::dvec2 shiftAt(uint32_t place) {
+  uint32_t x = 0x80000000;  // halves of halves
+  uint32_t y = 0x80000000;  // rows of Pascal's triangle, modulo 2
+  glm::uvec2 bits(0);
+  for (uint32_t rest = place; rest > 0; rest /= 2, x >>= 1, y ^= y >> 1) {
+    if (rest % 2 != 0) bits ^= glm::uvec2(x, y);
+  }
+  return glm::dvec2(bits) / 0x1p32;
 }
 
 // Shirley and Chiu, "A Low Distortion Map Between Disk and Square" (1997): squares around the
@@ -169,7 +171,7 @@ std::vector<glm::vec2> lensPoints(const LensRays& lens) {
   for (uint32_t point = 0; point < lens.pointCount(); ++point) {
     for (uint32_t y_px = 0; y_px < kLensPatternSide_px; ++y_px) {
       for (uint32_t x_px = 0; x_px < kLensPatternSide_px; ++x_px) {
-        const glm::dvec2 moved = quasiRandom(point) + shiftOfRank(ditherRank(x_px, y_px));
+        const glm::dvec2 moved = quasiRandom(point) + shiftAt(placeOnCurve(x_px, y_px));
         const Polar at = concentric(glm::fract(moved));
         points.emplace_back(throughBlades(at, lens.blades, lens.rotation_rad));
       }

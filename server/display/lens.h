@@ -66,9 +66,8 @@ inline constexpr uint32_t kLensPatternArea_px = kLensPatternSide_px * kLensPatte
 // Where the rays of each px of the pattern pass through a lens of radius 1, to the right and up:
 // [point][px of the pattern, row by row]. Points are those of Roberts' R2 sequence ("The
 // Unreasonable Effectiveness of Quasirandom Sequences", 2018), moved for each px by a vector of its
-// own: any few neighbours among the points of a px are spread evenly, and so is one point of all px
-// of the pattern; that of four px beside each other only from side to side. All stay the same from
-// frame to frame.
+// own: any few neighbours among the points of a px are spread evenly, and so is one point of 2x2,
+// of 4x4 and of all px of the pattern. All stay the same from frame to frame.
 std::vector<glm::vec2> lensPoints(const LensRays& lens);
 
 }  // namespace viewloom

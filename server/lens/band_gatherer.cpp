@@ -33,11 +33,7 @@ uint32_t nextBlockRow(const AtlasLayout& layout, uint32_t row) {
   return row - y + std::min((y / kSide_px + 1) * kSide_px, height_px);
 }
 
-// Least of what the rays of a view go along the axis of the source for a metre along their own:
-// where that is little, blocks of px see all of the source.
-constexpr float kForwardMin = 0.05F;
-
-// And the most that they are moved by for a metre, px: nothing that is made of them overflows.
+// The most that rays are moved by for a metre, px: nothing that is made of them overflows.
 constexpr float kMoved_px_max = 1e12F;
 
 bool isBounded(const abi::vec3& moved) {
@@ -45,6 +41,7 @@ bool isBounded(const abi::vec3& moved) {
          std::abs(moved.z) < kMoved_px_max;
 }
 
+// Where rays hardly go forward, blocks of px see all of the source.
 bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
   const abi::vec3 lens_x = view.lens_px_m.x * view.direction_dx;
   const abi::vec3 lens_y = view.lens_px_m.y * view.direction_dy;
@@ -53,7 +50,7 @@ bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
   const auto isForward = [&](uint32_t x, uint32_t y) {
     const abi::vec3 direction =
         view.direction + float(x) * view.direction_dx + float(y) * view.direction_dy;
-    return direction.z - beside > kForwardMin && isBounded(direction);
+    return direction.z - beside > abi::kForwardMin && isBounded(direction);
   };
   return isForward(0, 0) && isForward(tile_px.width, 0) && isForward(0, tile_px.height) &&
          isForward(tile_px.width, tile_px.height);
@@ -210,7 +207,6 @@ void BandGatherer::gatherBlock(const HostStructure& structure, const TraceJob& j
                           .first_y_px = float(block_px.y),
                           .points = points_,
                           .sheets = list_.sheets(),
-                          .reach = list_.reach(),
                           .may_leave = list_.mayLeave(),
                           .fills_border = job.outside_fill == OutsideFill::kBorder,
                           .background = redFirst(job.background_rgb) | kOpaqueBlack};

@@ -209,7 +209,7 @@ MetSheets GatherOnSheets(const GatheredRays& rays, BlockLight& light, std::vecto
         std::memcpy(facets.at + p, from + met.facets.at[p], sizeof(uint64_t));
       }
       // Facets beside those that a sheet stands for may lie as far off once more.
-      compareFacets(facets, met, 2 * rays.reach, rays.may_leave, int32_t(1U << i), nearest);
+      compareFacets(facets, met, 2 * sheet.reach, rays.may_leave, int32_t(1U << i), nearest);
     }
     bool is_some_open = false;
     for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {

@@ -33,7 +33,6 @@ struct GatheredRays {
   float first_y_px = 0;
   std::span<const LensPoint> points;
   std::span<const abi::MetSheet> sheets;  // no more than 32
-  float reach = 0;                        // 1/m: surfaces lie within it of their sheet
   bool may_leave = true;                  // some may meet a sheet beyond the image
   bool fills_border = false;  // beyond the image its border goes on; else there is the background
   uint32_t background = 0;    // red in the low byte

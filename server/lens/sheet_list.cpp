@@ -25,20 +25,9 @@ RectPx common(const RectPx& a, const RectPx& b) {
   return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
-// 1/m: what moves a ray through the rim of the lens by kSheetReach_px there, at px `at` of the
-// source. As shaders/lib/met_sheets.glsl.
-float sheetReach(const abi::ViewParams& view, glm::vec2 at) {
-  const glm::vec2 along_x = glm::vec2(view.direction_dx) - at * view.direction_dx.z;
-  const glm::vec2 along_y = glm::vec2(view.direction_dy) - at * view.direction_dy.z;
-  const float rim_px_m =
-      std::max(glm::length(view.lens_px_m.x * along_x), glm::length(view.lens_px_m.y * along_y));
-  const float beside_px_m = glm::length(glm::vec2(view.eye) - at * view.eye.z);
-  return abi::kSheetReach_px / std::max(beside_px_m + rim_px_m, 1e-30F);
-}
-
 // What does not fit in so few sheets as there may be is looked for anew with twice the reach; even
 // where rays pass by all of a scene of which no two px lie in a plane, few rounds are needed: at
-// 2^12 times a quarter of a px, blocks see single sheets.
+// 2^12 times an eighth of a px, blocks see single sheets.
 constexpr int kRoundsMax = 12;
 
 }  // namespace
@@ -49,15 +38,22 @@ struct SheetList::PlanePart {
       : at(0.5F * (rect.low + rect.high)),
         half_size(0.5F * (rect.high - rect.low)),
         inv_z(cell.at(at - cell_at.center())),
-        slope(cell.slope) {}
+        slope(cell.slope),
+        error(cell.error) {}
   // Of a facet, alone.
   PlanePart(const CellAt& cell_at, const SurfaceCell& facet)
       : at(cell_at.center()), inv_z(facet.inv_z), slope(facet.slope) {}
+
+  glm::vec2 range() const {
+    const float half_range = glm::dot(glm::abs(slope), half_size);
+    return {inv_z - half_range, inv_z + half_range};
+  }
 
   glm::vec2 at;  // the middle, px
   glm::vec2 half_size{0};
   float inv_z;
   glm::vec2 slope;
+  float error = 0;  // no facet of it is further away
 };
 
 // What a search looks at.
@@ -110,7 +106,8 @@ bool SheetList::isKnown(uint32_t layer, const PlanePart& part) const {
   return std::any_of(sheets_.begin(), sheets_.begin() + count_, [&](const abi::MetSheet& sheet) {
     const glm::vec2 off_slope = glm::abs(glm::vec2(sheet.plane) - part.slope);
     const float off = std::abs(glm::dot(sheet.plane, glm::vec3(part.at, 1)) - part.inv_z);
-    return sheet.layer == layer && off + glm::dot(off_slope, part.half_size) <= reach_;
+    const float off_most = off + glm::dot(off_slope, part.half_size);
+    return sheet.layer == layer && std::max(off_most, part.error) <= sheet.reach;
   });
 }
 
@@ -120,7 +117,8 @@ void SheetList::add(uint32_t layer, const PlanePart& part) {
     return;
   }
   sheets_[count_++] = {.plane = {part.slope, part.inv_z - glm::dot(part.slope, part.at)},
-                       .layer = layer};
+                       .layer = layer,
+                       .reach = reachOver(part.range())};
 }
 
 // Of a plane that lies there, the part that rays may meet.
@@ -162,7 +160,7 @@ void SheetList::findIn(const Search& search, uint32_t layer) {
       const SurfaceCell cell = surfaceCell(search.structure, layer, at.level, at.cell);
       const RectPx met = search.metWithin(at.rect(), cell.range.x, cell.range.y);
       if (isEmpty(met) || cell.range.y < 0) break;
-      if (cell.is_plane && cell.error <= reach_)
+      if (cell.is_plane && cell.error <= reachOver(cell.range))
         findPlane(search, layer, at, cell, met);
       else if (at.level == abi::kLevelFirst)
         findFacets(search, layer, met);
@@ -177,13 +175,13 @@ void SheetList::findIn(const Search& search, uint32_t layer) {
 
 // Whether all that the first layer has where rays meet the first sheet is that sheet.
 bool SheetList::isEverywhere(Search& search, float inv_z_near) const {
-  const glm::vec3 plane = sheets_.front().plane;
+  const auto& [plane, layer, reach] = sheets_.front();
   RectPx met = search.beam.rectOver(0, inv_z_near);
   // Where rays meet it tells the range of its 1/Z, and that where rays meet it.
   for (int round = 0; round < 2; ++round) {
     const glm::vec2 middle = 0.5F * (met.low + met.high);
     const float inv_z = glm::dot(plane, glm::vec3(middle, 1));
-    const float half_range = glm::dot(glm::abs(glm::vec2(plane)), met.high - middle) + reach_;
+    const float half_range = glm::dot(glm::abs(glm::vec2(plane)), met.high - middle) + reach;
     met = search.beam.rectOver(std::max(inv_z - half_range, 0.0F),
                                std::max(inv_z + half_range, 0.0F));
   }
@@ -195,7 +193,7 @@ bool SheetList::isEverywhere(Search& search, float inv_z_near) const {
       const RectPx part = common(at.rect(), met);
       if (isEmpty(part)) break;
       const SurfaceCell cell = surfaceCell(search.structure, 0, at.level, at.cell);
-      if (cell.is_plane && cell.error <= reach_) {
+      if (cell.is_plane && cell.error <= reach) {
         if (!isKnown(0, PlanePart(at, cell, part))) return false;
         break;
       }
@@ -231,11 +229,15 @@ void SheetList::find(const HostStructure& structure, const abi::ViewParams& view
   Search search{structure, beam, {glm::vec2(0), size_px}};
   // That changes little from px to px: what is seen in the middle, far away, tells it for all.
   const RectPx far = beam.rectOver(0, 0);
-  reach_ = sheetReach(view, 0.5F * (far.low + far.high));
+  const glm::vec2 middle_px = 0.5F * (low_px + high_px);
+  const glm::vec3 direction =
+      view.direction + middle_px.x * view.direction_dx + middle_px.y * view.direction_dy;
+  reach_ = abi::sheetReach(view, 0.5F * (far.low + far.high), direction.z);
   const RectPx whole = beam.rectOver(0, inv_z_near);
   may_leave_ = !isWithin(whole, search.image);
   search.aimAt(whole);
-  for (int round = 0; round < kRoundsMax; ++round, reach_ *= 2) {
+  scale_ = 1;
+  for (int round = 0; round < kRoundsMax; ++round, scale_ *= 2) {
     findAll(search, inv_z_near);
     if (!is_too_many_) break;
   }

@@ -12,6 +12,7 @@
 #include "lens/cells.h"
 #include "lens/host_structure.h"
 #include "shared/lens_abi.h"
+#include "shared/sheet_reach.h"
 #include "shared/trace_abi.h"
 
 namespace viewloom {
@@ -25,8 +26,6 @@ class SheetList {
 
   // In the order in which they were found.
   std::span<const abi::MetSheet> sheets() const { return {sheets_.data(), count_}; }
-  // 1/m: surfaces that lie no further off a sheet are those that it stands for.
-  float reach() const { return reach_; }
   // Some rays pass beyond the image.
   bool mayLeave() const { return may_leave_; }
   // Every ray meets the first sheet, and nothing before it.
@@ -45,10 +44,15 @@ class SheetList {
   bool hasOnlyKnown(const Search& search, const RectPx& part) const;
   bool isKnown(uint32_t layer, const PlanePart& part) const;
   void add(uint32_t layer, const PlanePart& part);
+  // 1/m: of surfaces that lie there.
+  float reachOver(glm::vec2 range_inv_z) const {
+    return scale_ * abi::leastReach(reach_, range_inv_z.x, range_inv_z.y);
+  }
 
   std::array<abi::MetSheet, 32> sheets_;
   uint32_t count_ = 0;
-  float reach_ = 0;
+  abi::SheetReach reach_{};
+  float scale_ = 1;  // of the reach
   bool is_too_many_ = false;
   bool may_leave_ = false;
   bool is_settled_ = false;

@@ -48,10 +48,15 @@ uvec2 tileOfBlock(BlockGrid grid, uvec2 block) {
   return uvec2(block.x, grid.first_block_row + block.y) / blocksPerTile(grid);
 }
 
+// The first px of the block, in its tile.
+uvec2 firstInTile(BlockGrid grid, uvec2 block) {
+  const uvec2 first_block = tileOfBlock(grid, block) * blocksPerTile(grid);
+  return (uvec2(block.x, grid.first_block_row + block.y) - first_block) * kMetBlockSide_px;
+}
+
 MetBlock metBlock(BlockGrid grid, uvec2 block) {
   const uvec2 tile = tileOfBlock(grid, block);
-  const uvec2 in_tile = (uvec2(block.x, grid.first_block_row + block.y) -
-                         tile * blocksPerTile(grid)) * kMetBlockSide_px;
+  const uvec2 in_tile = firstInTile(grid, block);
   const uvec2 first = tile * grid.tile_size_px + in_tile;
   const uvec2 end =
       tile * grid.tile_size_px + min(in_tile + kMetBlockSide_px, grid.tile_size_px);

@@ -29,16 +29,16 @@ struct GatherPush {
   uint end_sample;
 };
 
-// A plane of 1/Z over the image of the source: surfaces of a layer that walked rays met lie on it,
-// to within what moves a ray through the rim of the lens by kSheetReach_px.
+// A plane of 1/Z over the image of the source: surfaces of a layer that rays met lie on it, to
+// within its reach (shared/sheet_reach.h).
 struct MetSheet {
   vec3 plane;  // inv_z = x plane.x + y plane.y + plane.z, x and y in px
   uint layer;
+  float reach;  // 1/m
 };
 
 VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
 VIEWLOOM_ABI_CONST uint kMetSheetMax = 12u;
-VIEWLOOM_ABI_CONST float kSheetReach_px = 0.25f;
 
 // What the walked rays of a block met. Of one that met more sheets, the walked rays are all there
 // is: the count is kMetTooMany.
@@ -67,7 +67,7 @@ VIEWLOOM_ABI_CONST uint kBindingLensPoints = 19u;
 VIEWLOOM_ABI_CONST uint kBindingIncomplete = 23u;  // storage: IncompleteHead, and uints
 
 #ifdef __cplusplus
-static_assert(sizeof(MetList) == 204);
+static_assert(sizeof(MetList) == 252);
 static_assert(sizeof(GatherPush) == 124);
 #endif
 

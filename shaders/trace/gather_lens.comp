@@ -44,7 +44,6 @@ layout(set = 0, binding = kBindingSums, scalar) readonly buffer Sums {
 #include "lib/lens.glsl"
 #include "lib/lens_rays.glsl"
 #include "lib/met_blocks.glsl"
-#include "lib/met_sheets.glsl"
 #include "lib/ray_light.glsl"
 #include "lib/ray_start.glsl"
 
@@ -76,12 +75,9 @@ bool isOwnSurface(uint layer, Extent extent, ivec2 cell, vec2 at, float inv_z) {
 // twice that. Which of two sheets is nearer only their facets tell: both may stand for surfaces
 // that lie closer than their reach. A ray that is behind a surface to its end has not met the sky:
 // where walked ones are, the sky holds none.
-void compare(MetSheet sheet, uint kinds, Extent extent, ViewParams view, vec3 direction,
-             LensRay rays[kAtOnce], inout Nearest nearest[kAtOnce]) {
+void compare(MetSheet sheet, uint kinds, Extent extent, LensRay rays[kAtOnce],
+             inout Nearest nearest[kAtOnce]) {
   const float least_inv_z = (kinds & kMetSeesAssumed) != 0u ? 0.0 : -1.0;
-  // Of all rays as of the middle one: reach changes little from px to px.
-  const vec3 middle = meets(sheet.plane, LensRay(view.eye, direction));
-  const float reach = 2.0 * sheetReach(view, middle.xy / max(middle.z, kTowardsMin));
   for (uint i = 0u; i < kAtOnce; ++i) {
     const vec3 point = meets(sheet.plane, rays[i]);
     const vec2 at = point.xy / point.z;
@@ -92,7 +88,7 @@ void compare(MetSheet sheet, uint kinds, Extent extent, ViewParams view, vec3 di
                            all(lessThan(at, vec2(extent.size_px)));
     const float beyond_inv_z = max(nearest[i].inv_z, least_inv_z);
     const bool holds = point.z > 0.0 && is_inside && inv_z > beyond_inv_z &&
-                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <= reach &&
+                       abs(inv_z - dot(sheet.plane, vec3(at, 1.0))) <= 2.0 * sheet.reach &&
                        isOwnSurface(sheet.layer, extent, cell, at, inv_z);
     nearest[i].inv_z = holds ? inv_z : nearest[i].inv_z;
     nearest[i].layer = holds ? sheet.layer : nearest[i].layer;
@@ -205,7 +201,7 @@ LightSum sumOnSheets(Scene scene, ViewParams view, vec3 direction, uint pattern_
       nearest[i] = Nearest(-1.0, kLayerCountMax, ivec2(0));
     }
     for (uint i = 0u; i < sheet_count; ++i) {
-      compare(lists[list].sheets[i], kinds, scene.extent, view, direction, rays, nearest);
+      compare(lists[list].sheets[i], kinds, scene.extent, rays, nearest);
     }
     for (uint i = 0u; i < kAtOnce; ++i) {
       if (point + i >= points.end) continue;

@@ -7,6 +7,7 @@
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
 #include "shared/lens_abi.h"
+#include "shared/sheet_reach.h"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -28,21 +29,21 @@ layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
 };
 
 #include "lib/met_blocks.glsl"
-#include "lib/met_sheets.glsl"
 #include "lib/met_surface.glsl"
 
 // A new sheet: the surface itself where it is a node. A facet alone leans as its neighbours have
 // it, so the node around it counts, if that is a plane; else it is taken to face the source.
-MetSheet sheetOf(MetSurface surface, vec3 plane, Extent extent, float inv_z) {
+MetSheet sheetOf(MetSurface surface, vec3 plane, Extent extent, float inv_z, float reach) {
   const uvec2 around = uvec2(surface.cell) >> kLevelFirst;
   const uvec2 bits = loadCell(push.layers, surface.layer, extent, kLevelFirst, around);
-  if (surface.level != kLevelFacets) return MetSheet(plane, surface.layer);
+  if (surface.level != kLevelFacets) return MetSheet(plane, surface.layer, reach);
   const vec2 slope = isPlane(bits) ? unpackSlopes(bits.y) : vec2(0.0);
-  return MetSheet(vec3(slope, inv_z - dot(slope, vec2(surface.cell) + 0.5)), surface.layer);
+  const vec3 around_it = vec3(slope, inv_z - dot(slope, vec2(surface.cell) + 0.5));
+  return MetSheet(around_it, surface.layer, reach);
 }
 
-bool isOf(MetSheet sheet, uint layer, vec3 at, float inv_z, float reach) {
-  return sheet.layer == layer && abs(dot(sheet.plane, at) - inv_z) <= reach;
+bool isOf(MetSheet sheet, uint layer, vec3 at, float inv_z) {
+  return sheet.layer == layer && abs(dot(sheet.plane, at) - inv_z) <= sheet.reach;
 }
 
 void listIncomplete(uint list) {
@@ -86,7 +87,10 @@ void main() {
   const uvec2 tile = tileOfBlock(grid, at_block);
   const ViewParams view = views[tile.y * grid.tile_count.x + tile.x];
   const Extent extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
-  MetSheet last = MetSheet(vec3(0.0), kLayerCountMax);
+  const vec2 middle = vec2(firstInTile(grid, at_block)) + 0.5 * float(kMetBlockSide_px);
+  const float direction_z = view.direction.z + middle.x * view.direction_dx.z +
+                            middle.y * view.direction_dy.z;
+  MetSheet last = MetSheet(vec3(0.0), kLayerCountMax, 0.0);
   const uint width = block.end_x - block.first_x;
   const uint px_count = width * (block.end_row - block.first_row);
   const bool is_empty = view.is_used == 0u || px_count == 0u;
@@ -106,16 +110,16 @@ void main() {
     const vec3 plane = planeOf(surface, loadSurface(push.layers, extent, surface));
     const vec3 at = vec3(vec2(surface.cell) + 0.5, 1.0);
     const float inv_z = dot(plane, at);
-    const float reach = sheetReach(view, at.xy);
-    bool is_new = is_met && !isOf(last, surface.layer, at, inv_z, reach);
+    bool is_new = is_met && !isOf(last, surface.layer, at, inv_z);
     // A loop is what a software device passes over where nobody needs it.
     for (uint k = 0u; is_new && k < min(count, kMetSheetMax); ++k) {
       const MetSheet sheet = lists[list].sheets[k];
-      is_new = !isOf(sheet, surface.layer, at, inv_z, reach);
+      is_new = !isOf(sheet, surface.layer, at, inv_z);
       if (!is_new) last = sheet;
     }
     for (; is_new; is_new = false) {
-      last = sheetOf(surface, plane, extent, inv_z);
+      const SheetReach reach = sheetReach(view, at.xy, direction_z);
+      last = sheetOf(surface, plane, extent, inv_z, leastReach(reach, inv_z, inv_z));
       if (count < kMetSheetMax) lists[list].sheets[count] = last;
       ++count;
     }

@@ -69,7 +69,7 @@ std::optional<Passed> firstPassed(const HostStructure& host, const StraightRay& 
 bool isListed(const SheetList& list, const Passed& passed) {
   return std::ranges::any_of(list.sheets(), [&](const abi::MetSheet& sheet) {
     const float off = glm::dot(sheet.plane, glm::vec3(passed.place, 1)) - passed.inv_z;
-    return sheet.layer == passed.layer && std::abs(off) <= 2 * list.reach();
+    return sheet.layer == passed.layer && std::abs(off) <= 2 * sheet.reach;
   });
 }
 
@@ -117,7 +117,7 @@ TEST_F(LensList, listsWhateverRaysMeet) {
   expectListsWhateverRaysMeet(synthetic(kSource_px, 2), {0.06, -0.03});
 }
 
-// There a quarter of a px is less than planes of the structure are off by, and bodies are met edge
+// There an eighth of a px is less than planes of the structure are off by, and bodies are met edge
 // on.
 TEST_F(LensList, listsWhateverRaysMeetFarBesideTheSource) {
   expectListsWhateverRaysMeet(synthetic({640, 360}, 1), {0.6, 0});
@@ -139,6 +139,40 @@ FramePtr boardFrame() {
   return test::layeredFrame(1, camera, kSource_px, {layer});
 }
 
+// What lies off a sheet by more than is let pass in focus is still that where it is blurred.
+TEST_F(LensList, takesWhatIsBlurredForOneSheetMoreReadily) {
+  constexpr float kWall_inv_m = 0.5F;
+  constexpr float kStep_inv_m = 0.012F;
+  SyntheticLayer wall;
+  wall.color.assign(4 * kSource_px.area(), 200);
+  for (uint32_t px = 0; px < kSource_px.area(); ++px) {
+    const bool is_nearer = px % kSource_px.width / 16 % 2 != 0;
+    wall.depth_m.push_back(1 / (is_nearer ? kWall_inv_m + kStep_inv_m : kWall_inv_m));
+  }
+  const Camera camera{.pose = {},
+                      .intrinsics = {.focal_px = {400, 400}, .principal_px = {160, 90}}};
+  const BuiltFrame built(device(), test::layeredFrame(1, camera, kSource_px, {wall}));
+  const HostStructure host = hostStructure(built.structure.firstPart());
+  abi::ViewParams view{};
+  view.direction = {0, 0, 1};
+  view.direction_dx = {1, 0, 0};
+  view.direction_dy = {0, 1, 0};
+  view.lens_px_m = {32, 32};
+  SheetList list;
+  const auto listFocusedAt = [&](float inv_focus) {
+    view.lens_inv_focus = inv_focus;
+    // Across a step.
+    list.find(host, view, {156, 80}, {164, 88});
+  };
+  // An eighth of a px of 32 for each 1/m is less than the step.
+  listFocusedAt(kWall_inv_m);
+  EXPECT_EQ(list.sheets().size(), 2U);
+  // A blur of 16 px lets five eighths pass.
+  listFocusedAt(0);
+  EXPECT_EQ(list.sheets().size(), 1U);
+  EXPECT_TRUE(list.isSettled());
+}
+
 // The texel of a row that a ray is taken to see which begins in front of everything, and ends at a
 // place of it; `pace_px_m`: how that moves for each 1/m.
 int32_t guessedTexel(const HostStructure& host, float end_px, float pace_px_m) {
@@ -149,13 +183,10 @@ int32_t guessedTexel(const HostStructure& host, float end_px, float pace_px_m) {
   view.direction_dx = {1, 0, 0};
   view.direction_dy = {0, 1, 0};
   const LensPoint middle{};
-  const abi::MetSheet sheets[] = {{.plane = {0, 0, 1}, .layer = 0},
-                                  {.plane = {0, 0, 0.25F}, .layer = 0}};
-  const GatheredRays rays{.structure = host,
-                          .view = view,
-                          .points = std::span(&middle, 1),
-                          .sheets = sheets,
-                          .reach = 1e-3F};
+  const abi::MetSheet sheets[] = {{.plane = {0, 0, 1}, .layer = 0, .reach = 1e-3F},
+                                  {.plane = {0, 0, 0.25F}, .layer = 0, .reach = 1e-3F}};
+  const GatheredRays rays{
+      .structure = host, .view = view, .points = std::span(&middle, 1), .sheets = sheets};
   const int32_t texel = guessSeen(rays, {.px = 0, .point = 0});
   return texel < 0 ? texel : texel - int32_t(kRow_px) * int32_t(kSource_px.width);
 }

@@ -155,15 +155,32 @@ TEST(LensPattern, spreadsTheRaysOfEachPx) {
   }
 }
 
-TEST(LensPattern, spreadsEachRayOverTheLensFromPxToPx) {
+// Of one ray of each px of a square.
+std::vector<std::vector<glm::vec2>> ofSquares(uint32_t side_px) {
+  const uint32_t across = kLensPatternSide_px / side_px;
   const std::vector<glm::vec2> points = pointsOf(0);
-  std::vector<std::vector<glm::vec2>> of_point(kWalked + kGathered);
-  for (size_t i = 0; i < points.size(); ++i) {
-    of_point[i / kLensPatternArea_px].push_back(points[i]);
+  const uint32_t squares = across * across;
+  std::vector<std::vector<glm::vec2>> shapes((kWalked + kGathered) * squares);
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const uint32_t x = i % kLensPatternSide_px / side_px;
+    const uint32_t y = i / kLensPatternSide_px % kLensPatternSide_px / side_px;
+    shapes[i / kLensPatternArea_px * squares + y * across + x].push_back(points[i]);
   }
-  const double off = offMiddle(of_point);
-  std::cout << "one of each px is off the middle by " << off << "\n";
-  EXPECT_LT(off, 0.4 * offMiddleByChance(kLensPatternArea_px));
+  return shapes;
+}
+
+// Four rays in a square's four quarters are half as far off as those by chance; more, less.
+TEST(LensPattern, spreadsEachRayOverTheLensFromPxToPx) {
+  constexpr struct {
+    uint32_t side_px;
+    double of_chance;  // seen 0.53, 0.28, 0.14
+  } kSquares[] = {{2, 0.65}, {4, 0.35}, {8, 0.2}};
+  for (const auto [side_px, of_chance] : kSquares) {
+    const double off = offMiddle(ofSquares(side_px));
+    std::cout << "one of each of " << side_px << "x" << side_px << " px is off the middle by "
+              << off << "\n";
+    EXPECT_LT(off, of_chance * offMiddleByChance(side_px * side_px));
+  }
 }
 
 // So that noise of few rays is no pattern that is seen, and blocks meet what they can.

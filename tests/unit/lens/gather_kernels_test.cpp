@@ -159,7 +159,7 @@ std::optional<uint32_t> seen(const Scene& scene, const GatheredRays& rays, const
     const glm::ivec2 cell(std::min(int(nearby.x), int(kImage_px.width) - 1),
                           std::min(int(nearby.y), int(kImage_px.height) - 1));
     const auto facet = Scene::planeAt(sheet.layer, uint32_t(cell.x), uint32_t(cell.y));
-    if (!facet || std::abs(at(*facet, nearby) - at(plane, nearby)) > 2 * rays.reach) continue;
+    if (!facet || std::abs(at(*facet, nearby) - at(plane, nearby)) > 2 * sheet.reach) continue;
     const double key = is_beyond ? -1 : at(*facet, nearby);
     if (key <= nearest) continue;
     nearest = key;
@@ -209,7 +209,6 @@ class GatherKernels : public ::testing::TestWithParam<int64_t> {
             .first_y_px = y,
             .points = points_,
             .sheets = sheets_,
-            .reach = kReach,
             .fills_border = fills_border,
             .background = kBackground};
   }
@@ -218,8 +217,9 @@ class GatherKernels : public ::testing::TestWithParam<int64_t> {
   const HostStructure structure_ = scene_.structure();
   const abi::ViewParams view_ = someView();
   const std::vector<LensPoint> points_ = somePoints(10);
-  const std::vector<abi::MetSheet> sheets_ = {
-      {abi::vec3(kWall), 1}, {abi::vec3(kWall), 0}, {abi::vec3(kBoard), 0}};
+  const std::vector<abi::MetSheet> sheets_ = {{abi::vec3(kWall), 1, kReach},
+                                              {abi::vec3(kWall), 0, kReach},
+                                              {abi::vec3(kBoard), 0, 2 * kReach}};
 };
 
 TEST_P(GatherKernels, seeTheNearestFacetOnASheet) {
@@ -255,7 +255,7 @@ TEST_P(GatherKernels, seeTheNearestFacetOnASheet) {
 TEST_P(GatherKernels, seeASheetThatIsEverywhereAsOneOfMany) {
   // Far from the board; its right end lies beyond the image.
   GatheredRays rays = raysAt(32, 16, true);
-  const std::vector<abi::MetSheet> wall = {{abi::vec3(kWall), 0}};
+  const std::vector<abi::MetSheet> wall = {{abi::vec3(kWall), 0, kReach}};
   rays.sheets = wall;
   BlockLight of_one{};
   BlockLight of_many{};
@@ -268,7 +268,8 @@ TEST_P(GatherKernels, seeASheetThatIsEverywhereAsOneOfMany) {
 }
 
 TEST_P(GatherKernels, leaveOutWhatIsBehindTheEye) {
-  const std::vector<abi::MetSheet> near = {{abi::vec3(0, 0, 30), 0}};  // 3 cm before the source
+  // 3 cm before the source.
+  const std::vector<abi::MetSheet> near = {{abi::vec3(0, 0, 30), 0, kReach}};
   GatheredRays rays = raysAt(8, 8, true);
   rays.sheets = near;
   BlockLight light{};
