@@ -60,7 +60,7 @@ struct Gathered {
   vec3 share_sum;    // what it takes of each
   uint count;
   vec3 reflectance;  // what it takes of all light
-  float distance_m;
+  float closeness;   // 1/m: of what they find to the surface, the mean
 };
 
 Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, Path first_path,
@@ -94,7 +94,7 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
                             ? distance(metresOf(pinhole, found.spot.point),
                                        metresOf(pinhole, spot.point))
                             : kHalfMax;
-    sum.distance_m += is_first ? min(way_m, kHalfMax) / float(count) : 0.0;
+    sum.closeness += is_first ? closenessOf(way_m) / float(count) : 0.0;
     ++bounce;
     bool goes_on = found.meets_surface && bounce < settings.bounce_count;
     if (goes_on) {
@@ -146,8 +146,7 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
       gather(scene, pinhole, spot, mirror, path, px_angle, tile_px, counts);
   return packedLight(gathered.light_sum, gathered.share_sum, gathered.count,
                      packedReflectance(gathered.reflectance, mirror.roughness),
-                     gathered.distance_m,
-                     packedPlace(mirror.normal, spot.point.z));
+                     gathered.closeness, packedPlace(mirror.normal, spot.point.z));
 }
 
 void main() {

@@ -9,6 +9,11 @@ const ReflectedLight kNothingReflected = ReflectedLight(uvec2(0u), 0u, 0u);
 // What binary16 holds: light, and how far what is mirrored lies behind the surface, m.
 const float kHalfMax = 65504.0;
 
+// 1/m: how close to the surface a ray found something.
+float closenessOf(float way_m) {
+  return 1.0 / clamp(way_m, 1.0 / kHalfMax, kHalfMax);
+}
+
 // How much a surface beyond another counts: the longer a ray went on unseen, the likelier it has
 // met what nobody knows of. `inv_z`: of the mirror.
 float certaintyOf(float unseen_m, float inv_z) {
@@ -77,10 +82,10 @@ float largestOf(vec3 light) {
 // What is mirrored, by the light that rays found, weighted by what the surface takes of each of
 // them, and by these weights; before it takes its `reflectance` of it, which is packed.
 ReflectedLight packedLight(vec3 light_sum, vec3 share_sum, uint count, uint reflectance,
-                           float distance_m, uint place) {
+                           float closeness, uint place) {
   const vec3 bounded = min(light_sum / max(share_sum, vec3(1e-12)), vec3(kHalfMax));
   const float taken = largestOf(reflectanceOf(reflectance)) * float(count);
-  const uint beside = packedDistance(distance_m) |
+  const uint beside = packedDistance(1.0 / max(closeness, 1.0 / kHalfMax)) |
                       packedWeight(largestOf(share_sum) / max(taken, 1e-12)) << 8;
   return ReflectedLight(
       uvec2(packHalf2x16(bounded.rg), packHalf2x16(vec2(bounded.b, 0.0)) | beside << 16),

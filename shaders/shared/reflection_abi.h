@@ -62,7 +62,7 @@ struct ReflectedPath {
   // Of all samples before.
   vec3 light_sum;
   vec3 share_sum;
-  float distance_sum_m;
+  float closeness_sum;  // 1/m
   // Of the px's surface, as in ReflectedLight.
   uint reflectance;
   uint place;
@@ -104,8 +104,9 @@ VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
 
 // What comes to a px by way of the surface that it shows.
 struct ReflectedLight {
-  // Red, green and blue in binary16; how far what is mirrored lies behind the surface, m, and what
-  // weight the light has among that of others, 8 bits each (lib/reflected_light.glsl).
+  // Red, green and blue in binary16; how far what is mirrored lies behind the surface, m (of all
+  // rays the harmonic mean), and what weight the light has among that of others, 8 bits each
+  // (lib/reflected_light.glsl).
   uvec2 light;
   // Of the light so much adds to the px, as square roots: 0..255 of red, green, blue; roughness.
   uint reflectance;

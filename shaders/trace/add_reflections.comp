@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds what comes by way of surfaces to the px that show them. That of rough ones is a mean over
-// px of the same surface near by, as far as its blur would mix them anyway.
+// px of the same surface near by, as far as the blur of both would mix them anyway.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -88,7 +88,9 @@ vec3 filtered(ivec2 at, Px own) {
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       const Px other = pxAt(uint(y) * push.atlas_width_px + uint(x));
-      const vec2 apart = vec2(ivec2(x, y) - at) / (radius + 0.5);
+      // What is sharp reaches no further into what is blurred than its own blur.
+      const float narrower = min(radius, radiusOf(other));
+      const vec2 apart = vec2(ivec2(x, y) - at) / (narrower + 0.5);
       const float near = max(1.0 - dot(apart, apart), 0.0);
       const bool is_mirror = any(greaterThan(other.reflectance, vec3(0.0)));
       const bool is_alike =

@@ -108,9 +108,8 @@ void follow(inout ReflectedPath path, inout uvec3 counts) {
 
   const bool is_last = push.bounce + 1u >= push.bounce_count;
   const float place = is_hit ? merged.view_inv_z : ends_behind ? main_answer.view_inv_z : 0.0;
-  const float count = float(path.sample_count);
-  path.distance_sum_m +=
-      push.bounce == 0u ? min(1.0 / max(place, 1e-30), kHalfMax) / count : 0.0;
+  path.closeness_sum +=
+      push.bounce == 0u ? closenessOf(1.0 / max(place, 1e-30)) / float(path.sample_count) : 0.0;
   path.is_on = is_hit && !is_back && !is_last && isOf(push.mirrors, merged.main_source) ? 1u : 0u;
   path.share *= certainty;
   path.spot = vec3(main_answer.x_px, main_answer.y_px, main_answer.inv_z);
@@ -139,7 +138,7 @@ void main() {
     if (is_last) {
       reflected_band[band_index] =
           packedLight(path.light_sum, path.share_sum, path.sample_count, path.reflectance,
-                      path.distance_sum_m, path.place);
+                      path.closeness_sum, path.place);
     }
   }
   addReflectionCounts(counts, UintRef(push.counters),

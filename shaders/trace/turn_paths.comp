@@ -95,7 +95,7 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   if (push.sample_index == 0u) {
     path.light_sum = vec3(0.0);
     path.share_sum = vec3(0.0);
-    path.distance_sum_m = 0.0;
+    path.closeness_sum = 0.0;
     // The same for all sources.
     path.place = packedPlace(directionToFirst(mirror.normal), 1.0 / length(to_spot));
   }
