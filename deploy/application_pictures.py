@@ -18,7 +18,7 @@ from PIL import Image, ImageChops
 DIFFERENCE_GAIN = 8
 WIDTH_PX = 960
 APPLICATIONS = {"stereo": "stereo", "lens": "lens", "time": "between_frames",
-                "reflections": "mirror"}
+                "things": "things_between_frames", "reflections": "mirror"}
 PAIRS = {"stereo"}  # of which the left one is shown
 
 

@@ -9,13 +9,17 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
 #include "base/log.h"
+#include "base/worker_pool.h"
 #include "bench/knob_loads.h"
+#include "bench/moving_frames.h"
 #include "commands/offline_renderer.h"
 #include "gpu/device.h"
+#include "retime/frame_retimer.h"
 
 namespace viewloom::bench {
 namespace {
@@ -41,26 +45,65 @@ uint8_t codeOf(float srgb) {
   return uint8_t(std::lround(255 * std::clamp(srgb, 0.0F, 1.0F)));
 }
 
-void writeLoad(const std::filesystem::path& folder, OfflineRenderer& renderer,
-               const KnobLoad& load) {
-  const auto completed = completeDisplaySpec(load.display);
+// An application as its pictures show it.
+struct Shown {
+  std::string application;
+  FramePtr input;
+  FramePtr traced;
+  DisplaySpec display;
+  ScoredImage truth;
+};
+
+// Things carried on from one frame of a sequence to another, before a camera that stands.
+Shown carriedThings() {
+  constexpr uint32_t kLayers = 2;
+  constexpr uint32_t kFrom = 8;
+  constexpr uint32_t kTo = 12;
+  const Sequence sequence = fastThings();
+  const FramePtr input = frameOf(sequence, pictureOf(sequence, kFrom, kLayers), kFrom, kLayers);
+  WorkerPool workers;
+  FrameRetimer retimer(workers);
+  const truth::Picture truth = pictureOf(sequence, kTo, 1);
+  const CamerasSpec camera{
+      .cameras = {{Pose{}, sequenceIntrinsics()}}, .tile_size_px = kSequence_px, .columns = 1};
+  return {.application = "things",
+          .input = input,
+          .traced = retimer.retime(input, (kTo - kFrom) / kSequenceRate_hz, Guesses::kStand),
+          .display = {.kind = camera, .world_pose = truth.camera.pose},
+          .truth = imageOf(truth)};
+}
+
+std::vector<Shown> applications(uint32_t miniature) {
+  std::vector<Shown> all;
+  for (KnobLoad& load : knobLoads(miniature)) {
+    all.push_back({.application = load.application,
+                   .input = load.frame,
+                   .traced = load.frame,
+                   .display = load.display,
+                   .truth = std::move(load.truth)});
+  }
+  all.push_back(carriedThings());
+  return all;
+}
+
+void write(const std::filesystem::path& folder, OfflineRenderer& renderer, const Shown& shown) {
+  const auto completed = completeDisplaySpec(shown.display);
   if (!completed.ok()) throw std::runtime_error(std::string(completed.status().message()));
-  renderer.build(*load.frame);
+  renderer.build(*shown.traced);
   const auto atlas = renderer.render(*completed, {.linear = true}, [](uint32_t, uint32_t) {});
   if (!atlas.ok()) throw std::runtime_error(std::string(atlas.status().message()));
 
-  const LayerPlanes& input = load.frame->sources.front().front();
+  const LayerPlanes& input = shown.input->sources.front().front();
   VIEWLOOM_CHECK(input.color_encoding == PlaneEncoding::kRgba8);
   const auto path = [&](const char* what) {
-    return folder / (load.application + "-" + what + ".ppm");
+    return folder / (shown.application + "-" + what + ".ppm");
   };
-  writePicture(path("input"), load.frame->format.sources.front().layers.front().color.size_px,
+  writePicture(path("input"), shown.input->format.sources.front().layers.front().color.size_px,
                [&](size_t px, size_t channel) { return (*input.color)[4 * px + channel]; });
-  writePicture(path("result"), atlas->layout->size_px, [&](size_t px, size_t channel) {
-    return codeOf(atlas->linear[4 * px + channel]);
-  });
-  writePicture(path("truth"), load.truth.size_px, [&](size_t px, size_t channel) {
-    return codeOf(load.truth.rgb[3 * px + channel]);
+  writePicture(path("result"), atlas->layout->size_px,
+               [&](size_t px, size_t channel) { return codeOf(atlas->linear[4 * px + channel]); });
+  writePicture(path("truth"), shown.truth.size_px, [&](size_t px, size_t channel) {
+    return codeOf(shown.truth.rgb[3 * px + channel]);
   });
 }
 
@@ -69,8 +112,8 @@ void writePictures(const Arguments& arguments) {
   const Device device({.select = arguments.device});
   OfflineRenderer renderer(device);
   std::filesystem::create_directories(arguments.folder);
-  for (const KnobLoad& load : knobLoads(arguments.miniature)) {
-    writeLoad(arguments.folder, renderer, load);
+  for (const Shown& shown : applications(arguments.miniature)) {
+    write(arguments.folder, renderer, shown);
   }
 }
 

@@ -140,7 +140,7 @@ class BenchTest(unittest.TestCase):
             finished = subprocess.run([PROGRAM, "pictures", folder, "--miniature", "8"],
                                       capture_output=True, text=True, check=False)
             self.assertEqual(finished.returncode, 0, finished.stderr)
-            for application in ("views", "stereo", "lens", "time", "reflections"):
+            for application in ("views", "stereo", "lens", "time", "reflections", "things"):
                 sizes = {}
                 for what in ("input", "result", "truth"):
                     picture = pathlib.Path(folder, f"{application}-{what}.ppm").read_bytes()

@@ -99,9 +99,10 @@ TEST(MetRounds, areAsManyRaysAsAllBeforeThem) {
   }
 }
 
-// Of 8 independent rays beside 40, noise alone would be sqrt(8 / 40) = 0.45; what the walked rays
-// of a block have not met differs, too. Seen 0.35, by the kernels 0.70.
-constexpr double kFewerRaysShare = 0.75;
+// The same 40 rays, walked, differ from the 8 walked and 32 gathered by what those of a block have
+// not met, and are taken to see: so much less than from the 8 alone.
+constexpr double kMissedShareOnHost = 0.5;     // seen 0.35
+constexpr double kMissedShareOnDevice = 0.75;  // seen 0.70
 
 // Neither blur that ends with it nor blocks.
 void Lens::expectBlurredEnd(GatheringPlace place) {
@@ -123,7 +124,8 @@ void Lens::expectBlurredEnd(GatheringPlace place) {
   const double few_codes = differenceOf(few, walked);
   const double gathered_codes = differenceOf(gathered, walked);
   std::cout << "rms " << few_codes << " of few rays, " << gathered_codes << " codes with more\n";
-  EXPECT_LT(gathered_codes, kFewerRaysShare * few_codes);
+  const bool is_host = place == GatheringPlace::kHost;
+  EXPECT_LT(gathered_codes, (is_host ? kMissedShareOnHost : kMissedShareOnDevice) * few_codes);
   const auto background_count = std::count(walked.color.begin(), walked.color.end(), 0xffff00ff);
   EXPECT_GT(background_count, walked.color.size() / 10);
   EXPECT_LT(background_count, walked.color.size() / 2);

@@ -24,6 +24,8 @@ constexpr uint32_t kPadded_px = 64;
 constexpr uint32_t kArea_px = kImage_px.width * kImage_px.height;
 constexpr uint32_t kBackground = 0xffff00ff;
 constexpr float kReach = 0.01F;  // 1/m
+// Further off a sheet than twice that, but not than twice as much again.
+constexpr abi::vec3 kBeside(0, 0, 0.03F);
 // Codes that binary32 may move a mean by, and the fits of the curve of sRGB: 0.06 and 0.09 codes
 // each, and what a sum of them rounds.
 constexpr double kCodeTolerance = 0.3;
@@ -219,7 +221,8 @@ class GatherKernels : public ::testing::TestWithParam<int64_t> {
   const std::vector<LensPoint> points_ = somePoints(10);
   const std::vector<abi::MetSheet> sheets_ = {{abi::vec3(kWall), 1, kReach},
                                               {abi::vec3(kWall), 0, kReach},
-                                              {abi::vec3(kBoard), 0, 2 * kReach}};
+                                              {abi::vec3(kBoard) + kBeside, 0, 2 * kReach},
+                                              {abi::vec3(kWall) + kBeside, 0, kReach}};
 };
 
 TEST_P(GatherKernels, seeTheNearestFacetOnASheet) {

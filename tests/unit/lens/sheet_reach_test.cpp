@@ -53,6 +53,27 @@ abi::SheetReach reachOf(const abi::ViewParams& view, double inv_z) {
   return abi::sheetReach(view, abi::vec2(at), view.direction.z);
 }
 
+// By how far 1/Z of a surface at that place may be off, a ray through the rim meets it the stated
+// part of a px beside: that is moved by how far the eye is from the source's, and by the lens.
+TEST(SheetReach, movesAFocusedRayByAnEighthOfAPx) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place_px(0, 640);
+  for (int i = 0; i < 1000; ++i) {
+    const abi::ViewParams view = someView(random);
+    const glm::dvec2 at(place_px(random), place_px(random));
+    // A homogeneous point beside the source moves what it is projected along by that for each 1/m.
+    const auto moved_px_m = [&](const glm::dvec3& by) {
+      return glm::length(glm::dvec2(by) - at * by.z);
+    };
+    const double all_px_m =
+        moved_px_m(glm::dvec3(view.eye)) +
+        std::max(moved_px_m(double(view.lens_px_m.x) * glm::dvec3(view.direction_dx)),
+                 moved_px_m(double(view.lens_px_m.y) * glm::dvec3(view.direction_dy)));
+    const double in_focus = abi::sheetReach(view, abi::vec2(at), view.direction.z).in_focus;
+    ASSERT_NEAR(in_focus * all_px_m, 0.125, kRelativeError * 0.125);
+  }
+}
+
 TEST(SheetReach, growsInProportionToTheBlur) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> near(0.02, 2);
