@@ -42,6 +42,14 @@ struct Kind {
   bool has_neighbours = true;  // views between which an automatic aperture finds its width
 };
 
+// Finer than what came: as coarse, a lens blends what is in focus with the px beside it.
+void fineColorAndDepth(v1::OpenDisplay& open) {
+  colorAndDepth(open);
+  v1::RgbdDisplay& rgbd = *open.mutable_display()->mutable_rgbd();
+  rgbd.mutable_view_size()->set_width(2 * kSource_px.width);
+  rgbd.mutable_view_size()->set_height(2 * kSource_px.height);
+}
+
 const std::vector<Kind> kKinds = {
     {"quilt",
      [](auto& open) {
@@ -53,7 +61,7 @@ const std::vector<Kind> kKinds = {
     {"tracked", [](auto& open) { eyes(open).set_tracked(true); }},
     {"grid", [](auto& open) { cameraGrid(open); }},
     {"list", [](auto& open) { cameraList(open); }, false, false},
-    {"rgbd", [](auto& open) { colorAndDepth(open); }, false, false},
+    {"rgbd", [](auto& open) { fineColorAndDepth(open); }, false, false},
 };
 
 void addLens(v1::OpenDisplay& open) {
@@ -172,6 +180,8 @@ class ServiceEffectsTest : public ServiceFixture {
     };
     const ChangedShare off_focus = sharesWhere(kBlurred_per_m, 1);
     const ChangedShare in_focus = sharesWhere(0, kSharp_per_m);
+    std::cout << "changed off focus " << off_focus.share() << ", in focus " << in_focus.share()
+              << "\n";
     EXPECT_GT(off_focus.share(), kChangedMin);
     EXPECT_GT(off_focus.share(), kBlurGainMin * in_focus.share());
   }
