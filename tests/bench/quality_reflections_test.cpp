@@ -13,15 +13,15 @@ namespace {
 
 using QualityReflectionsTest = GpuTest;
 
-// PSNR of what the source holds, and of all px of mirrors, dB: 1 dB below what was measured.
+// PSNR of what the source holds, and of all px of mirrors, dB: some 1 dB below what was measured.
 const std::map<std::string, double> kKnownMin_db = {{"mirror floor", 41.8},
                                                     {"mirror sphere", 36.2},
                                                     {"facing mirrors", 36.6},
-                                                    {"rough floor", 46.4}};
+                                                    {"rough floor", 46.5}};
 const std::map<std::string, double> kAllMin_db = {{"mirror floor", 41.5},
                                                   {"mirror sphere", 24.3},
                                                   {"facing mirrors", 29.7},
-                                                  {"rough floor", 45.8}};
+                                                  {"rough floor", 46.0}};
 // Above the same views without reflections.
 constexpr double kGainMin_db = 20;
 // What no source holds ends in the environment, and little else does.
@@ -44,7 +44,7 @@ constexpr double kAllGainMin_db = 0.5;
 constexpr double kLossMax_db = 1.5;
 const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 5},
                                                           {"rough floor", 3.7}};
-const std::map<std::string, double> kGuessedMin_db = {{"mirror floor", 41}, {"rough floor", 45.2}};
+const std::map<std::string, double> kGuessedMin_db = {{"mirror floor", 41}, {"rough floor", 45.4}};
 
 struct Range {
   double least = 0;

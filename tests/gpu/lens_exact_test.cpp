@@ -97,14 +97,15 @@ class ExactLens : public ThroughLens, public testing::WithParamInterface<Gatheri
 
 // Blocks of 64 px with as many gathered rays each, beside 64 walked ones: noise is 3 %.
 constexpr double kOff = 0.12;
-// With one ray a px a third of the blocks miss the pole.
-constexpr double kMuch = 0.25;
+// With one ray a px a third of the blocks miss the pole, and most of its light.
+constexpr double kOffOfFew = 0.5;       // seen 0.57
+constexpr double kMissingOfFew = 0.25;  // seen 0.33
 constexpr uint32_t kGathered = 64;
 
 TEST_P(ExactLens, showsWhatTheWalkedRaysOfABlockMissed) {
   const PoleSeen fast = seenBy({.walked_count = 1, .gathered_count = kGathered});
-  EXPECT_GT(fast.off, kMuch);
-  EXPECT_GT(fast.missing_share, kMuch);
+  EXPECT_GT(fast.off, kOffOfFew);
+  EXPECT_GT(fast.missing_share, kMissingOfFew);
   const PoleSeen exact = seenBy({.walked_count = 1, .gathered_count = kGathered, .is_exact = true});
   EXPECT_LT(exact.off, kOff);
   EXPECT_EQ(exact.missing_share, 0);
