@@ -7,8 +7,8 @@
 #include <string_view>
 #include <thread>
 
+#include "base/nearest_name.h"
 #include "base/str_cat.h"
-#include "config/near_miss.h"
 #include "config/settings.h"
 #include "config/toml_file.h"
 
@@ -89,10 +89,9 @@ class ConfigReader {
 
   static ConfigError unknown(const std::string& name, const std::string& place,
                              const std::vector<std::string>& known) {
-    const std::string meant = nearMiss(name, known);
+    const std::string meant = didYouMean(name, known);
     return ConfigError(strCat(place, ": ", name, " is no setting; ",
-                              meant.empty() ? "viewloomd.example.toml lists them all"
-                                            : strCat("did you mean ", meant, "?")));
+                              meant.empty() ? "viewloomd.example.toml lists them all" : meant));
   }
 
   static void set(const Setting& setting, const SettingValue& value, bool from_text,
