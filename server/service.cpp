@@ -148,7 +148,8 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
                                       .stream_count_max = config.limits.streams_max,
                                       .broadcaster_limits = broadcasterLimits(config.limits),
                                       .http_address = http ? http->url() : ""};
-  rpc.emplace(RpcServerOptions{.address = config.grpc.address},
+  rpc.emplace(RpcServerOptions{.address = config.grpc.address,
+                               .keepalive = std::chrono::seconds(config.grpc.keepalive_s)},
               RpcParts{.intake = intake,
                        .pool = planes,
                        .directory = directory,

@@ -84,15 +84,20 @@ class PublishRun {
     return {.on_accepted = {},
             .on_report = [this](const v1::FrameReport& report) { noteReport(report); },
             .on_wanted = [this](const v1::Wanted& wanted) { noteWanted(wanted); },
-            .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
+            .on_connection =
+                [this, say = sayOrGiveUp(line_, common_, options_.has_no_retry,
                                          [this](const absl::Status& reason) {
                                            std::lock_guard lock(mutex_);
                                            given_up_ = reason;
-                                         }),
+                                         })](const ConnectionEvent& event) {
+                  is_connected_ = event.kind == ConnectionEvent::Kind::kConnected;
+                  say(event);
+                },
             .on_sent = [this](const CompressedFrame& frame) { sent_.take(frame); }};
   }
 
   void noteReport(const v1::FrameReport& report) {
+    if (!report.note().empty()) line_.say(strCat("frame ", report.number(), ": ", report.note()));
     if (report.outcome() != v1::FRAME_OUTCOME_REFUSED) return;
     std::lock_guard lock(mutex_);
     if (std::exchange(last_reason_, report.reason()) == report.reason()) return;
@@ -146,6 +151,15 @@ class PublishRun {
     return step > 0 ? strCat("depth step ", step, " 1/m; ") : "";
   }
 
+  // Time counts while the server is there.
+  void waitUntilReported() {
+    publisher_->close();
+    for (int64_t until_ns = clock_.nowNs() + kFinish_ns; !isOver() && clock_.nowNs() < until_ns;) {
+      tick();
+      if (!is_connected_) until_ns = clock_.nowNs() + kFinish_ns;
+    }
+  }
+
   int fail(const absl::Status& status, int code) {
     reportError(status, common_);
     return code;
@@ -158,10 +172,12 @@ class PublishRun {
     const bool was_served = publisher_->counts().sent > 0;
     absl::Status status = ended;
     if (ended.ok() && (was_served || !is_interrupted)) {
-      status = publisher_->finish(is_interrupted ? kInterrupted_ns : kFinish_ns);
+      if (!is_interrupted) waitUntilReported();
+      if (std::lock_guard lock(mutex_); !given_up_.ok()) return reportError(given_up_, common_);
+      status = publisher_->finish(kInterrupted_ns);
     }
     line_.show(this->status());
-    if (is_interrupted && ended.ok()) return kExitDone;
+    if (isInterrupted() && ended.ok()) return kExitDone;
     if (!status.ok()) return reportError(status, common_);
     return publisher_->counts().refused > 0 ? kExitFailed : kExitDone;
   }
@@ -175,6 +191,7 @@ class PublishRun {
   SteadyClock clock_;
   SentFrames sent_{line_, clock_};
   std::atomic<uint32_t> displays_{0};
+  std::atomic<bool> is_connected_ = false;
   OutsideWarnings outside_;
   mutable std::mutex mutex_;
   absl::Status given_up_;                 // --no-retry: why

@@ -1,21 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/report_error.h"
 
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
+#include "base/retry_delay.h"
 #include "base/str_cat.h"
+#include "lib/broken_call.h"
+#include "lib/channel.h"
 
 namespace viewloom::cli {
+namespace {
+
+// The same problem is told again after so long.
+constexpr std::chrono::seconds kTellAgain{10};
+
+// What a refusal says happened, without the field and without what a program could send instead.
+std::string happening(const std::string& message) {
+  const std::string text = message.substr(0, message.find("; "));
+  const size_t colon = text.find(": ");
+  const bool has_field = colon != std::string::npos && text.find(' ') > colon;
+  return has_field ? text.substr(colon + 2) : text;
+}
+
+// Says when a connection comes, goes and is tried again. A call that goes for one reason over and
+// over is told seldom. Thread-safety: none.
+class ConnectionTeller {
+ public:
+  ConnectionTeller(StatusLine& line, CommonOptions common)
+      : line_(&line), common_(std::move(common)) {}
+
+  void tell(const ConnectionEvent& event) {
+    if (event.kind == ConnectionEvent::Kind::kConnected) {
+      tellConnected();
+    } else {
+      tellRetrying(event);
+    }
+  }
+
+ private:
+  void tellConnected() {
+    if (std::exchange(is_connected_, true)) return;
+    line_->say(strCat("connected to ", common_.server));
+  }
+
+  void tellRetrying(const ConnectionEvent& event) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool is_same = event.reason.code() == reason_.code() &&
+                         isFromTransport(event.reason) == isFromTransport(reason_);
+    if (is_same && now - told_at_ < kTellAgain) return;
+    // What to do is said once; then only that it goes on.
+    const bool is_gone = is_same && !is_connected_;
+    const std::string what = is_gone && absl::IsUnavailable(event.reason)
+                                 ? strCat("still no answer from ", common_.server)
+                                 : explain(event.reason, common_);
+    const bool waits = retryDelayNs(event.reason).has_value();
+    line_->say(waits ? what
+                     : strCat(what, "; trying again in ",
+                              formatNumber(static_cast<double>(event.delay_ns) * 1e-9, 1), " s"));
+    reason_ = event.reason;
+    told_at_ = now;
+    is_connected_ = false;
+  }
+
+  StatusLine* line_;
+  CommonOptions common_;
+  bool is_connected_ = false;
+  absl::Status reason_;  // told last
+  std::chrono::steady_clock::time_point told_at_;
+};
+
+}  // namespace
 
 std::string explain(const absl::Status& status, const CommonOptions& common) {
+  if (const std::string broken = explainBrokenCall(status); !broken.empty()) return broken;
   std::string message(status.message());
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
+      if (!isFromTransport(status)) return strCat("the server at ", common.server, ": ", message);
       return strCat("no server at ", common.server, " (", message,
                     "); start one with `viewloomd serve` or name another with --server HOST:PORT");
     case absl::StatusCode::kAlreadyExists:
-      return strCat(message, "; choose another name with --stream, or end the other publisher");
+      return strCat(happening(message),
+                    retryDelayNs(status) ? "; waiting until it ends (another name: --stream NAME)"
+                                         : "; choose another name with --stream, or end it");
     case absl::StatusCode::kAborted:
       return strCat("another publisher took the stream over (", message, ")");
     case absl::StatusCode::kDeadlineExceeded:
@@ -32,17 +101,8 @@ int reportError(const absl::Status& status, const CommonOptions& common) {
 }
 
 OnConnection sayConnections(StatusLine& line, const CommonOptions& common) {
-  return [&line, common, is_told = false](const ConnectionEvent& event) mutable {
-    if (event.kind == ConnectionEvent::Kind::kConnected) {
-      line.say(strCat("connected to ", common.server));
-      is_told = false;
-      return;
-    }
-    // What to do is said once; then only that it goes on.
-    const std::string what = std::exchange(is_told, true) ? strCat("no answer from ", common.server)
-                                                          : explain(event.reason, common);
-    line.say(strCat(what, "; trying again in ",
-                    formatNumber(static_cast<double>(event.delay_ns) * 1e-9, 1), " s"));
+  return [teller = ConnectionTeller(line, common)](const ConnectionEvent& event) mutable {
+    teller.tell(event);
   };
 }
 

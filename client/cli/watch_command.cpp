@@ -11,6 +11,7 @@
 
 #include "base/str_cat.h"
 #include "cli/atlas_files.h"
+#include "cli/defaults_news.h"
 #include "cli/display_options.h"
 #include "cli/eye_times.h"
 #include "cli/frame_feed.h"
@@ -158,6 +159,7 @@ class WatchRun {
       if (!written.ok()) setFailure(written);
     }
     sayHeld(atlas.header);
+    if (const auto news = news_.note(atlas.header, planeOf(*atlas.layout))) line_.say(*news);
     const std::optional<MotionLatency> motion = reportMotion(atlas.header);
     std::lock_guard lock(mutex_);
     if (motion) motion_ = motion;
@@ -243,7 +245,8 @@ class WatchRun {
   double latency_s_ = 0;
   std::optional<MotionLatency> motion_;
   absl::Status failure_;
-  std::string said_grid_;  // the watcher's thread's own
+  std::string said_grid_;  // the watcher's thread's own, as the next
+  DefaultsNews news_;
   EyeTimes eye_times_;
   std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
   std::unique_ptr<ClockFollower> clock_;

@@ -8,9 +8,11 @@
 namespace viewloom {
 
 struct BackoffOptions {
-  int64_t first_ns = 200'000'000;   // mean of the first delay
-  int64_t max_ns = 10'000'000'000;  // no delay is longer than 1.5 times this
-  double factor = 2.0;              // from delay to delay, > 1
+  int64_t first_ns = 200'000'000;  // mean of the first delay
+  // No delay is longer than 1.5 times this: whoever waits for a server is back within 2 s of its
+  // return.
+  int64_t max_ns = 1'000'000'000;
+  double factor = 2.0;  // from delay to delay, > 1
 };
 
 // Thread-safety: none; one owner.

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/channel.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include "absl/strings/cord.h"
+#include "base/retry_delay.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
 namespace viewloom {
+namespace {
+
+// Two round trips of any network, and a second attempt soon after a host has come back.
+constexpr int kConnectMsMax = 2000;
+// More often than proxies drop silent connections; seldom enough for every server's patience.
+constexpr int kKeepaliveMs = 15000;
+constexpr int kKeepaliveTimeoutMs = 5000;
+constexpr double kRetryDelayMax_s = 3600;
+
+constexpr const char* kOriginPayload = "viewloom.origin";
+constexpr const char* kServer = "server";
+constexpr const char* kTransport = "transport";
+
+}  // namespace
 
 std::shared_ptr<grpc::Channel> makeChannel(const std::string& address) {
   grpc::ChannelArguments arguments;
@@ -13,8 +35,12 @@ std::shared_ptr<grpc::Channel> makeChannel(const std::string& address) {
   arguments.SetMaxSendMessageSize(kMessageBytesMax);
   // How long to wait between attempts is decided in RetryLoop; the channel itself tries at once.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 200);
+  // How long one attempt may take, in spite of its name.
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kConnectMsMax);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // Two clients of one process do not share a connection, and with it its flow control.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
@@ -27,7 +53,28 @@ bool staysOnMachine(const std::string& address) {
 }
 
 absl::Status statusFromGrpc(const grpc::Status& status) {
-  return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
+  absl::Status result(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
+  if (result.ok()) return result;
+  google::rpc::Status details;
+  const bool has_details =
+      !status.error_details().empty() && details.ParseFromString(status.error_details());
+  result.SetPayload(kOriginPayload, absl::Cord(has_details ? kServer : kTransport));
+  for (const google::protobuf::Any& detail : details.details()) {
+    google::rpc::RetryInfo retry;
+    if (!detail.UnpackTo(&retry)) continue;
+    const double delay_s =
+        double(retry.retry_delay().seconds()) + 1e-9 * double(retry.retry_delay().nanos());
+    result = worthRetry(result, int64_t(1e9 * std::clamp(delay_s, 0.0, kRetryDelayMax_s)));
+  }
+  return result;
+}
+
+bool isFromServer(const absl::Status& status) {
+  return status.GetPayload(kOriginPayload) == absl::Cord(kServer);
+}
+
+bool isFromTransport(const absl::Status& status) {
+  return status.GetPayload(kOriginPayload) == absl::Cord(kTransport);
 }
 
 }  // namespace viewloom

@@ -25,6 +25,13 @@ std::shared_ptr<grpc::Channel> makeChannel(const std::string& address);
 // Whether what goes to this address leaves no machine: a Unix socket, or the loopback.
 bool staysOnMachine(const std::string& address);
 
+// The same status, which also tells where it comes from (isFromServer, isFromTransport) and, by
+// retryDelayNs, when to ask again.
 absl::Status statusFromGrpc(const grpc::Status& status);
+
+// The server itself has answered so.
+bool isFromServer(const absl::Status& status);
+// A proxy has, or the connection broke.
+bool isFromTransport(const absl::Status& status);
 
 }  // namespace viewloom

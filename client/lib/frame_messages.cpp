@@ -5,21 +5,17 @@
 #include <vector>
 
 namespace viewloom {
-namespace {
 
-constexpr size_t kChunkBytes = size_t{1} << 20;  // the largest the server takes
-
-}  // namespace
-
-bool takeFrameMessages(const WireFrame& frame, const TakeFrameMessage& take) {
+bool takeFrameMessages(const WireFrame& frame, const TakeFrameMessage& take,
+                       const std::function<size_t()>& chunk_bytes) {
   v1::PublishFramesRequest message;
   *message.mutable_header() = frame.header;
   if (!take(message)) return false;
   v1::FrameChunk& chunk = *message.mutable_chunk();
   for (size_t plane = 0; plane < frame.planes.size(); ++plane) {
     const std::vector<uint8_t>& bytes = *frame.planes[plane];
-    for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
-      const size_t size = std::min(kChunkBytes, bytes.size() - offset);
+    for (size_t offset = 0; offset < bytes.size(); offset += chunk.data().size()) {
+      const size_t size = std::min(chunk_bytes(), bytes.size() - offset);
       chunk.set_plane_index(static_cast<uint32_t>(plane));
       chunk.set_offset_bytes(offset);
       chunk.set_data(&bytes[offset], size);

@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "lib/channel.h"
 #include "lib/frame_messages.h"
+#include "lib/server_clock.h"
 
 namespace viewloom {
 namespace {
@@ -54,12 +55,14 @@ bool Publisher::isWaiting() const {
   return waiting_.has_value();
 }
 
+void Publisher::close() {
+  std::lock_guard lock(mutex_);
+  finishing_ = true;
+  changed_.notify_all();
+}
+
 absl::Status Publisher::finish(int64_t timeout_ns) {
-  {
-    std::lock_guard lock(mutex_);
-    finishing_ = true;
-    changed_.notify_all();
-  }
+  close();
   const bool in_time = waitEnded(timeout_ns);
   thread_.request_stop();
   std::unique_lock lock(mutex_);
@@ -90,6 +93,7 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
     in_flight_.clear();
     answers_ended_ = false;
     was_connected_ = false;
+    chunk_size_ = {};
     if (!waiting_) waiting_ = std::move(newest_sent_);
     newest_sent_.reset();
   }
@@ -99,38 +103,52 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
   v1::PublishFramesRequest settings;
   settings.mutable_settings()->set_stream(options_.stream);
   settings.mutable_settings()->set_session_id(options_.session_id);
+  settings.mutable_settings()->set_sends_heartbeats(true);
   call->Write(settings);  // a failure shows in Finish
+  SilenceWatch silence([&] { context.TryCancel(); });
   {
-    const std::jthread reader([&] { readAnswers(*call); });
-    sendFrames(*call, stop);
-    call->WritesDone();
+    const std::jthread reader([&] { readAnswers(*call, silence); });
+    HeartbeatWriter writer(*call);
+    sendFrames(writer, stop);
+    writer.finish();
   }
   CallEnd end{statusFromGrpc(call->Finish()), false};
+  if (!end.status.ok() && silence.hasFired()) end.status = silence.status();
   std::lock_guard lock(mutex_);
   end.was_connected = was_connected_;
   counts_.reconnects += was_connected_ && isPassing(end.status) && !stop.stop_requested();
   return end;
 }
 
-void Publisher::readAnswers(Call& call) {
+void Publisher::readAnswers(Call& call, SilenceWatch& silence) {
   v1::PublishFramesResponse answer;
-  while (call.Read(&answer)) {
-    if (answer.has_accepted()) {
-      {
-        std::lock_guard lock(mutex_);
-        was_connected_ = true;
-      }
-      if (callbacks_.on_connection) callbacks_.on_connection({});
-      if (callbacks_.on_accepted) callbacks_.on_accepted(answer.accepted());
-    } else if (answer.has_report()) {
-      noteReport(answer.report());
-    } else if (answer.has_wanted() && callbacks_.on_wanted) {
-      callbacks_.on_wanted(answer.wanted());
+  for (silence.listens(); call.Read(&answer); silence.listens()) {
+    silence.hears();
+    if (answer.has_heartbeat()) {
+      silence.expectHeartbeats();
+    } else {
+      takeAnswer(answer);
     }
   }
+  silence.hears();
   std::lock_guard lock(mutex_);
   answers_ended_ = true;
   changed_.notify_all();
+}
+
+void Publisher::takeAnswer(const v1::PublishFramesResponse& answer) {
+  if (answer.has_accepted()) {
+    {
+      std::lock_guard lock(mutex_);
+      was_connected_ = true;
+    }
+    if (callbacks_.on_connection) callbacks_.on_connection({});
+    if (callbacks_.on_accepted) callbacks_.on_accepted(answer.accepted());
+  } else if (answer.has_report()) {
+    noteReport(answer.report());
+  } else if (answer.has_wanted() && callbacks_.on_wanted) {
+    callbacks_.on_wanted(answer.wanted());
+  }
 }
 
 void Publisher::noteReport(const v1::FrameReport& report) {
@@ -156,7 +174,7 @@ std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
   return std::exchange(waiting_, std::nullopt);
 }
 
-void Publisher::sendFrames(Call& call, const std::stop_token& stop) {
+void Publisher::sendFrames(HeartbeatWriter& writer, const std::stop_token& stop) {
   while (std::optional<WireFrame> frame = waitForFrame(stop)) {
     const uint64_t number = frame->header.number();
     {
@@ -167,15 +185,22 @@ void Publisher::sendFrames(Call& call, const std::stop_token& stop) {
     const CompressedFrame compressed = compressFrame(
         *std::move(frame),
         {.zstd_level = options_.zstd_level, .predicts_depth = options_.predicts_depth});
-    if (!sendFrame(call, compressed.frame, stop)) return;
+    if (!sendFrame(writer, compressed.frame, stop)) return;
     if (callbacks_.on_sent) callbacks_.on_sent(compressed);
   }
 }
 
-bool Publisher::sendFrame(Call& call, const WireFrame& frame, const std::stop_token& stop) {
-  const bool was_sent = takeFrameMessages(frame, [&](const v1::PublishFramesRequest& message) {
-    return !stop.stop_requested() && call.Write(message);
-  });
+bool Publisher::sendFrame(HeartbeatWriter& writer, const WireFrame& frame,
+                          const std::stop_token& stop) {
+  const auto send = [&](const v1::PublishFramesRequest& message) {
+    const int64_t begun_ns = steadyNowNs();
+    if (stop.stop_requested() || !writer.write(message)) return false;
+    if (message.chunk().data().size() == chunk_size_.bytes()) {
+      chunk_size_.note(steadyNowNs() - begun_ns);
+    }
+    return true;
+  };
+  const bool was_sent = takeFrameMessages(frame, send, [&] { return chunk_size_.bytes(); });
   if (!was_sent) return false;
   std::lock_guard lock(mutex_);
   ++counts_.sent;

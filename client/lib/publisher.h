@@ -15,8 +15,11 @@
 #include <grpcpp/channel.h>
 
 #include "base/status.h"
+#include "lib/chunk_size.h"
 #include "lib/compress_frame.h"
+#include "lib/heartbeat_writer.h"
 #include "lib/retry_loop.h"
+#include "lib/silence_watch.h"
 #include "lib/wire_frame.h"
 #include "viewloom/v1/ingest_service.grpc.pb.h"
 
@@ -57,8 +60,10 @@ struct PublisherCounts {
 };
 
 // Frames are numbered 1, 2, ... by the publisher. After a broken connection it comes back with its
-// session id, and shows the newest frame again if no newer one waits.
-// Thread-safety: all methods may be called from any thread, but the destructor from one only.
+// session id, and shows the newest frame again if no newer one waits. It sends heartbeats, and
+// takes 5 s without one from the server for a broken connection. While another publisher of this
+// host has the stream, it waits for the name. Thread-safety: all methods may be called from any
+// thread, but the destructor from one only.
 class Publisher {
  public:
   Publisher(std::shared_ptr<grpc::Channel> channel, PublisherOptions options,
@@ -72,8 +77,10 @@ class Publisher {
   void offer(WireFrame frame);
   // Whether a frame waits to be sent.
   bool isWaiting() const;
-  // Sends what waits, waits for all reports, ends the call. Nothing may be offered afterwards.
-  // Breaks off with DEADLINE_EXCEEDED after timeout_ns.
+  // Sends what waits, and ends the call once all is reported. Nothing may be offered afterwards.
+  // Does not wait.
+  void close();
+  // Closes, and waits for the end. Breaks off with DEADLINE_EXCEEDED after timeout_ns.
   absl::Status finish(int64_t timeout_ns);
   // How the publisher ended, if it has: OK after finish(), else why the server does not take it.
   std::optional<absl::Status> ended() const;
@@ -83,13 +90,14 @@ class Publisher {
 
  private:
   using Stub = v1::IngestService::Stub;
-  using Call = grpc::ClientReaderWriter<v1::PublishFramesRequest, v1::PublishFramesResponse>;
+  using Call = HeartbeatWriter::Call;
 
   CallEnd runCall(const std::stop_token& stop);
-  void readAnswers(Call& call);
-  void sendFrames(Call& call, const std::stop_token& stop);
+  void readAnswers(Call& call, SilenceWatch& silence);
+  void takeAnswer(const v1::PublishFramesResponse& answer);
+  void sendFrames(HeartbeatWriter& writer, const std::stop_token& stop);
   std::optional<WireFrame> waitForFrame(const std::stop_token& stop);
-  bool sendFrame(Call& call, const WireFrame& frame, const std::stop_token& stop);
+  bool sendFrame(HeartbeatWriter& writer, const WireFrame& frame, const std::stop_token& stop);
   void noteReport(const v1::FrameReport& report);
 
   const PublisherOptions options_;
@@ -107,6 +115,7 @@ class Publisher {
   bool finishing_ = false;
   std::optional<absl::Status> ended_;
   PublisherCounts counts_;
+  ChunkSize chunk_size_;  // the thread's own
 
   std::jthread thread_;  // last: joins before what it uses goes
 };

@@ -6,14 +6,32 @@
 #include <mutex>
 #include <utility>
 
+#include "absl/strings/match.h"
+#include "base/retry_delay.h"
+#include "lib/channel.h"
+
 namespace viewloom {
 
 bool isPassing(const absl::Status& status) {
-  // UNKNOWN is what gRPC reports when the connection broke in the middle of a call; CANCELLED is
-  // what a draining server ends its last calls with.
-  return status.code() == absl::StatusCode::kUnavailable ||
-         status.code() == absl::StatusCode::kUnknown ||
-         status.code() == absl::StatusCode::kCancelled;
+  if (retryDelayNs(status)) return true;
+  const bool is_from_transport = isFromTransport(status);
+  switch (status.code()) {
+    case absl::StatusCode::kUnavailable:
+      return true;
+    // The connection broke in the middle of a call; a draining server broke off its last calls.
+    case absl::StatusCode::kUnknown:
+    case absl::StatusCode::kCancelled:
+      return !isFromServer(status);
+    // RST_STREAM, by a proxy's limits on time or bytes.
+    case absl::StatusCode::kInternal:
+    case absl::StatusCode::kDeadlineExceeded:
+      return is_from_transport;
+    // A proxy or gRPC itself is short of something. A message beyond the limit stays too large.
+    case absl::StatusCode::kResourceExhausted:
+      return is_from_transport && !absl::StrContains(status.message(), "larger than max");
+    default:
+      return false;
+  }
 }
 
 RetryLoop::RetryLoop(const BackoffOptions& options, OnConnection on_connection,
@@ -28,7 +46,7 @@ absl::Status RetryLoop::run(const std::stop_token& stop, const std::function<Cal
     if (stop.stop_requested()) return absl::CancelledError("stopped");
     if (!isPassing(end.status)) return end.status;
     if (end.was_connected) backoff_.reset();
-    const int64_t delay_ns = backoff_.nextDelayNs();
+    const int64_t delay_ns = retryDelayNs(end.status).value_or(backoff_.nextDelayNs());
     if (on_connection_) {
       on_connection_({ConnectionEvent::Kind::kRetrying, end.status, delay_ns});
     }

@@ -26,7 +26,8 @@ struct CallEnd {
   bool was_connected = false;  // the server had answered: the next failure is a new one
 };
 
-// Whether the same call may succeed later: the server is not there, drains, or the line broke.
+// Whether the same call may succeed later. What the server itself refuses may not, unless it drains
+// or says when to ask again; what a proxy or the connection did to a call may.
 bool isPassing(const absl::Status& status);
 
 // Thread-safety: run() belongs to one thread.

@@ -103,6 +103,7 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
       was_connected_ = false;
       server_clock_.restart();
       *request.mutable_open() = open_;
+      request.mutable_open()->set_wants_heartbeats(true);
       eyes = eyes_;
     }
     call_ = call.get();
@@ -112,13 +113,15 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
       call_->Write(request);
     }
   }
-  const absl::Status broken = readAtlases(*call);
+  SilenceWatch silence([&] { context.TryCancel(); });
+  const absl::Status broken = readAtlases(*call, silence);
   if (!broken.ok()) context.TryCancel();
   {
     std::lock_guard lock(write_mutex_);
     call_ = nullptr;
   }
-  const absl::Status status = statusFromGrpc(call->Finish());
+  absl::Status status = statusFromGrpc(call->Finish());
+  if (!status.ok() && silence.hasFired()) status = silence.status();
   std::lock_guard lock(mutex_);
   counts_.atlases = assembler_.counts();
   if (is_complete_) return {absl::OkStatus(), was_connected_};
@@ -126,10 +129,30 @@ CallEnd Watcher::runCall(const std::stop_token& stop) {
   return {broken.ok() ? status : broken, was_connected_};
 }
 
-absl::Status Watcher::readAtlases(Call& call) {
+absl::Status Watcher::readAtlases(Call& call, SilenceWatch& silence) {
   v1::StreamAtlasesResponse message;
-  while (call.Read(&message)) VIEWLOOM_RETURN_IF_ERROR(deliver(std::move(message)));
+  for (silence.listens(); call.Read(&message); silence.listens()) {
+    silence.hears();
+    if (message.has_heartbeat()) {
+      silence.expectHeartbeats();
+      noteConnected();
+    } else {
+      VIEWLOOM_RETURN_IF_ERROR(deliver(std::move(message)));
+    }
+  }
+  silence.hears();
   return absl::OkStatus();
+}
+
+// The server has taken the call.
+void Watcher::noteConnected() {
+  {
+    std::lock_guard lock(mutex_);
+    if (std::exchange(was_connected_, true)) return;
+    // Once seen, the stream comes back with its publisher, even after the server was gone.
+    open_.set_wait_for_stream(true);
+  }
+  if (callbacks_.on_connection) callbacks_.on_connection({});
 }
 
 absl::Status Watcher::deliver(v1::StreamAtlasesResponse message) {
@@ -144,20 +167,16 @@ absl::Status Watcher::deliver(v1::StreamAtlasesResponse message) {
   const size_t size = message.ByteSizeLong();
   absl::StatusOr<std::optional<Atlas>> atlas = assembler_.add(std::move(message));
   if (!atlas.ok()) return atlas.status();
-  bool is_first = false;
   {
     std::lock_guard lock(mutex_);
     counts_.atlases = assembler_.counts();
     counts_.received_bytes += size;
-    is_first = !std::exchange(was_connected_, true);
-    // Once seen, the stream comes back with its publisher, even after the server was gone.
-    open_.set_wait_for_stream(true);
     if (atlas->has_value() && open_.count() > 0) {
       open_.set_count(open_.count() - 1);
       is_complete_ = open_.count() == 0;
     }
   }
-  if (is_first && callbacks_.on_connection) callbacks_.on_connection({});
+  noteConnected();
   if (is_layout && callbacks_.on_layout) callbacks_.on_layout(*assembler_.layout());
   if (atlas->has_value() && callbacks_.on_atlas) callbacks_.on_atlas(**std::move(atlas));
   return absl::OkStatus();

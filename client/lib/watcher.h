@@ -16,6 +16,7 @@
 #include "lib/atlas_assembler.h"
 #include "lib/retry_loop.h"
 #include "lib/server_clock.h"
+#include "lib/silence_watch.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
 namespace viewloom {
@@ -37,8 +38,9 @@ struct WatcherCounts {
 };
 
 // After a broken connection it opens the display again, as last changed, waits for its stream, and
-// asks for as many atlases as are left of the count.
-// Thread-safety: all methods may be called from any thread, but the destructor from one only.
+// asks for as many atlases as are left of the count. A server that sends heartbeats and falls
+// silent for 5 s is a broken connection. Thread-safety: all methods may be called from any thread,
+// but the destructor from one only.
 class Watcher {
  public:
   Watcher(std::shared_ptr<grpc::Channel> channel, v1::OpenDisplay open, WatcherCallbacks callbacks,
@@ -71,7 +73,8 @@ class Watcher {
   using Call = grpc::ClientReaderWriter<v1::StreamAtlasesRequest, v1::StreamAtlasesResponse>;
 
   CallEnd runCall(const std::stop_token& stop);
-  absl::Status readAtlases(Call& call);
+  absl::Status readAtlases(Call& call, SilenceWatch& silence);
+  void noteConnected();
   absl::Status deliver(v1::StreamAtlasesResponse message);
   void write(const v1::StreamAtlasesRequest& request);
 

@@ -2,6 +2,7 @@
 #include "base/status.h"
 
 #include "absl/strings/cord.h"
+#include "base/retry_delay.h"
 
 namespace viewloom {
 namespace {
@@ -35,10 +36,13 @@ std::string fieldOf(const absl::Status& status) { return payloadOf(status, kFiel
 absl::Status withFieldPrefix(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return status;
   const std::string field = fieldOf(status);
-  if (field.empty()) return fieldError(status.code(), prefix, std::string(status.message()));
-  const bool is_index = field.front() == '[';
-  const std::string path = std::string(prefix).append(is_index ? "" : ".").append(field);
-  return fieldError(status.code(), path, payloadOf(status, kProblemPayload));
+  const bool is_index = !field.empty() && field.front() == '[';
+  const std::string path = std::string(prefix).append(is_index || field.empty() ? "" : ".");
+  const absl::Status prefixed =
+      field.empty() ? fieldError(status.code(), path, std::string(status.message()))
+                    : fieldError(status.code(), path + field, payloadOf(status, kProblemPayload));
+  const std::optional<int64_t> delay_ns = retryDelayNs(status);
+  return delay_ns ? worthRetry(prefixed, *delay_ns) : prefixed;
 }
 
 }  // namespace viewloom

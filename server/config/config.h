@@ -10,6 +10,7 @@ namespace viewloom {
 
 struct GrpcConfig {
   std::string address = "127.0.0.1:50051";
+  uint32_t keepalive_s = 10;
 };
 
 struct HttpConfig {

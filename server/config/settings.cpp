@@ -111,6 +111,7 @@ std::vector<Setting> settingsOf(Config& config) {
       {"device", "", TextSetting{&config.device}},
       {"validation", "", BoolSetting{&config.validation}},
       {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
+      {"grpc.keepalive_s", "s", CountSetting{&config.grpc.keepalive_s, 1, 3600}},
       {"http.enabled", "", BoolSetting{&config.http.enabled}},
       {"http.address", "", TextSetting{&config.http.address, Form::kHostPort}},
       {"http.allowed_hosts", "", TextSetting{&config.http.allowed_hosts, Form::kHostNames}},

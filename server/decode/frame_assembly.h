@@ -18,6 +18,7 @@ inline constexpr uint64_t kChunkBytesMax = uint64_t{1} << 20;
 struct CollectedFrame {
   FrameFormat format;
   std::vector<SharedBytes> planes;  // in the order of the wire: sources, layers, planes
+  uint64_t session = 0;             // see FrameOrigin
 };
 
 // The declared planes in the order in which their chunks come.

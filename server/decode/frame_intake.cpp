@@ -105,6 +105,7 @@ struct FrameIntake::State {
   void deliver(OpenFrame& open) {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
+    const uint64_t session = waiting.collected.session;
     absl::StatusOr<std::unique_ptr<Frame>> frame =
         joinPlanes(std::move(waiting.collected.format), std::move(open.decoded), pool);
     if (!frame.ok()) {
@@ -115,7 +116,7 @@ struct FrameIntake::State {
     }
     (*frame)->times = waiting.times;
     (*frame)->times.decoded_ns = clock.nowNs();
-    sink.offerFrame(open.stream, *std::move(frame), std::move(waiting.report));
+    sink.offerFrame({open.stream, session}, *std::move(frame), std::move(waiting.report));
   }
 };
 

@@ -102,7 +102,7 @@ struct EyePoses;
 struct StreamDefaults {
   Intrinsics source_intrinsics;
   SizePx source_size_px;
-  double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, first frame
+  double focal_distance_m = 1;  // harmonic mean of the 2nd and 98th depth percentile, of a frame
   double inv_z_near = 1;        // 1/m, 2nd depth percentile of that frame
   double inv_z_far = 0;         // the 98th
 
@@ -113,7 +113,7 @@ struct StreamDefaults {
 // the nearest or the furthest surface. A stream of sky alone has none; then the default of
 // StreamDefaults.
 double contentFocalDistance(const SourceStats& stats);
-// What such a source gives, `stats` being those of the stream's first frame.
+// What such a source gives, `stats` being those of that frame (display/taken_defaults.h).
 StreamDefaults streamDefaults(const Intrinsics& intrinsics, SizePx size_px,
                               const SourceStats& stats);
 

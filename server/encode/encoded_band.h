@@ -13,6 +13,7 @@
 #include "base/trace_method.h"
 #include "display/atlas_layout.h"
 #include "display/depth_budget.h"
+#include "display/taken_defaults.h"
 #include "display/views_outside.h"
 #include "frame/stage_times.h"
 #include "frame/timing.h"
@@ -81,6 +82,7 @@ struct EncodedAtlas {
   ReflectionCounts reflections;  // of displays with reflections
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
+  DefaultsTaking taking;                    // of the stream's defaults
   std::optional<DepthBudget> depth_budget;  // where views are neighbours
   std::vector<double> outside_shares;       // of each view; none of a cube map
   std::vector<EncodedBand> bands;

@@ -31,6 +31,14 @@ struct FrameReport {
   std::string reason{};  // kRefused
   std::vector<DisplayReport> displays{};
   SourceStats stats{};
+  std::string note{};  // for a person; mostly empty
+};
+
+// Where a frame comes from.
+struct FrameOrigin {
+  std::string stream;
+  // Of the publisher; with another one, whatever was learnt from the stream's frames starts anew.
+  uint64_t session = 0;
 };
 
 // Called exactly once per frame, from any thread; must not block.
@@ -41,7 +49,7 @@ class FrameSink {
  public:
   virtual ~FrameSink() = default;
   // Takes the newest frame of a stream; an older one that still waits is reported kReplaced.
-  virtual void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) = 0;
+  virtual void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) = 0;
   // The stream's name is free again and nobody watches: its resident structure may go.
   virtual void forgetStream(const std::string& stream) = 0;
 };

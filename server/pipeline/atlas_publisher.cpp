@@ -122,6 +122,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->reflections = run.reflections();
     atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
+    atlas->taking = run.job.structure->taking;
     atlas->depth_budget = budget;
     atlas->outside_shares = sharesOutside(*atlas->layout, atlas->display_pose, *run.job.structure);
     atlas->bands = std::move(output.bands);

@@ -31,6 +31,11 @@ void FrameTicket::noteUnchanged(const SourceStats& stats) {
   report_.stats = stats;
 }
 
+void FrameTicket::say(std::string note) {
+  std::lock_guard lock(mutex_);
+  report_.note = std::move(note);
+}
+
 void FrameTicket::noteTraced(const DisplayReport& display) {
   std::lock_guard lock(mutex_);
   report_.outcome = FrameOutcome::kTraced;

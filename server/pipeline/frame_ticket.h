@@ -25,6 +25,8 @@ class FrameTicket {
   // Nothing is made of it: the resident frame, of which these are the stats, is the same.
   void noteUnchanged(const SourceStats& stats);
   void noteTraced(const DisplayReport& display);
+  // For the publisher's eyes.
+  void say(std::string note);
 
  private:
   const ReportFrame send_;

@@ -32,6 +32,12 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   const bool keeps_mirrors = haveMirrors(entry.aim.sources) == haveMirrors(aim.sources);
   const bool is_aimed =
       (aim.standsInOnly() && entry.aim.standsInOnly() && keeps_mirrors) || aim == entry.aim;
+  if (std::exchange(entry.taking_count, source.taking.count) != source.taking.count) {
+    // The focal plane begins where the new defaults have it.
+    entry.focus = {};
+    if (entry.focal_distance_m) entry.layout = nullptr;
+    entry.focal_distance_m.reset();
+  }
   bool is_new = entry.layout == nullptr || entry.defaults != source.defaults ||
                 entry.eyes != eyes || entry.is_in_reach != source.is_in_reach;
   if (is_new) {

@@ -47,6 +47,7 @@ class PictureCache {
  private:
   struct Entry {
     StreamDefaults defaults;
+    uint64_t taking_count = 0;  // ResidentStructure::taking
     EyePosesPtr eyes;
     FocusFollower focus;
     std::optional<double> focal_distance_m;       // where it has moved to

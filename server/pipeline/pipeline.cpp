@@ -181,15 +181,15 @@ Pipeline::~Pipeline() {
   drain();
 }
 
-void Pipeline::offerFrame(const std::string& stream_name, FramePtr frame, ReportFrame report) {
+void Pipeline::offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) {
   const uint64_t number = frame->format.number;
   auto ticket = std::make_shared<FrameTicket>(number, std::move(report));
   if (loops_->is_draining) {
     ticket->noteRefused("the server is shutting down");
     return;
   }
-  const auto replaced =
-      loops_->streams.open(stream_name)->inbox.push({std::move(frame), std::move(ticket)});
+  const auto replaced = loops_->streams.open(origin.stream)
+                            ->inbox.push({std::move(frame), origin.session, std::move(ticket)});
   if (replaced) loops_->links.metrics.replaced[HandOver::kStructure].add();
   loops_->structure_wake_up.ring();
 }

@@ -29,7 +29,7 @@ class Pipeline final : public FrameSink {
   // Drains.
   ~Pipeline() override;
 
-  void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override;
+  void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   void forgetStream(const std::string& stream) override;
 
   // The displays of a stream changed: those without an atlas of its newest structure get one.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "display/atlas_layout.h"
+#include "display/taken_defaults.h"
 #include "frame/depth_spread.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
@@ -25,13 +26,14 @@ struct ResidentStructure {
   std::string stream;
   std::shared_ptr<StructureBuild> build;
   bool is_in_reach = false;  // of the CPU, once it can be walked (lens/host_structure.h)
-  uint64_t serial = 0;  // counts the structures of the server, from 1
+  uint64_t serial = 0;       // counts the structures of the server, from 1
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;      // the publisher's clock
   std::vector<SeenSource> sources;  // a display without a place in the world stands in the first
   StreamDefaults defaults;
-  SourceStats stats;   // of the first source
-  DepthSpread depths;  // likewise
+  DefaultsTaking taking;  // of those
+  SourceStats stats;      // of the first source
+  DepthSpread depths;     // likewise
   FrameTimes times;
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/latest_mailbox.h"
+#include "display/taken_defaults.h"
 #include "pipeline/frame_ticket.h"
 #include "pipeline/resident_structure.h"
 #include "pipeline/slot_pool.h"
@@ -21,6 +22,7 @@ namespace viewloom {
 
 struct OfferedFrame {
   FramePtr frame;
+  uint64_t session = 0;  // see FrameOrigin
   FrameTicketPtr ticket;
 };
 
@@ -54,8 +56,9 @@ class PipelineStream {
   SlotPool<StructureBuild> slots;
   FramePtr resident_frame;                 // of which the resident structure was made
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
-  std::optional<SourceStats> first_stats;  // of the first frame, then held
-  CameraTrack track;                       // of the frames that were resident, or equal to it
+  uint64_t session = 0;                    // of the publisher, as the newest frame says
+  TakenDefaults defaults;                  // of the frames that were resident
+  CameraTrack track;                       // of the session's frames, resident or equal to it
   FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
   // A display of the stream needed the walk since the last frame came: the next is built for it.

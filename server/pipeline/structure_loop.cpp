@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/str_cat.h"
 #include "frame/same_content.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/tracked_frame.h"
@@ -70,6 +71,7 @@ bool StructureLoop::serve(PipelineStream& stream) {
   if (auto newest = stream.inbox.take()) {
     if (stream.next) links_.metrics.replaced[HandOver::kStructure].add();
     stream.next = std::move(newest);
+    followSession(stream);
     if (dropUnchanged(stream)) return true;
   }
   if (!stream.next) return false;
@@ -87,12 +89,21 @@ bool StructureLoop::serve(PipelineStream& stream) {
   return true;
 }
 
+// A publisher's camera and clock say nothing about the camera and the clock of another.
+void StructureLoop::followSession(PipelineStream& stream) {
+  const uint64_t session = stream.next->session;
+  if (std::exchange(stream.session, session) != session) stream.track = {};
+}
+
 // The frame is compared with the resident one, not with the last: that may have been replaced or
 // refused. That a display needs the walk stays noted for the next build. A camera that stood since
-// the last frame moves no more: only then is there something to tell.
+// the last frame moves no more: only then is there something to tell. The first frame of a new
+// session is built where the defaults are to be taken from it.
 bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   const ResidentPtr resident = stream.resident();
   if (!resident || !haveSameContent(*stream.resident_frame, *stream.next->frame)) return false;
+  if (stream.defaults.isBegunBy(stream.session, resident->stats)) return false;
+  stream.defaults.follow(stream.session, resident->stats, resident->built_at_ns);
   links_.metrics.frames_unchanged.add();
   stream.next->ticket->noteUnchanged(resident->stats);
   const bool was_moving = stream.newest().motion.isMoving();
@@ -124,9 +135,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   structure->serial = ++last_serial_;
   builder_.build(offered.frame, std::move(slot), *structure);
   structure->stream_is_walked = stream.is_walked;
-  if (!stream.first_stats) stream.first_stats = structure->stats;
-  structure->defaults = streamDefaults(structure->sources.front().camera.intrinsics,
-                                       structure->sources.front().size_px, *stream.first_stats);
+  takeDefaults(stream, offered, *structure);
   if (movesByItself(*offered.frame)) {
     if (!stream.retimer) stream.retimer = std::make_shared<StreamRetimer>(links_, builder_);
     structure->moving_frame = offered.frame;
@@ -141,6 +150,28 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   stream.setNewest({std::move(structure), motion, keeps_before ? stream.resident() : nullptr});
   stream.resident_frame = std::move(offered.frame);
   on_resident_(stream, std::move(offered.ticket));
+}
+
+// Defaults of the stream, from this frame or from an earlier one; tells where they are others now.
+void StructureLoop::takeDefaults(PipelineStream& stream, const OfferedFrame& offered,
+                                 ResidentStructure& structure) {
+  const std::string before =
+      stream.defaults.taking().count == 0 ? "" : depthRangeText(stream.defaults.stats());
+  const bool are_taken =
+      stream.defaults.follow(offered.session, structure.stats, structure.built_at_ns);
+  const SeenSource& first = structure.sources.front();
+  structure.defaults =
+      streamDefaults(first.camera.intrinsics, first.size_px, stream.defaults.stats());
+  structure.taking = stream.defaults.taking();
+  if (!are_taken || before.empty()) return;
+  const bool has_moved = structure.taking.reason == DefaultsReason::kDepthMoved;
+  const std::string note =
+      strCat(has_moved ? "" : "a new publisher: ", "depth was ", before, " and is ",
+             depthRangeText(structure.stats),
+             "; focal plane, depth range and aperture are taken anew from this frame, where a "
+             "display leaves them open");
+  log(LogLevel::kInfo, "stream ", stream.name, ": ", note);
+  if (has_moved) offered.ticket->say(note);
 }
 
 void StructureLoop::count(const ResidentStructure& structure) const {

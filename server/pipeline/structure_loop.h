@@ -31,10 +31,13 @@ class StructureLoop {
  private:
   void run(const std::stop_token& stop);
   bool serve(PipelineStream& stream);
+  static void followSession(PipelineStream& stream);
   bool dropUnchanged(PipelineStream& stream) const;
   bool isInterpolated(const PipelineStream& stream) const;
   std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
+  static void takeDefaults(PipelineStream& stream, const OfferedFrame& offered,
+                           ResidentStructure& structure);
   void count(const ResidentStructure& structure) const;
 
   const PipelineLinks& links_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "base/retry_delay.h"
 
 namespace viewloom {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 constexpr int64_t kRateWindow_ns = 2'000'000'000;
 // Enough for 120 frames a second over the window; of a faster stream the newest are averaged.
 constexpr size_t kRateSamplesMax = 256;
+// After which it is worth asking for a name again that another publisher has.
+constexpr int64_t kRetryDelay_ns = 1'000'000'000;
 
 // When frames came in lately. Bounded.
 class ArrivalTimes {
@@ -39,6 +42,9 @@ struct KnownStream {
   StreamEntry entry;
   uint64_t claim_id = 0;  // 0 = not live
   std::string session_id;
+  uint64_t session = 0;  // of the last claim
+  std::string host;      // likewise
+  int64_t claimed_ns = 0;
   std::function<void()> on_takeover;
   int64_t released_ns = 0;
   ArrivalTimes arrivals;
@@ -66,6 +72,18 @@ struct StreamDirectory::State {
   absl::Status makeRoomFor(const std::string& stream);
   std::vector<std::string> notLiveOldestFirst() const;
 };
+
+// Who has the stream and since when; worth another try for the same user.
+absl::Status alreadyPublished(const KnownStream& known, const std::string& host, int64_t now_ns) {
+  const int64_t held_s = (now_ns - known.claimed_ns) / 1'000'000'000;
+  const std::string held =
+      held_s < 120 ? absl::StrCat(held_s, " s") : absl::StrCat(held_s / 60, " min");
+  const absl::Status status = absl::AlreadyExistsError(
+      absl::StrCat("stream \"", known.entry.name, "\" has a publisher",
+                   known.host.empty() ? "" : absl::StrCat(" on ", known.host), ", for ", held,
+                   " now; accepted is its session_id, or another name"));
+  return !host.empty() && known.host == host ? worthRetry(status, kRetryDelay_ns) : status;
+}
 
 std::vector<std::string> StreamDirectory::State::notLiveOldestFirst() const {
   std::multimap<int64_t, std::string> by_release_ns;
@@ -105,10 +123,13 @@ StreamDirectory::StreamDirectory(const Clock& clock, uint32_t stream_count_max)
 StreamDirectory::~StreamDirectory() = default;
 
 absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
-    const std::string& stream, const std::string& session_id, std::function<void()> on_takeover) {
+    const std::string& stream, const std::string& session_id, std::function<void()> on_takeover,
+    const std::string& host) {
   VIEWLOOM_RETURN_IF_ERROR(state_->makeRoomFor(stream));
   std::function<void()> on_old_takeover;
   uint64_t claim_id = 0;
+  uint64_t session = 0;
+  const int64_t now_ns = state_->clock.nowNs();
   {
     std::lock_guard lock(state_->mutex);
     const bool is_new = !state_->streams.contains(stream);
@@ -119,18 +140,21 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
     KnownStream& known = state_->streams[stream];
     const bool is_live = known.claim_id != 0;
     if (is_live && (session_id.empty() || session_id != known.session_id)) {
-      return absl::AlreadyExistsError(absl::StrCat(
-          "stream \"", stream, "\" has a publisher; accepted is its session_id, or another name"));
+      return alreadyPublished(known, host, now_ns);
     }
     if (is_live) on_old_takeover = std::move(known.on_takeover);
     claim_id = state_->next_claim_id++;
     known.entry.name = stream;
     known.entry.live = true;
     known.claim_id = claim_id;
+    if (session_id.empty() || session_id != known.session_id) known.session = claim_id;
+    session = known.session;
     known.session_id = session_id;
+    known.host = host;
+    known.claimed_ns = now_ns;
     known.on_takeover = std::move(on_takeover);
   }
-  auto claim = std::make_unique<Claim>(state_, stream, claim_id);
+  auto claim = std::make_unique<Claim>(state_, stream, claim_id, session);
   if (on_old_takeover) on_old_takeover();
   return claim;
 }
@@ -182,8 +206,12 @@ void StreamDirectory::noteResident(const std::string& stream, uint64_t frame_num
   });
 }
 
-StreamDirectory::Claim::Claim(std::shared_ptr<State> state, std::string stream, uint64_t claim_id)
-    : state_(std::move(state)), stream_(std::move(stream)), claim_id_(claim_id) {}
+StreamDirectory::Claim::Claim(std::shared_ptr<State> state, std::string stream, uint64_t claim_id,
+                              uint64_t session)
+    : state_(std::move(state)),
+      stream_(std::move(stream)),
+      claim_id_(claim_id),
+      session_(session) {}
 
 StreamDirectory::Claim::~Claim() {
   std::function<void()> on_takeover;  // destroyed after the lock

@@ -40,11 +40,14 @@ class StreamDirectory {
   // subscribers keep the resident structure.
   class Claim;
 
-  // ALREADY_EXISTS when another session holds the name, RESOURCE_EXHAUSTED over the limit. The
-  // same, non-empty session id takes the stream over: `on_takeover` of the old is called, once.
+  // RESOURCE_EXHAUSTED over the limit. ALREADY_EXISTS, saying who has the name and since when,
+  // when another session holds it; worth another try (base/status.h) where its publisher is on the
+  // same host, and so the same user's. The same, non-empty session id takes the stream over:
+  // `on_takeover` of the old is called, once.
   absl::StatusOr<std::unique_ptr<Claim>> claim(const std::string& stream,
                                                const std::string& session_id,
-                                               std::function<void()> on_takeover);
+                                               std::function<void()> on_takeover,
+                                               const std::string& host = "");
 
   bool exists(const std::string& stream) const;
   // Sorted by name.
@@ -68,13 +71,18 @@ class StreamDirectory {
 
 class StreamDirectory::Claim {
  public:
-  Claim(std::shared_ptr<State> state, std::string stream, uint64_t claim_id);
+  Claim(std::shared_ptr<State> state, std::string stream, uint64_t claim_id, uint64_t session);
   ~Claim();
+
+  // Numbers publishers' sessions, from 1: the same for a session that comes back under its id, as
+  // long as no other one has had the stream.
+  uint64_t session() const { return session_; }
 
  private:
   std::shared_ptr<State> state_;
   std::string stream_;
   uint64_t claim_id_;
+  uint64_t session_;
 };
 
 }  // namespace viewloom

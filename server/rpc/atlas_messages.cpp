@@ -62,6 +62,19 @@ v1::Timing timingToProto(Timing timing) {
   return v1::TIMING_UNSPECIFIED;
 }
 
+v1::DefaultsReason reasonToProto(DefaultsReason reason) {
+  switch (reason) {
+    case DefaultsReason::kFirstFrame:
+      return v1::DEFAULTS_REASON_FIRST_FRAME;
+    case DefaultsReason::kNewPublisher:
+      return v1::DEFAULTS_REASON_NEW_PUBLISHER;
+    case DefaultsReason::kDepthMoved:
+      return v1::DEFAULTS_REASON_DEPTH_MOVED;
+  }
+  VIEWLOOM_CHECK(false && "unknown DefaultsReason");
+  return v1::DEFAULTS_REASON_UNSPECIFIED;
+}
+
 void writeBytesTag(CodedOutputStream& output, int field_number, size_t byte_count) {
   output.WriteTag(WireFormatLite::MakeTag(field_number, WireFormatLite::WIRETYPE_LENGTH_DELIMITED));
   output.WriteVarint32(static_cast<uint32_t>(byte_count));
@@ -159,6 +172,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   header.set_eye_poses_latched_ns(atlas_->eye_poses_latched_ns);
   header.set_eye_poses_age_ns(atlas_->eye_poses_age_ns);
   header.set_shown_time_ns(atlas_->shown_time_ns);
+  header.set_defaults_count(atlas_->taking.count);
+  header.set_defaults_reason(reasonToProto(atlas_->taking.reason));
   header.set_timing(timingToProto(atlas_->timing));
   for (const ViewsOutside& views : viewsOutside(atlas_->outside_shares)) {
     *header.add_views_outside() = outsideToProto(views);

@@ -10,6 +10,10 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
   return call.get();
 }
 
+void DisplayService::tick() {
+  calls_.forEach([](WatchCall& call) { call.tick(); });
+}
+
 void DisplayService::drain() {
   calls_.turnAway();
   calls_.forEach([](WatchCall& call) { call.endUnlessWatching(); });

@@ -15,6 +15,8 @@ class DisplayService final
  public:
   explicit DisplayService(const DisplayParts& parts) : parts_(parts) {}
 
+  // To be called every kTick.
+  void tick();
   // Ends calls to come, and those that watch nothing yet, with UNAVAILABLE. The others end with
   // Broadcaster::drain, when the last atlas was offered to them.
   void drain();

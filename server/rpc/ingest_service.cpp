@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/ingest_service.h"
 
+#include "rpc/peer_host.h"
+
 namespace viewloom {
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
-    grpc::CallbackServerContext*) {
-  const auto call = std::make_shared<PublishCall>(parts_);
+    grpc::CallbackServerContext* context) {
+  const auto call = std::make_shared<PublishCall>(parts_, peerHost(context->peer()));
   calls_.open(call);
   return call.get();
 }
@@ -14,6 +16,10 @@ void IngestService::demandChanged(const std::string& stream) {
   calls_.forEach([&stream](PublishCall& call) {
     if (call.stream() == stream) call.refreshWanted();
   });
+}
+
+void IngestService::tick() {
+  calls_.forEach([](PublishCall& call) { call.tick(); });
 }
 
 void IngestService::drain() {

@@ -19,6 +19,8 @@ class IngestService final
 
   // The set of displays of a stream changed: its publisher hears what they want.
   void demandChanged(const std::string& stream);
+  // To be called every kTick.
+  void tick();
   // Ends all calls, and those to come, with UNAVAILABLE.
   void drain();
 

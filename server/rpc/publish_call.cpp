@@ -30,6 +30,10 @@ void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutc
 }  // namespace
 
 absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
+  {
+    std::lock_guard lock(mutex_);
+    heard_.restart();
+  }
   // Chunks are merged into the memory of the chunk before; anything else gets a message of its own.
   v1::PublishFramesRequest other_request;
   const bool is_chunk = firstFieldNumber(bytes) == v1::PublishFramesRequest::kChunkFieldNumber;
@@ -46,10 +50,13 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
       return handleHeader(request.header());
     case v1::PublishFramesRequest::kChunk:
       return handleChunk(request.chunk());
+    case v1::PublishFramesRequest::kHeartbeat:
+      if (stream_.empty()) return invalidField("heartbeat", "came first; accepted: settings first");
+      return absl::OkStatus();
     case v1::PublishFramesRequest::MESSAGE_NOT_SET:
       break;
   }
-  return invalidField("message", "got none; accepted: settings, header or chunk");
+  return invalidField("message", "got none; accepted: settings, header, chunk or heartbeat");
 }
 
 absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
@@ -60,11 +67,11 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
                         absl::StrCat("has ", settings.session_id().size(), " bytes; accepted: 0..",
                                      kSessionBytesMax));
   }
-  auto claim =
-      parts_.directory.claim(settings.stream(), settings.session_id(), [self = weak_from_this()] {
-        const auto call = self.lock();
-        if (call) call->end(absl::AbortedError("taken over by another call with the session id"));
-      });
+  const auto on_takeover = [self = weak_from_this()] {
+    const auto call = self.lock();
+    if (call) call->end(absl::AbortedError("taken over by another call with the session id"));
+  };
+  auto claim = parts_.directory.claim(settings.stream(), settings.session_id(), on_takeover, host_);
   if (!claim.ok()) {
     const bool named = !fieldOf(claim.status()).empty();
     return named ? claim.status() : withFieldPrefix(claim.status(), "settings.stream");
@@ -75,7 +82,10 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
     std::lock_guard lock(mutex_);
     if (ending()) return absl::OkStatus();  // the claim goes with this scope
     stream_ = settings.stream();
+    session_ = (*claim)->session();
     claim_ = *std::move(claim);
+    has_heartbeats_ = settings.sends_heartbeats();
+    heartbeat_is_due_ = has_heartbeats_;
     replies_.push_back(bytesFromMessage(response));
     advance();
   }
@@ -121,9 +131,11 @@ void PublishCall::offerFrame() {
   }
   parts_.directory.countReceived(stream_);
   parts_.metrics.frames_received.add();
+  CollectedFrame frame = assembly_->take();
+  frame.session = session_;
   // A frame outlives its call; its outcome is counted all the same.
   parts_.intake.offer(
-      stream_, assembly_->take(), times_,
+      stream_, std::move(frame), times_,
       [weak = weak_from_this(), parts = parts_, stream = stream_](const FrameReport& report) {
         countOutcome(parts, stream, report.outcome);
         const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
@@ -165,13 +177,37 @@ void PublishCall::release() {
 }
 
 std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
+  std::optional<grpc::ByteBuffer> message;
   if (!replies_.empty()) {
-    grpc::ByteBuffer reply;
-    reply.Swap(&replies_.front());
+    message.emplace().Swap(&replies_.front());
     replies_.pop_front();
-    return reply;
+  } else if (wanted_.has_value()) {
+    message = std::exchange(wanted_, std::nullopt);
+  } else if (heartbeat_is_due_ && !ending()) {
+    heartbeat_is_due_ = false;
+    v1::PublishFramesResponse response;
+    response.mutable_heartbeat();
+    message = bytesFromMessage(response);
   }
-  return std::exchange(wanted_, std::nullopt);
+  if (message.has_value()) told_.restart();
+  return message;
+}
+
+// Silence while this call itself reads nothing, for it has frames to report, is nobody's fault.
+void PublishCall::tick() {
+  {
+    std::lock_guard lock(mutex_);
+    if (!has_heartbeats_ || ending()) return;
+    if (told_.reaches(kHeartbeatTicks)) {
+      heartbeat_is_due_ = true;
+      advance();
+    }
+    if (!wantsToRead() && unreported_count_ > 0) heard_.restart();
+    if (!heard_.reaches(kSilenceTicks)) return;
+  }
+  end(absl::UnavailableError(absl::StrCat("no heartbeat came for ", kSilence_s,
+                                          " s, and the stream's name is free for others; a "
+                                          "publisher that lives may call again")));
 }
 
 bool PublishCall::wantsToRead() const {

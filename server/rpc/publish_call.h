@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "rpc/bidi_call.h"
 #include "rpc/ingest_parts.h"
+#include "rpc/liveness.h"
 #include "rpc/source_wants.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
@@ -18,10 +20,14 @@ namespace viewloom {
 // that are still written. Thread-safety: as BidiCall.
 class PublishCall final : public BidiCall {
  public:
-  explicit PublishCall(const IngestParts& parts) : parts_(parts) {}
+  // `host`: of the publisher.
+  PublishCall(const IngestParts& parts, std::string host) : parts_(parts), host_(std::move(host)) {}
 
   // Tells the publisher what its displays want now, if that changed.
   void refreshWanted();
+  // To be called every kTick: ends the call of a publisher whose heartbeats stay away, and sends
+  // heartbeats to it.
+  void tick();
   // The stream it publishes; empty before its settings came.
   std::string stream();
 
@@ -41,12 +47,14 @@ class PublishCall final : public BidiCall {
   void onReport(const FrameReport& report);
 
   const IngestParts parts_;
+  const std::string host_;
 
   // Of the reads.
   v1::PublishFramesRequest chunk_request_;  // keeps the memory of its data from chunk to chunk
   std::optional<FrameAssembly> assembly_;
   FrameTimes times_;
   uint64_t last_number_ = 0;
+  uint64_t session_ = 0;  // see StreamDirectory::Claim
 
   // Under mutex_.
   std::string stream_;
@@ -56,6 +64,10 @@ class PublishCall final : public BidiCall {
   std::optional<grpc::ByteBuffer> wanted_;  // newest only
   std::string last_wanted_;                 // serialised
   SourceWants wants_;
+  bool has_heartbeats_ = false;  // the publisher sends them, and gets them
+  bool heartbeat_is_due_ = false;
+  TicksSince heard_;  // from the publisher
+  TicksSince told_;   // to it
 };
 
 }  // namespace viewloom

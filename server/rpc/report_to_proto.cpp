@@ -100,6 +100,7 @@ v1::FrameReport reportToProto(const FrameReport& report) {
   proto.set_number(report.number);
   proto.set_outcome(outcomeToProto(report.outcome));
   proto.set_reason(report.reason);
+  proto.set_note(report.note);
   for (const DisplayReport& display : report.displays) {
     v1::DisplayReport& entry = *proto.add_displays();
     entry.set_display_id(display.display_id);

@@ -9,6 +9,8 @@
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
+#include "rpc/liveness.h"
+
 namespace viewloom {
 namespace {
 
@@ -17,9 +19,6 @@ namespace {
 constexpr int kReceiveBytesMax = 2 << 20;
 // Calls at a time on one connection; a proxy may carry all subscribers of a server over one.
 constexpr int kConnectionCallsMax = 1024;
-// A peer that vanished without a word is found out after both; it holds a stream's name until then.
-constexpr int kKeepaliveMs = 20000;
-constexpr int kKeepaliveTimeoutMs = 10000;
 // What is written with more to follow gathers up to this before it leaves. A write to a socket
 // wakes its reader, so that 1.5 MB sent 50 KB at a time cost a server twice to three times what
 // they do as one or two writes; 64 KiB, the library's own, was in between, and 4 MiB no better.
@@ -27,7 +26,7 @@ constexpr int kKeepaliveTimeoutMs = 10000;
 // cores of an AMD EPYC, 2026-11-22). Bands are shared, so that buffers hold no copies.
 constexpr int kWriteBufferBytes = 1 << 20;
 // Clients may ping this often.
-constexpr int kClientPingMsMin = 10000;
+constexpr int kClientPingMsMin = 5000;
 
 void addLibraryServices() {
   // Both are settings of the process and take effect on servers built later.
@@ -40,13 +39,15 @@ void addLibraryServices() {
 }
 
 void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
+  const auto keepalive_ms = static_cast<int>(std::chrono::milliseconds(options.keepalive).count());
   grpc::ResourceQuota quota("viewloomd");
   quota.Resize(options.memory_bytes_max);
   builder.SetResourceQuota(quota);
   builder.SetMaxReceiveMessageSize(kReceiveBytesMax);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kConnectionCallsMax);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive_ms);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive_ms / 2);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                              kClientPingMsMin);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
@@ -87,6 +88,10 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                              ": is the port taken, the host this machine's?");
   }
   port_ = static_cast<uint16_t>(port);
+  ticker_.emplace(kTick, [this] {
+    ingest_.tick();
+    display_.tick();
+  });
   // Beside the whole server, which the library knows by itself.
   for (const char* service :
        {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
@@ -109,6 +114,7 @@ void RpcServer::drain() {
 void RpcServer::shutdown() {
   server_->Shutdown(std::chrono::system_clock::now() + drain_time_);
   server_->Wait();
+  ticker_.reset();
 }
 
 }  // namespace viewloom

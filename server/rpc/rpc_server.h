@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <grpcpp/server.h>
@@ -11,6 +12,7 @@
 #include "rpc/catalog_service.h"
 #include "rpc/display_service.h"
 #include "rpc/ingest_service.h"
+#include "rpc/ticker.h"
 
 namespace viewloom {
 
@@ -29,6 +31,9 @@ struct RpcServerOptions {
   uint64_t memory_bytes_max = uint64_t{256} << 20;  // of messages inside the gRPC library
   // How long a receiver may take to read what it was given before it is cancelled.
   std::chrono::milliseconds drain_time{2000};
+  // How long a connection may be silent before it is pinged. A peer that does not answer within
+  // half as long is gone, and so is its hold on a stream's name.
+  std::chrono::seconds keepalive{10};
 };
 
 // Thread-safety: demandChanged may be called from any thread; the rest from one.
@@ -58,6 +63,7 @@ class RpcServer {
   DisplayService display_;
   CatalogService catalog_;
   std::unique_ptr<grpc::Server> server_;  // after the services it calls
+  std::optional<Ticker> ticker_;          // likewise
   uint16_t port_ = 0;
 };
 

@@ -79,7 +79,12 @@ absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
     count_ = request.count();
   }
   // An unknown stream is waited for in the same seat: it is watched before it is there.
-  return takeSeat("open.display");
+  VIEWLOOM_RETURN_IF_ERROR(takeSeat("open.display"));
+  std::lock_guard lock(mutex_);
+  wants_heartbeats_ = request.wants_heartbeats();
+  heartbeat_is_due_ = wants_heartbeats_;
+  advance();
+  return absl::OkStatus();
 }
 
 absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
@@ -239,50 +244,6 @@ void WatchCall::endUnlessWatching() {
     if (subscription_ != nullptr) return;
   }
   end(absl::UnavailableError(kDrainMessage));
-}
-
-bool WatchCall::mayStartAtlas() const {
-  if (pending_ == nullptr || (ending() && !draining_)) return false;
-  return count_ == 0 || sent_count_ < count_;
-}
-
-// What time it is goes before atlases, but no more often than every other message: whoever floods
-// the call with probes still gets them.
-std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
-  std::optional<grpc::ByteBuffer> message;
-  if (!std::exchange(replied_last_, false)) message = takeReply();
-  if (!message.has_value()) message = takeAtlasMessage();
-  return message.has_value() ? std::move(message) : takeReply();
-}
-
-std::optional<grpc::ByteBuffer> WatchCall::takeReply() {
-  if (ending()) return std::nullopt;
-  std::optional<grpc::ByteBuffer> reply = clock_replies_.take(parts_.clock.nowNs());
-  replied_last_ = reply.has_value();
-  return reply;
-}
-
-std::optional<grpc::ByteBuffer> WatchCall::takeAtlasMessage() {
-  std::optional<grpc::ByteBuffer> message;
-  if (!sending_.has_value() && mayStartAtlas()) {
-    message = announcements_.take(*pending_);
-    if (!message.has_value()) {
-      sent_poses_.note(pending_->sequence, pending_->eye_poses_time_ns);
-      sending_.emplace(std::move(pending_));
-    }
-  }
-  if (sending_.has_value()) {
-    message = sending_->next();
-    if (sending_->done()) {
-      sending_.reset();
-      ++sent_count_;
-      parts_.metrics.atlases_sent[Transport::kGrpc].add();
-    }
-  }
-  if (message.has_value()) {
-    parts_.metrics.sent_bytes[Transport::kGrpc].add(static_cast<double>(message->Length()));
-  }
-  return message;
 }
 
 }  // namespace viewloom

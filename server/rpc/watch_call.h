@@ -14,6 +14,7 @@
 #include "rpc/bidi_call.h"
 #include "rpc/clock_replies.h"
 #include "rpc/display_parts.h"
+#include "rpc/liveness.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {
@@ -26,6 +27,8 @@ class WatchCall final : public BidiCall {
 
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
+  // To be called every kTick: sends heartbeats to a client that wants them.
+  void tick();
 
  private:
   // A place in the broadcaster. What an earlier one still offers after a change is ignored.
@@ -54,6 +57,7 @@ class WatchCall final : public BidiCall {
   bool mayStartAtlas() const;
   std::optional<grpc::ByteBuffer> takeReply();
   std::optional<grpc::ByteBuffer> takeAtlasMessage();
+  std::optional<grpc::ByteBuffer> takeHeartbeat();
 
   const DisplayParts parts_;
 
@@ -76,6 +80,9 @@ class WatchCall final : public BidiCall {
   SentPoses sent_poses_;
   ClockReplies clock_replies_;
   bool replied_last_ = false;  // the last message written is one of them
+  bool wants_heartbeats_ = false;
+  bool heartbeat_is_due_ = false;
+  TicksSince told_;  // to the client
 };
 
 }  // namespace viewloom

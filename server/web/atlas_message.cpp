@@ -39,6 +39,18 @@ std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
   return bands;
 }
 
+const char* reasonText(DefaultsReason reason) {
+  switch (reason) {
+    case DefaultsReason::kFirstFrame:
+      return "first_frame";
+    case DefaultsReason::kNewPublisher:
+      return "new_publisher";
+    case DefaultsReason::kDepthMoved:
+      return "depth_moved";
+  }
+  return "";
+}
+
 uint64_t sizeOf(const std::vector<SharedBytes>& bands) {
   uint64_t size_bytes = 0;
   for (const SharedBytes& band : bands) size_bytes += band->size();
@@ -73,6 +85,8 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"encoding", encodingJson(atlas.encoding)},
                  {"times", timesJson(atlas.times)},
                  {"coverage", coverageJson(atlas.coverage)},
+                 {"defaults_count", atlas.taking.count},
+                 {"defaults_reason", reasonText(atlas.taking.reason)},
                  {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
                  {"jpeg_bytes", sizeOf(jpegBands(atlas))},
                  {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},

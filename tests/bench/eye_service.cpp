@@ -181,7 +181,7 @@ class EyeBench {
   void publishNext() {
     auto frame = std::make_shared<Frame>(*frames_[frame_count_ % frames_.size()]);
     frame->format.number = ++frame_count_;
-    pipeline_.offerFrame(kStream, std::move(frame), [](const FrameReport&) {});
+    pipeline_.offerFrame({kStream, 1}, std::move(frame), [](const FrameReport&) {});
   }
 
   // A frame for each quilt that is out.

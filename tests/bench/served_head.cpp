@@ -35,7 +35,7 @@ ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_p
   auto subscription = broadcaster_.subscribe(kStream, spec, encoding, subscriber_, eyes_);
   if (!subscription.ok()) throw std::runtime_error(std::string(subscription.status().message()));
   subscription_ = *std::move(subscription);
-  pipeline_.offerFrame(kStream, frame, [](const FrameReport&) {});
+  pipeline_.offerFrame({kStream, 1}, frame, [](const FrameReport&) {});
   newest_ = next();
 }
 

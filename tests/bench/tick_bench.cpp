@@ -103,7 +103,7 @@ class Show {
     frame->format.sources.front().camera.pose.position_m.x +=
         kCameraSpeed_mps * double(index) / kFrameRate_hz;
     frame->times = {now_ns, now_ns, now_ns};
-    pipeline.offerFrame(stream_, std::move(frame), [](const FrameReport&) {});
+    pipeline.offerFrame({stream_, 1}, std::move(frame), [](const FrameReport&) {});
   }
 
  private:

@@ -24,14 +24,14 @@ uint8_t expectedByte(uint64_t frame_number, uint32_t first_row, size_t index) {
 AnsweringSink::AnsweringSink(StreamDirectory& directory, Broadcaster& broadcaster)
     : directory_(directory), broadcaster_(broadcaster) {}
 
-void AnsweringSink::offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) {
+void AnsweringSink::offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) {
   std::optional<Offered> replaced;
   {
     std::unique_lock lock(mutex_);
-    Resident& resident = streams_[stream];
+    Resident& resident = streams_[origin.stream];
     if (!resident.held) {
       resident.frame = frame;
-      const FrameReport answered = answer(stream, frame);
+      const FrameReport answered = answer(origin.stream, frame);
       lock.unlock();
       report(answered);
       return;
@@ -73,7 +73,7 @@ void AnsweringSink::letGo(const std::string& stream) {
     streams_[stream].held = false;
     waiting = std::exchange(streams_[stream].waiting, std::nullopt);
   }
-  if (waiting.has_value()) offerFrame(stream, waiting->frame, waiting->report);
+  if (waiting.has_value()) offerFrame({stream, 0}, waiting->frame, waiting->report);
 }
 
 FrameReport AnsweringSink::answer(const std::string& stream, const FramePtr& frame) {

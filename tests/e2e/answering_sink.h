@@ -21,7 +21,7 @@ class AnsweringSink final : public FrameSink {
  public:
   AnsweringSink(StreamDirectory& directory, Broadcaster& broadcaster);
 
-  void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override;
+  void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   void forgetStream(const std::string& stream) override;
 
   // Serves displays without an atlas from the resident frame.

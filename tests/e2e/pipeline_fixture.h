@@ -81,8 +81,8 @@ class PipelineFixture : public GpuTest {
     ReportLog reports;
     Pipeline pipeline;
 
-    void offer(FramePtr frame, const std::string& stream = "scene") {
-      pipeline.offerFrame(stream, std::move(frame), reports.recorder());
+    void offer(FramePtr frame, const std::string& stream = "scene", uint64_t session = 1) {
+      pipeline.offerFrame({stream, session}, std::move(frame), reports.recorder());
     }
   };
 

@@ -135,9 +135,9 @@ TEST_F(PipelineOrderTest, tellsOfAFailureOnceAndStillDrainsWithEveryFrameReporte
                       {.encode_thread_count = 1});
     const auto place =
         broadcaster.subscribe("scene", smallQuilt(), {}, std::make_shared<Thrower>()).value();
-    pipeline.offerFrame("scene", syntheticFrame(1), reports.recorder());
+    pipeline.offerFrame({"scene", 1}, syntheticFrame(1), reports.recorder());
     EXPECT_EQ(failure.get_future().get(), "out of paper");
-    pipeline.offerFrame("scene", syntheticFrame(2), reports.recorder());
+    pipeline.offerFrame({"scene", 1}, syntheticFrame(2), reports.recorder());
     pipeline.drain();
   }
   EXPECT_THAT(reports.waitForReports(2), SizeIs(2));

@@ -71,6 +71,9 @@ std::optional<ReceivedAtlas> TestWatcher::readAtlas() {
       case v1::StreamAtlasesResponse::kClockReply:
         ADD_FAILURE() << "nobody asked what time it is";
         break;
+      case v1::StreamAtlasesResponse::kHeartbeat:
+        ADD_FAILURE() << "nobody asked for heartbeats";
+        break;
       case v1::StreamAtlasesResponse::MESSAGE_NOT_SET:
         ADD_FAILURE() << "an empty message";
     }

@@ -118,7 +118,7 @@ class IntakeUnderTest : public FrameSink {
     return *arrived_.pop();
   }
 
-  void offerFrame(const std::string&, FramePtr frame, ReportFrame) override {
+  void offerFrame(const FrameOrigin&, FramePtr frame, ReportFrame) override {
     arrived_.push(std::move(frame));
   }
   void forgetStream(const std::string&) override {}

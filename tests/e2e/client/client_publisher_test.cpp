@@ -50,16 +50,24 @@ bool accept(PublishStream& stream, v1::PublishSettings* settings = nullptr) {
   return stream.Write(response);
 }
 
+// The next message but heartbeats.
+bool readMessage(PublishStream& stream, v1::PublishFramesRequest& request) {
+  do {
+    if (!stream.Read(&request)) return false;
+  } while (request.has_heartbeat());
+  return true;
+}
+
 // Reads one whole frame and checks the order of its chunks.
 std::optional<ReceivedFrame> readFrame(PublishStream& stream) {
   v1::PublishFramesRequest request;
-  if (!stream.Read(&request)) return std::nullopt;
+  if (!readMessage(stream, request)) return std::nullopt;
   EXPECT_TRUE(request.has_header());
   ReceivedFrame frame{request.header(), {}};
   for (const v1::Plane& plane : frame.header.sources(0).layers(0).planes()) {
     std::string& bytes = frame.planes.emplace_back();
     while (bytes.size() < plane.bytes_count()) {
-      if (!stream.Read(&request)) return std::nullopt;
+      if (!readMessage(stream, request)) return std::nullopt;
       EXPECT_EQ(request.chunk().plane_index(), frame.planes.size() - 1);
       EXPECT_EQ(request.chunk().offset_bytes(), bytes.size());
       EXPECT_LE(request.chunk().data().size(), size_t{1} << 20);

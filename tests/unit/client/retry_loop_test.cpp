@@ -4,13 +4,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
+#include <string>
 #include <vector>
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+#include "lib/broken_call.h"
+#include "lib/channel.h"
 
 namespace viewloom {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr BackoffOptions kOptions{.first_ns = 100, .max_ns = 450, .factor = 2};
 
@@ -34,6 +42,11 @@ class RecordedLoop {
   std::vector<int64_t> delays_ns;
   std::vector<ConnectionEvent> events;
 };
+
+TEST(Backoff, bringsClientsBackWithinTwoSecondsOfTheirServer) {
+  Backoff backoff({}, [] { return 0.999; });
+  for (int i = 0; i < 20; ++i) EXPECT_LT(backoff.nextDelayNs(), 1'600'000'000);
+}
 
 TEST(Backoff, growsToItsLimit) {
   Backoff backoff(kOptions, [] { return 0.5; });
@@ -128,6 +141,72 @@ TEST(RetryLoop, wakesFromItsRealSleepWhenStopped) {
   stop.request_stop();
   constexpr int64_t kHour_ns = 3'600'000'000'000;
   RetryLoop::sleepUntilStopped(stop.get_token(), kHour_ns);  // the test's time limit is minutes
+}
+
+// A status with the details that viewloomd's have.
+absl::Status fromServer(grpc::StatusCode code, std::optional<int32_t> retry_s = {}) {
+  google::rpc::Status details;
+  google::rpc::ErrorInfo info;
+  info.set_domain("viewloom");
+  details.add_details()->PackFrom(info);
+  google::rpc::RetryInfo retry;
+  retry.mutable_retry_delay()->set_seconds(retry_s.value_or(0));
+  if (retry_s) details.add_details()->PackFrom(retry);
+  return statusFromGrpc(grpc::Status(code, "no", details.SerializeAsString()));
+}
+
+absl::Status fromProxy(grpc::StatusCode code, const std::string& message = "") {
+  return statusFromGrpc(grpc::Status(code, message));
+}
+
+TEST(IsPassing, isTrueOfWhatProxiesAndBrokenConnectionsDo) {
+  for (const auto code :
+       {grpc::StatusCode::UNAVAILABLE, grpc::StatusCode::UNKNOWN, grpc::StatusCode::CANCELLED,
+        grpc::StatusCode::INTERNAL, grpc::StatusCode::RESOURCE_EXHAUSTED,
+        grpc::StatusCode::DEADLINE_EXCEEDED}) {
+    EXPECT_TRUE(isPassing(fromProxy(code, "Received RST_STREAM with error code 2"))) << code;
+  }
+  for (const auto code : {grpc::StatusCode::UNIMPLEMENTED, grpc::StatusCode::PERMISSION_DENIED,
+                          grpc::StatusCode::UNAUTHENTICATED}) {
+    EXPECT_FALSE(isPassing(fromProxy(code))) << code;
+  }
+  EXPECT_FALSE(isPassing(fromProxy(grpc::StatusCode::RESOURCE_EXHAUSTED,
+                                   "Received message larger than max (5 vs. 4)")));
+}
+
+TEST(IsPassing, isFalseOfWhatTheServerRefusesUnlessItDrains) {
+  for (const auto code : {grpc::StatusCode::RESOURCE_EXHAUSTED, grpc::StatusCode::INTERNAL,
+                          grpc::StatusCode::ALREADY_EXISTS, grpc::StatusCode::INVALID_ARGUMENT,
+                          grpc::StatusCode::ABORTED, grpc::StatusCode::NOT_FOUND}) {
+    EXPECT_FALSE(isPassing(fromServer(code))) << code;
+  }
+  EXPECT_TRUE(isPassing(fromServer(grpc::StatusCode::UNAVAILABLE)));
+  EXPECT_FALSE(isPassing(absl::ResourceExhaustedError("of the client's own")));
+}
+
+TEST(IsPassing, isTrueOfWhatTheServerAsksToRepeat) {
+  RecordedLoop loop;
+  int calls = 0;
+  EXPECT_TRUE(loop.run([&]() -> CallEnd {
+                    if (++calls == 3) return {absl::OkStatus(), true};
+                    return {fromServer(grpc::StatusCode::ALREADY_EXISTS, 7), false};
+                  })
+                  .ok());
+  EXPECT_THAT(loop.delays_ns, ElementsAre(7'000'000'000, 7'000'000'000));
+}
+
+TEST(ExplainBrokenCall, saysWhatToChangeInAProxy) {
+  const std::string reset = explainBrokenCall(
+      fromProxy(grpc::StatusCode::INTERNAL, "Received RST_STREAM with error code 2"));
+  EXPECT_THAT(reset, HasSubstr("grpc_read_timeout"));
+  EXPECT_THAT(reset, HasSubstr("error code 2"));
+  EXPECT_THAT(explainBrokenCall(
+                  fromProxy(grpc::StatusCode::UNKNOWN, "Received http2 header with status: 413")),
+              HasSubstr("client_max_body_size 0"));
+  EXPECT_EQ(explainBrokenCall(fromServer(grpc::StatusCode::RESOURCE_EXHAUSTED)), "");
+  EXPECT_EQ(explainBrokenCall(
+                fromProxy(grpc::StatusCode::UNAVAILABLE, "failed to connect to all addresses")),
+            "");
 }
 
 }  // namespace

@@ -33,9 +33,9 @@ CollectedFrame onePixel(uint64_t number, bool broken = false) {
 // Keeps what it is offered; can hold up whoever offers.
 class HeldSink : public FrameSink {
  public:
-  void offerFrame(const std::string& stream, FramePtr frame, ReportFrame report) override {
+  void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override {
     std::unique_lock lock(mutex_);
-    offered_[stream].push_back(frame->format.number);
+    offered_[origin.stream].push_back(frame->format.number);
     newest_ = frame;
     ++offered_count_;
     changed_.notify_all();

@@ -7,10 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/retry_delay.h"
+
 namespace viewloom {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 class StreamDirectoryTest : public testing::Test {
  protected:
@@ -67,6 +70,33 @@ TEST_F(StreamDirectoryTest, letsAnySessionHaveAStreamThatIsFree) {
   mustClaim("s", "one").reset();
   const auto claim = mustClaim("s", "two");
   EXPECT_EQ(directory_.claim("s", "one", {}).status().code(), absl::StatusCode::kAlreadyExists);
+}
+
+TEST_F(StreamDirectoryTest, saysWhoHasTheNameAndSinceWhen) {
+  const auto holder = *directory_.claim("s", "one", {}, "10.0.0.7");
+  clock_.advance(90'000'000'000);
+  const absl::Status refused = directory_.claim("s", "two", {}, "10.0.0.8").status();
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("on 10.0.0.7, for 90 s"));
+  EXPECT_FALSE(retryDelayNs(refused)) << "another user's stream";
+}
+
+TEST_F(StreamDirectoryTest, letsTheSameHostWaitForTheName) {
+  auto holder = *directory_.claim("s", "one", {}, "10.0.0.7");
+  const absl::Status refused = directory_.claim("s", "two", {}, "10.0.0.7").status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_TRUE(retryDelayNs(refused));
+  holder.reset();
+  EXPECT_TRUE(directory_.claim("s", "two", {}, "10.0.0.7").ok());
+}
+
+TEST_F(StreamDirectoryTest, numbersSessionsAndKnowsOneThatComesBack) {
+  const uint64_t first = mustClaim("s", "one")->session();
+  EXPECT_EQ(mustClaim("s", "one")->session(), first);
+  const uint64_t second = mustClaim("s", "two")->session();
+  EXPECT_NE(second, first);
+  EXPECT_NE(mustClaim("s", "one")->session(), first) << "another one had the stream since";
+  const uint64_t nameless = mustClaim("s")->session();
+  EXPECT_NE(mustClaim("s")->session(), nameless) << "nothing says that they are one";
 }
 
 TEST_F(StreamDirectoryTest, refusesOverTheLimit) {

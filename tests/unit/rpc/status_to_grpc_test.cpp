@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "base/retry_delay.h"
 #include "base/status.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -29,7 +30,6 @@ TEST(StatusToGrpc, keepsEveryCode) {
     const grpc::Status status = statusToGrpc(absl::Status(code, "why"));
     EXPECT_EQ(status.error_code(), grpc_code);
     EXPECT_EQ(status.error_message(), "why");
-    EXPECT_TRUE(status.error_details().empty());
   }
   EXPECT_TRUE(statusToGrpc(absl::OkStatus()).ok());
 }
@@ -42,12 +42,38 @@ TEST(StatusToGrpc, namesTheFieldInBadRequest) {
   ASSERT_TRUE(details.ParseFromString(status.error_details()));
   EXPECT_EQ(details.code(), grpc::StatusCode::INVALID_ARGUMENT);
   google::rpc::BadRequest bad_request;
-  ASSERT_EQ(details.details_size(), 1);
+  ASSERT_EQ(details.details_size(), 2);
   EXPECT_EQ(details.details(0).type_url(), "type.googleapis.com/google.rpc.BadRequest");
   ASSERT_TRUE(details.details(0).UnpackTo(&bad_request));
   ASSERT_EQ(bad_request.field_violations_size(), 1);
   EXPECT_EQ(bad_request.field_violations(0).field(), "header.planes[1].size");
   EXPECT_EQ(bad_request.field_violations(0).description(), "header.planes[1].size: is 0x4");
+}
+
+// The last detail of an error.
+template <typename Detail>
+Detail lastDetail(const grpc::Status& status) {
+  google::rpc::Status details;
+  EXPECT_TRUE(details.ParseFromString(status.error_details()));
+  Detail detail;
+  EXPECT_GT(details.details_size(), 0);
+  EXPECT_TRUE(details.details(details.details_size() - 1).UnpackTo(&detail));
+  return detail;
+}
+
+TEST(StatusToGrpc, tellsErrorsOfTheServerFromThoseOfProxies) {
+  const auto info = lastDetail<google::rpc::ErrorInfo>(
+      statusToGrpc(absl::ResourceExhaustedError("too many streams")));
+  EXPECT_EQ(info.domain(), "viewloom");
+  EXPECT_EQ(info.reason(), "RESOURCE_EXHAUSTED");
+}
+
+TEST(StatusToGrpc, saysWhenToAskAgain) {
+  const absl::Status status = worthRetry(absl::AlreadyExistsError("taken"), 1'250'000'000);
+  const auto retry =
+      lastDetail<google::rpc::RetryInfo>(statusToGrpc(withFieldPrefix(status, "settings.stream")));
+  EXPECT_EQ(retry.retry_delay().seconds(), 1);
+  EXPECT_EQ(retry.retry_delay().nanos(), 250'000'000);
 }
 
 // Message, details and the message in base64 within them travel as one block of HTTP/2 headers, of
