@@ -31,7 +31,7 @@ build_packages=(
 )
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
-  chromium python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
+  chromium curl python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   xdotool xvfb
   clang clang-tidy libembree-dev
 )

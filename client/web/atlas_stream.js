@@ -1,31 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection to the server that comes back by itself.
+// A connection to the server that comes back by itself, also when it dies without a word.
 import {parseAtlasMessage} from './decoder.js';
 
-const kRetryFirst_ms = 500;
-const kRetryMax_ms = 10_000;
+// A server that is there again has its viewers back soon after: each tries once a second or more.
+const kRetryFirst_ms = 300;
+const kRetryMax_ms = 1000;
+const kConnect_ms = 5000;        // a server that is there has answered by then
+const kQuiet_ms = 2000;          // after so long without a message, the server is asked for one
+const kSilenceFirst_ms = 10_000;  // and after so long the connection is dead
+// One large picture may take a slow network longer: then the next connection is given more time.
+const kSilenceMax_ms = 160_000;
+const kTick_ms = 500;
 
 export class AtlasStream {
   #socket = null;
   #timer = 0;
   #failures = 0;
+  #heard_ms = 0;  // when the newest message came
+  #asked_ms = 0;  // when the newest question for one went
+  #silence_ms = kSilenceFirst_ms;
+  #isClosed = true;
+  #changeCount = 0;  // changes sent over this connection
 
-  // Handlers: onAtlas(atlas), onLive(), onAsked() for another picture, onWaiting({message,
-  // retry_ms}), onRefused(error)
+  // Handlers: onAtlas(atlas), onLive(), onAsked() for another picture, onWaiting(reason),
+  // onRefused(error)
   constructor(handlers) {
     this.handlers = handlers;
+    setInterval(() => this.#listen(), kTick_ms);
+    addEventListener('online', () => this.#hurry());
   }
 
   // parameters: URLSearchParams, as /ws takes them
   open(parameters) {
     this.close();
     this.parameters = parameters;
+    this.#isClosed = false;
     this.#failures = 0;
     this.#connect();
   }
 
   close() {
     clearTimeout(this.#timer);
+    this.#timer = 0;
+    this.#isClosed = true;
     const socket = this.#socket;
     this.#socket = null;
     socket?.close();
@@ -36,13 +53,25 @@ export class AtlasStream {
     this.#send({shown: delivery});
   }
 
-  // Parameters as they shall be from now on, and after a reconnection; null = the default.
+  // Parameters as they shall be from now on, and after a reconnection; null = the default. Whether
+  // the server was asked: not where all are as they shall be, or it is not there.
   change(parameters) {
+    const changes = {};
     for (const [name, value] of Object.entries(parameters)) {
+      if (this.parameters.get(name) === (value === null ? null : String(value))) continue;
+      changes[name] = value;
       if (value === null) this.parameters.delete(name);
       else this.parameters.set(name, value);
     }
-    if (this.#send({change: parameters})) this.handlers.onAsked();
+    if (Object.keys(changes).length === 0 || !this.#send({change: changes})) return false;
+    this.#changeCount++;
+    this.handlers.onAsked();
+    return true;
+  }
+
+  // Whether an atlas came of all that was asked for.
+  isNewest(atlas) {
+    return atlas.header.change_count >= this.#changeCount;
   }
 
   #send(message) {
@@ -57,17 +86,22 @@ export class AtlasStream {
     const socket = new WebSocket(url);
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
+    this.#changeCount = 0;
+    this.#heard_ms = performance.now();
     let opened = false;
     socket.onopen = () => {
       if (this.#socket !== socket) return;
       opened = true;
       this.#failures = 0;
+      this.#heard_ms = performance.now();
       this.handlers.onLive();
       this.handlers.onAsked();
     };
     socket.onmessage = ({data}) => {
       if (this.#socket !== socket) return;
-      if (typeof data === 'string') this.handlers.onRefused(JSON.parse(data).error);
+      this.#heard_ms = performance.now();
+      this.#silence_ms = kSilenceFirst_ms;
+      if (typeof data === 'string') this.#takeText(JSON.parse(data));
       else this.handlers.onAtlas(parseAtlasMessage(data));
     };
     socket.onclose = ({code}) => {
@@ -77,20 +111,62 @@ export class AtlasStream {
     };
   }
 
+  #takeText({error}) {
+    if (error) this.handlers.onRefused(error);
+  }
+
+  // A server on another machine may go, and a network on the way, without a word: browsers say
+  // nothing of that for minutes.
+  #listen() {
+    const socket = this.#socket;
+    if (!socket) return;
+    const now_ms = performance.now();
+    const silent_ms = now_ms - this.#heard_ms;
+    const isOpen = socket.readyState === WebSocket.OPEN;
+    if (silent_ms > (isOpen ? this.#silence_ms : kConnect_ms)) {
+      this.#silence_ms = Math.min(2 * this.#silence_ms, kSilenceMax_ms);
+      this.#abandon(isOpen);
+    } else if (isOpen && silent_ms > kQuiet_ms && now_ms - this.#asked_ms > kQuiet_ms) {
+      this.#asked_ms = now_ms;
+      this.#send({ping: Math.round(now_ms)});
+    }
+  }
+
+  #abandon(opened) {
+    const socket = this.#socket;
+    this.#socket = null;
+    socket.close();
+    this.#retry(opened, 0);
+  }
+
+  // There is a network again: what was open before it went is not trusted, nothing is waited for.
+  #hurry() {
+    if (this.#socket) {
+      this.#abandon(true);
+    } else if (this.#timer) {
+      clearTimeout(this.#timer);
+      this.#connect();
+    }
+  }
+
   async #retry(opened, code) {
     // Pages may not read why an upgrade was refused; a plain request to the same URL tells.
     let reason = code === 1001 ? 'The server is going away.' : 'The connection was lost.';
     if (!opened) {
-      const refusal = await fetch(`/ws?${this.parameters}`).then(
-          (reply) => reply.status === 426 ? null : reply.json(), () => null);
-      if (this.#socket) return;
+      const signal = AbortSignal.timeout(kConnect_ms);
+      const refusal = await fetch(`/ws?${this.parameters}`, {signal})
+          .then((reply) => reply.status === 426 ? null : reply.json()).catch(() => null);
+      if (this.#socket || this.#isClosed) return;
       if (refusal?.error) this.handlers.onRefused(refusal.error);
       reason = refusal?.error?.message ?? 'The server does not answer.';
     }
     const longest_ms = Math.min(kRetryMax_ms, kRetryFirst_ms * 2 ** this.#failures++);
     const retry_ms = longest_ms * (0.5 + Math.random() / 2);
-    this.handlers.onWaiting({message: reason, retry_ms});
+    this.handlers.onWaiting(reason);
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#connect(), retry_ms);
+    this.#timer = setTimeout(() => {
+      this.#timer = 0;
+      this.#connect();
+    }, retry_ms);
   }
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses how finely the display is traced: as finely as a moving picture allows, and one that
 // stands still in full detail.
+import {kQuiltSteps} from './detail_steps.js';
 
-// Of the preset's width and height. A step halves the number of rays.
-const kDetails = [1, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125];
-const kStart = 0.25;  // a slow server's first atlas comes soon; a fast one's next is full detail
 const kStepsDownMax = 2;  // at once: a judgement while a server starts is a bad one
 
 // Atlases shown. Fewer than eight are no motion; the ninth keeps eight when the rate wavers.
@@ -21,6 +19,7 @@ const kFullShare = 0.8;       // of the window, at least
 const kHurry_ms = 1500;       // after a start, a step down, or when the rate is hopeless
 const kHopelessShare = 0.6;   // of the wanted rate
 const kAnswer_ms = 10_000;    // by then the server has answered a change, or never will
+const kStart = 0.25;          // of a quilt: a slow server's first atlas comes soon
 
 // How long more detail is not tried after less was needed: longer with every try that failed.
 const kHoldFirst_ms = 12_000;
@@ -29,12 +28,18 @@ const kProven_ms = 240_000;  // a try that lasted as long has not failed
 
 // A picture stands still if none follows for as long, and for so many times what this one took to
 // make, and to come after the one before: the next is not just late.
-const kStill_ms = 2000;
-const kStillTimes = 4;
+const kStill_ms = 1000;
+const kStillTimes = 3;
+// Pictures that come in shorter intervals are a motion.
+const kMotion_ms = 2000;
 
 const kMsPerNs = 1e-6;
 
+const pixelShare = ({views, detail}) => views * detail ** 2;
+
 export class AutoDetail {
+  #steps = [];
+  #index = 0;
   #shown = [];  // {time_ms, frame, fixed_ms, traced_ms}, oldest first, all of this detail
   #size = '';
   #left = {size: '', until_ms: 0};  // the detail before: its atlases are still on their way
@@ -42,19 +47,37 @@ export class AutoDetail {
   #raised_ms = null;                // the newest try of more detail, until it is given back
   #held_until_ms = -Infinity;
   #hold_ms = kHoldFirst_ms;
-  #moving = null;  // the detail before a picture stood still
+  #moving = null;  // the step before a picture stood still
+  #interval_ms = 0;  // between the newest two frames, whatever the step
 
-  // onChange(): detail is another
+  // onChange(): another step
   constructor(onChange) {
     this.onChange = onChange;
-    this.detail = kStart;
+    this.begin(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
+  }
+
+  // How many views, and in how much detail: a share of their width and height.
+  get views() { return this.#steps[this.#index].views; }
+  get detail() { return this.#steps[this.#index].detail; }
+
+  // Other steps, from the most detail to the least, and which of them is the first.
+  begin(steps, index) {
+    this.#steps = steps;
+    this.#index = index;
+    this.#moving = null;
+    this.#raised_ms = null;
+    this.#held_until_ms = -Infinity;
+    this.#hold_ms = kHoldFirst_ms;
+    this.#left.size = '';
+    this.#size = '';
+    this.#shown = [];
+    this.#isSettled = false;
   }
 
   // What is asked for from now on may take many times longer: its first atlas is to come soon.
   startLow() {
-    this.detail = kDetails.at(-1);
-    this.#left = {size: this.#size, until_ms: performance.now() + kAnswer_ms};
-    this.#shown = [];
+    this.#index = this.#steps.length - 1;
+    this.#leave(performance.now());
     this.#isSettled = false;
   }
 
@@ -74,7 +97,11 @@ export class AutoDetail {
       fixed_ms: (times.upload_ns + times.build_ns) * kMsPerNs,
       traced_ms: (times.trace_ns + times.encode_ns) * kMsPerNs,
     };
-    const isOther = size !== this.#size || shown.frame <= this.#shown.at(-1)?.frame;
+    const before = this.#shown.at(-1);
+    // Other views of the same frame: no motion.
+    if (size === this.#size && shown.frame === before?.frame) return;
+    const isOther = size !== this.#size || shown.frame < before?.frame;
+    this.#interval_ms = before && !isOther ? now_ms - before.time_ms : this.#interval_ms;
     this.#size = size;
     this.#shown = isOther ? [] : this.#shown;
     this.#shown.push(shown);
@@ -84,15 +111,15 @@ export class AutoDetail {
     this.#judge(now_ms);
   }
 
-  // Time passes: to be called every second or so, as long as the server answers.
-  look(now_ms) {
-    const [before, last] = this.#shown.slice(-2);
-    const newest = last ?? before;
-    if (!newest || this.detail === kDetails[0] || now_ms < this.#held_until_ms) return;
-    const interval_ms = last ? last.time_ms - before.time_ms : 0;
-    const usual_ms = Math.max(newest.fixed_ms + newest.traced_ms, interval_ms);
-    if (now_ms - newest.time_ms < Math.max(kStill_ms, kStillTimes * usual_ms)) return;
-    this.#moving = this.detail;
+  // Time passes: to be called several times a second, as long as the server answers. isLast: the
+  // publisher is gone.
+  look(now_ms, isLast = false) {
+    const newest = this.#shown.at(-1);
+    if (!newest || this.#index === 0) return;
+    const usual_ms = Math.max(newest.fixed_ms + newest.traced_ms, this.#interval_ms);
+    const still_ms = Math.max(kStill_ms, kStillTimes * usual_ms);
+    if (!isLast && now_ms - newest.time_ms < still_ms) return;
+    this.#moving = this.#index;
     this.#take(0, now_ms);
   }
 
@@ -103,12 +130,12 @@ export class AutoDetail {
     const isHopeless = rate_hz < kHopelessShare * wanted_hz;
     if (span_ms < (this.#isSettled && !isHopeless ? kFullShare * kWindow_ms : kHurry_ms)) return;
     this.#isSettled = true;
-    const index = kDetails.indexOf(this.detail);
+    const index = this.#index;
     const better = rate_hz < wanted_hz ? this.#lower(index, measured)
         : now_ms >= this.#held_until_ms ? this.#higher(index, measured) : index;
     // It moves again, and not with all detail: how much does is not looked for once more.
-    const known = better > index && this.#moving ? kDetails.indexOf(this.#moving) : 0;
-    const isMoving = rate_hz * kStill_ms > 1000;
+    const known = better > index && this.#moving ? this.#moving : 0;
+    const isMoving = rate_hz * kMotion_ms > 1000;
     if (isMoving || better !== index) this.#moving = null;
     if (better !== index) this.#take(Math.max(better, known), now_ms);
   }
@@ -135,13 +162,13 @@ export class AutoDetail {
 
   // Tracing and encoding grow with the number of pixels, the rest does not.
   #promised_ms(index, atlas_ms, tracedShare) {
-    const pixels = (kDetails[index] / this.detail) ** 2;
+    const pixels = pixelShare(this.#steps[index]) / pixelShare(this.#steps[this.#index]);
     return atlas_ms * (1 - tracedShare + tracedShare * pixels);
   }
 
   // The most detail that promises the wanted rate; none where less of it saves nothing.
   #lower(index, {rate_hz, wanted_hz, tracedShare}) {
-    const lowest = Math.min(index + kStepsDownMax, kDetails.length - 1);
+    const lowest = Math.min(index + kStepsDownMax, this.#steps.length - 1);
     const promised_ms = (at) => this.#promised_ms(at, 1000 / rate_hz, tracedShare);
     let better = index;
     while (better < lowest && promised_ms(better) * wanted_hz > 1000 &&
@@ -161,8 +188,7 @@ export class AutoDetail {
   }
 
   #take(index, now_ms) {
-    const detail = kDetails[index];
-    const isRaise = detail > this.detail;
+    const isRaise = index < this.#index;
     if (isRaise) {
       this.#raised_ms = now_ms;
     } else {
@@ -173,10 +199,15 @@ export class AutoDetail {
       this.#raised_ms = null;
       this.#held_until_ms = now_ms + this.#hold_ms;
     }
-    this.detail = detail;
-    this.#left = {size: this.#size, until_ms: now_ms + kAnswer_ms};
-    this.#shown = [];
+    this.#index = index;
+    this.#leave(now_ms);
     this.#isSettled = isRaise;
     this.onChange();
+  }
+
+  // What comes of the step before says nothing of this one.
+  #leave(now_ms) {
+    this.#left = {size: this.#size, until_ms: now_ms + kAnswer_ms};
+    this.#shown = [];
   }
 }

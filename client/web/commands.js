@@ -75,14 +75,30 @@ function watchCommand(parameters, isRgbd) {
   return `echo ${quoted(displayFile(parameters))} > display.json && ${watch}`;
 }
 
-function stillCommand(parameters, suffix) {
+// The server tells curl the file's name.
+function stillCommand(parameters) {
   const query = new URLSearchParams(parameters);
-  query.delete('stream');
-  query.delete('depth');  // stills have none
-  const file = `${encodeURIComponent(parameters.get('stream'))}${suffix}.jpg`;
-  const url = new URL(`/still/${file}`, location.href);
+  const take = (name) => {
+    const value = query.get(name);
+    query.delete(name);
+    return value;
+  };
+  const stream = encodeURIComponent(take('stream'));
+  take('depth');  // stills have none
+  const isNamed = query.has('preset') && !query.has('columns');
+  const path = isNamed ? `${stream}/${encodeURIComponent(take('preset'))}` :
+    `${stream}${suffix(query)}.jpg`;
+  const url = new URL(`/still/${path}`, location.href);
   url.search = query;
-  return `curl -o ${quoted(decodeURIComponent(file))} ${quoted(url.href)}`;
+  return `curl -L -O -J ${quoted(url.href)}`;
+}
+
+// "_qs8x6a0.75" of a quilt of one's own; the server redirects where it knows better.
+function suffix(query) {
+  const value = (name) => Number(query.get(name));
+  const tile = (side, count) => Math.floor(value(side) / value(count));
+  const aspect = value('aspect') || tile('width', 'columns') / tile('height', 'rows');
+  return `_qs${value('columns')}x${value('rows')}a${Number(aspect.toPrecision(6))}`;
 }
 
 function socketAddress(parameters) {
@@ -113,13 +129,12 @@ export class Commands {
     }
   }
 
-  // parameters: URLSearchParams of /ws; layout: of an atlas that they gave
-  show(parameters, layout) {
-    const isQuilt = layout.suffix !== '';  // only quilts have one, and stills are named by it
+  // parameters: URLSearchParams of /ws
+  show(parameters, isQuilt) {
     byId('still-elsewhere').hidden = !isQuilt;
     const texts = {
       watch: watchCommand(parameters, !isQuilt),
-      still: stillCommand(parameters, layout.suffix),
+      still: isQuilt ? stillCommand(parameters) : '',
       socket: socketAddress(parameters),
     };
     for (const [name, text] of Object.entries(texts)) {

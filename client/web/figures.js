@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The live figures: rate, latency by stage, drops, how rays ended.
 import {Chart, spanText} from './chart.js';
+import {shownViews} from './stage.js';
 
 const kRateWindow_ms = 3000;
 const kSmoothing = 0.25;  // weight of the newest atlas in a running mean
@@ -13,23 +14,23 @@ const kMsPerNs = 1e-6;
 
 // What each bar means, in the order in which an atlas meets them.
 const kStages = [
-  ['receive', 'first byte of the frame to its last'],
-  ['decode', 'planes unpacked'],
-  ['upload', 'frame to the device'],
-  ['build', 'structure built'],
-  ['wait', 'built, until traced'],
-  ['trace', 'rays'],
-  ['encode', 'JPEG'],
-  ['mailbox', 'until this viewer was ready for it'],
-  ['delivery', 'network, browser and the way back, of the last acknowledged atlas'],
-  ['browser', 'JPEG decoded; a part of delivery'],
+  ['receive', 'receiving', 'the frame arrives at the server'],
+  ['decode', 'unpacking', 'its colour and depth are unpacked'],
+  ['upload', 'to the GPU', 'they are copied to the graphics device'],
+  ['build', 'surfaces', 'surfaces are made of them'],
+  ['wait', 'waiting', 'other work goes first'],
+  ['trace', 'views', 'the views are drawn'],
+  ['encode', 'JPEG', 'the picture is compressed'],
+  ['mailbox', 'for this page', 'the picture waits until this page is ready for it'],
+  ['delivery', 'to the screen', 'network and browser, and the way back'],
+  ['browser', 'unpacking here', 'the browser decodes the picture; a part of the line above'],
 ];
 // Stages that follow each other from the frame's first byte to the picture: what is stacked.
 const kStacked = kStages.slice(0, -1).map(([stage]) => stage);
 const stageColor = (index) => `hsl(${165 + 24 * index} 55% 58%)`;
 const kAnswers = [
-  ['hit', 'hit'], ['hit_assumed', 'assumed'], ['hidden', 'hidden, filled'],
-  ['outside', 'outside'], ['empty', 'empty'],
+  ['hit', 'seen by the source'], ['hit_assumed', 'seen past an edge'],
+  ['hidden', 'hidden, filled in'], ['outside', 'past the source’s edge'], ['empty', 'background'],
 ];
 
 const byId = (id) => document.getElementById(id);
@@ -64,11 +65,11 @@ export class Figures {
   #drops = 0;
 
   constructor() {
-    for (const [index, [stage, title]] of kStages.entries()) {
-      const name = element('dt', {textContent: stage, title}, byId('stages'));
+    for (const [index, [stage, label, title]] of kStages.entries()) {
+      const name = element('dt', {textContent: label, title}, byId('stages'));
       if (kStacked[index]) name.style.setProperty('--own', stageColor(index));
       const meter = element('meter', {min: 0, max: 1, value: 0}, element('dd', {}, byId('stages')));
-      meter.setAttribute('aria-label', stage);
+      meter.setAttribute('aria-label', title);
       const value = element('dd', {className: 'value', textContent: '–'}, byId('stages'));
       this.#bars[stage] = {meter, value};
     }
@@ -78,8 +79,8 @@ export class Figures {
       name.dataset.answer = part.dataset.answer = answer;
       this.#shares[answer] = {part, value: element('dd', {textContent: '–'}, byId('coverage'))};
     }
-    for (const fact of ['Sequence', 'Source frame', 'Time', 'Views', 'Quilt', 'Tile', 'Size',
-                        'Rate']) {
+    for (const fact of ['Picture', 'Frame', 'Time', 'Views', 'Size', 'A view', 'Data',
+                        'Data rate']) {
       element('dt', {textContent: fact}, byId('facts'));
       this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
     }
@@ -94,14 +95,15 @@ export class Figures {
         samples.map((values) => values.reduce((sum, value) => sum + value, 0));
     this.#charts = {
       rate: {colors: ['--accent'], count: kSecondsCount, describe: (samples) =>
-        `Atlases a second, over ${samples.length} s: ${spanText(firsts(samples), 1)}`},
+        `Pictures a second, over ${samples.length} s: ${spanText(firsts(samples), 1)}`},
       latency: {colors: kStacked.map((_, index) => stageColor(index)), count: kHistoryCount,
-                describe: (samples) => `Latency of the last ${samples.length} atlases, ms: ` +
+                describe: (samples) => `Latency of the last ${samples.length} pictures, ms: ` +
                     spanText(sums(samples), 0)},
       drops: {colors: ['--bad'], count: kSecondsCount, describe: (samples) =>
-        `Atlases dropped each second, over ${samples.length} s: ${spanText(firsts(samples), 0)}`},
+        `Pictures skipped each second, over ${samples.length} s: ${spanText(firsts(samples), 0)}`},
       coverage: {colors: ['--accent', '--second', '--warm', '--bad', '--empty'],
-                 count: kHistoryCount, highest: 1, describe: (samples) => 'How rays ended, now: ' +
+                 count: kHistoryCount, highest: 1,
+                 describe: (samples) => 'What the picture is made of, now: ' +
                      kAnswers.map(([, label], index) =>
                          `${label} ${(100 * samples.at(-1)[index]).toFixed(1)} %`).join('; ')},
     };
@@ -185,7 +187,7 @@ export class Figures {
     if (latency === undefined) return;
     const isLong = latency >= kLongLatency_ms;
     byId('latency').textContent = isLong ? (latency / 1000).toFixed(1) : latency.toFixed(0);
-    byId('latency-unit').textContent = `${isLong ? 's' : 'ms'} end to end`;
+    byId('latency-unit').textContent = `${isLong ? 's' : 'ms'} latency`;
   }
 
   #refreshStages() {
@@ -209,15 +211,17 @@ export class Figures {
   #refreshFacts(rate_hz) {
     const {header, bytes} = this.#newest;
     const {layout} = header;
+    const {isPart, total} = shownViews(layout);
     const facts = {
-      'Sequence': header.sequence,
-      'Source frame': header.frame_number,
+      'Picture': header.sequence,
+      'Frame': header.frame_number,
       'Time': header.timing,
-      'Views': `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
-      'Quilt': `${layout.size.width} × ${layout.size.height} px`,
-      'Tile': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
-      'Size': `${(bytes / 1e6).toFixed(2)} MB`,
-      'Rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
+      'Views': isPart ? `${layout.view_count} of ${total}, around the eye` :
+        `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
+      'Size': `${layout.size.width} × ${layout.size.height} px`,
+      'A view': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
+      'Data': `${(bytes / 1e6).toFixed(2)} MB`,
+      'Data rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
     };
     for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;
   }

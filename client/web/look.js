@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the viewer's eye stands, 0 = left, 1 = right: pointer, drag, keys, and a gentle sway until
-// somebody takes over.
+// Where the viewer's eye stands, 0 = left, 1 = right: pointer, drag, keys, and at first a gentle
+// sway until somebody takes over.
 
 const kSwayPeriod_ms = 7000;
+const kSwayTime_ms = 2 * kSwayPeriod_ms;  // then it stands, in the middle, and costs nothing
 const kSwayWidth = 0.42;        // of the cone, to either side of the middle
 const kFollow_ms = 70;          // time in which the eye comes 1/e closer to where it shall be
 const kSettled = 1e-4;          // of the cone; less than a view of the largest quilt
@@ -12,11 +13,12 @@ export class Look {
   #target = 0.5;
   #position = 0.5;
   #last_ms = 0;
+  #swayBegin_ms = null;
   #running = false;
   #drag = null;
   #active = true;
 
-  // onLook(position)
+  // onLook(position): also again and again while it goes somewhere
   constructor(canvas, slider, onLook) {
     this.onLook = onLook;
     this.slider = slider;
@@ -31,6 +33,9 @@ export class Look {
     slider.addEventListener('input', () => this.take(slider.valueAsNumber));
     this.#run();
   }
+
+  // Where it is, or is on its way to.
+  get target() { return this.#target; }
 
   // 0..1; what lies beyond is brought there.
   take(target) {
@@ -77,10 +82,17 @@ export class Look {
     requestAnimationFrame((now_ms) => this.#step(now_ms));
   }
 
+  #sway(now_ms) {
+    this.#swayBegin_ms ??= now_ms;
+    const time_ms = now_ms - this.#swayBegin_ms;
+    this.swaying = time_ms < kSwayTime_ms;
+    this.#target = 0.5;
+    if (!this.swaying) return;
+    this.#target += kSwayWidth * Math.sin(2 * Math.PI * time_ms / kSwayPeriod_ms);
+  }
+
   #step(now_ms) {
-    if (this.swaying) {
-      this.#target = 0.5 + kSwayWidth * Math.sin(2 * Math.PI * now_ms / kSwayPeriod_ms);
-    }
+    if (this.swaying) this.#sway(now_ms);
     const elapsed_ms = Math.max(0, now_ms - this.#last_ms);
     this.#last_ms = now_ms;
     const follow = this.still.matches ? 1 : 1 - Math.exp(-elapsed_ms / kFollow_ms);

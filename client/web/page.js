@@ -11,13 +11,16 @@ import {DisplayChoice} from './display_choice.js';
 import {DisplayControls} from './display_controls.js';
 import {DisplayLists} from './display_lists.js';
 import {EyeMode} from './eye_mode.js';
+import {EyeViews} from './eye_views.js';
 import {Figures} from './figures.js';
 import {Look} from './look.js';
 import {Modes} from './modes.js';
 import {notice, say} from './notice.js';
 import {PanelMode} from './panel_mode.js';
 import {Patience} from './patience.js';
+import {labelReduced} from './reduced_label.js';
 import {RgbdMode} from './rgbd_mode.js';
+import {onKey, toggle} from './shortcuts.js';
 import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
 import {StreamList} from './stream_list.js';
@@ -25,8 +28,10 @@ import {Tilt} from './tilt.js';
 import {ViewsOutside} from './views_outside.js';
 import {Weaver} from './weaver.js';
 
-const kRetry_ms = 2000;
+const kRetry_ms = 1000;
 const kHiddenGrace_ms = 5000;
+const kLook_ms = 250;     // from one look for a picture that stands still to the next
+const kResized_ms = 150;  // a size that stays as long is asked for
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
 const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
 // Of colour with depth: there is one view of it, and nothing to weave.
@@ -37,6 +42,8 @@ const byId = (id) => document.getElementById(id);
 const root = document.documentElement;
 let watching = null;  // name of the stream
 let hiddenTimer = 0;
+let resizeTimer = 0;
+let isPublisherGone = false;
 
 const figures = new Figures();
 const commands = new Commands();
@@ -44,39 +51,62 @@ const patience = new Patience();
 const controls = new DisplayControls((parameters) => stream.change(parameters));
 const lists = new DisplayLists((parameters) => {
   if (parameters.aperture_m) autoDetail.startLow();
-  stream.change({...parameters, ...display.size()});
+  stream.change({...parameters, ...display.views()});
 });
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
-const autoDetail = new AutoDetail(() => stream.change(display.size()));
-if (pageParameters().has('aperture_m')) autoDetail.startLow();
-const display = new DisplayChoice(autoDetail, () => {
+const autoDetail = new AutoDetail(ask);
+const eyeViews = new EyeViews(ask);
+const display = new DisplayChoice(autoDetail, eyeViews, (aspect) => stage.frame(aspect), () => {
   offerModes();
   if (watching) watch(watching);
 });
 
-const stage = new Stage(byId('stage'), (atlas) => {
-  if (!atlas.acknowledged) {
-    atlas.acknowledged = true;
-    stream.shown(atlas.header.delivery);
-    figures.noteShown(atlas);
-    if (display.isAutomatic) autoDetail.note(atlas.header, performance.now());
-  }
-  root.dataset.sequence = atlas.header.sequence;
+const stage = new Stage(byId('stage'), {
+  onDrawn(atlas) {
+    if (!atlas.acknowledged) {
+      atlas.acknowledged = true;
+      stream.shown(atlas.header.delivery);
+      figures.noteShown(atlas);
+      if (display.isAutomatic) autoDetail.note(atlas.header, performance.now());
+    }
+    root.dataset.sequence = atlas.header.sequence;
+  },
+  onResize() {
+    clearTimeout(resizeTimer);
+    resizeTimer = setTimeout(ask, kResized_ms);
+  },
 });
+
+// Asks for what shall be seen, if that is not what the server sends.
+function ask() {
+  if (watching && stream.change(display.views())) eyeViews.noteAsked(performance.now());
+}
+
+// Has the views around the eye asked for, wherever it is.
+function aim() {
+  const now_ms = performance.now();
+  const isSingle = display.seen === 'single';
+  eyeViews.look(isSingle ? single.view : look.target * (eyeViews.total - 1), now_ms, isSingle);
+}
 
 const decoder = new Decoder(
     (atlas) => {
       const {layout} = atlas.header;
-      setState('live');
       stage.show(atlas);
-      single.layoutChanged(layout.view_count);
+      setState('live');
+      single.layoutChanged(stage.total);
       controls.show(layout);
       lists.show(layout);
       budget.show(atlas.header.depth_budget);
-      outside.show(atlas.header.views_outside, layout.view_count);
-      commands.show(stream.parameters, layout);
+      outside.show(atlas.header.views_outside, layout);
+      commands.show(display.elsewhere(stream.parameters), !display.isRgbd);
+      labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
+          display.isAutomatic);
       nameView();
+      if (!stream.isNewest(atlas)) return;
+      eyeViews.noteAnswered(performance.now());
+      aim();
     },
     (atlas) => {
       stream.shown(atlas.header.delivery);
@@ -91,23 +121,28 @@ const stream = new AtlasStream({
   },
   onLive() {
     autoDetail.restart();
+    eyeViews.forget();
     notice('');
   },
   onAsked() { patience.begin(); },
-  onWaiting({message, retry_ms}) {
+  onWaiting(reason) {
     patience.end();
     setState('reconnecting');
-    notice(`${message} Trying again in ${Math.ceil(retry_ms / 1000)} s.`, 'bad', Infinity);
+    notice(`${reason} Trying again.`, 'bad', Infinity);
   },
-  onRefused(error) { notice(error.message, 'bad'); },
+  onRefused(error) {
+    eyeViews.forget();
+    notice(error.message, 'bad');
+  },
 });
 
 const look = new Look(byId('stage'), byId('view'), (position) => {
   stage.look(position);
+  aim();
   nameView();
 });
 new Tilt(byId('tilt'), (position) => look.take(position));
-const single = new SingleMode(stage);
+const single = new SingleMode(stage, aim);
 const weaver = new Weaver(byId('woven'));
 const panelMode = new PanelMode(weaver, () => stage.invalidate());
 const eyeMode = new EyeMode(weaver, () => panelMode.calibration, () => stage.invalidate());
@@ -139,12 +174,22 @@ const modes = new Modes({
   quilt: {enter: () => setWhole(true), leave: () => setWhole(false)},
   panel: {enter: () => paint(panelMode), leave: () => panelMode.leave()},
   eye: {enter: () => paint(eyeMode)},
-  rgbd: new RgbdMode(stage, (isMiddle) => { display.isMiddle = isMiddle; }),
+  rgbd: new RgbdMode(stage),
 }, (mode) => {
   if (!kPainted.includes(mode)) stage.painter = null;
+  seeAsOf(mode);
   stage.invalidate();
   keepInAddress({mode: mode === 'look' ? null : mode});
 });
+
+function seeAsOf(mode) {
+  const around = {look: stage.blend ? 'blend' : 'look', single: 'single', rgbd: 'middle'};
+  display.seen = around[mode] ?? 'all';
+  eyeViews.forget();
+  display.views();  // how many there are around the eye
+  aim();
+  ask();
+}
 
 function offerModes() {
   modes.restrict(display.isRgbd ? kRgbdModes : kModes);
@@ -152,7 +197,7 @@ function offerModes() {
 }
 
 function nameView() {
-  const count = stage.layout?.view_count ?? 0;
+  const count = stage.total;
   const view = Math.round(stage.position * (count - 1)) + 1;
   byId('ruler-view').textContent = count ? `view ${view} of ${count}` : 'view –';
   byId('view').setAttribute('aria-valuetext', byId('ruler-view').textContent);
@@ -162,7 +207,7 @@ function setState(state) {
   root.dataset.state = state;
   byId('welcome').hidden = state !== 'no-stream';
   say({
-    'live': `Live: ${watching}, views: ${stage.layout?.view_count ?? 'none yet'}.`,
+    'live': `Live: ${watching}, views: ${stage.total || 'none yet'}.`,
     'connecting': `Connecting to ${watching}.`,
     'no-stream': 'No stream is live.',
   }[state] ?? '');
@@ -170,6 +215,7 @@ function setState(state) {
 
 function watch(name) {
   watching = name;
+  isPublisherGone = false;
   patience.end();
   streams.restart();
   figures.clear();
@@ -187,6 +233,7 @@ const streams = new StreamList({
     notice('');
   },
   onPublisher(isThere) {
+    isPublisherGone = !isThere;
     notice(isThere ? '' : 'The publisher left. This is its last frame.', '', Infinity);
   },
   onSilence() { if (!watching) notice(kSilence, 'bad', Infinity); },
@@ -205,35 +252,21 @@ async function start() {
   streams.poll();
 }
 
-function toggle(id, key, apply) {
-  const button = byId(id);
-  const flip = () => {
-    const on = button.getAttribute('aria-pressed') !== 'true';
-    button.setAttribute('aria-pressed', on);
-    apply(on);
-  };
-  button.addEventListener('click', flip);
-  keys[key] = flip;
-}
-
-const keys = {
-  f: () => byId('fullscreen').click(),
-  q: () => modes.choose(modes.mode === 'quilt' ? 'look' : 'quilt'),
-};
+onKey('f', () => byId('fullscreen').click());
+onKey('q', () => modes.choose(modes.mode === 'quilt' ? 'look' : 'quilt'));
 modes.radios.forEach((radio, index) => {
-  keys[String(index + 1)] = () => modes.choose(radio.value);
+  onKey(String(index + 1), () => modes.choose(radio.value));
 });
-toggle('blend', 'b', (on) => { stage.blend = on; stage.invalidate(); });
-toggle('details', 'i', (on) => { byId('panel').hidden = !on; });
+toggle(byId('blend'), 'b', (isOn) => {
+  stage.blend = isOn;
+  seeAsOf(modes.mode);
+  stage.invalidate();
+});
+toggle(byId('details'), 'i', (isOn) => { byId('panel').hidden = !isOn; });
 byId('fullscreen').hidden = !document.fullscreenEnabled;  // phones that fill theirs anyway
 byId('fullscreen').addEventListener('click', () => {
   if (document.fullscreenElement) document.exitFullscreen();
   else document.querySelector('main').requestFullscreen();
-});
-document.addEventListener('keydown', (event) => {
-  const isTyped = event.target.matches('select, textarea, input:not([type=range], [type=radio])');
-  if (event.ctrlKey || event.altKey || event.metaKey || isTyped) return;
-  keys[event.key.toLowerCase()]?.();
 });
 
 byId('stream').addEventListener('change', ({target}) => {
@@ -243,8 +276,8 @@ byId('stream').addEventListener('change', ({target}) => {
 
 setInterval(() => {
   const isWatched = root.dataset.state === 'live' && !document.hidden;
-  if (isWatched && display.isAutomatic) autoDetail.look(performance.now());
-}, 1000);
+  if (isWatched && display.isAutomatic) autoDetail.look(performance.now(), isPublisherGone);
+}, kLook_ms);
 
 // Nobody looks: the display need not be traced.
 document.addEventListener('visibilitychange', () => {

@@ -30,19 +30,12 @@ const metres = (distance_m) => Number.isFinite(distance_m) ? `${distance_m.toFix
 export class RgbdMode {
   #painted = {};  // {atlas, canvas}: depth is painted once an atlas
 
-  // onView(isMiddle): whether the server shall send the middle view with depth
-  constructor(stage, onView) {
+  constructor(stage) {
     this.stage = stage;
-    this.onView = onView;
   }
 
   enter() {
     this.stage.painter = this;
-    this.onView(true);
-  }
-
-  leave() {
-    this.onView(false);
   }
 
   draw(atlas) {

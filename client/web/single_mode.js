@@ -8,8 +8,10 @@ export class SingleMode {
   #view = 0;       // what is shown of it while there are #count views
   #count = 0;
 
-  constructor(stage) {
+  // onView(number from 0): it is to be shown
+  constructor(stage, onView) {
     this.stage = stage;
+    this.onView = onView;
     byId('single-view').addEventListener('input', ({target}) => {
       if (target.value !== '') this.#take(target.valueAsNumber - 1);
     });
@@ -17,6 +19,9 @@ export class SingleMode {
     byId('single-on').addEventListener('click', () => this.#take(this.#view + 1));
     stage.canvas.addEventListener('keydown', (event) => this.#key(event));
   }
+
+  // From 0.
+  get view() { return this.#view; }
 
   enter() {
     this.stage.single = this.#view;
@@ -29,7 +34,7 @@ export class SingleMode {
     this.stage.invalidate();
   }
 
-  // How many views there are now.
+  // How many views there are now; 0 = not known yet.
   layoutChanged(count) {
     this.#count = count;
     byId('single-count').textContent = `of ${count || '–'}`;
@@ -62,6 +67,7 @@ export class SingleMode {
     }
     if (this.stage.single === null) return;
     this.stage.single = this.#view;
+    this.onView(this.#view);
     this.stage.invalidate();
   }
 }

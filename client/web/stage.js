@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws one view of the newest atlas, two neighbouring ones mixed, or the whole of it; or lets a
-// painter draw.
+// painter draw. Of views that are not at hand it draws the nearest.
 import {watchDeviceSize} from './device_size.js';
 
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
@@ -17,13 +17,24 @@ export function tileOrigin(layout, view) {
   };
 }
 
+// Which views of the display an atlas shows: from which on, and of how many. It shows all of them,
+// or those that share a part of the cone.
+export function shownViews({view_count, cone_begin, cone_end}) {
+  const share = cone_end - cone_begin;
+  const isPart = share > 0 && share < 1;
+  const total = isPart ? Math.round(view_count / share) : view_count;
+  return {isPart, total, first: isPart ? Math.round(cone_begin * total) : 0};
+}
+
 export class Stage {
   #atlas = null;
   #scheduled = false;
 
-  constructor(canvas, onDrawn) {
+  // onDrawn(atlas); onResize(): its pictures have room for another number of px
+  constructor(canvas, {onDrawn, onResize}) {
     this.canvas = canvas;
     this.onDrawn = onDrawn;
+    this.onResize = onResize;
     this.context = canvas.getContext('2d', {alpha: false});
     this.position = 0.5;  // 0 = leftmost view, 1 = rightmost
     this.whole = false;
@@ -34,6 +45,8 @@ export class Stage {
   }
 
   get layout() { return this.#atlas?.header.layout ?? null; }
+  // Views of the whole display; 0 = there is no picture yet.
+  get total() { return this.#atlas ? shownViews(this.layout).total : 0; }
 
   show(atlas) {
     this.#atlas?.bitmap.close();
@@ -59,12 +72,14 @@ export class Stage {
     this.canvas.width = Math.max(1, width);
     this.canvas.height = Math.max(1, height);
     this.#draw();
+    this.onResize();
   }
 
   #draw() {
+    const isPart = this.#atlas !== null && shownViews(this.layout).isPart;
     if (this.painter) {
       if (!this.#atlas) return;
-      this.painter.draw(this.#atlas);
+      if (!isPart) this.painter.draw(this.#atlas);  // else the picture before its own
       this.onDrawn(this.#atlas);
       return;
     }
@@ -73,7 +88,7 @@ export class Stage {
     context.fillRect(0, 0, canvas.width, canvas.height);
     if (!this.#atlas) return;
     context.imageSmoothingQuality = 'high';
-    if (this.whole) this.#drawWhole();
+    if (this.whole && !isPart) this.#drawWhole();
     else this.#drawView();
     this.onDrawn(this.#atlas);
   }
@@ -97,15 +112,18 @@ export class Stage {
   }
 
   #drawView() {
-    const {layout} = this;
-    const exact = this.position * (layout.view_count - 1);
-    const nearest = this.single ?? Math.round(exact);
+    const {view_count} = this.layout;
+    const {first, total} = shownViews(this.layout);
+    // The nearest of those at hand.
+    const atHand = (view) => Math.min(view_count - 1, Math.max(0, view - first));
+    const exact = atHand(this.position * (total - 1));
+    const nearest = this.single === null ? Math.round(exact) : atHand(this.single);
     const isMixed = this.blend && this.single === null;
     const lower = isMixed ? Math.floor(exact) : nearest;
     const share = isMixed ? exact - lower : 0;
     this.#drawTile(lower, 1);
-    if (share > 0) this.#drawTile(Math.min(lower + 1, layout.view_count - 1), share);
-    this.canvas.dataset.view = nearest;
+    if (share > 0) this.#drawTile(lower + 1, share);
+    this.canvas.dataset.view = first + nearest;
   }
 
   #drawTile(view, opacity) {

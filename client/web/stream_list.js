@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which streams there are, asked for again and again.
 
-const kPoll_ms = 2000;
+const kPoll_ms = 1000;
+const kAnswer_ms = 5000;
 
 const byId = (id) => document.getElementById(id);
 const label = ({name, live}) => live ? name : `${name} (still)`;
@@ -23,7 +24,8 @@ export class StreamList {
   // The one asked for, else the first that is live, else the first.
   async poll() {
     try {
-      const reply = await fetch('/api/streams', {cache: 'no-store'});
+      const signal = AbortSignal.timeout(kAnswer_ms);
+      const reply = await fetch('/api/streams', {cache: 'no-store', signal});
       const {streams} = await reply.json();
       const found = streams.find(({name}) => name === this.handlers.asked()) ??
           streams.find(({live}) => live) ?? streams[0];

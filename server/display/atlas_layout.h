@@ -67,7 +67,9 @@ struct AtlasLayout {
   double aspect = 1;  // of a view as shown
   uint32_t padding_right_px = 0;
   uint32_t padding_top_px = 0;
-  double view_cone_rad = 0;     // quilts and lenticular panels
+  double view_cone_rad = 0;  // quilts and lenticular panels
+  double cone_begin = 0;     // the part of the cone that the views of a quilt share
+  double cone_end = 0;
   double focal_distance_m = 0;  // quilts, stereo, lenticular panels and grids of cameras
   std::string suffix;           // quilts: "_qs8x6a0.75"
   std::vector<View> views;      // [view]

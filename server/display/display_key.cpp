@@ -44,6 +44,8 @@ class KeyText {
     add(quilt.view_count);
     add(static_cast<uint32_t>(quilt.convention));
     add(quilt.depthiness);
+    add(quilt.cone_begin);
+    add(quilt.cone_end);
   }
   void add(const StereoSpec& stereo) {
     text_ += "stereo ";

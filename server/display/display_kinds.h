@@ -42,6 +42,9 @@ struct QuiltSpec {
   uint32_t view_count = 0;
   CameraConvention convention = CameraConvention::kWebxr;
   double depthiness = 0;  // of the cone; 0 = 1
+  // The part of the cone that the views share, 0 = its left end, 1 = its right end.
+  double cone_begin = 0;
+  double cone_end = 0;  // 0 = 1
 };
 
 struct StereoSpec {

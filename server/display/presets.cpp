@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
+#include "absl/strings/str_join.h"
+#include "base/nearest_name.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -81,13 +84,12 @@ const Preset* findPreset(std::string_view name) {
 
 absl::Status checkPreset(std::string_view name, std::string_view field) {
   if (findPreset(name) != nullptr) return absl::OkStatus();
-  std::string names;
-  for (const Preset& preset : kPresets) {
-    if (!names.empty()) names += ", ";
-    names += preset.name;
-  }
+  std::vector<std::string> names;
+  for (const Preset& preset : kPresets) names.emplace_back(preset.name);
+  const std::string suggestion = didYouMean(name, names);
   return fieldError(absl::StatusCode::kNotFound, field,
-                    strCat("there is no \"", name, "\"; there are ", names));
+                    strCat("there is no \"", name, "\"", suggestion.empty() ? "" : ", ", suggestion,
+                           "; there are ", absl::StrJoin(names, ", ")));
 }
 
 }  // namespace viewloom

@@ -46,6 +46,20 @@ absl::Status completeDepthiness(QuiltSpec& quilt) {
                                    widest_rad, ", accepted is up to ", kViewAngleMax_rad));
 }
 
+absl::Status completePart(QuiltSpec& quilt) {
+  if (quilt.cone_end == 0) quilt.cone_end = 1;
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.cone_begin, 0, 1, "quilt.cone_begin"));
+  return checkRange(quilt.cone_end, quilt.cone_begin, 1, "quilt.cone_end");
+}
+
+// On the line of eyes, m; `place` is 0 at the cone's left end and 1 at its right end.
+double placeOfEye(const QuiltSpec& quilt, double place, double distance_m) {
+  const double share = place - 0.5;
+  return quilt.convention == CameraConvention::kBridge
+             ? distance_m * quilt.depthiness * std::tan(quilt.view_cone_rad) * share
+             : distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share);
+}
+
 }  // namespace
 
 absl::Status complete(QuiltSpec& quilt) {
@@ -73,6 +87,7 @@ absl::Status complete(QuiltSpec& quilt) {
   const uint32_t tile_count = quilt.columns * quilt.rows;
   if (quilt.view_count == 0) quilt.view_count = tile_count;
   VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.view_count, tile_count, "quilt.view_count"));
+  VIEWLOOM_RETURN_IF_ERROR(completePart(quilt));
   return completeDepthiness(quilt);
 }
 
@@ -95,19 +110,19 @@ double quiltAspect(const QuiltSpec& quilt) {
 
 double quiltEye(const QuiltSpec& quilt, uint32_t view, double distance_m) {
   const double count = quilt.view_count;
-  if (quilt.convention == CameraConvention::kWebxr) {
-    const double share = (view + 0.5) / count - 0.5;
-    return distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share);
-  }
-  const double share = count > 1 ? view / (count - 1) - 0.5 : 0.0;
-  return quilt.convention == CameraConvention::kCore
-             ? distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share)
-             : distance_m * quilt.depthiness * std::tan(quilt.view_cone_rad) * share;
+  const double alone = 0.5;
+  const double share = quilt.convention == CameraConvention::kWebxr ? (view + 0.5) / count
+                       : count > 1                                  ? view / (count - 1)
+                                                                    : alone;
+  const double place = quilt.cone_begin + share * (quilt.cone_end - quilt.cone_begin);
+  return placeOfEye(quilt, place, distance_m);
 }
 
 void describe(const QuiltSpec& quilt, const StreamDefaults& defaults, AtlasLayout& layout) {
   layout.aspect = quiltAspect(quilt);
   layout.view_cone_rad = quilt.view_cone_rad;
+  layout.cone_begin = quilt.cone_begin;
+  layout.cone_end = quilt.cone_end;
   layout.focal_distance_m = focalDistance(quilt.focal_distance_m, defaults);
   layout.suffix = absl::StrFormat("_qs%ux%ua%g", quilt.columns, quilt.rows, layout.aspect);
   const FocalWindow window =
@@ -118,7 +133,13 @@ void describe(const QuiltSpec& quilt, const StreamDefaults& defaults, AtlasLayou
   }
   layout.eye_focus_m = layout.focal_distance_m;
   const uint32_t last = quilt.view_count - 1;
-  if (last > 0) layout.view_pitch_m.x = (eye(last) - eye(0)) / last;
+  if (last > 0) {
+    layout.view_pitch_m.x = (eye(last) - eye(0)) / last;
+  } else if (quilt.cone_end - quilt.cone_begin < 1) {
+    // One view of many: its neighbours stand a part away.
+    layout.view_pitch_m.x = placeOfEye(quilt, quilt.cone_end, layout.focal_distance_m) -
+                            placeOfEye(quilt, quilt.cone_begin, layout.focal_distance_m);
+  }
 }
 
 }  // namespace viewloom

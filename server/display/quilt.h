@@ -21,7 +21,8 @@ double quiltAspect(const QuiltSpec& quilt);
 
 // Where view i of N stands on the line of eyes, m from its middle, for a focal plane D in front of
 // it. With t its share of the way from the first to the last, in [-0.5, 0.5] (Looking Glass
-// software, as public sources have it; none verified on hardware):
+// software, as public sources have it; none verified on hardware; of a part of the cone, t runs
+// over that part):
 //   webxr   D tan(depthiness cone t), t = (i + 0.5) / N - 0.5: each in the middle of its share
 //   Core    D tan(depthiness cone t), t = i / (N - 1) - 0.5: the outermost at the cone's edges
 //   Bridge  D depthiness tan(cone) t, t = i / (N - 1) - 0.5: at equal distances

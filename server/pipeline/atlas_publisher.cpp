@@ -13,19 +13,21 @@ StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
   const ResidentStructure& structure = *run.job.structure;
   const FrameTimes& frame = structure.times;
   const int64_t traced_ns = run.tracedNs();
+  // A frame stands as long as it likes before a display asks for it: that is nobody's delay.
+  const int64_t stood_ns = std::max<int64_t>(0, run.job.asked_ns - structure.built_at_ns);
   return {.receive_ns = frame.last_chunk_ns - frame.first_chunk_ns,
           .decode_ns = frame.decoded_ns - frame.last_chunk_ns,
           .upload_ns = structure.upload_ns,
           .build_ns = structure.build_ns,
-          .wait_ns = run.begun_ns - structure.built_at_ns,
+          .wait_ns = run.begun_ns - structure.built_at_ns - stood_ns,
           .trace_ns = traced_ns - run.begun_ns,
           .encode_ns = encoded_ns - traced_ns,
-          .total_ns = encoded_ns - frame.first_chunk_ns};
+          .total_ns = encoded_ns - frame.first_chunk_ns - stood_ns};
 }
 
 void count(const Metrics& metrics, const AtlasRun& run, const StageTimes& times,
            const Coverage& coverage) {
-  // A frame stands as long as it likes while eyes move or time goes on: that is nobody's delay.
+  // Eyes move and time goes on before one frame: how long that took is no answer to a frame.
   if (!run.eyes && !run.job.tick) {
     metrics.observeStage(Stage::kWait, times.wait_ns);
     metrics.observeStage(Stage::kTotal, times.total_ns);

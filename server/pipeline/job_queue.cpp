@@ -25,6 +25,7 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   }
   AtlasJob& kept = older->job;
   job.poses = kept.poses = newerOf(kept.poses, job.poses);
+  job.asked_ns = kept.asked_ns = std::min(kept.asked_ns, job.asked_ns);
   if (kept.structure == job.structure) {
     if (!kept.ticket) kept.ticket = std::move(job.ticket);
     kept.is_for_eyes &= job.is_for_eyes;

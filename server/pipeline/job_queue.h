@@ -35,6 +35,7 @@ struct AtlasJob {
   bool is_tracked = false;   // of a tracked display
   PoseTimes poses = {};      // of its eyes
   std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
+  int64_t asked_ns = 0;                           // when it was first offered
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
 };
 

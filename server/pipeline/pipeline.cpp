@@ -142,7 +142,8 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
                   .deadline_ns = deadlineNs(display->spec),
                   .ticket = ticket,
                   .is_tracked = isTracked(display->spec),
-                  .poses = display->eyes ? display->eyes->times() : PoseTimes{}});
+                  .poses = display->eyes ? display->eyes->times() : PoseTimes{},
+                  .asked_ns = links.clock.nowNs()});
   }
   ticks.offer(stream.name, newest, ticket);
   gpu_wake_up.ring();
@@ -164,6 +165,7 @@ void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
 
 bool Pipeline::Loops::offerTrace(AtlasJob job, const DisplaySpec& spec) {
   job.deadline_ns = deadlineNs(spec);
+  job.asked_ns = links.clock.nowNs();
   const bool is_taken = traces.offerUnlessBusy(job);
   if (is_taken) gpu_wake_up.ring();
   return is_taken;
@@ -215,7 +217,8 @@ void Pipeline::serveEyes(const ActiveDisplay& display) {
                                             .deadline_ns = loops_->deadlineNs(display.spec),
                                             .is_for_eyes = true,
                                             .is_tracked = true,
-                                            .poses = display.eyes->times()});
+                                            .poses = display.eyes->times(),
+                                            .asked_ns = loops_->links.clock.nowNs()});
   // Thousands of poses a second would each take a core from those who answer them.
   if (is_new) loops_->gpu_wake_up.ring();
 }

@@ -7,6 +7,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "base/nearest_name.h"
 
 namespace viewloom {
 namespace {
@@ -29,13 +30,13 @@ absl::Status validateStreamName(const std::string& name, std::string_view field)
 
 absl::Status noSuchStream(const std::string& name, std::string_view field,
                           const StreamDirectory& directory) {
-  const std::vector<StreamEntry> entries = directory.list();
-  const auto append_name = [](std::string* out, const StreamEntry& entry) {
-    out->append(entry.name);
-  };
-  const std::string existing = entries.empty() ? "none" : absl::StrJoin(entries, ", ", append_name);
-  return fieldError(absl::StatusCode::kNotFound, field,
-                    absl::StrCat("there is no \"", name, "\"; there are: ", existing));
+  std::vector<std::string> names;
+  for (const StreamEntry& entry : directory.list()) names.push_back(entry.name);
+  const std::string suggestion = didYouMean(name, names);
+  return fieldError(
+      absl::StatusCode::kNotFound, field,
+      absl::StrCat("there is no \"", name, "\"", suggestion.empty() ? "" : ", ", suggestion,
+                   "; there are: ", names.empty() ? "none" : absl::StrJoin(names, ", ")));
 }
 
 }  // namespace viewloom

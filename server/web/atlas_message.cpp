@@ -91,6 +91,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"jpeg_bytes", sizeOf(jpegBands(atlas))},
                  {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
                  {"delivery", delivery.delivery},
+                 {"change_count", delivery.change_count},
                  {"dropped_count", delivery.dropped_count},
                  {"mailbox_ns", delivery.mailbox_ns},
                  {"shown_ns", delivery.shown_ns}};

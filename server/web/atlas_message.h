@@ -16,6 +16,7 @@ namespace viewloom {
 // What only this viewer's connection knows.
 struct Delivery {
   uint64_t delivery = 0;       // counts what this viewer is sent, from 1
+  uint64_t change_count = 0;   // changes that this viewer had asked for by then, also in vain
   uint64_t dropped_count = 0;  // atlases of its display this viewer did not get, since it came
   int64_t mailbox_ns = 0;      // that this atlas waited for the viewer
   int64_t shown_ns = 0;  // from writing an atlas to its acknowledgement; the newest known, 0 = none

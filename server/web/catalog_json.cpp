@@ -42,6 +42,8 @@ json layoutJson(const AtlasLayout& layout) {
           {"padding_right_px", layout.padding_right_px},
           {"padding_top_px", layout.padding_top_px},
           {"view_cone_rad", layout.view_cone_rad},
+          {"cone_begin", layout.cone_begin},
+          {"cone_end", layout.cone_end},
           {"focal_distance_m", layout.focal_distance_m},
           {"suffix", layout.suffix}};
 }

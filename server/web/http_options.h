@@ -22,7 +22,7 @@ struct HttpOptions {
   uint32_t message_bytes_max = 4096;  // of a viewer's text message
   std::chrono::milliseconds request_timeout{
       10'000};  // to send a request, from the one before; to shake hands
-  std::chrono::milliseconds idle_timeout{60'000};      // of a viewer that answers no ping
+  std::chrono::milliseconds idle_timeout{20'000};      // of a viewer that answers no ping
   std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply
   std::chrono::milliseconds still_timeout{10'000};     // until a still's atlas is there
   std::chrono::milliseconds drain_timeout{2'000};      // for viewers to take their leave

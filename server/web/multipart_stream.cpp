@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/multipart_stream.h"
 
+#include <netinet/tcp.h>
+
 #include <array>
+#include <chrono>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "web/atlas_message.h"
 #include "web/quilt_address.h"
 
 namespace viewloom {
 namespace {
 
+using std::chrono_literals::operator""ms;
+
 constexpr const char* kType = "multipart/x-mixed-replace; boundary=viewloom";
-constexpr const char* kFirstBoundary = "--viewloom\r\n";
-constexpr const char* kBoundary = "\r\n--viewloom\r\n";
+// The header of a part. It holds nothing that depends on the picture: it is sent before that.
+constexpr const char* kOpening = "--viewloom\r\nContent-Type: image/jpeg\r\n\r\n";
+constexpr const char* kNextOpening = "\r\n--viewloom\r\nContent-Type: image/jpeg\r\n\r\n";
 constexpr const char* kClosingBoundary = "\r\n--viewloom--\r\n";
+// A picture that no other follows is repeated after the first pause, for players that show a part
+// when they have read on, and then after the second, so that proxies keep the connection open.
+constexpr std::chrono::milliseconds kFirstPause = 200ms;
+constexpr std::chrono::milliseconds kPause = 20'000ms;
+
+// A peer that confirms nothing for this long is gone, also while there is nothing to write.
+void limitSilence(tcp::socket& socket, std::chrono::milliseconds limit) {
+  const auto limit_ms = static_cast<unsigned>(limit.count());
+  // Without the option, which is Linux's own, the kernel's longer limit stands.
+  ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &limit_ms, sizeof(limit_ms));
+}
 
 }  // namespace
 
@@ -59,17 +75,16 @@ net::awaitable<void> MultipartStream::run(beast::tcp_stream stream,
   const auto self = shared_from_this();
   ErrorCode error;
   stream_.emplace(std::move(stream));
-  // While nothing moves nothing is written that would show that a player's machine is gone.
-  stream_->socket().set_option(net::socket_base::keep_alive(true), error);
+  limitSilence(stream_->socket(), context_.options.transfer_timeout);
   net::co_spawn(
       awake_.get_executor(), [self] { return self->readUntilGone(); }, net::detached);
   http::response_serializer<http::empty_body> serializer(head);
   stream_->expires_after(context_.options.transfer_timeout);
   co_await http::async_write_header(*stream_, serializer, into(error));
-  if (!error) co_await writeText(kFirstBoundary, error);
+  if (!error) co_await writeText(kOpening, error);
   if (!error) co_await writeParts(error);
   subscription_.reset();
-  if (!error && !gone_) co_await writeText(kClosingBoundary, error);
+  if (!error && !gone_) co_await writeLast(error);
   cut();  // what a player has not taken yet still reaches it; the reading ends
 }
 
@@ -97,32 +112,40 @@ net::awaitable<void> MultipartStream::readUntilGone() {
 }
 
 net::awaitable<void> MultipartStream::writeParts(ErrorCode& error) {
+  bool is_repeat_due = false;
   while (!error && !gone_ && !leaving_ && !inbox_->ended()) {
-    if (const auto arrival = inbox_->take()) {
-      co_await writePart(*arrival->atlas, error);
+    auto arrival = inbox_->take();
+    if (arrival || is_repeat_due) {
+      if (arrival) shown_ = std::move(arrival->atlas);
+      co_await writePart(kNextOpening, error);
+      if (arrival && !error) context_.metrics.atlases_sent[Transport::kWeb].add();
+      awake_.expires_after(arrival ? kFirstPause : kPause);
+      is_repeat_due = false;
       continue;
     }
     ErrorCode woken;
     co_await awake_.async_wait(into(woken));
+    is_repeat_due = !woken;
   }
 }
 
-net::awaitable<void> MultipartStream::writePart(const EncodedAtlas& atlas, ErrorCode& error) {
-  const std::vector<SharedBytes> bands = jpegBands(atlas);
-  size_t jpeg_bytes = 0;
-  for (const SharedBytes& band : bands) jpeg_bytes += band->size();
-  const std::string head =
-      absl::StrCat("Content-Type: image/jpeg\r\nContent-Length: ", jpeg_bytes,
-                   "\r\nViewloom-Sequence: ", atlas.sequence,
-                   "\r\nViewloom-Frame-Number: ", atlas.frame_number, "\r\n\r\n");
-  const std::string boundary = kBoundary;
-  std::vector<net::const_buffer> part{net::buffer(head)};
-  for (const SharedBytes& band : bands) part.push_back(net::buffer(*band));
-  part.push_back(net::buffer(boundary));
+// Completes the part that is open. An empty one would take the picture away.
+net::awaitable<void> MultipartStream::writeLast(ErrorCode& error) {
+  if (!shown_) {
+    co_await writeText(kClosingBoundary, error);
+  } else {
+    co_await writePart(kClosingBoundary, error);
+  }
+}
+
+net::awaitable<void> MultipartStream::writePart(std::string end, ErrorCode& error) {
+  const AtlasPtr atlas = shown_;
+  std::vector<net::const_buffer> part;
+  for (const SharedBytes& band : jpegBands(*atlas)) part.push_back(net::buffer(*band));
+  part.push_back(net::buffer(end));
   stream_->expires_after(context_.options.transfer_timeout);
   co_await net::async_write(*stream_, part, into(error));
   if (error) co_return;
-  context_.metrics.atlases_sent[Transport::kWeb].add();
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(net::buffer_size(part)));
 }
 

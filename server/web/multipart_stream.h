@@ -20,10 +20,11 @@ namespace viewloom {
 // whose `live` is set, or the error or redirect.
 HttpReply answerStream(const WebContext& context, const Url& url);
 
-// multipart/x-mixed-replace: each part is one whole JPEG. The boundary goes out with the part that
-// it ends, because players show a part when they see its end. While a part is being written only
-// the newest atlas is kept, so a slow player skips atlases and costs no memory. In the end comes
-// the closing boundary, behind an empty part.
+// multipart/x-mixed-replace: each part is one whole JPEG. Players show a part when they have read
+// the header of the next one, so that header goes out with the part before it. A picture that
+// stands is repeated. While a part is being written only the newest atlas is kept: a slow player
+// skips atlases and costs no memory. The end is the last picture once more, and the closing
+// boundary.
 //
 // Thread-safety: subscribe() and run() once; everything happens on the strand.
 class MultipartStream final : public LiveReader,
@@ -42,15 +43,18 @@ class MultipartStream final : public LiveReader,
  private:
   net::awaitable<void> readUntilGone();
   net::awaitable<void> writeParts(ErrorCode& error);
-  net::awaitable<void> writePart(const EncodedAtlas& atlas, ErrorCode& error);
+  net::awaitable<void> writeLast(ErrorCode& error);
+  // What is shown, and what stands behind it.
+  net::awaitable<void> writePart(std::string end, ErrorCode& error);
   net::awaitable<void> writeText(std::string text, ErrorCode& error);
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
-  net::steady_timer awake_;                  // never expires: waiting for it is waiting for wake()
+  net::steady_timer awake_;  // waiting for it is waiting for wake(), or until a repeat is due
   std::optional<beast::tcp_stream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
+  AtlasPtr shown_;  // by the part that was written last
   bool leaving_ = false;
   bool gone_ = false;
 };

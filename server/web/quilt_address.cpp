@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::string_view kSuffixBegin = "_qs";
 
-// An address taken apart: ROOT STREAM/PRESET or ROOT STREAM_qs8x6a0.75 EXTENSION.
+// An address taken apart: ROOT STREAM/PRESET, with EXTENSION or without, or ROOT STREAM_qs8x6a0.75
+// EXTENSION.
 struct AddressParts {
   QueryParameters parameters;  // of the URL and of its path
   std::string suffix;          // empty in the first form
@@ -32,7 +33,14 @@ absl::StatusOr<AddressParts> takeApart(const Url& url, const QuiltAddressForm& f
       .parameters = url.parameters, .suffix = "", .extension = form.extensions.front()};
   const size_t slash = rest.find('/');
   if (slash != std::string_view::npos) {
-    parts.parameters["preset"] = rest.substr(slash + 1);
+    std::string_view preset = rest.substr(slash + 1);
+    for (const std::string& extension : form.extensions) {
+      if (!preset.ends_with(extension)) continue;
+      parts.extension = extension;
+      preset.remove_suffix(extension.size());
+      break;
+    }
+    parts.parameters["preset"] = preset;
     parts.parameters["stream"] = rest.substr(0, slash);
     return parts;
   }
@@ -60,13 +68,17 @@ absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddres
   VIEWLOOM_RETURN_IF_ERROR(request.status());
   const absl::StatusOr<std::string> suffix = quiltSuffix(request->display);
   VIEWLOOM_RETURN_IF_ERROR(suffix.status());
-  QuiltAddress address{
-      .request = *std::move(request), .extension = parts->extension, .redirect = ""};
+  QuiltAddress address{.request = *std::move(request),
+                       .extension = parts->extension,
+                       .file_name = "",
+                       .redirect = ""};
+  const std::string layout = absl::StrCat(*suffix, address.extension);
+  address.file_name = address.request.stream + layout;
   if (*suffix == parts->suffix) return address;
   QueryParameters parameters = parts->parameters;
   parameters.erase("stream");
   const std::string query = queryString(parameters);
-  address.redirect = absl::StrCat(form.root, address.request.stream, *suffix, address.extension,
+  address.redirect = absl::StrCat(form.root, percentEncoded(address.request.stream), layout,
                                   query.empty() ? "" : "?", query);
   return address;
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/routes.h"
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/str_cat.h"
+#include "base/nearest_name.h"
 #include "web/catalog_json.h"
 #include "web/multipart_stream.h"
 #include "web/page_assets.h"
@@ -65,9 +69,13 @@ HttpReply webSocketReply(const WebContext& context, const Url& url) {
 }
 
 HttpReply notFoundReply(const std::string& path) {
+  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets",
+                                    "/metrics",     "/healthz",      "/ws"};
+  for (const PageAsset& asset : pageAssets()) known.emplace_back(asset.path);
+  const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
-      absl::StrCat("there is no ", path,
+      absl::StrCat("there is no ", path, suggestion.empty() ? "" : ", ", suggestion,
                    "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
                    "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
 }

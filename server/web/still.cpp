@@ -9,6 +9,7 @@
 #include "web/atlas_inbox.h"
 #include "web/atlas_message.h"
 #include "web/catalog_json.h"
+#include "web/content_disposition.h"
 #include "web/quilt_address.h"
 
 namespace viewloom {
@@ -16,8 +17,7 @@ namespace {
 
 constexpr const char* kLayoutExtension = ".json";
 
-HttpReply stillReply(const EncodedAtlas& atlas, const std::string& extension) {
-  if (extension == kLayoutExtension) return jsonReply(layoutJson(*atlas.layout).dump());
+HttpReply jpegReply(const EncodedAtlas& atlas) {
   HttpReply reply;
   reply.type = "image/jpeg";
   reply.headers = {{"Cache-Control", "no-store"},
@@ -27,8 +27,16 @@ HttpReply stillReply(const EncodedAtlas& atlas, const std::string& extension) {
   return reply;
 }
 
-net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request,
-                                    std::string extension) {
+HttpReply stillReply(const EncodedAtlas& atlas, const QuiltAddress& address) {
+  HttpReply reply = address.extension == kLayoutExtension
+                        ? jsonReply(layoutJson(*atlas.layout).dump())
+                        : jpegReply(atlas);
+  reply.headers.emplace_back("Content-Disposition", contentDisposition(address.file_name));
+  return reply;
+}
+
+net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
+  const WatchRequest& request = address.request;
   const auto executor = co_await net::this_coro::executor;
   const auto deadline =
       std::make_shared<net::steady_timer>(executor, context.options.still_timeout);
@@ -39,7 +47,7 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request,
       context.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox);
   if (!subscription.ok()) co_return errorReply(subscription.status());
   for (;;) {
-    if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas, extension);
+    if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas, address);
     if (const auto ended = inbox->ended()) {
       co_return errorReply(ended->ok() ? absl::UnavailableError("the server drains") : *ended);
     }
@@ -57,10 +65,10 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, WatchRequest request,
 
 net::awaitable<HttpReply> answerStill(WebContext& context, Url url) {
   const QuiltAddressForm form{.root = "/still/", .extensions = {".jpg", kLayoutExtension}};
-  const absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form, context.streams);
+  absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form, context.streams);
   if (!address.ok()) co_return errorReply(address.status());
   if (!address->redirect.empty()) co_return redirectReply(address->redirect);
-  co_return co_await takeAtlas(context, address->request, address->extension);
+  co_return co_await takeAtlas(context, *std::move(address));
 }
 
 }  // namespace viewloom

@@ -10,8 +10,8 @@
 namespace viewloom {
 
 // Answers /still/STREAM_qs8x6a0.75.jpg and /still/STREAM/PRESET (see quilt_address.h); with .json
-// the layout of that JPEG. Runs on the caller's strand; waits for the atlas at most as long as
-// options.still_timeout.
+// the layout of that JPEG. The reply names the file to save it as. Runs on the caller's strand;
+// waits for the atlas at most as long as options.still_timeout.
 net::awaitable<HttpReply> answerStill(WebContext& context, Url url);
 
 }  // namespace viewloom

@@ -55,7 +55,9 @@ absl::Status parseParameters(std::string_view query, QueryParameters& parameters
   return absl::OkStatus();
 }
 
-std::string escape(std::string_view plain) {
+}  // namespace
+
+std::string percentEncoded(std::string_view plain) {
   std::string escaped;
   for (const char character : plain) {
     const auto byte = static_cast<unsigned char>(character);
@@ -69,8 +71,6 @@ std::string escape(std::string_view plain) {
   }
   return escaped;
 }
-
-}  // namespace
 
 absl::StatusOr<Url> parseUrl(std::string_view target) {
   target = target.substr(0, target.find('#'));
@@ -90,7 +90,8 @@ absl::StatusOr<Url> parseUrl(std::string_view target) {
 std::string queryString(const QueryParameters& parameters) {
   std::string query;
   for (const auto& [key, value] : parameters) {
-    absl::StrAppend(&query, query.empty() ? "" : "&", escape(key), "=", escape(value));
+    absl::StrAppend(&query, query.empty() ? "" : "&", percentEncoded(key), "=",
+                    percentEncoded(value));
   }
   return query;
 }

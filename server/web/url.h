@@ -20,6 +20,9 @@ struct Url {
 // Refuses broken escapes, control characters and parameters given twice.
 absl::StatusOr<Url> parseUrl(std::string_view target);
 
+// With everything escaped that is not unreserved (RFC 3986).
+std::string percentEncoded(std::string_view plain);
+
 // "a=1&b=2" with everything escaped that is not unreserved.
 std::string queryString(const QueryParameters& parameters);
 

@@ -19,6 +19,10 @@ std::string parameterText(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string pongJson(uint64_t number) {
+  return nlohmann::json{{"pong", number}}.dump();
+}
+
 }  // namespace
 
 Viewer::Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters)
@@ -108,14 +112,23 @@ absl::Status Viewer::takeMessage(std::string_view text) {
   if (message.is_object() && message.size() == 1) {
     const auto shown = message.find("shown");
     const auto changes = message.find("change");
+    const auto ping = message.find("ping");
     if (shown != message.end() && shown->is_number_unsigned()) {
       noteShown(shown->get<uint64_t>());
       return absl::OkStatus();
     }
-    if (changes != message.end() && changes->is_object()) return change(*changes);
+    if (changes != message.end() && changes->is_object()) {
+      ++change_count_;
+      return change(*changes);
+    }
+    if (ping != message.end() && ping->is_number_unsigned()) {
+      pending_pong_ = ping->get<uint64_t>();
+      return absl::OkStatus();
+    }
   }
   return invalidField("message",
-                      "accepted are {\"shown\": DELIVERY} and {\"change\": {PARAMETER: VALUE}}");
+                      "accepted are {\"shown\": DELIVERY}, {\"change\": {PARAMETER: VALUE}} and "
+                      "{\"ping\": NUMBER}");
 }
 
 absl::Status Viewer::change(const nlohmann::json& changes) {
@@ -143,6 +156,11 @@ net::awaitable<void> Viewer::writeMessages() {
   while (!error && !gone_) {
     if (pending_error_) {
       std::string text = *std::exchange(pending_error_, std::nullopt);
+      co_await writeText(std::move(text), error);
+      continue;
+    }
+    if (pending_pong_) {
+      std::string text = pongJson(*std::exchange(pending_pong_, std::nullopt));
       co_await writeText(std::move(text), error);
       continue;
     }
@@ -174,6 +192,7 @@ net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& 
   under_way_.push_back({++delivery_count_, now_ns});
   const AtlasMessage message(arrival.atlas,
                              {.delivery = delivery_count_,
+                              .change_count = change_count_,
                               .dropped_count = dropped_before_ + inbox_->replacedCount(),
                               .mailbox_ns = now_ns - arrival.arrived_ns,
                               .shown_ns = shown_ns_});

@@ -25,6 +25,7 @@ namespace viewloom {
 //   another
 //   {"change": {"focus_m": 0.8}}       parameters of the URL, as they shall be from now on; null =
 //   default
+//   {"ping": 3}                        answered by {"pong": 3}: pages see no pings of the protocol
 // At most two atlases are under way to a client; of those that come meanwhile only the newest is
 // kept.
 //
@@ -66,6 +67,8 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   std::deque<UnderWay> under_way_;
   std::optional<std::string> pending_error_;  // the newest
+  std::optional<uint64_t> pending_pong_;      // the newest
+  uint64_t change_count_ = 0;                 // asked for, also in vain
   uint64_t delivery_count_ = 0;
   uint64_t dropped_before_ = 0;  // by the displays watched earlier
   int64_t shown_ns_ = 0;

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/watch_request.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "base/nearest_name.h"
 #include "display/atlas_layout.h"
+#include "display/presets.h"
+#include "display/rgbd.h"
 #include "web/rgbd_request.h"
 #include "web/watch_parameters.h"
 
@@ -26,6 +31,8 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"height", "quilt.size.height"},
     ParameterField{"aspect", "quilt.aspect"},
     ParameterField{"cone_deg", "quilt.view_cone_rad"},
+    ParameterField{"cone_begin", "quilt.cone_begin"},
+    ParameterField{"cone_end", "quilt.cone_end"},
     ParameterField{"focus_m", "quilt.focal_distance_m"},
     ParameterField{"focus_follow_s", "focus_following_s"},
     ParameterField{"fov_deg", "quilt.fov_y_rad"},
@@ -54,18 +61,42 @@ absl::Status namedByParameter(const absl::Status& status, std::span<const Parame
   return status;
 }
 
+// ", did you mean "portrait"?", or nothing.
+std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
+  const std::string text = didYouMean(word, names);
+  return text.empty() ? "" : absl::StrCat(", ", text);
+}
+
+absl::Status unknownName(const std::string& field, const std::string& word,
+                         const std::vector<std::string>& names) {
+  return fieldError(
+      absl::StatusCode::kNotFound, field,
+      absl::StrCat("there is no \"", word, "\"", suggestion(word, names), "; there are ",
+                   names.empty() ? "none yet" : absl::StrJoin(names, ", ")));
+}
+
 absl::Status checkKnown(const QueryParameters& parameters, std::span<const ParameterField> all) {
   for (const auto& [name, value] : parameters) {
     bool known = false;
     for (const ParameterField& accepted : all) known |= name == accepted.parameter;
     if (known) continue;
-    const auto append = [](std::string* out, const ParameterField& accepted) {
-      out->append(accepted.parameter);
-    };
-    return invalidField(name, absl::StrCat("there is no such parameter, accepted are ",
-                                           absl::StrJoin(all, ", ", append)));
+    std::vector<std::string> names;
+    for (const ParameterField& accepted : all) names.emplace_back(accepted.parameter);
+    return invalidField(name, absl::StrCat("there is no such parameter", suggestion(name, names),
+                                           "; accepted are ", absl::StrJoin(names, ", ")));
   }
   return absl::OkStatus();
+}
+
+// A display is chosen by the same parameter whatever its kind.
+absl::Status checkPresetName(const QueryParameters& parameters) {
+  const auto preset = parameters.find("preset");
+  if (preset == parameters.end() || preset->second.empty()) return absl::OkStatus();
+  std::vector<std::string> names;
+  for (const Preset& known : allPresets()) names.emplace_back(known.name);
+  for (const RgbdPreset& known : rgbdPresets()) names.emplace_back(known.name);
+  if (std::ranges::find(names, preset->second) != names.end()) return absl::OkStatus();
+  return unknownName("preset", preset->second, names);
 }
 
 absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
@@ -85,6 +116,8 @@ absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "aspect", quilt.aspect));
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_m", quilt.focal_distance_m));
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "cone_deg", cone_deg));
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "cone_begin", quilt.cone_begin));
+  VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "cone_end", quilt.cone_end));
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "fov_deg", fov_deg));
   quilt.view_cone_rad = cone_deg * kRadPerDeg;
   quilt.fov_y_rad = fov_deg * kRadPerDeg;
@@ -135,13 +168,9 @@ absl::StatusOr<std::string> readStream(const QueryParameters& parameters,
   const auto stream = parameters.find("stream");
   if (stream == parameters.end()) return invalidField("stream", "missing: the name of a stream");
   if (streams.exists(stream->second)) return stream->second;
-  std::string existing;
-  for (const StreamEntry& entry : streams.list()) {
-    absl::StrAppend(&existing, existing.empty() ? "there are " : ", ", entry.name);
-  }
-  return fieldError(absl::StatusCode::kNotFound, "stream",
-                    absl::StrCat("there is no \"", stream->second, "\"; ",
-                                 existing.empty() ? "there are none yet" : existing));
+  std::vector<std::string> names;
+  for (const StreamEntry& entry : streams.list()) names.push_back(entry.name);
+  return unknownName("stream", stream->second, names);
 }
 
 // A radius or "auto"; without one, everything is sharp.
@@ -206,6 +235,7 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
   const bool is_rgbd = asksForRgbd(parameters);
   const std::span<const ParameterField> all = is_rgbd ? rgbdParameters() : kQuiltParameters;
   VIEWLOOM_RETURN_IF_ERROR(checkKnown(parameters, all));
+  VIEWLOOM_RETURN_IF_ERROR(checkPresetName(parameters));
   const absl::StatusOr<DisplaySpec> display = readDisplay(parameters, is_rgbd);
   VIEWLOOM_RETURN_IF_ERROR(display.status());
   absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(*display);

@@ -18,9 +18,10 @@ struct WatchRequest {
 };
 
 // Parameters: stream, preset (default "portrait" when neither columns nor rows say otherwise),
-// columns, rows, width, height, aspect, cone_deg, focus_m, focus_follow_s, fov_deg, quality, chroma
-// (420, 444), depth. Those of colour with depth: see rgbd_request.h. NOT_FOUND for an unknown
-// stream or preset, INVALID_ARGUMENT for anything else, with the parameter as the field.
+// columns, rows, width, height, aspect, cone_deg, cone_begin, cone_end, focus_m, focus_follow_s,
+// fov_deg, quality, chroma (420, 444), depth. Those of colour with depth: see rgbd_request.h.
+// NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for anything else, with the parameter
+// as the field.
 absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
                                                const StreamDirectory& streams);
 

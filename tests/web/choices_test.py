@@ -82,7 +82,7 @@ class Choices(PageTest):
         self.assertEqual(self.browser.messages, [])
 
     def test_two_layers_are_four_quadrants(self):
-        self.open()
+        self.open(SMALL + "&mode=quilt")
         self.choose("rgbd:two-layers")
         self.watch_views_of(320, 180)
         self.browser.wait_for(f"{FACTS}.includes('640 × 360')")
@@ -158,8 +158,14 @@ class Choices(PageTest):
         self.open(self.browser.evaluate("location.search"))
         self.assertEqual(self.browser.evaluate("document.getElementById('lens').value"), "0.03")
         # It takes long: with the least detail, an eighth of each side, it comes soon.
-        self.open("?stream=painted&preset=portrait&aperture_m=0.03")
-        self.browser.wait_for(f"{WATCH}.includes('--size 420x420')")
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            window.opened = [];
+            const Real = WebSocket;
+            window.WebSocket = class extends Real {
+              constructor(url) { super(url); window.opened.push(String(url)); }
+            };""")
+        self.open("?stream=painted&preset=portrait&aperture_m=0.03&mode=quilt")
+        self.assertIn("width=420&height=420", self.browser.evaluate("opened[0]"))
         self.assertEqual(self.browser.messages, [])
 
     def test_atlases_between_frames_and_quality_are_chosen_by_their_lists(self):

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The web server as a stranger sees it: pages, catalogue, stills, and what nobody should send."""
-import io
+"""The web server as a stranger sees it: pages, catalogue, and what nobody should send."""
 import json
 import socket
 import sys
 import unittest
 
-from PIL import Image
-
-from web_client import Server, Stream, decode_view, fetch, request_bytes
+from web_client import Server, Stream, fetch, request_bytes
 
 PROGRAM = sys.argv.pop(1)
-SMALL = "columns=4&rows=2&width=320&height=160"
 
 
 class Answers(unittest.TestCase):
@@ -85,38 +81,6 @@ class Answers(unittest.TestCase):
         self.assertEqual(float(samples["viewloom_streams_live"]), 2)
         self.assertGreaterEqual(
             float(samples['viewloom_http_responses_total{answer="client_error"}']), 1)
-
-    def test_serves_a_still_whose_url_says_how_its_views_lie(self):
-        reply = fetch(self.port, f"/still/painted_qs4x2a1.jpg?{SMALL}")
-        if reply.status == 302:  # the suffix as the server writes it
-            reply = fetch(self.port, reply.headers["location"])
-        self.assertEqual(reply.status, 200, reply.body)
-        self.assertEqual(reply.headers["content-type"], "image/jpeg")
-        image = Image.open(io.BytesIO(reply.body))
-        self.assertEqual(image.size, (320, 160))
-        layout = {"columns": 4, "rows": 2, "padding_top_px": 0,
-                  "tile_size": {"width": 80, "height": 80}}
-        self.assertEqual([decode_view(image, layout, view) for view in range(8)], list(range(8)))
-
-    def test_tells_the_layout_of_a_still_beside_it(self):
-        layout = fetch(self.port, f"/still/painted_qs4x2a1.json?{SMALL}").json()
-        self.assertEqual([layout["columns"], layout["rows"], layout["view_count"]], [4, 2, 8])
-        self.assertEqual((layout["size"], layout["suffix"]),
-                         ({"width": 320, "height": 160}, "_qs4x2a1"))
-
-    def test_redirects_a_short_still_to_the_one_with_the_suffix(self):
-        reply = fetch(self.port, "/still/painted/portrait")
-        self.assertEqual(reply.status, 302)
-        self.assertEqual(reply.headers["location"],
-                         "/still/painted_qs8x6a0.75.jpg?preset=portrait")
-        wrong = fetch(self.port, "/still/painted_qs5x9a1.6.jpg?preset=portrait")
-        self.assertEqual(wrong.headers["location"], reply.headers["location"])
-
-    def test_gives_up_on_a_still_that_does_not_come(self):
-        location = fetch(self.port, "/still/silent/portrait").headers["location"]
-        reply = fetch(self.port, location)
-        self.assertEqual(reply.status, 504)
-        self.assertIn("gave no atlas within 3000 ms", reply.json()["error"]["message"])
 
     def test_closes_a_connection_that_says_nothing(self):
         stream = Stream(self.port)
@@ -193,6 +157,22 @@ class Refusals(unittest.TestCase):
                 self.assertEqual(reply.status, status, reply.body)
                 self.assertEqual(reply.json()["error"]["field"], field)
                 self.assertTrue(reply.json()["error"]["message"])
+
+    def test_a_misspelt_name_gets_the_nearest_ones(self):
+        for target, name in (("/ws?stream=paintde", "painted"), ("/ws?stream=Painted", "painted"),
+                             ("/ws?stream=painted&preset=portait", "portrait"),
+                             ("/ws?stream=painted&preset=wovwx", "wowvx"),
+                             ("/ws?stream=painted&colums=4", "columns"),
+                             ("/ws?stream=painted&rgbd=color-depth&near=1", "near_m"),
+                             ("/still/paintd/portrait", "painted"),
+                             ("/still/painted/portait.json", "portrait"),
+                             ("/stream/painted/portrat", "portrait"),
+                             ("/api/stream", "/api/streams"), ("/metric", "/metrics")):
+            with self.subTest(target):
+                message = fetch(self.port, target).json()["error"]["message"]
+                self.assertIn(f'did you mean "{name}"', message)
+        message = fetch(self.port, "/ws?stream=entirely-other").json()["error"]["message"]
+        self.assertNotIn("did you mean", message)
 
     def test_upgrades_are_refused_like_requests(self):
         upgrade = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",

@@ -2,12 +2,18 @@
 """The page's modes and controls, by keyboard, touch, tilt and screen reader, in a real browser.
 Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
 import json
+import os
 import shlex
+import shutil
+import subprocess
 import sys
+import tempfile
 import unittest
 
+from PIL import Image
+
 from page_test import SMALL, PageTest, keep
-from web_client import Server, WebSocket, decode_code, fetch
+from web_client import Server, WebSocket, decode_code
 
 # What a finger has to hit, and what of it is too small, px.
 SMALL_TARGETS = """[...document.querySelectorAll(
@@ -60,7 +66,7 @@ class Modes(PageTest):
         for mode in ("look", "single", "quilt", "panel", "eye"):
             self.open(f"{SMALL}&mode={mode}")
             self.browser.wait_for("document.getElementById('chart-rate').ariaLabel"
-                                  "?.startsWith('Atlases a second')")
+                                  "?.startsWith('Pictures a second')")
             self.assertEqual(self.browser.evaluate(NAMELESS), [], mode)
             self.browser.wait_for("document.getElementById('said').textContent"
                                   " === 'Live: painted, views: 48.'")
@@ -119,7 +125,7 @@ class Modes(PageTest):
         keep(self.browser.screenshot(), "rgbd")
         self.browser.click("#modes label:nth-of-type(2)")
         self.view(24)
-        self.browser.wait_for("document.getElementById('facts').innerText.includes('1680 × 1680')")
+        self.browser.wait_for("document.getElementById('facts').innerText.includes('1 of 48')")
 
     def test_tilting_the_device_looks_around(self):
         self.phone()
@@ -146,7 +152,7 @@ class Modes(PageTest):
             keep(self.browser.screenshot(), f"phone_{mode}")
 
     def test_a_custom_quilt_is_watched_as_asked(self):
-        self.open("?stream=painted&preset=8_9_gen1")
+        self.open("?stream=painted&preset=8_9_gen1&mode=quilt")
         self.browser.evaluate("(s => { s.value = ''; s.dispatchEvent(new Event('change')); })"
                               "(document.getElementById('preset'))")
         fields = {"columns": 4, "rows": 3, "width": 400, "height": 480, "aspect": 1.25}
@@ -159,22 +165,42 @@ class Modes(PageTest):
         self.assertIn("400 × 480 px",
                       self.browser.evaluate("document.getElementById('facts').innerText"))
 
+    @unittest.skipUnless(shutil.which("curl"), "there is no curl")
     def test_commands_fetch_what_is_shown(self):
-        self.open(SMALL)
+        self.open(SMALL + "&mode=quilt")
         command = {name: self.browser.wait_for(f"document.getElementById('command-{name}').value")
                    for name in ("watch", "still", "socket")}
         self.assertIn("viewloom watch painted --display display.json", command["watch"])
         self.assertNotIn("focusFollowing", command["watch"])
-        curl, _, name, url = shlex.split(command["still"])
-        self.assertEqual((curl, name), ("curl", "painted_qs8x6a0.75.jpg"))
-        still = fetch(self.server.port, url.removeprefix(self.server.url.rstrip("/")))
-        self.assertEqual((still.status, still.headers["content-type"]), (200, "image/jpeg"))
+        self.assert_curl_writes(command["still"], "painted_qs8x6a0.75.jpg", (1680, 1680))
         viewer = WebSocket(self.server.port, command["socket"].split(str(self.server.port), 1)[1])
         self.addCleanup(viewer.close)
         shown = json.loads(self.browser.evaluate(
             "fetch('/api/displays').then(r => r.text())"))["displays"]
         self.assertEqual(viewer.receive_atlas().header["layout"], shown[0]["layout"])
         self.assertEqual(len(shown), 1)
+
+    def assert_curl_writes(self, command, name, size):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(shlex.split(command), cwd=folder, check=True, capture_output=True)
+            self.assertEqual(os.listdir(folder), [name])
+            with Image.open(os.path.join(folder, name)) as still:
+                self.assertEqual(still.size, size)
+
+    def test_commands_name_the_preset_and_never_what_is_asked_for_at_the_moment(self):
+        for mode in ("look", "single", "quilt"):
+            with self.subTest(mode):
+                self.open(f"?stream=painted&mode={mode}")
+                command = {name: self.browser.wait_for(
+                    f"document.getElementById('command-{name}').value")
+                    for name in ("watch", "still", "socket")}
+                self.assertEqual(command["watch"],
+                                 "viewloom watch painted --preset portrait --out atlases")
+                self.assertEqual(command["still"],
+                                 f"curl -L -O -J {self.server.url}still/painted/portrait")
+                self.assertEqual(command["socket"],
+                                 f"ws://127.0.0.1:{self.server.port}/ws?stream=painted&"
+                                 "preset=portrait")
 
     def test_a_focal_plane_that_follows_does_so_in_the_commands_too(self):
         for address, words in ((SMALL, '{"focusFollowingS":0.5,"quilt":'),

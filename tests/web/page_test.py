@@ -2,7 +2,9 @@
 """The viewer page in a real browser: what it shows is compared with what was painted.
 Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
 import os
+import signal
 import sys
+import time
 import unittest
 
 from browser import CHROMIUM, Browser
@@ -144,17 +146,25 @@ class Page(PageTest):
         self.server.__exit__()
         # A quarter, 840 x 840 px, would take 350 ms; an eighth takes 88 ms and what painting takes.
         self.server = Server(PROGRAM, "--rate-hz", 30, "--ms-per-megapixel", 500)
-        self.open("?stream=painted")
+        self.open("?stream=painted&mode=quilt")
         self.browser.wait_for(
             "document.getElementById('panel').innerText.includes('420 × 420 px')")
 
     def test_takes_the_detail_that_the_address_names_and_automatic_for_one_unknown(self):
         for detail, quilt in (("0.125", "420 × 420 px"), ("0.3", "840 × 840 px")):
-            self.open(f"?stream=painted&detail={detail}")
+            self.open(f"?stream=painted&mode=quilt&detail={detail}")
             self.browser.wait_for(
                 f"document.getElementById('panel').innerText.includes('{quilt}')")
 
     def test_comes_back_after_a_restart_of_the_server(self):
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            window.delays = [];
+            window.tries = 0;
+            const Real = WebSocket;
+            window.WebSocket = class extends Real { constructor(url) { super(url); ++tries; } };
+            const wait = setTimeout;
+            window.setTimeout = (action, time_ms) => { delays.push(time_ms);
+                                                       return wait(action, time_ms); };""")
         self.open()
         self.look(0.25)
         port = self.server.port
@@ -163,9 +173,40 @@ class Page(PageTest):
         self.browser.wait_for(
             "document.getElementById('notice').textContent.includes('Trying again')")
         keep(self.browser.screenshot(), "reconnecting")
+        # However long the server is away, the next try is never far.
+        self.browser.evaluate("delays.length = tries = 0")
+        self.browser.wait_for("tries > 5")
+        self.assertLessEqual(self.browser.evaluate("Math.max(...delays)"), 1000)
         self.server = Server(PROGRAM, "--rate-hz", 5, "--port", port)
         self.browser.wait_for(LIVE)
         self.assertEqual(decode_code(self.shown_picture()), self.look(0.25))
+
+    def test_notices_a_connection_that_is_dead_and_keeps_a_quiet_one(self):
+        self.server.__exit__()
+        self.server = Server(PROGRAM)  # its picture stands
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            const real = performance.now.bind(performance);
+            window.later_ms = 0;
+            performance.now = () => real() + later_ms;""")
+        self.open()
+        for _ in range(3):
+            self.browser.evaluate("later_ms += 9000")
+            time.sleep(1.5)  # for the page to ask, and the server to answer
+            self.assertTrue(self.browser.evaluate(LIVE))
+        self.server.process.send_signal(signal.SIGSTOP)
+        self.browser.evaluate("later_ms += 11000")
+        self.browser.wait_for("document.documentElement.dataset.state === 'reconnecting'")
+        self.server.process.send_signal(signal.SIGCONT)
+        self.browser.wait_for(LIVE)
+
+    def test_labels_reduced_detail_and_nothing_else(self):
+        label = "document.getElementById('reduced')"
+        self.open("?stream=painted&mode=quilt&detail=0.25")
+        self.browser.wait_for(f"{label}.textContent === 'Reduced detail, as chosen: "
+                              "105 of 420 px wide' && !{0}.hidden".replace("{0}", label))
+        keep(self.browser.screenshot(), "reduced")
+        self.open("?stream=painted&mode=quilt&columns=8&rows=6&width=640&height=480")
+        self.assertTrue(self.browser.evaluate(f"{label}.hidden"))
 
     def test_says_how_to_start_a_stream_when_there_is_none(self):
         self.browser.open(self.server.url + "icon.svg")  # the page's origin, before the page

@@ -16,13 +16,14 @@
 namespace {
 
 // Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
-// --flat 0 (1: a view is one grey, black the first and white the last).
+// --idle-ms 20000 --flat 0 (1: a view is one grey, black the first and white the last).
 std::map<std::string, int> readOptions(int argc, char** argv) {
   std::map<std::string, int> options = {{"--port", 0},
                                         {"--rate-hz", 0},
                                         {"--connections", 1024},
                                         {"--timeout-ms", 10'000},
                                         {"--thread-count", 2},
+                                        {"--idle-ms", 20'000},
                                         {"--ms-per-megapixel", 0},
                                         {"--flat", 0}};
   for (int i = 1; i + 1 < argc; i += 2) options.at(argv[i]) = std::atoi(argv[i + 1]);
@@ -36,6 +37,7 @@ viewloom::HttpOptions httpOptions(const std::map<std::string, int>& options) {
   http.connection_count_max = static_cast<uint32_t>(options.at("--connections"));
   http.request_timeout = std::chrono::milliseconds(options.at("--timeout-ms"));
   http.still_timeout = http.request_timeout;
+  http.idle_timeout = std::chrono::milliseconds(options.at("--idle-ms"));
   return http;
 }
 

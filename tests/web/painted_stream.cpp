@@ -53,10 +53,15 @@ Rgb flatPixel(uint32_t view, uint32_t view_count) {
 
 std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame, bool is_flat) {
   std::vector<uint8_t> pixels(layout.size_px.area() * 3, 0);
-  const auto view_count = static_cast<uint32_t>(layout.views.size());
   const SizePx tile = layout.tile_size_px;
-  for (uint32_t view = 0; view < view_count; ++view) {
-    const TileOrigin origin = layout.tileOrigin(view);
+  // Of the whole cone; those that share a part of it have the numbers that they have there.
+  const double part = layout.cone_end > layout.cone_begin ? layout.cone_end - layout.cone_begin : 1;
+  const auto view_count =
+      static_cast<uint32_t>(std::lround(static_cast<double>(layout.views.size()) / part));
+  const auto first = static_cast<uint32_t>(std::lround(layout.cone_begin * view_count));
+  for (uint32_t tile_view = 0; tile_view < layout.views.size(); ++tile_view) {
+    const TileOrigin origin = layout.tileOrigin(tile_view);
+    const uint32_t view = first + tile_view;
     for (uint32_t y = 0; y < tile.height; ++y) {
       size_t at = (size_t{origin.y_px + y} * layout.size_px.width + origin.x_px) * 3;
       for (uint32_t x = 0; x < tile.width; ++x) {

@@ -17,10 +17,10 @@
 namespace viewloom {
 
 // Paints every display of its stream that is watched: one atlas for a display that has none, as a
-// resident structure would give, and one for all of them with each frame. In the middle of view i
-// stand eight squares, white for the bits of i that are set, highest first; a bar at the top moves
-// with the frame number. Depth, where asked for, falls from left to right of each tile.
-// Thread-safety: all methods may be called from any thread.
+// resident structure would give, and one for all of them with each frame. In the middle of view i,
+// counted in the whole cone, stand eight squares, white for the bits of i that are set, highest
+// first; a bar at the top moves with the frame number. Depth, where asked for, falls from left to
+// right of each tile. Thread-safety: all methods may be called from any thread.
 class PaintedStream {
  public:
   // per_megapixel: what an atlas takes at least; is_flat: view i of n is the grey 255 i / (n - 1)

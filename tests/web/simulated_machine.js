@@ -30,7 +30,7 @@ function simulate(AutoDetail, machine, seconds) {
   let shownDetail = null;
   let nextLook_ms = 0;
   const lookUntil = (end_ms) => {
-    for (; nextLook_ms <= end_ms; nextLook_ms += 1000) policy.look(nextLook_ms);
+    for (; nextLook_ms <= end_ms; nextLook_ms += 250) policy.look(nextLook_ms);
   };
   while (time_ms < seconds * 1000) {
     if (changes.length && time_ms >= changes[0][0] * 1000) {

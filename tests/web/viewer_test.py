@@ -17,7 +17,8 @@ THREAD_COUNT = 2  # of the web server
 
 class Viewers(unittest.TestCase):
     def setUp(self):
-        self.server = Server(PROGRAM, "--thread-count", THREAD_COUNT)
+        # Who answers no ping is not to go within a test, however slow the machine.
+        self.server = Server(PROGRAM, "--thread-count", THREAD_COUNT, "--idle-ms", 60_000)
         self.addCleanup(self.server.__exit__)
 
     def watch(self, target=SMALL, headers=None):
@@ -118,6 +119,57 @@ class Viewers(unittest.TestCase):
         viewer.send_json({"change": {"focus_m": None}})
         self.assertEqual(viewer.receive_atlas().header["layout"]["focal_distance_m"], 2)
         self.assertEqual(len(fetch(self.server.port, "/api/displays").json()["displays"]), 1)
+
+    def test_a_change_is_counted_in_the_atlases_that_follow_it(self):
+        viewer = self.watch()
+        first = viewer.receive_atlas()
+        viewer.shown(first)
+        viewer.send_json({"change": {"focus_m": 0.5}})
+        second = viewer.receive_atlas()
+        viewer.shown(second)
+        viewer.send_json({"change": {"focus_m": -1}})  # in vain, and yet asked for
+        self.assertEqual(viewer.receive()["error"]["field"], "change.focus_m")
+        self.server.command("frame")
+        third = viewer.receive_atlas()
+        self.assertEqual([atlas.header["change_count"] for atlas in (first, second, third)],
+                         [0, 1, 2])
+
+    def test_a_part_of_the_cone_is_the_views_of_the_whole_that_stand_there(self):
+        target = "/ws?stream=painted&preset=portrait&columns=5&rows=1&width=400&height=107"
+        part = "&cone_begin=%r&cone_end=%r" % (20 / 48, 25 / 48)
+        atlas = self.watch(target + part).receive_atlas()
+        layout = atlas.header["layout"]
+        self.assertEqual((layout["view_count"], layout["cone_begin"], layout["cone_end"]),
+                         (5, 20 / 48, 25 / 48))
+        image = Image.open(io.BytesIO(atlas.jpeg))
+        self.assertEqual([decode_view(image, layout, view) for view in range(5)],
+                         list(range(20, 25)))
+        for wrong, field in (("&cone_begin=-0.1", "cone_begin"), ("&cone_end=1.1", "cone_end"),
+                             ("&cone_begin=0.6&cone_end=0.5", "cone_end"),
+                             ("&cone_begin=nan", "cone_begin")):
+            refused = WebSocket(self.server.port, target + wrong)
+            self.addCleanup(refused.close)
+            self.assertEqual(refused.reply.json()["error"]["field"], field)
+
+    def test_a_viewer_that_asks_whether_the_server_is_there_is_answered(self):
+        viewer = self.watch()
+        viewer.receive_atlas()  # and stands: nothing else would be sent
+        for number in (0, 7, 2**63):
+            viewer.send_json({"ping": number})
+            self.assertEqual(viewer.receive(), {"pong": number})
+
+    def test_a_viewer_that_answers_no_ping_is_gone_and_one_that_does_stays(self):
+        with Server(PROGRAM, "--idle-ms", 400) as server:
+            deaf = WebSocket(server.port, SMALL)
+            awake = WebSocket(server.port, SMALL + "&focus_m=1")
+            for viewer in (deaf, awake):
+                self.addCleanup(viewer.close)
+                viewer.receive_atlas()
+            displays = None
+            while displays != 1:  # the display of the deaf one goes with it
+                awake.send_json({"ping": 1})
+                self.assertEqual(awake.receive(), {"pong": 1})
+                displays = len(fetch(server.port, "/api/displays").json()["displays"])
 
     def test_messages_that_mean_nothing_are_answered_with_what_is_accepted(self):
         viewer = self.watch()

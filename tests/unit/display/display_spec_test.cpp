@@ -276,6 +276,8 @@ TEST_F(DifferingKeys, followFromEveryFieldThatChangesThePicture) {
   add({.kind = quilt});
   quilt.depthiness = 1.5;
   add({.kind = quilt});
+  quilt.cone_begin = 0.25;
+  add({.kind = quilt});
   add({.kind = quilt, .filter = {.sample_count = 4}});
   add({.kind = quilt, .filter = {.sample_count = 4, .width = 2}});
   stereo.layout = StereoLayout::kSeparate;

@@ -207,6 +207,31 @@ TEST(QuiltViews, standWhereEachConventionHasThem) {
               testing::ElementsAre(near(-even_m), near(0), near(even_m)));
 }
 
+TEST(QuiltViews, ofAPartOfTheConeStandWhereTheWholeHasThem) {
+  const QuiltSpec whole{.columns = 8, .rows = 6, .size_px = {3360, 3360}, .aspect = 0.75};
+  const AtlasLayout all = layoutOf({.kind = whole}, offAxisStream());
+  for (const auto& [first, count] : {std::pair<uint32_t, uint32_t>{20, 5}, {0, 3}, {47, 1}}) {
+    const QuiltSpec few{.columns = count,
+                        .rows = 1,
+                        .size_px = {420 * count, 560},
+                        .aspect = 0.75,
+                        .cone_begin = first / 48.0,
+                        .cone_end = (first + count) / 48.0};
+    const AtlasLayout part = layoutOf({.kind = few}, offAxisStream());
+    ASSERT_EQ(part.views.size(), count);
+    for (uint32_t view = 0; view < count; ++view) {
+      const Camera& camera = part.views[view].camera;
+      const Camera& expected = all.views[first + view].camera;
+      EXPECT_NEAR(camera.pose.position_m.x, expected.pose.position_m.x, 1e-12);
+      EXPECT_NEAR(camera.intrinsics.focal_px.x, expected.intrinsics.focal_px.x, 1e-9);
+      EXPECT_NEAR(camera.intrinsics.principal_px.x, expected.intrinsics.principal_px.x, 1e-9);
+    }
+    // Neighbours are as far apart, also from one that stands alone: a lens is as wide.
+    EXPECT_NEAR(part.view_pitch_m.x, all.view_pitch_m.x, 0.2 * all.view_pitch_m.x);
+    EXPECT_EQ(part.view_cone_rad, all.view_cone_rad);
+  }
+}
+
 TEST(CameraGrid, countsItsEyesFromTheLeftAndAsItsTilesAre) {
   CamerasSpec cameras{.tile_size_px = {40, 30}};
   cameras.grid = CameraGrid{.columns = 3, .rows = 2, .spacing_m = {0.1, 0.2}};

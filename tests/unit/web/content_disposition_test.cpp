@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/content_disposition.h"
+
+#include <gtest/gtest.h>
+
+namespace viewloom {
+namespace {
+
+TEST(ContentDisposition, namesAFileAsItIs) {
+  EXPECT_EQ(contentDisposition("demo_qs8x6a0.75.jpg"), "inline; filename=\"demo_qs8x6a0.75.jpg\"");
+}
+
+TEST(ContentDisposition, keepsForeignLettersBesideAPlainName) {
+  EXPECT_EQ(contentDisposition("B\xc3\xa4r.jpg"),
+            "inline; filename=\"B__r.jpg\"; filename*=UTF-8''B%c3%a4r.jpg");
+}
+
+TEST(ContentDisposition, leavesNothingThatEndsTheHeaderOrThePathOrHidesTheFile) {
+  EXPECT_EQ(contentDisposition("a\"b\r\nc.jpg"),
+            "inline; filename=\"a_b__c.jpg\"; filename*=UTF-8''a%22b%0d%0ac.jpg");
+  EXPECT_EQ(contentDisposition("../etc/x"),
+            "inline; filename=\"_.._etc_x\"; filename*=UTF-8''..%2fetc%2fx");
+  EXPECT_EQ(contentDisposition("a\\b%c;d"),
+            "inline; filename=\"a_b_c_d\"; filename*=UTF-8''a%5cb%25c%3bd");
+  EXPECT_EQ(contentDisposition(""), "inline; filename=\"_\"; filename*=UTF-8''");
+}
+
+}  // namespace
+}  // namespace viewloom
