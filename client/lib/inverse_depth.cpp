@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "frame/cube_map.h"
-#include "frame/depth.h"
+#include "frame/decode_depth.h"
 #include "rpc/depth_format_from_proto.h"
 #include "rpc/geometry_from_proto.h"
 
@@ -21,46 +21,23 @@ std::optional<DepthFormat> formatOf(const v1::DepthFormat& proto) {
   return *format;
 }
 
-float withinRange(float inv_z) {
-  return inv_z <= kInvZMax ? inv_z : kNoInvZ;
-}
+// How much longer the ray through a px is than its part along the view axis.
+class RayLengths {
+ public:
+  RayLengths(const Intrinsics& intrinsics, bool is_needed)
+      : intrinsics_(intrinsics), is_needed_(is_needed) {}
 
-float invZOf(float value, bool is_reciprocal) {
-  if (!is_reciprocal) return value >= 0 ? withinRange(value) : kNoInvZ;  // NaN is no surface, too
-  const float inv_z = 1 / value;
-  return value > 0 ? withinRange(inv_z) : kNoInvZ;
-}
-
-// In place. Samples without a special value come by the million: nothing in their loops is decided
-// anew for each.
-void linearise(const DepthCoefficients& depth, std::span<float> row) {
-  const auto valueOf = [&depth](float sample) {
-    return (sample - depth.origin) * depth.scale + depth.offset;
-  };
-  if (depth.has_invalid != 0) {
-    const float invalid = depth.invalid_is_far != 0 ? 0 : kNoInvZ;
-    for (float& sample : row) {
-      sample =
-          sample == depth.invalid_value ? invalid : invZOf(valueOf(sample), depth.reciprocal != 0);
-    }
-  } else if (depth.reciprocal != 0) {
-    for (float& sample : row) sample = invZOf(valueOf(sample), true);
-  } else {
-    for (float& sample : row) sample = invZOf(valueOf(sample), false);
+  float at(size_t x, size_t y) const {
+    if (!is_needed_) return 1;
+    const double right = (double(x) + 0.5 - intrinsics_.principal_px.x) / intrinsics_.focal_px.x;
+    const double down = (double(y) + 0.5 - intrinsics_.principal_px.y) / intrinsics_.focal_px.y;
+    return static_cast<float>(std::sqrt(right * right + down * down + 1));
   }
-}
 
-// Of planes that hold distances from the eye: how much longer than its Z the ray of a px is.
-void divideByRayLength(const Intrinsics& intrinsics, size_t width, size_t rows_of_image,
-                       std::vector<float>& inv_z) {
-  for (size_t i = 0; i < inv_z.size(); ++i) {
-    if (inv_z[i] <= 0) continue;
-    const double x = (double(i % width) + 0.5 - intrinsics.principal_px.x) / intrinsics.focal_px.x;
-    const double row = double(i / width % rows_of_image);
-    const double y = (row + 0.5 - intrinsics.principal_px.y) / intrinsics.focal_px.y;
-    inv_z[i] = withinRange(static_cast<float>(inv_z[i] * std::sqrt(x * x + y * y + 1)));
-  }
-}
+ private:
+  const Intrinsics& intrinsics_;
+  bool is_needed_;
+};
 
 }  // namespace
 
@@ -94,14 +71,17 @@ std::optional<std::vector<float>> inverseDepth(const v1::Plane& plane,
                     bytes.size() / stride_bytes == height && bytes.size() % stride_bytes == 0;
   if (!format || !fits) return std::nullopt;
   const DepthCoefficients coefficients = makeDepthCoefficients(*format, PlaneEncoding::kDepthF32);
+  const RayLengths ray_lengths(intrinsics, coefficients.ray_distance != 0);
+  const size_t rows_of_image = is_cube_map ? height / kCubeFaceCount : height;
   std::vector<float> inv_z(width * height);
   for (size_t y = 0; y < height; ++y) {
-    float* row = &inv_z[y * width];
+    float* const row = &inv_z[y * width];
     std::memcpy(row, &bytes[y * stride_bytes], packed_bytes);
-    linearise(coefficients, {row, width});
-  }
-  if (coefficients.ray_distance != 0) {
-    divideByRayLength(intrinsics, width, is_cube_map ? height / kCubeFaceCount : height, inv_z);
+    for (size_t x = 0; x < width; ++x) {
+      const DecodedDepth decoded =
+          decodeDepth(coefficients, row[x], ray_lengths.at(x, y % rows_of_image));
+      row[x] = decoded.isSurface() ? decoded.inv_z : kNoInvZ;
+    }
   }
   return inv_z;
 }

@@ -114,7 +114,7 @@ DepthCoefficients makeDepthCoefficients(const DepthFormat& format, PlaneEncoding
     coefficients.offset = static_cast<float>(line.inv_z_at_origin);
   } else {
     coefficients.scale = static_cast<float>(format.scale);
-    coefficients.offset = static_cast<float>(format.offset);
+    coefficients.offset = static_cast<float>(format.offset) + 0.0F;  // never -0: nor is any value
   }
   coefficients.ray_distance = format.meaning == DepthMeaning::kRayDistance;
   coefficients.reciprocal = coefficients.ray_distance || format.meaning == DepthMeaning::kPlanar;
