@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/file_frames.h"
 
+#include <array>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -64,6 +66,50 @@ std::string noteOf(const files::DeepReport& deep) {
                 " samples without a place in front of the camera dropped");
 }
 
+absl::Status refuseFileOptions(const FileFeedOptions& options, const std::string& what) {
+  const std::set<std::string>& given = options.loader.input.given;
+  std::string first = given.empty() ? "" : *given.begin();
+  if (!options.view.empty()) first = "--view";
+  if (!options.depths.empty()) first = "--depth";
+  if (options.loader.has_black_sky) first = "--black-sky";
+  if (first.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      strCat(first, " is given with ", what, "; it belongs to files of colour and depth"));
+}
+
+namespace {
+
+// A manifest says what its files are.
+absl::Status validateManifests(const FileFeedOptions& options) {
+  // Beside other files the options are for those.
+  if (options.manifests.empty() || !options.colors.empty() || !options.deeps.empty()) {
+    return absl::OkStatus();
+  }
+  FileFeedOptions unused = options;
+  unused.loader.input.given.erase("--tone-map");
+  VIEWLOOM_RETURN_IF_ERROR(refuseFileOptions(unused, "a manifest"));
+  return absl::OkStatus();
+}
+
+// A deep file holds premultiplied linear colour and planar depth in its own channels.
+constexpr std::array kNotOfDeep{
+    "--input",      "--depth-side",  "--black-near", "--depth-white", "--screen",
+    "--factor",     "--screen-code", "--camera",     "--camera-name", "--camera-forward",
+    "--depth-near", "--depth-far",   "--depth-min",  "--depth-max",   "--no-surface-beyond"};
+
+absl::Status validateView(const FileFeedOptions& options) {
+  if (options.view.empty()) return absl::OkStatus();
+  for (const auto* const files : {&options.colors, &options.depths}) {
+    for (const std::string& file : *files) {
+      if (isExr(file)) return absl::OkStatus();
+    }
+  }
+  return absl::InvalidArgumentError(
+      strCat("--view is given, and no file is an EXR file, which may have several views"));
+}
+
+}  // namespace
+
 absl::Status validateDeep(const FileFeedOptions& options) {
   if (options.deeps.empty()) {
     if (!options.loader.has_black_sky) return absl::OkStatus();
@@ -79,11 +125,21 @@ absl::Status validateDeep(const FileFeedOptions& options) {
     return absl::InvalidArgumentError(
         "--transfer and --alpha are given with --deep; deep files are linear and premultiplied");
   }
+  // Beside other files the options are for those.
+  for (const char* option : kNotOfDeep) {
+    if (!options.colors.empty() || !input.given.contains(option)) continue;
+    return absl::InvalidArgumentError(
+        strCat(option,
+               " is given with --deep; a deep file has its own channels of colour and depth "
+               "along the view axis"));
+  }
   return absl::OkStatus();
 }
 
 absl::StatusOr<std::vector<FrameFiles>> framesOf(const FileFeedOptions& options) {
   VIEWLOOM_RETURN_IF_ERROR(validateDeep(options));
+  VIEWLOOM_RETURN_IF_ERROR(validateManifests(options));
+  if (!options.colors.empty()) VIEWLOOM_RETURN_IF_ERROR(validateView(options));
   std::vector<FrameFiles> frames;
   for (const std::string& file : options.manifests) {
     frames.push_back({.manifest = file, .deep = {}, .input = {}});
@@ -96,13 +152,23 @@ absl::StatusOr<std::vector<FrameFiles>> framesOf(const FileFeedOptions& options)
 }
 
 FileFrames::FileFrames(const FileFeedOptions& options, std::vector<FrameFiles> frames)
-    : frames_(std::move(frames)), is_looping_(options.is_looping), loader_(options.loader) {}
+    : frames_(std::move(frames)),
+      is_looping_(options.is_looping),
+      loader_(options.loader),
+      look_(options.loader) {}
 
 std::vector<std::string> FileFrames::takeNotes() {
+  look_.takeWarnings(notes_);
   return std::exchange(notes_, {});
 }
 
-void FileFrames::note(const LoadedFiles& loaded) {
+std::vector<std::string> FileFrames::takeLastNotes() {
+  look_.finish(notes_);
+  return std::exchange(notes_, {});
+}
+
+void FileFrames::note(const FrameFiles& files, const LoadedFiles& loaded) {
+  if (!is_repeating_) look_.offer(files, loaded.frame);
   for (const files::DeepReport& deep : loaded.frame.deep) {
     if (!is_repeating_) notes_.push_back(noteOf(deep));
   }
@@ -127,7 +193,7 @@ absl::StatusOr<std::optional<WireFrame>> FileFrames::next(double /*elapsed_s*/) 
   WireFrame& frame = loaded->frame.wire;
   frame.header.set_capture_time_ns(captureTimeNs());
   if (frames_.size() == 1) only_frame_ = frame;
-  note(*loaded);
+  note(frames_[index], *loaded);
   return std::optional<WireFrame>(std::move(frame));
 }
 

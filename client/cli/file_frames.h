@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/first_look.h"
 #include "cli/frame_feed.h"
 #include "cli/frame_loader.h"
 
@@ -22,6 +23,9 @@ struct FileFeedOptions {
   bool is_looping = false;
 };
 
+// Options that say what files are, given where there are none or where files say all themselves:
+// INVALID_ARGUMENT with the first of them. `what`: "--synthetic".
+absl::Status refuseFileOptions(const FileFeedOptions& options, const std::string& what);
 // What goes with deep files, and what does not.
 absl::Status validateDeep(const FileFeedOptions& options);
 // The lists checked against each other, frame by frame: of video files, as many as they hold.
@@ -37,12 +41,14 @@ class FileFrames final : public FrameFeed {
 
   absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) override;
   std::string description() const override;
-  // What splitting deep files cost, once for each, and how the first of other files is read.
+  // What splitting deep files cost, once for each, how the first of other files is read, and what
+  // looks wrong.
   std::vector<std::string> takeNotes() override;
+  std::vector<std::string> takeLastNotes() override;
   bool isLive() const override { return false; }
 
  private:
-  void note(const LoadedFiles& loaded);
+  void note(const FrameFiles& files, const LoadedFiles& loaded);
 
   const std::vector<FrameFiles> frames_;
   const bool is_looping_;
@@ -51,6 +57,7 @@ class FileFrames final : public FrameFeed {
   bool is_repeating_ = false;
   bool has_told_how_ = false;
   std::vector<std::string> notes_;
+  FirstLook look_;
   // A single frame is read once, however often it is shown.
   std::optional<WireFrame> only_frame_;
 };

@@ -26,7 +26,8 @@ FolderFrames::FolderFrames(std::string name, std::unique_ptr<FolderWatch> watch,
     : name_(std::move(name)),
       watch_(std::move(watch)),
       pairs_(std::move(pairs)),
-      loader_(options) {}
+      loader_(options),
+      look_(options) {}
 
 void FolderFrames::skip(const std::string& file, const std::string& reason) {
   ++skipped_count_;
@@ -66,6 +67,7 @@ absl::StatusOr<std::optional<WireFrame>> FolderFrames::next(double /*elapsed_s*/
     if (loaded->how && !std::exchange(has_told_how_, true)) {
       notes_.insert(notes_.end(), loaded->how->notes.begin(), loaded->how->notes.end());
     }
+    look_.offer(files, loaded->frame);
     ++published_count_;
     loaded->frame.wire.header.set_capture_time_ns(captureTimeNs());
     return std::optional<WireFrame>(std::move(loaded->frame.wire));
@@ -79,6 +81,12 @@ std::string FolderFrames::description() const {
 }
 
 std::vector<std::string> FolderFrames::takeNotes() {
+  look_.takeWarnings(notes_);
+  return std::exchange(notes_, {});
+}
+
+std::vector<std::string> FolderFrames::takeLastNotes() {
+  look_.finish(notes_);
   return std::exchange(notes_, {});
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/file_pairs.h"
+#include "cli/first_look.h"
 #include "cli/folder_watch.h"
 #include "cli/frame_feed.h"
 
@@ -25,6 +26,7 @@ class FolderFrames final : public FrameFeed {
   bool hasEnded() const override { return false; }
   std::string description() const override;
   std::vector<std::string> takeNotes() override;
+  std::vector<std::string> takeLastNotes() override;
   bool isLive() const override { return false; }
 
  private:
@@ -42,6 +44,7 @@ class FolderFrames final : public FrameFeed {
   uint64_t published_count_ = 0;
   uint64_t skipped_count_ = 0;
   std::vector<std::string> notes_;
+  FirstLook look_;
 };
 
 }  // namespace viewloom::cli

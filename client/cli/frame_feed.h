@@ -26,6 +26,8 @@ class FrameFeed {
   virtual std::string description() const = 0;
   // What there is to say about the frames since the last call, a line each.
   virtual std::vector<std::string> takeNotes() { return {}; }
+  // The same, waiting for what is still being looked at: for the end.
+  virtual std::vector<std::string> takeLastNotes() { return takeNotes(); }
   // A live feed goes on whether its frames are sent or not; others wait for each to be sent.
   virtual bool isLive() const = 0;
 };

@@ -8,6 +8,21 @@
 
 namespace viewloom::cli {
 
+namespace {
+
+bool hasLinearColor(const v1::FrameHeader& header) {
+  for (const v1::Source& source : header.sources()) {
+    for (const v1::Layer& layer : source.layers()) {
+      for (const v1::Plane& plane : layer.planes()) {
+        if (plane.transfer() == v1::COLOR_TRANSFER_LINEAR) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 const std::string& FrameFiles::name() const {
   if (!manifest.empty()) return manifest;
   return deep.empty() ? input.color : deep;
@@ -35,9 +50,15 @@ absl::StatusOr<LoadedFiles> FrameLoader::loadDeep(const std::string& file) const
 
 absl::StatusOr<LoadedFiles> FrameLoader::load(const FrameFiles& files) {
   absl::StatusOr<LoadedFiles> loaded = loadAny(files);
-  if (loaded.ok() && options_.input.tone_map != v1::TONE_MAP_UNSPECIFIED) {
-    loaded->frame.wire.header.set_tone_map(options_.input.tone_map);
+  if (!loaded.ok() || options_.input.tone_map == v1::TONE_MAP_UNSPECIFIED) return loaded;
+  v1::FrameHeader& header = loaded->frame.wire.header;
+  if (!hasLinearColor(header)) {
+    return absl::InvalidArgumentError(files.name() +
+                                      ": --tone-map is given, and its colour is sRGB, which is "
+                                      "shown as it is; accepted is linear "
+                                      "colour, as of EXR files or with --transfer linear");
   }
+  header.set_tone_map(options_.input.tone_map);
   return loaded;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/display_options.h"
 #include "cli/file_options.h"
 #include "cli/inspection_report.h"
+#include "cli/option_trial.h"
 #include "cli/plane_options.h"
 #include "cli/report_error.h"
 #include "files/exr_description.h"
@@ -48,7 +49,7 @@ void sortFiles(FileFeedOptions& options) {
 }
 
 absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader& loader,
-                                           const inputs::InputSettings& settings,
+                                           const LoaderOptions& options,
                                            const std::optional<v1::Display>& display) {
   InspectedFile inspected{.file = files.name()};
   absl::StatusOr<std::string> format = describeFormat(files.name());
@@ -60,10 +61,11 @@ absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader&
   auto sources = inspect::inspectFrame(inspected.loaded.frame);
   if (!sources.ok()) return sources.status();
   inspected.sources = *std::move(sources);
+  tryRemedies(OptionTrial(files, options), inspected.sources);
   const bool is_stated =
       !files.manifest.empty() ||
       (inspected.loaded.how && inspected.loaded.how->source.camera().has_intrinsics());
-  inspected.camera_is_assumed = !is_stated && !settings.fov_y_deg && !settings.focal_px;
+  inspected.camera_is_assumed = !is_stated && !options.input.fov_y_deg && !options.input.focal_px;
   if (display) {
     absl::StatusOr<DisplayNeed> need = displayNeed(
         *display, inspected.loaded.frame.wire.header.sources(0), inspected.sources.front());
@@ -98,7 +100,7 @@ int inspectAll(const InspectOptions& options, const std::vector<FrameFiles>& fra
     display = *std::move(made);
   }
   for (const FrameFiles& files : frames) {
-    const auto inspected = inspectFiles(files, loader, options.files.loader.input, display);
+    const auto inspected = inspectFiles(files, loader, options.files.loader, display);
     if (!inspected.ok()) {
       reportError(inspected.status(), common);
       exit_code = kExitUsage;

@@ -121,7 +121,7 @@ void addLayer(std::string& text, const inspect::LayerInspection& layer) {
                  percentText(samples.invalid_count, all), " invalid, ",
                  percentText(samples.bad_count, all), " NaN or negative"));
   for (const inspect::Suspicion& suspicion : layer.suspicions) {
-    addLine(text, "warning", strCat(suspicion.kind, ": ", suspicion.sentence));
+    addLine(text, "warning", warningText(suspicion));
   }
 }
 
@@ -157,7 +157,8 @@ Json layerJson(const inspect::LayerInspection& layer) {
   }
   Json warnings = Json::array();
   for (const inspect::Suspicion& suspicion : layer.suspicions) {
-    warnings.push_back({{"kind", suspicion.kind}, {"sentence", suspicion.sentence}});
+    warnings.push_back(
+        {{"kind", suspicion.kind}, {"sentence", suspicion.sentence}, {"remedy", suspicion.remedy}});
   }
   return {{"color",
            {{"width_px", layer.color.size().width()},
@@ -222,6 +223,11 @@ absl::StatusOr<std::string> describeFormat(const std::string& file) {
     }
   }
   return text;
+}
+
+std::string warningText(const inspect::Suspicion& suspicion) {
+  return strCat(suspicion.kind, ": ", suspicion.sentence,
+                suspicion.remedy.empty() ? "" : "; " + suspicion.remedy);
 }
 
 std::string reportText(const InspectedFile& inspected) {

@@ -26,6 +26,9 @@ struct InspectedFile {
 // What there is to say about the file itself, before its planes are read.
 absl::StatusOr<std::string> describeFormat(const std::string& file);
 
+// "kind: what was seen; the remedy".
+std::string warningText(const inspect::Suspicion& suspicion);
+
 // Several lines, each ended.
 std::string reportText(const InspectedFile& inspected);
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace viewloom::cli {
 namespace {
@@ -53,19 +54,25 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
           "header, .heic as iphone, else plain]\n"
           "blender   multilayer EXR: Combined and Depth\n"
           "unreal    Movie Render Queue EXR: FinalImage and WorldDepth in cm, with its camera\n"
-          "rgbd      one picture, half colour, half depth; --depth-near and --depth-far\n"
+          "rgbd      one picture, half colour, half depth [between 0.67 and 2 m]\n"
           "2d+z      one picture, half colour, half disparity; --screen, --factor, --screen-code\n"
           "sensor    --depth in whole millimetres, 0 = nothing measured\n"
           "openxr    --depth between --depth-near and --depth-far\n"
           "tmiv      --depth of normalised disparity (.png, .yuv), --camera JSON\n"
           "iphone    portrait photo (.heic); or --depth in 1/m (.exr, .pfm), or codes as relative\n"
-          "relative  --depth of an estimating network; --depth-near and --depth-far")
+          "relative  --depth of an estimating network [between 0.67 and 2 m]")
       ->group(group);
   addWord(app, "--depth-side", settings.depth_side, kSides,
           "rgbd, 2d+z: where in the picture depth is [right]")
       ->group(group);
   app.add_flag("--black-near", settings.is_black_near,
                "rgbd, iphone, relative: black is near, not white")
+      ->group(group);
+  app.add_option(
+         "--depth-white", settings.white_code,
+         "rgbd, 2d+z, iphone, relative: the code of white, as 4095 for 12 bits in a file of "
+         "16 [the file's last]")
+      ->check(CLI::Range(1, 65535))
       ->group(group);
   app.add_option("--screen", settings.screen_m, "2d+z: metres to the screen")
       ->capture_default_str()
@@ -99,6 +106,9 @@ void addDepthOptions(CLI::App& app, InputSettings& settings) {
             "Metres to the nearest code; window: to the near plane, larger than far for reversed "
             "depth");
   addNumber("--depth-far", settings.far_m, "The same for the farthest; may be inf");
+  addNumber(
+      "--no-surface-beyond", settings.no_surface_beyond_m,
+      "There is no surface farther away than so many metres, as where a renderer hit nothing");
   addNumber("--depth-min", settings.min_depth, "window: smallest depth value [0]");
   addNumber("--depth-max", settings.max_depth, "window: largest depth value [1]");
   addNumber("--depth-invalid", settings.depth_invalid,
@@ -124,6 +134,7 @@ void addCameraOptions(CLI::App& app, InputSettings& settings) {
   app.add_option("--focal-px", settings.focal_px,
                  "Focal length in pixels of the depth, instead of --fov")
       ->check(CLI::PositiveNumber)
+      ->excludes("--fov")
       ->group(group);
   app.add_option("--principal-px", settings.principal_px,
                  "Where the view axis meets the image: X Y from the top left [the middle]")
@@ -141,6 +152,7 @@ void addCameraOptions(CLI::App& app, InputSettings& settings) {
 }  // namespace
 
 void addPlaneOptions(CLI::App& app, InputSettings& settings) {
+  const size_t count_before = app.get_options().size();
   addKindOptions(app, settings);
   addDepthOptions(app, settings);
   addWord(app, "--transfer", settings.transfer, kTransfers,
@@ -158,6 +170,11 @@ void addPlaneOptions(CLI::App& app, InputSettings& settings) {
       "and toe) or agx (bright colours go to white) [a manifest's, else clip]")
       ->group("Colour");
   addCameraOptions(app, settings);
+  const std::vector<CLI::Option*> options = app.get_options({});
+  for (size_t i = count_before; i < options.size(); ++i) {
+    const std::string name = options[i]->get_name();
+    options[i]->each([&settings, name](const std::string&) { settings.given.insert(name); });
+  }
 }
 
 }  // namespace viewloom::cli

@@ -140,6 +140,11 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
         "what to publish? Accepted is one of --synthetic, --pattern, colour files, --deep, "
         "--manifest, --watch-folder, --replay");
   }
+  const std::string made = options.is_synthetic            ? "--synthetic"
+                           : !options.pattern.name.empty() ? "--pattern"
+                           : !options.replay.file.empty()  ? "--replay"
+                                                           : "";
+  if (!made.empty()) VIEWLOOM_RETURN_IF_ERROR(refuseFileOptions(options.files, made));
   if (!options.replay.file.empty()) return makeReplay(options);
   if (!options.pattern.name.empty()) return makePatternFeed(options);
   if (options.is_synthetic) {

@@ -31,6 +31,7 @@ class PublishRun {
 
   int run() {
     int code = publish();
+    say(feed_->takeLastNotes());
     publisher_.reset();  // no further frame is sent
     const bool was_kept = sent_.failure().ok();
     const absl::Status recorded = sent_.complete();
@@ -76,8 +77,12 @@ class PublishRun {
 
   absl::StatusOr<std::optional<WireFrame>> nextFrame(double elapsed_s) {
     absl::StatusOr<std::optional<WireFrame>> frame = feed_->next(elapsed_s);
-    for (const std::string& note : feed_->takeNotes()) line_.say(note);
+    say(feed_->takeNotes());
     return frame;
+  }
+
+  void say(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) line_.say(note);
   }
 
   PublisherCallbacks callbacks() {
@@ -117,6 +122,7 @@ class PublishRun {
 
   void tick(int64_t longest_ns = kTick_ns) {
     publisher_->waitEnded(std::min(kTick_ns, longest_ns));
+    say(feed_->takeNotes());
     if (line_.isDue()) line_.show(status());
   }
 

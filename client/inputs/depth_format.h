@@ -16,6 +16,20 @@ struct SampleRange {
   double white = 1;
 };
 
+// The distances of the nearest and the farthest code.
+struct NearAndFar {
+  double near_m = 0;
+  double far_m = 0;
+};
+// What is not given is chosen for a display. Depth of unknown scale is worth any distances: on
+// displays whose cone turns about the focal plane, their ratio alone is seen. 1/Z from 0.5 to 1.5
+// 1/m puts the focal plane, which lies at the mean, at 1 m. It keeps the disparity from view to
+// view of 48 views of 420 px over 35 degrees within the 5 px that fuse (server/display/
+// depth_budget.h): 420 px x tan(17.5) / tan(15.3) / 47 x 0.5 = 5.2 px, at the ends.
+NearAndFar nearAndFar(const InputSettings& settings);
+// Whether nearAndFar chooses any.
+bool choosesDistances(const InputSettings& settings);
+
 // From black, the farthest, to white, the nearest (is_black_near: the other way), linear in 1/Z,
 // or, when the settings say planar, in Z. INVALID_ARGUMENT without two different distances; the far
 // one may be infinite but for planar.

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs/input_reader.h"
 
-#include <Imath/half.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
+#include "inputs/cut_depth.h"
 #include "inputs/photo_frame.h"
+#include "inspect/stored_numbers.h"
 #include "photos/photo.h"
 
 namespace viewloom::inputs {
@@ -22,19 +21,9 @@ constexpr double kDefaultFov_deg = 40;
 
 // Least and largest finite sample of a depth plane of floats.
 SampleRange rangeOfFloats(const v1::Plane& plane, const std::vector<uint8_t>& bytes) {
-  const bool is_half = plane.encoding() == v1::PLANE_ENCODING_DEPTH_F16;
   SampleRange range{.black = std::numeric_limits<double>::infinity(),
                     .white = -std::numeric_limits<double>::infinity()};
-  const size_t sample_bytes = is_half ? 2 : 4;
-  for (size_t at = 0; at + sample_bytes <= bytes.size(); at += sample_bytes) {
-    float sample = 0;
-    if (is_half) {
-      uint16_t bits = 0;
-      std::memcpy(&bits, &bytes[at], sizeof(bits));
-      sample = Imath::half(Imath::half::FromBits, bits);
-    } else {
-      std::memcpy(&sample, &bytes[at], sizeof(sample));
-    }
+  for (const float sample : inspect::storedNumbers(plane, bytes)) {
     if (!std::isfinite(sample)) continue;
     range.black = std::min(range.black, double{sample});
     range.white = std::max(range.white, double{sample});
@@ -42,15 +31,29 @@ SampleRange rangeOfFloats(const v1::Plane& plane, const std::vector<uint8_t>& by
   return range;
 }
 
+std::string distancesNote(const InputSettings& settings) {
+  const NearAndFar distances = nearAndFar(settings);
+  return absl::StrCat("depth of unknown scale is laid between ", distances.near_m, " and ",
+                      distances.far_m, " m, which suits displays (--depth-near, --depth-far)");
+}
+
+v1::Plane& depthOf(files::LoadedFrame& frame) {
+  return *frame.wire.header.mutable_sources(0)->mutable_layers(0)->mutable_planes(1);
+}
+
 }  // namespace
 
-absl::Status InputReader::settleDepth(const Interpretation& how, files::LoadedFrame& frame) {
+absl::Status InputReader::settleFormat(Interpretation& how, files::LoadedFrame& frame) {
   if (how.range == DepthRange::kStated || how.range == DepthRange::kBetween) {
     return absl::OkStatus();
   }
-  v1::Plane& plane = *frame.wire.header.mutable_sources(0)->mutable_layers(0)->mutable_planes(1);
-  SampleRange range{.black = 0, .white = double(frame.code_max.front())};
-  if (frame.code_max.front() == 0) {
+  v1::Plane& plane = depthOf(frame);
+  uint32_t& code_max = frame.code_max.front();
+  if (code_max > 0 && settings_.white_code) {
+    code_max = static_cast<uint32_t>(*settings_.white_code);
+  }
+  SampleRange range{.black = 0, .white = double(code_max)};
+  if (code_max == 0) {
     if (how.kind == InputKind::kIphone) {  // floats are in 1/m as they are
       *plane.mutable_depth() = withSettings(plane.depth(), settings_);
       return absl::OkStatus();
@@ -63,14 +66,42 @@ absl::Status InputReader::settleDepth(const Interpretation& how, files::LoadedFr
                                "least two different ones");
     }
   }
-  absl::StatusOr<v1::DepthFormat> format = how.range == DepthRange::k2dPlusZ
-                                               ? twoDPlusZFormat(settings_, range)
-                                               : normalisedFormat(settings_, range);
+  const bool is_2d_plus_z = how.range == DepthRange::k2dPlusZ;
+  absl::StatusOr<v1::DepthFormat> format =
+      is_2d_plus_z ? twoDPlusZFormat(settings_, range) : normalisedFormat(settings_, range);
   if (!format.ok()) {
     return absl::InvalidArgumentError(
         absl::StrCat("--input ", nameOf(how.kind), ": ", std::string(format.status().message())));
   }
+  if (!is_2d_plus_z && choosesDistances(settings_)) how.notes.push_back(distancesNote(settings_));
   *plane.mutable_depth() = *std::move(format);
+  return absl::OkStatus();
+}
+
+// Inverse depth has its sky at 0. Measurements that failed are 0, too, but lie elsewhere.
+void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
+  v1::Plane& plane = depthOf(frame);
+  if (plane.depth().meaning() != v1::DEPTH_MEANING_DISPARITY) return;
+  if (plane.depth().has_invalid_value()) return;
+  if (!has_scattered_zeros_) {
+    const std::vector<float> stored = inspect::storedNumbers(plane, *frame.wire.planes[1]);
+    const inspect::ZeroPattern pattern =
+        inspect::zeroPattern(stored, plane.size().width(), plane.size().height());
+    has_scattered_zeros_ = pattern.isScattered();
+    if (*has_scattered_zeros_) {
+      const double share = double(pattern.zero_count) / double(stored.size());
+      how.notes.push_back(absl::StrCat(
+          std::round(1000 * share) / 10,
+          " % of the depth is 0, scattered over the picture: 0 is read as no surface, not as "
+          "infinitely far (--depth-far-zero makes it a sky, --depth-invalid 0 no surface always)"));
+    }
+  }
+  if (*has_scattered_zeros_) plane.mutable_depth()->set_invalid_value(0);
+}
+
+absl::Status InputReader::settleDepth(Interpretation& how, files::LoadedFrame& frame) {
+  VIEWLOOM_RETURN_IF_ERROR(settleFormat(how, frame));
+  settleZeros(how, frame);
   return absl::OkStatus();
 }
 
@@ -85,6 +116,9 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   VIEWLOOM_RETURN_IF_ERROR(settleDepth(*how, *frame));
   v1::Source& source = *frame->wire.header.mutable_sources(0);
   *source.mutable_camera() = settleCamera(settings_, *how, source.layers(0).planes(1).size());
+  if (settings_.no_surface_beyond_m) {
+    VIEWLOOM_RETURN_IF_ERROR(cutDepth(*settings_.no_surface_beyond_m, source, frame->wire));
+  }
   return ReadInput{*std::move(how), *std::move(frame)};
 }
 

@@ -27,11 +27,15 @@ class InputReader {
   absl::StatusOr<ReadInput> read(const InputFiles& files);
 
  private:
-  absl::Status settleDepth(const Interpretation& how, files::LoadedFrame& frame);
+  absl::Status settleDepth(Interpretation& how, files::LoadedFrame& frame);
+  absl::Status settleFormat(Interpretation& how, files::LoadedFrame& frame);
+  void settleZeros(Interpretation& how, files::LoadedFrame& frame);
 
   InputSettings settings_;
   // Of floats without a scale: those of the first frame, so that later ones do not pulse.
   std::optional<SampleRange> float_range_;
+  // Whether 0 lies scattered over the first frame's inverse depth, and so is no surface.
+  std::optional<bool> has_scattered_zeros_;
 };
 
 // The camera of a depth plane of this size: what the settings say, else what files state, else a

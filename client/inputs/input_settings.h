@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct InputSettings {
   std::optional<double> depth_invalid;
   bool depth_invalid_is_far = false;
   bool depth_far_zero = false;
+  std::optional<double> no_surface_beyond_m;
   double connection_tolerance = 0;  // 1/m; 0 = measured
 
   v1::ColorTransfer transfer = v1::COLOR_TRANSFER_UNSPECIFIED;
@@ -59,11 +61,15 @@ struct InputSettings {
 
   v1::ImagePart depth_side = v1::IMAGE_PART_RIGHT;  // kRgbd, k2dPlusZ
   bool is_black_near = false;                       // kRgbd, kRelative
+  std::optional<double> white_code;                 // whole numbers; none = the file's last
   double screen_m = 1;                              // k2dPlusZ
   double factor = 64;                               // k2dPlusZ, of 64 = 100 %
   double screen_code = 128;                         // k2dPlusZ: the code that lies in the screen
   std::string camera_file;                          // kTmiv
   std::string camera_name;                          // kTmiv; "" = by the name of the depth file
+
+  // The options among these that a user gave, as "--depth-scale". What is given has to count.
+  std::set<std::string> given;
 };
 
 // The files of one frame.

@@ -11,6 +11,7 @@
 #include "inputs/interpret_exr.h"
 #include "inputs/interpret_photo.h"
 #include "inputs/tmiv_camera.h"
+#include "inputs/used_options.h"
 #include "photos/photo.h"
 
 namespace viewloom::inputs {
@@ -134,25 +135,6 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
   }
 }
 
-// What is given has to count.
-absl::Status refuseUnused(const InputSettings& settings, const Interpretation& result) {
-  const bool has_planes = settings.near_m || settings.far_m;
-  const bool has_window = settings.min_depth || settings.max_depth;
-  const v1::DepthMeaning meaning = result.source.layers(0).depth().depth().meaning();
-  const bool is_window = result.range == DepthRange::kStated && meaning == v1::DEPTH_MEANING_WINDOW;
-  const bool takes_planes =
-      is_window || result.range == DepthRange::kNormalised || result.range == DepthRange::kBetween;
-  if ((has_planes && !takes_planes) || (has_window && !is_window)) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        has_planes && !takes_planes ? "--depth-near and --depth-far"
-                                    : "--depth-min and --depth-max",
-        " are given, which --input ", nameOf(result.kind),
-        " does not take here; they belong to --depth-meaning window, and near and far to --input "
-        "rgbd, openxr, iphone and relative without --depth-scale"));
-  }
-  return absl::OkStatus();
-}
-
 bool isExr(const std::string& file) {
   return file.ends_with(".exr") || file.ends_with(".EXR");
 }
@@ -204,7 +186,7 @@ absl::StatusOr<Interpretation> interpret(const InputSettings& settings, const In
   VIEWLOOM_RETURN_IF_ERROR(readByKind(settings, files, result));
   v1::DepthFormat& format = *layer.mutable_depth()->mutable_depth();
   if (result.range == DepthRange::kStated) format = withSettings(format, settings);
-  VIEWLOOM_RETURN_IF_ERROR(refuseUnused(settings, result));
+  VIEWLOOM_RETURN_IF_ERROR(refuseUnusedOptions(settings, files, result));
   return result;
 }
 

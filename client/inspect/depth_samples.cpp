@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inspect/depth_samples.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <map>
 
-#include <glm/gtc/packing.hpp>
-
-#include "frame/depth.h"
+#include "frame/decode_depth.h"
+#include "inspect/stored_numbers.h"
 #include "rpc/depth_format_from_proto.h"
 
 namespace viewloom::inspect {
 namespace {
 
-constexpr float kHuge = 1e9F;
+// Different huge numbers that are counted: renderers write one, filters make mixtures of it.
+constexpr size_t kHugeKindsMax = 64;
+// 8-bit codes stretched to 16 bits repeat their byte.
+constexpr int kStretch = 257;
 
 PlaneEncoding encodingOf(v1::PlaneEncoding encoding) {
   return encoding == v1::PLANE_ENCODING_DEPTH_F32   ? PlaneEncoding::kDepthF32
@@ -20,51 +23,46 @@ PlaneEncoding encodingOf(v1::PlaneEncoding encoding) {
                                                     : PlaneEncoding::kDepthU16;
 }
 
-float storedAt(const std::vector<uint8_t>& bytes, PlaneEncoding encoding, size_t index) {
-  if (encoding == PlaneEncoding::kDepthF32) {
-    float value = 0;
-    std::memcpy(&value, &bytes[4 * index], sizeof(value));
-    return value;
-  }
-  uint16_t value = 0;
-  std::memcpy(&value, &bytes[2 * index], sizeof(value));
-  return encoding == PlaneEncoding::kDepthF16 ? glm::unpackHalf1x16(value) : float(value);
-}
-
-// One sample by frame/depth.h.
 class SampleReader {
  public:
   SampleReader(const DepthCoefficients& coefficients, const v1::Camera& camera,
                DepthSamples& samples)
       : c_(coefficients), camera_(camera.intrinsics()), samples_(samples) {}
 
+  // 1/Z, or kNoSurface.
   float read(float stored, uint32_t x, uint32_t y) {
-    if (std::isfinite(stored) && std::abs(stored) >= kHuge) ++samples_.huge_count;
-    if (c_.has_invalid != 0 && stored == c_.invalid_value) {
-      return c_.invalid_is_far != 0 ? count(samples_.sky_count, 0)
-                                    : count(samples_.invalid_count, kNoSurface);
+    const DecodedDepth decoded =
+        decodeDepth(c_, stored, c_.ray_distance != 0 ? rayLength(x, y) : 1);
+    switch (decoded.kind) {
+      case DepthSampleKind::kSurface:
+        noteStored(stored);
+        return decoded.inv_z;
+      case DepthSampleKind::kSky:
+        ++samples_.sky_count;
+        return 0;
+      case DepthSampleKind::kNoSurface:
+        ++samples_.invalid_count;
+        return kNoSurface;
+      case DepthSampleKind::kBad:
+        noteBad(stored);
+        return kNoSurface;
     }
-    const float value = (stored - c_.origin) * c_.scale + c_.offset;
-    if (c_.reciprocal != 0 && value == 0) return count(samples_.invalid_count, kNoSurface);
-    float inv_z = c_.reciprocal != 0 ? 1 / value : value;
-    if (c_.ray_distance != 0) inv_z *= rayLength(x, y);
-    if (!(inv_z >= 0) || inv_z > c_.inv_z_max) return count(samples_.bad_count, kNoSurface);
-    if (inv_z == 0) return count(samples_.sky_count, 0);
-    noteStored(stored);
-    return inv_z;
+    return kNoSurface;
   }
 
  private:
-  static float count(uint64_t& counter, float inv_z) {
-    ++counter;
-    return inv_z;
-  }
-
   // Of the ray through a px, per metre along the view axis.
   float rayLength(uint32_t x, uint32_t y) const {
     const double right = (x + 0.5 - camera_.principal_x_px()) / camera_.focal_x_px();
     const double down = (y + 0.5 - camera_.principal_y_px()) / camera_.focal_y_px();
     return static_cast<float>(std::sqrt(right * right + down * down + 1));
+  }
+
+  void noteBad(float stored) {
+    ++samples_.bad_count;
+    if (std::isnan(stored)) ++samples_.bad_nan_count;
+    if (std::isinf(stored) && stored < 0) ++samples_.bad_minus_infinity_count;
+    if (std::isfinite(stored) && stored < 0) ++samples_.bad_negative_count;
   }
 
   void noteStored(float stored) {
@@ -83,6 +81,35 @@ class SampleReader {
   DepthSamples& samples_;
 };
 
+HugeNumbers hugeNumbers(const std::vector<float>& stored) {
+  HugeNumbers huge;
+  std::map<float, uint64_t> counts;
+  for (const float number : stored) {
+    if (!std::isfinite(number) || std::abs(number) < kHuge) continue;
+    ++huge.count;
+    if (counts.size() < kHugeKindsMax || counts.contains(number)) ++counts[number];
+  }
+  for (const auto& [number, count] : counts) {
+    if (count <= huge.most_frequent_count) continue;
+    huge.most_frequent = number;
+    huge.most_frequent_count = count;
+  }
+  return huge;
+}
+
+void noteNumbers(const v1::Plane& plane, const std::vector<float>& stored, DepthSamples& samples) {
+  for (const float number : stored) {
+    if (std::isfinite(number)) samples.largest_stored = std::max(samples.largest_stored, number);
+  }
+  samples.huge = hugeNumbers(stored);
+  samples.has_scattered_zeros =
+      zeroPattern(stored, samples.width_px, samples.height_px).isScattered();
+  samples.is_stretched = plane.encoding() == v1::PLANE_ENCODING_DEPTH_U16 &&
+                         std::all_of(stored.begin(), stored.end(), [](float number) {
+                           return static_cast<int>(number) % kStretch == 0;
+                         });
+}
+
 }  // namespace
 
 absl::StatusOr<DepthSamples> readDepthSamples(const v1::Plane& plane,
@@ -95,13 +122,15 @@ absl::StatusOr<DepthSamples> readDepthSamples(const v1::Plane& plane,
   DepthSamples samples{.width_px = plane.size().width(), .height_px = plane.size().height()};
   DepthCoefficients coefficients = makeDepthCoefficients(*format, encoding);
   if (!camera.has_intrinsics()) coefficients.ray_distance = 0;
+  const std::vector<float> stored = storedNumbers(plane, bytes);
   SampleReader reader(coefficients, camera, samples);
   samples.inv_z.reserve(samples.sampleCount());
   for (uint32_t y = 0; y < samples.height_px; ++y) {
     for (uint32_t x = 0; x < samples.width_px; ++x) {
-      samples.inv_z.push_back(reader.read(storedAt(bytes, encoding, samples.inv_z.size()), x, y));
+      samples.inv_z.push_back(reader.read(stored[samples.inv_z.size()], x, y));
     }
   }
+  noteNumbers(plane, stored, samples);
   return samples;
 }
 

@@ -11,6 +11,15 @@
 namespace viewloom::inspect {
 
 inline constexpr float kNoSurface = -1;
+// From here on, numbers are those that renderers write where they hit nothing.
+inline constexpr float kHuge = 1e9F;
+
+// Finite numbers of kHuge and more.
+struct HugeNumbers {
+  uint64_t count = 0;
+  float most_frequent = 0;
+  uint64_t most_frequent_count = 0;
+};
 
 struct DepthSamples {
   uint32_t width_px = 0;
@@ -22,14 +31,22 @@ struct DepthSamples {
   uint64_t sky_count = 0;      // infinitely far
   uint64_t invalid_count = 0;  // of the invalid value, or metric 0: no surface
   uint64_t bad_count = 0;      // NaN, negative or nearer than 1 nm: no surface
+  // Bad samples by the number that is stored.
+  uint64_t bad_nan_count = 0;
+  uint64_t bad_minus_infinity_count = 0;
+  uint64_t bad_negative_count = 0;  // finite
 
   // Of the numbers as stored, where there is a surface nearer than infinity; U16 as 0..65535.
   float stored_min = 0;
   float stored_max = 0;
   uint64_t at_min_count = 0;
   uint64_t at_max_count = 0;
-  // Finite numbers of 1e9 and more, as renderers write where they hit nothing.
-  uint64_t huge_count = 0;
+  // The largest finite number of all.
+  float largest_stored = 0;
+  // Whether all numbers are multiples of 257, as of 8 bits that were stretched to 16.
+  bool is_stretched = false;
+  HugeNumbers huge;
+  bool has_scattered_zeros = false;  // ZeroPattern
 
   uint64_t sampleCount() const { return uint64_t{width_px} * height_px; }
 };

@@ -83,8 +83,15 @@ absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFr
       const uint32_t code_max =
           layer_index < frame.code_max.size() ? frame.code_max[layer_index] : 0;
       found.suspicions = suspectDepth({found.depth, code_max, found.samples, found.measures});
-      const auto shapes = suspectShapes(found.color.size(), found.depth.size());
-      found.suspicions.insert(found.suspicions.end(), shapes.begin(), shapes.end());
+      const auto add = [&found](const std::vector<Suspicion>& suspicions) {
+        found.suspicions.insert(found.suspicions.end(), suspicions.begin(), suspicions.end());
+      };
+      // Behind the first layer, colour may well be transparent.
+      if (source.layers_size() == 1) {
+        add(suspectAlpha(found.color, measureAlpha(found.color, *frame.wire.planes[plane_index],
+                                                   found.samples)));
+      }
+      add(suspectShapes(found.color.size(), found.depth.size()));
       inspected.layers.push_back(std::move(found));
       plane_index += 2;
       ++layer_index;

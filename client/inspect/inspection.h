@@ -23,7 +23,7 @@ struct SourceInspection {
   std::vector<LayerInspection> layers;
 };
 
-// Errors name the field of the frame.
+// Errors name the field of the frame. Suspicions come without remedies (inspect/remedies.h).
 absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFrame& frame);
 
 // The colour of a layer beside its depth: white near, black far (98th and 2nd percentile of 1/Z,

@@ -5,12 +5,20 @@
 #include <cmath>
 
 #include "base/str_cat.h"
+#include "inspect/arrangement.h"
+#include "inspect/fewer_bits.h"
 #include "shared/histogram.h"
 
 namespace viewloom::inspect {
 namespace {
 
 constexpr double kHalfMax = 65504;  // of binary16
+constexpr double kFarClip_m = 100;  // far planes of renderers lie here or further away
+constexpr double kFarMedian_m = 200, kNearMedian_m = 0.02;
+// Of slopes, the share that has to bend for them to have steps: surfaces that are merely cut into
+// rows bend at their rims alone.
+constexpr double kSteppedShare = 0.2;
+constexpr uint64_t kSteppedCount = 32;  // fewer places are too few to judge by
 
 double percent(uint64_t count, uint64_t of) {
   return of == 0 ? 0 : std::round(1000.0 * double(count) / double(of)) / 10;
@@ -23,89 +31,101 @@ class Rules {
 
   std::vector<Suspicion> all() {
     if (samples_.surface_count == 0) {
-      say("empty",
-          "no sample is a surface: name the unit and meaning with --depth-scale and "
-          "--depth-meaning, or the tool with --input");
+      say("empty", emptySentence());
       return std::move(found_);
     }
+    suspectSamples();
+    suspectBits();
     suspectInsideOut();
     suspectFlat();
     suspectClipped();
     suspectStepsAndNoise();
     suspectScale();
-    suspectSamples();
     return std::move(found_);
   }
 
  private:
   void say(const std::string& kind, const std::string& sentence) {
-    found_.push_back({kind, sentence});
+    found_.push_back({.kind = kind, .sentence = sentence, .remedy = {}});
   }
 
-  // Share of the px of some rows that lie at the nearest depth of all.
-  double shareAtNearest(double top, double bottom) const {
-    const float nearest = measures_.inv_z_max * 0.999F;
-    const auto first = static_cast<std::ptrdiff_t>(top * samples_.height_px) * samples_.width_px;
-    const auto last = static_cast<std::ptrdiff_t>(bottom * samples_.height_px) * samples_.width_px;
-    if (last <= first) return 0;
-    const auto count = std::count_if(samples_.inv_z.begin() + first, samples_.inv_z.begin() + last,
-                                     [nearest](float inv_z) { return inv_z >= nearest; });
-    return double(count) / double(last - first);
+  std::string emptySentence() const {
+    const uint64_t all = samples_.sampleCount();
+    if (samples_.sky_count > 0) {
+      return strCat("no sample is a surface: ", percent(samples_.sky_count, all),
+                    " % are infinitely far");
+    }
+    if (samples_.bad_nan_count == all) return "no sample is a surface: all are NaN";
+    if (2 * samples_.bad_negative_count > all) {
+      return strCat("no sample is a surface: ", percent(samples_.bad_negative_count, all),
+                    " % are negative");
+    }
+    return strCat("no sample is a surface: ", percent(samples_.invalid_count, all),
+                  " % have the number of no surface, ", percent(samples_.bad_count, all),
+                  " % are NaN, negative or infinitely near");
   }
 
   void suspectInsideOut() {
-    const float top = medianIn(samples_, {.bottom = 0.15});
-    const float bottom = medianIn(samples_, {.top = 0.85});
-    const float left = medianIn(samples_, {.right = 0.12, .bottom = 0.7});
-    const float right = medianIn(samples_, {.left = 0.88, .bottom = 0.7});
-    const float middle = medianIn(samples_, {.left = 0.3, .top = 0.3, .right = 0.7, .bottom = 0.7});
-    const bool has_all = std::min({top, bottom, left, right, middle}) >= 0;
-    const bool top_is_near = top > 1.1F * bottom;
-    const bool sides_are_near = std::min(left, right) > 1.1F * middle;
-    const bool sky_is_nearest = measures_.inv_z_max > measures_.inv_z_median * 1.01F &&
-                                shareAtNearest(0, 0.25) > 0.2 && shareAtNearest(0.75, 1) < 0.05;
-    if (!sky_is_nearest && !(has_all && top_is_near && sides_are_near)) return;
-    say("inside-out",
-        sky_is_nearest
-            ? "the top of the picture is where depth is nearest, as if a sky lay before "
-              "everything: "
-              "if near and far are swapped, swap --depth-near and --depth-far, or give --black-near"
-            : "the top is nearer than the bottom and the sides nearer than the middle: if near and "
-              "far are swapped, swap --depth-near and --depth-far, or give --black-near, or "
-              "--depth-meaning disparity for what grows with nearness");
+    const std::string sign = insideOutSign(samples_, measures_);
+    if (!sign.empty()) say("inside-out", sign + ": near and far may be swapped");
   }
 
   void suspectFlat() {
     if (samples_.sky_count > 0) return;
     if (measures_.inv_z_near - measures_.inv_z_far > 0.01F * measures_.inv_z_near) return;
     say("flat", strCat("all surfaces lie within a hundredth of ", 1 / measures_.inv_z_median,
-                       " m: is this the depth, and are --depth-scale, --depth-offset, --depth-near "
-                       "and --depth-far those of the file?"));
+                       " m: is this the depth, with its own unit and range?"));
   }
 
   void suspectClipped() {
-    clippedAt(samples_.at_min_count, samples_.stored_min, samples_.stored_min == 0, "least");
+    if (samples_.stored_min == samples_.stored_max) return;  // flat, as is said
     const double code_max = facts_.plane.encoding() == v1::PLANE_ENCODING_DEPTH_F16
                                 ? kHalfMax
                                 : std::max(facts_.code_max, 1U);
-    clippedAt(samples_.at_max_count, samples_.stored_max, double{samples_.stored_max} == code_max,
+    const bool is_cut = 1 / double{measures_.inv_z_min} >= kFarClip_m &&
+                        1 / double{measures_.inv_z_median} <= kFarMedian_m;
+    // Inverse depth that is spread over all codes has its farthest surface at 0.
+    const bool is_inverse = facts_.plane.depth().meaning() == v1::DEPTH_MEANING_DISPARITY;
+    clippedAt(samples_.at_min_count, samples_.stored_min,
+              samples_.stored_min == 0 && !is_inverse ? Limit::kHard : Limit::kNone, "least");
+    clippedAt(samples_.at_max_count, samples_.stored_max,
+              double{samples_.stored_max} == code_max ? Limit::kHard
+              : is_cut                                ? Limit::kSoft
+                                                      : Limit::kNone,
               "largest");
   }
 
-  void clippedAt(uint64_t count, float value, bool is_limit, const char* which) {
-    if (samples_.stored_min == samples_.stored_max) return;  // flat, as is said
+  enum class Limit { kNone, kSoft, kHard };
+  void clippedAt(uint64_t count, float value, Limit limit, const char* which) {
     const double share = double(count) / double(samples_.surface_count);
-    if (share <= (is_limit ? 0.01 : 0.05)) return;
+    if (limit == Limit::kNone || share <= (limit == Limit::kHard ? 0.01 : 0.05)) return;
+    if (value >= kHuge) return;  // "nothing"
     say("clipped", strCat(percent(count, samples_.surface_count), " % of surfaces have the ", which,
-                          " number, ", value,
-                          ": depth ends there unless it is a wall square to the view; widen the "
-                          "range when writing, or say what the number means with --depth-invalid "
-                          "(and --depth-invalid-is-far for a sky)"));
+                          " number, ", value, ": depth seems to be cut off there"));
+  }
+
+  void suspectBits() {
+    if (facts_.code_max != kU16Max) return;
+    if (samples_.is_stretched) {
+      say("bits",
+          "all 16-bit numbers are 8-bit codes stretched: the file has no more than 256 depths, so "
+          "write it with 16 bits from the beginning");
+      return;
+    }
+    // Distances may end anywhere, unless their unit is unlikely.
+    if (isMetric() && 1 / double{measures_.inv_z_median} <= kFarMedian_m) return;
+    const std::optional<FewerBits> fewer = fewerBits(double{samples_.largest_stored});
+    if (!fewer) return;
+    say("bits", strCat("the largest number is ", samples_.largest_stored, ": codes seem to end at ",
+                       fewer->last_code, ", as those of ", fewer->what,
+                       " do, not at the last of the file's 16"));
   }
 
   void suspectStepsAndNoise() {
     const float near = measures_.inv_z_near;
-    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, near);
+    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, near) &&
+                            measures_.bent_count >= kSteppedCount &&
+                            measures_.bent_share >= kSteppedShare;
     if (is_stepped && abi::kShownSteps * measures_.step > near) {
       say("quantised",
           strCat("depth has about ", std::round(near / measures_.step),
@@ -119,53 +139,66 @@ class Rules {
     if (is_noisy) {
       say("noisy", strCat("noise of depth is ", measures_.noise_sigma, " 1/m, ",
                           std::round(abi::kWideSpan_px * measures_.noise_sigma / near),
-                          " px on a wide display: filter it before, or name edges with "
-                          "--connection-tolerance"));
+                          " px on a wide display: filter it before publishing"));
     }
+  }
+
+  bool isMetric() const {
+    return facts_.plane.depth().meaning() == v1::DEPTH_MEANING_PLANAR ||
+           facts_.plane.depth().meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
   }
 
   void suspectScale() {
     const double median_m = 1 / double{measures_.inv_z_median};
-    const bool is_metric = facts_.plane.depth().meaning() == v1::DEPTH_MEANING_PLANAR ||
-                           facts_.plane.depth().meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
-    if (median_m > 200) {
-      say("scale",
-          strCat("half of the surfaces are beyond ", median_m, " m: ",
-                 is_metric ? facts_.code_max > 0
-                                 ? "if the numbers are millimetres, give --input sensor or "
-                                   "--depth-scale 0.001; for centimetres 0.01"
-                                 : "if the numbers are centimetres, give --depth-scale "
-                                   "0.01; for millimetres 0.001"
-                           : "check --depth-near, --depth-far and --depth-scale"));
-    } else if (median_m < 0.02) {
-      say("scale", strCat("half of the surfaces are nearer than ", median_m, " m: ",
-                          is_metric ? "if the numbers are other units, give --depth-scale; if they "
-                                      "run from 0 to 1, they are no metres: give --input rgbd, "
-                                      "openxr or relative"
-                                    : "check --depth-near, --depth-far and --depth-scale"));
+    if (median_m > kFarMedian_m) {
+      say("scale", strCat("half of the surfaces are beyond ", median_m, " m"));
+    } else if (median_m < kNearMedian_m) {
+      say("scale", strCat("half of the surfaces are nearer than ", median_m, " m"));
     }
   }
 
   void suspectSamples() {
+    const uint64_t all = samples_.sampleCount();
     const v1::DepthFormat& format = facts_.plane.depth();
-    const bool is_said = format.has_invalid_value() && format.invalid_value() >= 1e9;
-    if (samples_.huge_count > 0 && !is_said) {
-      say("nothing", strCat(percent(samples_.huge_count, samples_.sampleCount()),
-                            " % of samples are 1e9 and more, as Blender writes where it hits "
-                            "nothing: give --input blender, or --depth-invalid 1e10 "
-                            "--depth-invalid-is-far"));
+    const bool is_said = format.has_invalid_value() &&
+                         static_cast<float>(format.invalid_value()) == samples_.huge.most_frequent;
+    if (samples_.huge.count > (is_said ? samples_.huge.most_frequent_count : 0)) {
+      say("nothing",
+          strCat(percent(samples_.huge.count, all), " % of samples are ",
+                 samples_.huge.most_frequent_count == samples_.huge.count
+                     ? ""
+                     : "1e9 and more, most of them ",
+                 samples_.huge.most_frequent, ", as renderers write where they hit nothing"));
+    }
+    const bool is_inverse = format.meaning() == v1::DEPTH_MEANING_DISPARITY;
+    if (is_inverse && samples_.has_scattered_zeros && !format.has_invalid_value() &&
+        samples_.sky_count > 0) {
+      say("scattered", strCat(percent(samples_.sky_count, all),
+                              " % of samples are 0, which is infinitely far, but they lie "
+                              "scattered over the picture, as where nothing was measured"));
     }
     const uint64_t none = samples_.invalid_count + samples_.bad_count;
-    if (2 * none > samples_.sampleCount()) {
-      say("empty", strCat(percent(none, samples_.sampleCount()),
-                          " % of samples are no surface: if they are a sky, give --depth-far-zero, "
-                          "or --depth-invalid N --depth-invalid-is-far"));
+    if (2 * none > all) {
+      say("empty", strCat(percent(none, all), " % of samples are no surface"));
     }
-    if (100 * samples_.bad_count > samples_.sampleCount()) {
-      say("bad", strCat(percent(samples_.bad_count, samples_.sampleCount()),
-                        " % of samples are NaN or negative once read, and so no surface: check "
-                        "--depth-meaning, --depth-scale and --depth-offset"));
+    if (100 * samples_.bad_count > all) {
+      say("bad",
+          strCat(percent(samples_.bad_count, all), " % of samples are no surface: ", badKinds()));
     }
+  }
+
+  std::string badKinds() const {
+    std::string kinds;
+    const auto add = [&kinds](uint64_t count, const char* what) {
+      if (count > 0) kinds += (kinds.empty() ? "" : ", ") + strCat(count, " are ", what);
+    };
+    add(samples_.bad_nan_count, "NaN");
+    add(samples_.bad_minus_infinity_count, "-inf");
+    add(samples_.bad_negative_count, "negative");
+    add(samples_.bad_count - samples_.bad_nan_count - samples_.bad_minus_infinity_count -
+            samples_.bad_negative_count,
+        "behind infinity or nearer than 1 nm by the format");
+    return kinds;
   }
 
   const DepthFacts& facts_;
@@ -184,9 +217,11 @@ std::vector<Suspicion> suspectShapes(const v1::SizePx& color, const v1::SizePx& 
   const double of_color = double(color.width()) / color.height();
   const double of_depth = double(depth.width()) / depth.height();
   if (std::abs(of_color - of_depth) <= 0.01 * of_color) return {};
-  return {{"shape", strCat("colour is ", color.width(), "x", color.height(), ", depth ",
-                           depth.width(), "x", depth.height(),
-                           ": both must show the same view; crop or align one to the other")}};
+  return {{.kind = "shape",
+           .sentence = strCat("colour is ", color.width(), "x", color.height(), ", depth ",
+                              depth.width(), "x", depth.height(),
+                              ": both must show the same view; crop or align one to the other"),
+           .remedy = {}}};
 }
 
 }  // namespace viewloom::inspect

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What looks wrong in the depth of a layer, each with what to do about it.
+// What looks wrong in the depth and the colour of a layer.
 #pragma once
 
 #include <string>
@@ -11,9 +11,11 @@
 namespace viewloom::inspect {
 
 struct Suspicion {
-  std::string kind;  // "inside-out", "flat", "clipped", "quantised", "noisy", "scale", "nothing",
-                     // "empty", "bad", "shape"
-  std::string sentence;  // what was seen, and the remedy
+  // "empty", "inside-out", "flat", "clipped", "bits", "scattered", "quantised", "noisy", "scale",
+  // "nothing", "bad", "alpha", "shape"
+  std::string kind;
+  std::string sentence;  // what was seen
+  std::string remedy;    // what was tried on the data and helps; "" = nothing is known
 };
 
 struct DepthFacts {
@@ -24,20 +26,36 @@ struct DepthFacts {
 };
 
 // Rules, none of which is a proof:
-//   inside-out  a fifth of the top quarter has the nearest depth of all, but not of the bottom; or
-//               both the top is nearer than the bottom and the sides nearer than the middle, by
-//               their medians and a tenth: skies, walls and floors lie the other way round
+//   empty       no surface in more than half of the px
+//   inside-out  a sign that near and far are swapped (arrangement.h)
 //   flat        98 % of surfaces within a hundredth of each other in 1/Z, and no sky
-//   clipped     a hundredth of surfaces at the least or largest code, or a twentieth at the least
-//               or largest number there is
-//   quantised   half a step moves things by more than 0.25 px on a wide display; fewer than 32
-//               steps are none, but surfaces that end before others
+//   clipped     a hundredth of surfaces at the largest code that the file has room for, or at 0,
+//               unless that is the far end of inverse depth; or a twentieth at the largest number
+//               beyond 100 m, where no wall fills a view exactly
+//   bits        16-bit codes end where 10, 12, 14 or 15 bits do; or all are 8-bit codes stretched
+//               to 16. Of metres only where their unit is unlikely
+//   scattered   0 is infinitely far by the format, but lies scattered over the picture
+//   quantised   half a step moves things by more than 0.25 px on a wide display, and slopes have
+//               steps; fewer than 32 steps are none, but surfaces that end before others
 //   noisy       the noise does so by more than a px
 //   scale       the median lies beyond 200 m or nearer than 2 cm
-//   nothing     numbers of 1e9 and more, unless they are said to be far
-//   empty       no surface in more than half of the px
+//   nothing     numbers of 1e9 and more, unless they are said to be no surface or far
 //   bad         NaN or negative in more than a hundredth
 std::vector<Suspicion> suspectDepth(const DepthFacts& facts);
+
+// How transparent a colour plane is where there is a surface.
+struct AlphaMeasures {
+  uint64_t surface_count = 0;
+  uint64_t transparent_count = 0;  // alpha of almost 0 ...
+  uint64_t lit_count = 0;          // ... though colour is not black
+  bool is_ignored = true;          // opaque by declaration, or without alpha
+};
+AlphaMeasures measureAlpha(const v1::Plane& color, const std::vector<uint8_t>& bytes,
+                           const DepthSamples& samples);
+
+// alpha       views see through almost everything; or a twentieth of the surfaces has premultiplied
+//             colour without any alpha, which only adds light
+std::vector<Suspicion> suspectAlpha(const v1::Plane& color, const AlphaMeasures& measures);
 
 // shape       colour and depth have sides of different proportions
 std::vector<Suspicion> suspectShapes(const v1::SizePx& color, const v1::SizePx& depth);

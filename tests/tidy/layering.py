@@ -53,7 +53,7 @@ LAYERS = {
     "client/files": (["base", "deep", "lib/wire_frame.h"],
                      ["absl", "openexr", "png", "jpeg", "zlib", "protobuf"]),
     "client/photos": (["base", "files"], ["absl", "heif", "protobuf"]),
-    "client/inputs": (["base", "files", "photos"],
+    "client/inputs": (["base", "files", "inspect", "lib/wire_frame.h", "photos"],
                       ["absl", "glm", "nlohmann", "openexr", "protobuf"]),
     "client/inspect": (["base", "frame", "rpc/depth_format_from_proto.h", "files", SHADERS_SHARED],
                        ["absl", "glm", "protobuf"]),

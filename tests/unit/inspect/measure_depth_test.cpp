@@ -43,7 +43,7 @@ TEST(DepthSamples, countWhatTheyAre) {
   EXPECT_EQ(samples.bad_count, 2U);
   EXPECT_EQ(samples.sky_count, 1U);
   EXPECT_EQ(samples.surface_count, 3U);
-  EXPECT_EQ(samples.huge_count, 1U);
+  EXPECT_EQ(samples.huge.count, 1U);
   EXPECT_EQ(samples.stored_min, 2);
   EXPECT_EQ(samples.stored_max, 1e10F);
   EXPECT_EQ(samples.inv_z[7], 0.25F);

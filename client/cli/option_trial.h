@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a frame read again, with further options, to see whether these help.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/frame_loader.h"
+#include "inspect/remedies.h"
+
+namespace viewloom::cli {
+
+class OptionTrial final : public inspect::Rereading {
+ public:
+  OptionTrial(FrameFiles files, const LoaderOptions& options)
+      : files_(std::move(files)), options_(options) {}
+
+  std::optional<files::LoadedFrame> read(const std::string& options) const override;
+  std::string spoken(const std::string& options) const override;
+
+ private:
+  std::optional<files::LoadedFrame> readManifest(const inputs::InputSettings& settings) const;
+
+  FrameFiles files_;
+  LoaderOptions options_;
+};
+
+// Fills in the remedies of all suspicions.
+void tryRemedies(const OptionTrial& trial, std::vector<inspect::SourceInspection>& sources);
+
+}  // namespace viewloom::cli
