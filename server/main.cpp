@@ -3,16 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 #include "base/log.h"
+#include "base/printable.h"
 #include "commands/command.h"
 #include "commands/serve.h"
 #include "config/read_config.h"
 #include "config/settings.h"
+#include "usage/parse_command_line.h"
 
 namespace {
-
-constexpr int kExitUsage = 2;
 
 // Every setting as a flag: --grpc.address, --device, ...
 void addSettings(CLI::App& app, viewloom::ConfigSources& sources) {
@@ -38,10 +39,8 @@ int run(int argc, char** argv) {
   viewloom::addRenderCommand(app, command);
   viewloom::addBenchCommand(app, command);
   viewloom::addDoctorCommand(app, command);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kExitUsage;
+  if (const std::optional<int> code = viewloom::usage::parseCommandLine(app, argc, argv)) {
+    return *code;
   }
   const viewloom::Config config = viewloom::readConfig(sources);
   viewloom::setLogLevel(viewloom::logLevelOf(config.log.level));
@@ -54,7 +53,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "viewloomd: %s\n", error.what());
-    return kExitUsage;
+    std::fprintf(stderr, "viewloomd: %s\n", viewloom::printable(error.what(), true).c_str());
+    return viewloom::usage::kExitUsage;
   }
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "bridge/bridge.h"
 #include "bridge/quilt_page.h"
@@ -45,7 +46,8 @@ std::chrono::milliseconds milliseconds(double seconds) {
 }
 
 int fail(const absl::Status& status) {
-  std::fprintf(stderr, "viewloom: %s\n", std::string(status.message()).c_str());
+  std::fprintf(stderr, "viewloom: %s\n",
+               printable({status.message().data(), status.message().size()}, true).c_str());
   if (absl::IsInvalidArgument(status)) return kExitUsage;
   return absl::IsUnavailable(status) ? kExitNoServer : kExitFailed;
 }
@@ -94,7 +96,7 @@ absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& t
   VIEWLOOM_RETURN_IF_ERROR(quilt.status());
   do {
     VIEWLOOM_RETURN_IF_ERROR(to.play(*quilt, display->index));
-    std::printf("%s shows %s\n", display->name.c_str(), quilt->uri.c_str());
+    std::printf("%s shows %s\n", printable(display->name).c_str(), printable(quilt->uri).c_str());
     std::fflush(stdout);
     const auto due = std::chrono::steady_clock::now() + milliseconds(options.every_s);
     while (!isInterrupted() && std::chrono::steady_clock::now() < due) {

@@ -8,6 +8,7 @@
 
 #include "base/str_cat.h"
 #include "cli/status_line.h"
+#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {
@@ -41,7 +42,7 @@ absl::Status addInputs(const FileFeedOptions& options, std::vector<FrameFiles>& 
                              .depth = options.depths.empty() ? "" : options.depths[i],
                              .view = options.view};
     uint32_t count = 1;
-    if (input.depth.ends_with(".yuv")) {
+    if (files::hasExtension(input.depth, ".yuv")) {
       const auto how = inputs::interpret(options.loader.input, input);
       if (!how.ok()) return how.status();
       count = how->video_frame_count;

@@ -6,8 +6,11 @@
 #include <cctype>
 #include <utility>
 
+#include "base/nearest_name.h"
+#include "base/str_cat.h"
 #include "files/exr_description.h"
 #include "files/exr_image.h"
+#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {
@@ -27,7 +30,7 @@ std::string lowered(std::string text) {
 }
 
 bool isPicture(const std::string& file_name) {
-  const std::string extension = lowered(std::filesystem::path(file_name).extension().string());
+  const std::string extension = files::extensionOf(file_name);
   return !file_name.starts_with(".") &&
          std::find(kPictures.begin(), kPictures.end(), extension) != kPictures.end();
 }
@@ -77,28 +80,40 @@ absl::StatusOr<bool> FilePairs::isWhole(const std::string& file) const {
   return !usual->color.empty() && !usual->depth.empty();
 }
 
-std::optional<FrameFiles> FilePairs::pairUp(const std::string& file_name) {
+void FilePairs::giveUpOldest() {
+  while (waiting_.size() > kWaitingMax) {
+    const std::string oldest = std::exchange(waiting_.front(), {});
+    waiting_.pop_front();
+    const PairKey its = pairKey(oldest);
+    Halves& list = its.is_depth ? depths_ : colors_;
+    const auto entry = list.find(its.key);
+    // Paired, or came again.
+    if (entry == list.end() || entry->second.file != oldest) continue;
+    list.erase(entry);
+    given_up_.push_back(oldest);
+  }
+}
+
+std::optional<FrameFiles> FilePairs::pairUp(const std::string& file_name,
+                                            std::chrono::steady_clock::time_point now) {
   const PairKey own = pairKey(file_name);
-  auto& mine = own.is_depth ? depths_ : colors_;
-  auto& others = own.is_depth ? colors_ : depths_;
+  Halves& mine = own.is_depth ? depths_ : colors_;
+  Halves& others = own.is_depth ? colors_ : depths_;
   const auto other = others.find(own.key);
   if (other == others.end()) {
-    mine[own.key] = file_name;
-    waiting_.push_back(file_name);
-    while (waiting_.size() > kWaitingMax) {
-      const std::string oldest = std::exchange(waiting_.front(), {});
-      waiting_.pop_front();
-      const PairKey its = pairKey(oldest);
-      auto& list = its.is_depth ? depths_ : colors_;
-      const auto entry = list.find(its.key);
-      if (entry == list.end() || entry->second != oldest) continue;  // paired, or came again
-      list.erase(entry);
-      given_up_.push_back(oldest);
+    const auto earlier = mine.find(own.key);
+    if (earlier != mine.end() && earlier->second.file != file_name) {
+      notes_.push_back(strCat(earlier->second.file, " and ", file_name, " are both the ",
+                              own.is_depth ? "depth" : "colour", " of one frame; ", file_name,
+                              ", which came last, is used"));
     }
+    mine[own.key] = {.file = file_name, .since = now};
+    waiting_.push_back(file_name);
+    giveUpOldest();
     return std::nullopt;
   }
-  const std::string color = own.is_depth ? other->second : file_name;
-  const std::string depth = own.is_depth ? file_name : other->second;
+  const std::string color = own.is_depth ? other->second.file : file_name;
+  const std::string depth = own.is_depth ? file_name : other->second.file;
   others.erase(other);
   mine.erase(own.key);
   return FrameFiles{
@@ -108,7 +123,36 @@ std::optional<FrameFiles> FilePairs::pairUp(const std::string& file_name) {
           .color = (folder_ / color).string(), .depth = (folder_ / depth).string(), .view = view_}};
 }
 
-absl::StatusOr<std::optional<FrameFiles>> FilePairs::add(const std::string& file_name) {
+std::string FilePairs::describe(const std::string& key, const Half& half, bool is_depth,
+                                const Halves& others) {
+  const std::filesystem::path name(half.file);
+  std::string text =
+      strCat(half.file, ": waits for its ", is_depth ? "colour" : "depth", ", named ");
+  text += is_depth ? "as frame.png for frame_depth.png"
+                   : strCat("as ", name.stem().string(), "_depth", name.extension().string());
+  std::vector<std::string> keys;
+  for (const auto& [other_key, other] : others) keys.push_back(other_key);
+  const std::string nearest = nearestName(key, keys);
+  if (nearest.empty()) return text;
+  return strCat(text, "; ", others.at(nearest).file,
+                " waits too, but its name differs: rename one of the two");
+}
+
+std::vector<std::string> FilePairs::takeNotes(std::chrono::steady_clock::time_point now) {
+  const auto tell = [&](Halves& halves, bool is_depth, const Halves& others) {
+    for (auto& [key, half] : halves) {
+      if (half.is_told || now - half.since < kPatience) continue;
+      half.is_told = true;
+      notes_.push_back(describe(key, half, is_depth, others));
+    }
+  };
+  tell(colors_, false, depths_);
+  tell(depths_, true, colors_);
+  return std::exchange(notes_, {});
+}
+
+absl::StatusOr<std::optional<FrameFiles>> FilePairs::add(
+    const std::string& file_name, std::chrono::steady_clock::time_point now) {
   if (!isPicture(file_name)) return std::optional<FrameFiles>();
   const std::string file = (folder_ / file_name).string();
   if (isExr(file)) {
@@ -120,7 +164,7 @@ absl::StatusOr<std::optional<FrameFiles>> FilePairs::add(const std::string& file
   }
   const absl::StatusOr<bool> is_whole = isWhole(file);
   if (!is_whole.ok()) return is_whole.status();
-  if (!*is_whole) return pairUp(file_name);
+  if (!*is_whole) return pairUp(file_name, now);
   return std::optional(
       FrameFiles{.manifest = {}, .deep = {}, .input = {.color = file, .view = view_}});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/folder_frames.h"
 
+#include <chrono>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -50,6 +51,9 @@ absl::Status FolderFrames::lookForFiles() {
   }
   for (const std::string& name : pairs_.takeGivenUp()) {
     skip(name_ + "/" + name, "no other half came; pairs are named as x.png and x_depth.png");
+  }
+  for (const std::string& note : pairs_.takeNotes(std::chrono::steady_clock::now())) {
+    notes_.push_back(strCat(name_, "/", note));
   }
   return absl::OkStatus();
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/frame_loader.h"
 
-#include <filesystem>
 #include <utility>
 
+#include "files/file_extension.h"
 #include "inputs/depth_format.h"
 
 namespace viewloom::cli {
@@ -78,7 +78,7 @@ absl::StatusOr<LoadedFiles> FrameLoader::loadAny(const FrameFiles& files) {
 }
 
 bool isExr(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".exr";
+  return files::hasExtension(file, ".exr");
 }
 
 }  // namespace viewloom::cli

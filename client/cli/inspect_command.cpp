@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/output_file.h"
 #include "base/str_cat.h"
 #include "cli/display_options.h"
 #include "cli/file_options.h"
@@ -17,6 +18,7 @@
 #include "cli/report_error.h"
 #include "files/exr_description.h"
 #include "files/file_bytes.h"
+#include "files/file_extension.h"
 #include "files/png_writer.h"
 
 namespace viewloom::cli {
@@ -34,7 +36,7 @@ struct InspectOptions {
 void sortFiles(FileFeedOptions& options) {
   if (!options.depths.empty()) return;
   for (std::string& file : std::exchange(options.colors, {})) {
-    if (file.ends_with(".json")) {
+    if (files::hasExtension(file, ".json")) {
       options.manifests.push_back(std::move(file));
       continue;
     }
@@ -122,6 +124,12 @@ int inspectAll(const InspectOptions& options, const std::vector<FrameFiles>& fra
 }
 
 int inspect(const InspectOptions& options, const CommonOptions& common) {
+  if (!options.picture.empty()) {
+    if (const absl::Status place = checkOutput(options.picture); !place.ok()) {
+      reportError(place, common);
+      return kExitUsage;
+    }
+  }
   InspectOptions sorted = options;
   sorted.files.loader.deep_layer_count_max = options.layer_count;
   sortFiles(sorted.files);

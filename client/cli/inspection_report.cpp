@@ -11,6 +11,7 @@
 #include "cli/file_frames.h"
 #include "cli/status_line.h"
 #include "files/exr_description.h"
+#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {
@@ -207,7 +208,7 @@ absl::StatusOr<std::string> describePhoto(const std::string& file) {
 
 absl::StatusOr<std::string> describeFormat(const std::string& file) {
   if (photos::isPhoto(file)) return describePhoto(file);
-  const std::string extension = std::filesystem::path(file).extension().string();
+  const std::string extension = files::extensionOf(file);
   if (!isExr(file)) {
     return extension == ".json" ? "FrameManifest" : extension.empty() ? "" : extension.substr(1);
   }

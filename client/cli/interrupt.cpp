@@ -18,6 +18,8 @@ void onSignal(int signal) {
 void catchInterrupts() {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  // A file that reaches the largest size allowed is a failed write, not the end of the command.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool isInterrupted() {

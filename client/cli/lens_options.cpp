@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lens_options.h"
+#include "usage/one_of.h"
 
 #include <map>
 #include <string>
@@ -52,7 +53,7 @@ void addLensOptions(CLI::App& app, LensOptions& options, CLI::Option* file) {
   const auto take = [&options](const std::string& word) { options.quality = kQualities.at(word); };
   app.add_option_function<std::string>(
          "--effort", take, "draft, balanced or best: what is spent on what is left open [balanced]")
-      ->check(CLI::IsMember(kQualities))
+      ->check(usage::oneOf(kQualities))
       ->excludes(file);
 }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/list_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "base/nearest_name.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
@@ -12,6 +17,23 @@
 
 namespace viewloom::cli {
 namespace {
+
+const std::vector<std::string> kLists{"streams", "displays", "presets", "server", "all"};
+
+// Most slips are addresses: "127.0.0.1:50051", "[::1]:50051", "unix:/run/viewloom".
+bool isAddress(const std::string& word) {
+  return word.find(':') != std::string::npos;
+}
+
+std::string unknownList(const std::string& word) {
+  std::string text =
+      strCat("unknown list \"", printable(word), "\". Known lists: streams, displays, presets.");
+  if (isAddress(word)) {
+    return strCat(text, " Did you mean \"viewloom list --server ", printable(word), "\"?");
+  }
+  const std::string meant = nearestName(word, kLists);
+  return meant.empty() ? text : strCat(text, " Did you mean \"viewloom list ", meant, "\"?");
+}
 
 struct ListOptions {
   std::string what = "all";
@@ -29,8 +51,8 @@ void print(const v1::ListStreamsResponse& response) {
       "STREAM               STATE    FRAME      SIZE       LAYERS  RATE/S  REPLACED  REFUSED  "
       "WATCHERS\n");
   for (const v1::StreamEntry& stream : response.streams()) {
-    std::printf("%-20s %-8s %-10llu %-10s %-7u %-7.1f %-9llu %-8llu %u\n", stream.name().c_str(),
-                stream.live() ? "live" : "left",
+    std::printf("%-20s %-8s %-10llu %-10s %-7u %-7.1f %-9llu %-8llu %u\n",
+                printable(stream.name()).c_str(), stream.live() ? "live" : "left",
                 static_cast<unsigned long long>(stream.frame_number()),
                 sizeText(stream.size()).c_str(), stream.layer_count(), stream.rate_hz(),
                 static_cast<unsigned long long>(stream.replaced_count()),
@@ -42,7 +64,7 @@ void print(const v1::ListDisplaysResponse& response) {
   std::printf("DISPLAY  STREAM               ATLAS        VIEWS  WATCHERS  ATLASES\n");
   for (const v1::DisplayEntry& display : response.displays()) {
     std::printf("%-8llu %-20s %-12s %-6u %-9u %llu\n",
-                static_cast<unsigned long long>(display.id()), display.stream().c_str(),
+                static_cast<unsigned long long>(display.id()), printable(display.stream()).c_str(),
                 sizeText(display.layout().size()).c_str(), display.layout().view_count(),
                 display.subscriber_count(), static_cast<unsigned long long>(display.atlas_count()));
   }
@@ -61,23 +83,25 @@ void print(const v1::ListPresetsResponse& response) {
     const v1::AtlasLayout& layout = preset.layout();
     char aspect[16] = "-";
     if (layout.aspect() > 0) std::snprintf(aspect, sizeof aspect, "%.4g", layout.aspect());
-    std::printf("%-16s %-12s %-8s %-7s %-18s %-12s %s\n", preset.name().c_str(),
+    std::printf("%-16s %-12s %-8s %-7s %-18s %-12s %s\n", printable(preset.name()).c_str(),
                 sizeText(layout.size()).c_str(),
                 strCat(layout.columns(), "x", layout.rows()).c_str(), aspect,
-                joined(preset.kinds()).c_str(), sizeText(preset.panel_size()).c_str(),
-                preset.device().c_str());
-    if (!preset.note().empty()) std::printf("%-16s %s\n", "", preset.note().c_str());
+                printable(joined(preset.kinds())).c_str(), sizeText(preset.panel_size()).c_str(),
+                printable(preset.device()).c_str());
+    if (!preset.note().empty()) std::printf("%-16s %s\n", "", printable(preset.note()).c_str());
   }
 }
 
 void print(const v1::GetServerInfoResponse& info) {
-  std::printf("viewloomd %s on %s (%s)%s\n", info.version().c_str(), info.device().c_str(),
-              info.driver().c_str(), info.traces_on_cpu() ? ", a CPU" : "");
+  std::printf("viewloomd %s on %s (%s)%s\n", printable(info.version()).c_str(),
+              printable(info.device()).c_str(), printable(info.driver()).c_str(),
+              info.traces_on_cpu() ? ", a CPU" : "");
   std::printf("frames: up to %.0f MB, %u px a side, %u layers; atlases: up to %u px a side\n",
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),
               info.atlas_side_px_max());
-  if (!info.http_address().empty()) std::printf("page: %s\n", info.http_address().c_str());
+  if (!info.http_address().empty())
+    std::printf("page: %s\n", printable(info.http_address()).c_str());
 }
 
 template <typename Response>
@@ -107,10 +131,13 @@ absl::Status list(const ListOptions& options, const Catalog& catalog) {
 
 RunCommand addListCommand(CLI::App& app) {
   const auto options = std::make_shared<ListOptions>();
+  app.footer(
+      "Examples:\n"
+      "  viewloom list                                    all there is on this machine's server\n"
+      "  viewloom list streams --server 192.168.1.20:50051");
   app.add_option("what", options->what, "streams, displays, presets, server or all")
-      ->check(CLI::IsMember({"streams", "displays", "presets", "server", "all"}))
       ->capture_default_str();
-  for (const char* what : {"streams", "displays", "presets", "server"}) {
+  for (const char* what : {"streams", "displays", "presets"}) {
     app.add_flag_callback(
            strCat("--", what), [options, what] { options->what = what; }, strCat("As ", what))
         ->excludes("what")
@@ -118,6 +145,10 @@ RunCommand addListCommand(CLI::App& app) {
   }
   app.add_flag("--json", options->as_json, "The server's answers as JSON");
   return [options](const CommonOptions& common) -> int {
+    if (std::ranges::find(kLists, options->what) == kLists.end()) {
+      std::fprintf(stderr, "viewloom list: %s\n", unknownList(options->what).c_str());
+      return kExitUsage;
+    }
     const absl::Status status = list(*options, Catalog(makeChannel(common.server)));
     return status.ok() ? kExitDone : reportError(status, common);
   };

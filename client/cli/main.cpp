@@ -3,12 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "lib/channel.h"
+#include "usage/parse_command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -19,17 +22,18 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", VIEWLOOM_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
+  app.footer("See \"viewloom COMMAND --help\" for the options of a command.");
   CommonOptions common{.server = kDefaultAddress};
   app.add_option("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
       ->envname("VIEWLOOM_SERVER_ADDRESS")
       ->capture_default_str();
 
   const std::vector<std::pair<CLI::App*, RunCommand>> commands = addCommands(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitUsage;  // 0: --help
+  if (argc <= 1) {
+    std::fputs(app.help().c_str(), stdout);
+    return kExitDone;
   }
+  if (const std::optional<int> code = usage::parseCommandLine(app, argc, argv)) return *code;
   catchInterrupts();
   for (const auto& [command, run_command] : commands) {
     if (command->parsed()) return run_command(common);
@@ -44,7 +48,7 @@ int main(int argc, char** argv) {
   try {
     return viewloom::cli::run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "viewloom: %s\n", error.what());
+    std::fprintf(stderr, "viewloom: %s\n", viewloom::printable(error.what(), true).c_str());
     return viewloom::cli::kExitFailed;
   }
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "cli/size_option.h"
+#include "usage/one_of.h"
 
 namespace viewloom::cli {
 namespace {
@@ -19,7 +20,7 @@ void addPatternOptions(CLI::App& app, PatternFeedOptions& options) {
       app.add_option("--pattern", options.name,
                      "Publish a test pattern, which stands still: view-numbers, "
                      "parallax-ruler, focal-grid or card")
-          ->check(CLI::IsMember({"view-numbers", "parallax-ruler", "focal-grid", "card"}))
+          ->check(usage::oneOf({"view-numbers", "parallax-ruler", "focal-grid", "card"}))
           ->group(group);
   app.add_option("--views", options.pattern.views.count,
                  "Views of the display that the pattern is for, 2..512 [48]")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/plane_options.h"
+#include "usage/one_of.h"
 
 #include <map>
 #include <string>
@@ -44,7 +45,7 @@ template <typename Value>
 CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
                      const std::map<std::string, Value>& words, const std::string& description) {
   const auto take = [&value, words](const std::string& word) { value = words.at(word); };
-  return app.add_option_function<std::string>(name, take, description)->check(CLI::IsMember(words));
+  return app.add_option_function<std::string>(name, take, description)->check(usage::oneOf(words));
 }
 
 void addKindOptions(CLI::App& app, InputSettings& settings) {

@@ -18,6 +18,7 @@
 #include "cli/report_error.h"
 #include "cli/size_option.h"
 #include "cli/synthetic_frames.h"
+#include "usage/one_of.h"
 
 namespace viewloom::cli {
 namespace {
@@ -96,7 +97,7 @@ void addStreamOptions(CLI::App& app, PublishOptions& options) {
          "--depth-encoding", run.depth_encoding,
          "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where its "
          "steps do not show), or auto: plain on this machine, else predicted")
-      ->check(CLI::IsMember({"auto", "plain", "predicted"}))
+      ->check(usage::oneOf({"auto", "plain", "predicted"}))
       ->capture_default_str();
   app.add_option("--record", run.record_file, "Keep the frames that are sent in this file");
   app.add_flag("--no-retry", run.has_no_retry, "End when the server cannot be reached");

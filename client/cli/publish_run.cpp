@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/output_file.h"
 #include "base/str_cat.h"
 #include "cli/frame_pace.h"
 #include "cli/interrupt.h"
@@ -13,6 +14,7 @@
 #include "cli/report_error.h"
 #include "cli/sent_frames.h"
 #include "cli/status_line.h"
+#include "cli/user_words.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 
@@ -41,6 +43,10 @@ class PublishRun {
 
  private:
   int publish() {
+    if (!options_.record_file.empty()) {
+      const absl::Status place = checkOutput(options_.record_file);
+      if (!place.ok()) return fail(place, kExitUsage);
+    }
     absl::StatusOr<std::optional<WireFrame>> frame = nextFrame(0);
     if (!frame.ok()) return fail(frame.status(), kExitUsage);
     if (!options_.record_file.empty()) {
@@ -106,7 +112,7 @@ class PublishRun {
     if (report.outcome() != v1::FRAME_OUTCOME_REFUSED) return;
     std::lock_guard lock(mutex_);
     if (std::exchange(last_reason_, report.reason()) == report.reason()) return;
-    line_.say(strCat("frame ", report.number(), " refused: ", report.reason()));
+    line_.say(strCat("frame ", report.number(), " refused: ", inUserWords(report.reason())));
   }
 
   void noteWanted(const v1::Wanted& wanted) {
@@ -147,9 +153,10 @@ class PublishRun {
     const double rate = sent_rate_.perSecond(counts.sent);
     const double bytes_rate = bytes_rate_.perSecond(counts.sent_bytes);
     return strCat(feed_->description(), " to ", options_.stream, ": ", formatNumber(rate, 1),
-                  " frames/s, ", formatBytes(bytes_rate), "/s; ", counts.sent, " sent, overtaken ",
-                  counts.replaced_here, " here, ", counts.replaced_there, " there, ",
-                  counts.refused, " refused; ", depthStatus(), displays_.load(), " displays");
+                  " frames/s, ", formatBytes(bytes_rate), "/s; ", counts.sent,
+                  " sent, replaced by newer ones ", counts.replaced_here, " here, ",
+                  counts.replaced_there, " there, ", counts.refused, " refused; ", depthStatus(),
+                  displays_.load(), " displays");
   }
 
   std::string depthStatus() const {

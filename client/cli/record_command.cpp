@@ -12,6 +12,7 @@
 #include "cli/interrupt.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
+#include "cli/stream_wait.h"
 #include "lib/channel.h"
 #include "lib/watcher.h"
 #include "recording/atlas_recording.h"
@@ -65,12 +66,12 @@ class RecordRun {
   }
 
   WatcherCallbacks callbacks() {
-    return {
-        .on_layout = {},
-        .on_atlas = {},
-        .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
-                                     [this](const absl::Status& reason) { setFailure(reason); }),
-        .on_message = [this](const v1::StreamAtlasesResponse& message) { take(message); }};
+    return {.on_layout = {},
+            .on_atlas = {},
+            .on_connection = waiting_.toldBefore(
+                sayOrGiveUp(line_, common_, options_.has_no_retry,
+                            [this](const absl::Status& reason) { setFailure(reason); })),
+            .on_message = [this](const v1::StreamAtlasesResponse& message) { take(message); }};
   }
 
   void take(const v1::StreamAtlasesResponse& message) {
@@ -145,6 +146,7 @@ class RecordRun {
   std::unique_ptr<AtlasRecorder> recorder_;
   int64_t start_ns_ = 0;  // when the first message came; 0 = none has
   absl::Status failure_;
+  StreamWait waiting_{line_, common_, options_.stream};
   std::unique_ptr<Watcher> watcher_;  // last: its callbacks use the rest
 };
 

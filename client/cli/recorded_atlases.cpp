@@ -35,6 +35,7 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
   StatusLine line(true);
   const auto reader = AtlasRecordingReader::open(options.file);
   if (!reader.ok()) return fail(reader.status(), kExitUsage);
+  AtlasFiles files(options.output);
   Found found;
   std::string description;
   std::optional<int64_t> first_ns;
@@ -48,8 +49,9 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
     found.span_s = static_cast<double>(newest.time_ns - *first_ns) * 1e-9;
     description = descriptionOf(found, *newest.atlas.layout);
     if (options.output.folder.empty()) continue;
-    const absl::Status written = writeAtlas(newest.atlas, options.output);
-    if (!written.ok()) return fail(written, kExitFailed);
+    const absl::StatusOr<AtlasFiles::Written> written = files.write(newest.atlas);
+    if (!written.ok()) return fail(written.status(), kExitFailed);
+    line.print(describe(*written));
   }
   if (found.atlas_count == 0 && !isInterrupted()) {
     return fail(absl::InvalidArgumentError(strCat(options.file, ": holds no whole atlas")),

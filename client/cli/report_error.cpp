@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/printable.h"
 #include "base/retry_delay.h"
 #include "base/str_cat.h"
+#include "cli/user_words.h"
 #include "lib/broken_call.h"
 #include "lib/channel.h"
 
@@ -75,7 +77,7 @@ class ConnectionTeller {
 
 std::string explain(const absl::Status& status, const CommonOptions& common) {
   if (const std::string broken = explainBrokenCall(status); !broken.empty()) return broken;
-  std::string message(status.message());
+  const std::string message = inUserWords(std::string(status.message()));
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
       if (!isFromTransport(status)) return strCat("the server at ", common.server, ": ", message);
@@ -96,7 +98,7 @@ std::string explain(const absl::Status& status, const CommonOptions& common) {
 
 int reportError(const absl::Status& status, const CommonOptions& common) {
   const std::string text = explain(status, common);
-  std::fprintf(stderr, "viewloom: %s\n", text.c_str());
+  std::fprintf(stderr, "viewloom: %s\n", printable(text, true).c_str());
   return status.code() == absl::StatusCode::kUnavailable ? kExitNoServer : kExitFailed;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/size_option.h"
+#include "usage/one_of.h"
 
 namespace viewloom::cli {
 namespace {
@@ -23,7 +24,7 @@ template <typename Value>
 CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
                      const std::map<std::string, Value>& words, const std::string& description) {
   const auto take = [&value, words](const std::string& word) { value = words.at(word); };
-  return app.add_option_function<std::string>(name, take, description)->check(CLI::IsMember(words));
+  return app.add_option_function<std::string>(name, take, description)->check(usage::oneOf(words));
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ void addRgbdOptions(CLI::App& app, RgbdOptions& options, const std::vector<CLI::
       ->group(group)
       ->needs(size);
   app.add_option("--depth-bits", options.depth_bits, "Of depth: 8, or 16 in PNG files of 16 bits")
-      ->check(CLI::IsMember({8, 16}))
+      ->check(usage::oneOf({"8", "16"}))
       ->capture_default_str()
       ->group(group)
       ->needs(size);

@@ -38,7 +38,7 @@ void SentFrames::tellDepth(const std::vector<QuantisedDepth>& sources) {
   }
   if (!coarsest.kept_because.empty()) {
     if (std::exchange(told_, Told::kKept) == Told::kKept) return;
-    line_.say(strCat("depth stays binary32, packed with zstd: ", coarsest.kept_because));
+    line_.say(strCat("depth is sent as it is, packed without loss: ", coarsest.kept_because));
   } else if (coarsest.step > 0) {
     if (std::exchange(told_, Told::kQuantised) == Told::kQuantised) return;
     line_.say(strCat("depth goes as 16-bit inverse depth in steps of ", coarsest.step,
@@ -60,11 +60,12 @@ double SentFrames::depthStep() const {
 
 absl::Status SentFrames::complete() {
   if (!recorder_) return absl::OkStatus();
-  VIEWLOOM_RETURN_IF_ERROR(failure());
-  VIEWLOOM_RETURN_IF_ERROR(recorder_->complete());
+  const absl::Status kept = failure();
+  const absl::Status completed = recorder_->complete();
+  if (!completed.ok()) return kept.ok() ? completed : kept;
   const uint64_t count = recorder_->frameCount();
   line_.say(strCat(file_, ": ", count, count == 1 ? " frame recorded" : " frames recorded"));
-  return absl::OkStatus();
+  return kept;
 }
 
 }  // namespace viewloom::cli

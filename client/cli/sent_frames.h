@@ -22,14 +22,14 @@ class SentFrames {
   // Line and clock must outlive it.
   SentFrames(StatusLine& line, const Clock& clock) : line_(line), clock_(clock) {}
 
-  // From now on frames are kept. FAILED_PRECONDITION when the file cannot be written.
+  // From now on frames are kept. INVALID_ARGUMENT when the file cannot be written.
   absl::Status record(const std::string& file);
   void take(const CompressedFrame& frame);
   // Why frames are kept no longer; OK while they are.
   absl::Status failure() const;
   // The coarsest of the newest frame, 1/m; 0 = depth goes as it is.
   double depthStep() const;
-  // Ends the recording, if there is one, and says so.
+  // Ends the recording, if there is one, and says so. Fails when frames were kept no longer.
   absl::Status complete();
 
  private:

@@ -6,16 +6,19 @@
 #include <optional>
 #include <utility>
 
+#include "base/output_file.h"
 #include "base/str_cat.h"
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
+#include "cli/stream_wait.h"
 #include "lib/channel.h"
 #include "show/device_preset.h"
 #include "show/find_calibration.h"
 #include "show/show_session.h"
 #include "show/tune_session.h"
+#include "usage/one_of.h"
 
 namespace viewloom::cli {
 namespace {
@@ -117,6 +120,7 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
 }
 
 absl::Status tune(const ShowOptions& options, StatusLine& line) {
+  VIEWLOOM_RETURN_IF_ERROR(checkOutput(options.out_file));
   const auto calibration = show::chooseCalibration(options.calibration_file, "/");
   if (!calibration.ok()) return calibration.status();
   if (!calibration->has_value()) {
@@ -133,10 +137,11 @@ absl::Status tune(const ShowOptions& options, StatusLine& line) {
 absl::Status showOn(const ShowOptions& options, const CommonOptions& common, StatusLine& line) {
   const absl::StatusOr<show::SessionOptions> session = makeSession(options);
   if (!session.ok()) return session.status();
+  StreamWait waiting(line, common, options.stream);
   return show::showStream(makeChannel(common.server), *session,
                           {.is_interrupted = &isInterrupted,
                            .say = [&](const std::string& text) { line.say(text); },
-                           .on_connection = sayConnections(line, common)});
+                           .on_connection = waiting.toldBefore(sayConnections(line, common))});
 }
 
 int run(const ShowOptions& options, const CommonOptions& common) {
@@ -169,7 +174,7 @@ RunCommand addShowCommand(CLI::App& app) {
          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
          "two side by side; quilt [on a calibrated panel weave where the server traces on a CPU, "
          "else native; without one pair of a stereo display, else view]")
-      ->check(CLI::IsMember({"native", "weave", "view", "pair", "quilt"}));
+      ->check(usage::oneOf({"native", "weave", "view", "pair", "quilt"}));
   auto* calibration = app.add_option("--calibration", options->calibration_file,
                                      "The panel's visual.json [the one on its USB storage]");
   auto* eyes = app.add_option("--eyes-from", options->eye_file,
@@ -184,7 +189,7 @@ RunCommand addShowCommand(CLI::App& app) {
                  "Views between the two of a pair [an eighth of all]");
   app.add_option("--between-views", options->views_between,
                  "Of a woven quilt: blend neighbouring views, or show the nearest")
-      ->check(CLI::IsMember({"blend", "nearest"}))
+      ->check(usage::oneOf({"blend", "nearest"}))
       ->capture_default_str();
   app.add_flag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
   auto* tune = app.add_flag("--tune", options->is_tuning,

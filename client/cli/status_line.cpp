@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
+
+#include "base/printable.h"
 
 namespace viewloom::cli {
 
@@ -23,14 +26,21 @@ void StatusLine::show(const std::string& status) {
   std::lock_guard lock(mutex_);
   shown_at_ = std::chrono::steady_clock::now();
   if (is_quiet_) return;
-  write(is_terminal_ ? "\r\033[K" + status : status + "\n");
+  write(is_terminal_ ? "\r\033[K" + printable(status) : printable(status) + "\n");
   line_is_open_ = is_terminal_;
 }
 
 void StatusLine::say(const std::string& line) {
   std::lock_guard lock(mutex_);
-  write((line_is_open_ ? "\r\033[K" : "") + line + "\n");
+  write((line_is_open_ ? "\r\033[K" : "") + printable(line, true) + "\n");
   line_is_open_ = false;
+}
+
+void StatusLine::print(const std::string& line) {
+  std::lock_guard lock(mutex_);
+  if (std::exchange(line_is_open_, false)) write("\r\033[K");
+  std::printf("%s\n", printable(line).c_str());
+  std::fflush(stdout);
 }
 
 void StatusLine::write(const std::string& text) {

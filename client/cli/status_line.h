@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line on stderr that says how it goes: rewritten in place on a terminal, seldom elsewhere.
+// One line on stderr that says how it goes: rewritten in place on a terminal, seldom elsewhere. All
+// text is printed without the control characters in it: names may come from anybody.
 #pragma once
 
 #include <chrono>
@@ -23,6 +24,8 @@ class StatusLine {
   void show(const std::string& status);
   // A line of its own that stays, above the status.
   void say(const std::string& line);
+  // A line of results, on stdout.
+  void print(const std::string& line);
 
  private:
   void write(const std::string& text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/temporal_options.h"
+#include "usage/one_of.h"
 
 #include <map>
 #include <string>
@@ -25,7 +26,7 @@ void addTemporalOptions(CLI::App& app, TemporalOptions& options, CLI::Option* fi
   app.add_option_function<std::string>(
          "--between", take,
          "predict: from the newest frame; interpolate: one frame late, from two [predict]")
-      ->check(CLI::IsMember(kModes))
+      ->check(usage::oneOf(kModes))
       ->needs(rate)
       ->group(group);
   app.add_option("--bridge", options.bridge_s,

@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -21,17 +20,18 @@
 #include "cli/recorded_atlases.h"
 #include "cli/report_error.h"
 #include "cli/status_line.h"
+#include "cli/stream_wait.h"
 #include "eyes/eye_feed.h"
 #include "lib/channel.h"
 #include "lib/clock_follower.h"
+#include "lib/frame_latency.h"
 #include "lib/watcher.h"
+#include "usage/one_of.h"
 
 namespace viewloom::cli {
 namespace {
 
 constexpr int64_t kTick_ns = 50'000'000;
-// Beyond this the publisher's clock is not ours, and their difference is no latency.
-constexpr double kLatencyMax_s = 60;
 
 struct WatchOptions {
   std::string stream = "demo";
@@ -63,7 +63,7 @@ class WatchRun {
       : options_(options), common_(common), line_(options.is_quiet) {}
 
   int run() {
-    if (absl::Status folder = makeFolder(); !folder.ok()) return usage(folder);
+    if (absl::Status folder = makeAtlasFolder(options_.folder); !folder.ok()) return usage(folder);
     if (!options_.recording.empty()) return runRecording();
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
@@ -74,6 +74,8 @@ class WatchRun {
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
+    if (!options_.folder.empty()) files_.emplace(fileOptions(options_.stream));
+    waiting_.emplace(line_, common_, options_.stream);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
     // Only the line says how the server's clock stands: who sees none need not ask.
     if (!options_.is_quiet) clock_ = std::make_unique<ClockFollower>(*watcher_);
@@ -105,15 +107,6 @@ class WatchRun {
             .writes_png = options_.format == "png"};
   }
 
-  absl::Status makeFolder() const {
-    if (options_.folder.empty()) return absl::OkStatus();
-    std::error_code error;
-    std::filesystem::create_directories(options_.folder, error);
-    if (!error) return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        strCat("--out ", options_.folder, ": cannot be made: ", error.message()));
-  }
-
   absl::Status openEyes(const v1::Display& display) {
     if (options_.eye_file.empty()) return absl::OkStatus();
     if (!display.stereo().tracked()) {
@@ -136,11 +129,11 @@ class WatchRun {
   }
 
   WatcherCallbacks callbacks() {
-    return {
-        .on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
-        .on_atlas = [this](const Atlas& atlas) { take(atlas); },
-        .on_connection = sayOrGiveUp(line_, common_, options_.has_no_retry,
-                                     [this](const absl::Status& reason) { setFailure(reason); })};
+    return {.on_layout = [this](const v1::AtlasLayout& layout) { sayLayout(layout); },
+            .on_atlas = [this](const Atlas& atlas) { take(atlas); },
+            .on_connection = waiting_->toldBefore(
+                sayOrGiveUp(line_, common_, options_.has_no_retry,
+                            [this](const absl::Status& reason) { setFailure(reason); }))};
   }
 
   // Once: eyes that move, and a focal plane that does, change no more than the views.
@@ -154,9 +147,10 @@ class WatchRun {
   }
 
   void take(const Atlas& atlas) {
-    if (!options_.folder.empty()) {
-      const absl::Status written = writeAtlas(atlas, fileOptions(options_.stream));
-      if (!written.ok()) setFailure(written);
+    if (files_ && failure().ok()) {
+      const absl::StatusOr<AtlasFiles::Written> written = files_->write(atlas);
+      if (written.ok()) line_.print(describe(*written));
+      if (!written.ok()) setFailure(written.status());
     }
     sayHeld(atlas.header);
     if (const auto news = news_.note(atlas.header, planeOf(*atlas.layout))) line_.say(*news);
@@ -164,7 +158,7 @@ class WatchRun {
     std::lock_guard lock(mutex_);
     if (motion) motion_ = motion;
     newest_ = atlas.header;
-    latency_s_ = static_cast<double>(captureTimeNs() - newest_.capture_time_ns()) * 1e-9;
+    latency_.note(newest_.frame_number(), newest_.capture_time_ns(), captureTimeNs());
   }
 
   // A display with a rate of its own waits for the publisher.
@@ -204,11 +198,9 @@ class WatchRun {
     const double bytes_rate = bytes_rate_.perSecond(counts.received_bytes);
     const std::optional<ClockOffset> server = watcher_->serverClock();
     std::lock_guard lock(mutex_);
-    const bool is_latency = latency_s_ >= 0 && latency_s_ < kLatencyMax_s;
     const double server_ms = static_cast<double>(newest_.times().total_ns()) * 1e-6;
     return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
-                  formatBytes(bytes_rate), "/s, latency ",
-                  is_latency ? formatNumber(1e3 * latency_s_, 0) + " ms" : "unknown", " (server ",
+                  formatBytes(bytes_rate), "/s, ", latencyText(), " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
                   counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off",
                   motion_ ? "; " + motionText(*motion_) : "",
@@ -216,6 +208,14 @@ class WatchRun {
                   newest_.views_outside().empty()
                       ? ""
                       : "; past the source look " + outsideText(newest_.views_outside()));
+  }
+
+  std::string latencyText() const {
+    const std::optional<double> standing_s = latency_.standing_s(captureTimeNs());
+    if (standing_s) return strCat("no new frame for ", formatNumber(*standing_s, 0), " s");
+    const std::optional<double> latency_s = latency_.seconds();
+    return strCat("latency ",
+                  latency_s ? formatNumber(1e3 * *latency_s, 0) + " ms" : "not known yet");
   }
 
   int end() {
@@ -242,12 +242,14 @@ class WatchRun {
   RateMeter bytes_rate_;
   mutable std::mutex mutex_;
   v1::AtlasHeader newest_;
-  double latency_s_ = 0;
+  FrameLatency latency_;
   std::optional<MotionLatency> motion_;
   absl::Status failure_;
   std::string said_grid_;  // the watcher's thread's own, as the next
   DefaultsNews news_;
   EyeTimes eye_times_;
+  std::optional<AtlasFiles> files_;  // the watcher's thread's own
+  std::optional<StreamWait> waiting_;
   std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
   std::unique_ptr<ClockFollower> clock_;
   std::unique_ptr<EyeFeed> eyes_;  // last: it gives to the watcher
@@ -279,7 +281,7 @@ RunCommand addWatchCommand(CLI::App& app) {
   app.add_flag("--views", options->writes_views, "Write single views instead of atlases")
       ->needs(out);
   app.add_option("--format", options->format, "Of the files: jpg or png")
-      ->check(CLI::IsMember({"jpg", "png"}))
+      ->check(usage::oneOf({"jpg", "png"}))
       ->capture_default_str();
   app.add_flag("--no-wait", options->fails_without_stream, "End when there is no such stream");
   app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");

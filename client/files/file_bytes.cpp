@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
+#include "base/output_file.h"
 
 namespace viewloom::files {
 namespace {
@@ -45,17 +46,19 @@ absl::StatusOr<std::vector<uint8_t>> readFileBytes(const std::filesystem::path& 
 }
 
 absl::Status writeFileWhole(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path partial = path.string() + ".part";
-  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return absl::FailedPreconditionError(absl::StrCat(partial.string(), ": cannot be written"));
+  auto out = OutputFile::create(path);
+  if (!out.ok()) return out.status();
+  VIEWLOOM_RETURN_IF_ERROR((*out)->write(bytes));
+  return (*out)->replace();
+}
+
+absl::StatusOr<bool> writeNewFile(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error)
-    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": ", error.message()));
-  return absl::OkStatus();
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, error))) return false;
+  auto out = OutputFile::create(path);
+  if (!out.ok()) return out.status();
+  VIEWLOOM_RETURN_IF_ERROR((*out)->write(bytes));
+  return (*out)->placeNew();
 }
 
 }  // namespace viewloom::files

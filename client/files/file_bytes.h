@@ -25,7 +25,11 @@ absl::StatusOr<std::vector<uint8_t>> readFileBytes(const std::filesystem::path& 
 // OK when the path is a file that can be read and no larger than kFileBytesMax.
 absl::Status checkFile(const std::filesystem::path& path);
 
-// Writes beside the path and renames: readers see the old file, or the whole new one.
+// Writes beside the path and renames: readers see the old file, or the whole new one. Fails as
+// OutputFile: only regular files are replaced.
 absl::Status writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
+
+// The same where there is no such file yet; false = there is, and it stays.
+absl::StatusOr<bool> writeNewFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace viewloom::files

@@ -9,6 +9,7 @@
 #include "files/exr_description.h"
 #include "files/exr_image.h"
 #include "files/file_bytes.h"
+#include "files/file_extension.h"
 #include "inputs/exr_camera.h"
 #include "inputs/exr_layers.h"
 #include "inputs/unreal_camera.h"
@@ -27,7 +28,7 @@ void setChannels(const ExrLayers& layers, v1::LayerFiles& layer) {
 }
 
 absl::Status setChannelsOfView(const std::string& view, v1::PlaneFile& plane, bool is_color) {
-  if (view.empty() || !plane.file().ends_with(".exr")) return absl::OkStatus();
+  if (view.empty() || !files::hasExtension(plane.file(), ".exr")) return absl::OkStatus();
   const absl::StatusOr<files::ExrViewChannels> channels =
       files::exrChannelsOfView(plane.file(), view);
   if (!channels.ok()) return channels.status();

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
+#include "files/file_extension.h"
 #include "files/yuv_image.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpret_exr.h"
@@ -78,7 +79,7 @@ absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
   result.camera_size = camera->size;
   *layer.mutable_depth()->mutable_depth() = camera->depth;
   const auto setRaw = [&](v1::PlaneFile& plane, uint32_t bits, bool has_chroma) {
-    if (!plane.file().ends_with(".yuv")) return;
+    if (!files::hasExtension(plane.file(), ".yuv")) return;
     v1::RawVideo& raw = *plane.mutable_raw();
     *raw.mutable_size() = camera->size;
     raw.set_sample_bits(bits);
@@ -136,7 +137,7 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
 }
 
 bool isExr(const std::string& file) {
-  return file.ends_with(".exr") || file.ends_with(".EXR");
+  return files::hasExtension(file, ".exr");
 }
 
 absl::Status readByKind(const InputSettings& settings, const InputFiles& files,

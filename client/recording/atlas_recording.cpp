@@ -5,21 +5,13 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "lib/file_name_part.h"
 
 namespace viewloom {
 namespace {
 
 constexpr uint32_t kSideMax_px = 16384;  // as display.proto
-constexpr size_t kSuffixLengthMax = 64;
-
-bool isFileNamePart(const std::string& text) {
-  return text.size() <= kSuffixLengthMax && std::all_of(text.begin(), text.end(), [](char letter) {
-           return absl::ascii_isalnum(static_cast<unsigned char>(letter)) || letter == '_' ||
-                  letter == '-' || letter == '.';
-         });
-}
 
 // The sentence that is wrong with it, or nothing. Sizes in 64 bits: the products of foreign ones
 // fit.

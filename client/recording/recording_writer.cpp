@@ -1,62 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/recording_writer.h"
 
-#include <string>
-#include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "base/check.h"
 
 namespace viewloom {
+namespace {
 
-RecordingWriter::RecordingWriter(std::filesystem::path path)
-    : path_(std::move(path)),
-      partial_path_(path_.string() + ".part"),
-      out_(partial_path_, std::ios::binary | std::ios::trunc) {}
-
-RecordingWriter::~RecordingWriter() {
-  if (!out_.is_open()) return;
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(partial_path_, ignored);
+void appendNumber(std::string& bytes, uint64_t number, size_t byte_count) {
+  for (size_t i = 0; i < byte_count; ++i) bytes += static_cast<char>(number >> (8 * i));
 }
+
+std::string recordHead(int64_t time_ns, size_t message_bytes) {
+  std::string head;
+  appendNumber(head, static_cast<uint64_t>(time_ns), sizeof(time_ns));
+  appendNumber(head, message_bytes, sizeof(uint32_t));
+  return head;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(std::filesystem::path path, std::unique_ptr<OutputFile> out)
+    : path_(std::move(path)), out_(std::move(out)) {}
 
 absl::StatusOr<std::unique_ptr<RecordingWriter>> RecordingWriter::create(std::filesystem::path path,
                                                                          RecordingKind kind) {
-  std::unique_ptr<RecordingWriter> writer(new RecordingWriter(std::move(path)));
-  writer->out_.write(kRecordingMagic.data(), kRecordingMagic.size());
-  writer->writeNumber(kRecordingVersion, sizeof(uint32_t));
-  writer->writeNumber(static_cast<uint32_t>(kind), sizeof(uint32_t));
-  writer->bytes_ = kRecordingHeadBytes;
-  if (!writer->out_.flush()) return writer->failed();
-  return writer;
-}
-
-absl::Status RecordingWriter::failed() const {
-  return absl::FailedPreconditionError(absl::StrCat(
-      partial_path_.string(), ": cannot be written; its folder must exist and have room"));
-}
-
-void RecordingWriter::writeNumber(uint64_t number, size_t byte_count) {
-  for (size_t i = 0; i < byte_count; ++i) out_.put(static_cast<char>(number >> (8 * i)));
+  auto out = OutputFile::create(path);
+  if (!out.ok()) return out.status();
+  std::string head(kRecordingMagic.data(), kRecordingMagic.size());
+  appendNumber(head, kRecordingVersion, sizeof(uint32_t));
+  appendNumber(head, static_cast<uint32_t>(kind), sizeof(uint32_t));
+  VIEWLOOM_RETURN_IF_ERROR((*out)->write(head));
+  return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(path), *std::move(out)));
 }
 
 absl::Status RecordingWriter::add(int64_t time_ns, const google::protobuf::MessageLite& message) {
   const std::string bytes = message.SerializeAsString();
   VIEWLOOM_CHECK(!bytes.empty() && bytes.size() <= kRecordBytesMax);
   VIEWLOOM_CHECK(time_ns >= last_time_ns_);
-  last_time_ns_ = time_ns;
-  writeNumber(static_cast<uint64_t>(time_ns), sizeof(time_ns));
-  writeNumber(bytes.size(), sizeof(uint32_t));
-  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out_) return failed();
-  bytes_ += kRecordHeadBytes + bytes.size();
-  return absl::OkStatus();
+  absl::Status written = out_->write(recordHead(time_ns, bytes.size()));
+  if (written.ok()) written = out_->write(bytes);
+  if (written.ok()) last_time_ns_ = time_ns;
+  if (written.ok() || whole_bytes_ == 0) return written;
+  return absl::FailedPreconditionError(
+      absl::StrCat(written.message(), "; the recording ends here and keeps what came before"));
 }
 
 void RecordingWriter::markWhole() {
-  whole_bytes_ = bytes_;
+  whole_bytes_ = out_->size();
 }
 
 absl::Status RecordingWriter::complete() {
@@ -64,17 +57,11 @@ absl::Status RecordingWriter::complete() {
     return absl::FailedPreconditionError(
         absl::StrCat(path_.string(), ": is not written, as nothing whole came to be recorded"));
   }
-  out_.seekp(static_cast<std::streamoff>(whole_bytes_));
-  writeNumber(static_cast<uint64_t>(last_time_ns_), sizeof(last_time_ns_));
-  writeNumber(0, sizeof(uint32_t));
-  if (!out_.flush()) return failed();
-  std::error_code error;
-  std::filesystem::resize_file(partial_path_, whole_bytes_ + kRecordHeadBytes, error);
-  if (!error) std::filesystem::rename(partial_path_, path_, error);
-  if (error)
-    return absl::FailedPreconditionError(absl::StrCat(path_.string(), ": ", error.message()));
-  out_.close();
-  return absl::OkStatus();
+  VIEWLOOM_RETURN_IF_ERROR(out_->cutTo(whole_bytes_));
+  const absl::Status ended = out_->write(recordHead(last_time_ns_, 0));
+  // A disk without room for the end has room for the rest: readers say that it is cut short.
+  if (!ended.ok()) VIEWLOOM_RETURN_IF_ERROR(out_->cutTo(whole_bytes_));
+  return out_->replace();
 }
 
 }  // namespace viewloom

@@ -8,6 +8,7 @@
 
 #include "base/str_cat.h"
 #include "eyes/eye_feed.h"
+#include "lib/frame_latency.h"
 #include "show/arrivals.h"
 #include "show/display_link.h"
 #include "show/mode_question.h"
@@ -79,7 +80,7 @@ class ShowSession {
   bool is_stale_ = true;  // the window has to be drawn again
   int64_t statistics_at_ns_ = 0;
   ShownRate rate_;
-  std::optional<double> latency_s_;
+  FrameLatency latency_;
 
   // In the order in which they need one another.
   Stage stage_;
@@ -242,7 +243,7 @@ absl::Status ShowSession::present(const DecodedAtlas& atlas) {
   VIEWLOOM_RETURN_IF_ERROR(redraw());
   const int64_t now_ns = wallTimeNs();
   link_->reportPresented(atlas.header.sequence(), now_ns);
-  latency_s_ = latencySeconds(atlas.header.capture_time_ns(), now_ns);
+  latency_.note(atlas.header.frame_number(), atlas.header.capture_time_ns(), now_ns);
   rate_.count();
   return absl::OkStatus();
 }
@@ -271,7 +272,7 @@ absl::Status ShowSession::drawStatistics() {
   const ShowStatistics statistics{.rate_hz = rate_.perSecond(statistics_at_ns_),
                                   .dropped_count = (link_ ? link_->counts().atlases.gaps : 0) +
                                                    arrivals_.queue().droppedCount(),
-                                  .latency_s = latency_s_,
+                                  .latency_s = latency_.seconds(),
                                   .frame_number = shown_->header().frame_number(),
                                   .server_clock = link_ ? link_->serverClock() : std::nullopt,
                                   .is_connected = arrivals_.is_connected};

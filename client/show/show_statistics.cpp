@@ -10,7 +10,6 @@ namespace viewloom::show {
 namespace {
 
 constexpr int64_t kRateInterval_ns = 500'000'000;
-constexpr double kLatencyMax_s = 60;
 constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 std::string fixed(double value, int digits) {
@@ -44,12 +43,6 @@ double ShownRate::perSecond(int64_t now_ns) {
   counted_ = count_;
   since_ns_ = now_ns;
   return rate_;
-}
-
-std::optional<double> latencySeconds(int64_t capture_time_ns, int64_t shown_time_ns) {
-  const double latency_s = static_cast<double>(shown_time_ns - capture_time_ns) * 1e-9;
-  if (latency_s < 0 || latency_s >= kLatencyMax_s) return std::nullopt;
-  return latency_s;
 }
 
 std::string describe(const ShowStatistics& statistics, const ShowSettings& settings,

@@ -28,15 +28,11 @@ class ShownRate {
 struct ShowStatistics {
   double rate_hz = 0;
   uint64_t dropped_count = 0;       // on the way, and here because a newer one was due
-  std::optional<double> latency_s;  // capture to screen; none where the clocks differ
+  std::optional<double> latency_s;  // capture to screen; see FrameLatency
   uint64_t frame_number = 0;        // the publisher's
   std::optional<ClockOffset> server_clock;
   bool is_connected = false;
 };
-
-// From capture to screen, where that can be a latency: a negative one, or one over a minute, is the
-// difference of two clocks.
-std::optional<double> latencySeconds(int64_t capture_time_ns, int64_t shown_time_ns);
 
 std::string describe(const ShowStatistics& statistics, const ShowSettings& settings,
                      const v1::AtlasLayout& layout);

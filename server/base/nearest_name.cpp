@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "absl/strings/ascii.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
 
 constexpr size_t kNamesMax = 3;
+constexpr size_t kShownMax = 128;    // bytes of a wrong name
 constexpr size_t kBeginningMin = 3;  // letters that say enough about the rest of a name
 
 // Damerau's and Levenshtein's distance (optimal string alignment), by three rows of its table.
@@ -83,6 +85,15 @@ std::string didYouMean(std::string_view word, std::span<const std::string> names
     text += strCat(i == 0 ? "" : is_last ? " or " : ", ", "\"", nearest[i], "\"");
   }
   return text.empty() ? "" : strCat("did you mean ", text, "?");
+}
+
+std::string noSuchName(std::string_view word, std::span<const std::string> names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  const std::string meant = didYouMean(word, names);
+  return strCat("there is no \"", printable(word.substr(0, kShownMax)), "\"; ",
+                names.empty() ? "there are none yet" : "there are " + list,
+                meant.empty() ? "" : "; ", meant);
 }
 
 }  // namespace viewloom

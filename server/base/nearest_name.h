@@ -21,4 +21,7 @@ std::string nearestName(std::string_view word, std::span<const std::string> name
 // names from outside must be free of control characters.
 std::string didYouMean(std::string_view word, std::span<const std::string> names);
 
+// `there is no "potrait"; there are go, portrait; did you mean "portrait"?`
+std::string noSuchName(std::string_view word, std::span<const std::string> names);
+
 }  // namespace viewloom

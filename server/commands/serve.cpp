@@ -7,10 +7,14 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/clock.h"
 #include "base/log.h"
 #include "commands/command.h"
+#include "commands/reachable_addresses.h"
 #include "service.h"
 
 namespace viewloom {
@@ -27,6 +31,34 @@ sigset_t blockStopSignals() {
   return signals;
 }
 
+std::string joined(const std::vector<std::string>& addresses, const char* before) {
+  std::string text;
+  for (const std::string& address : addresses)
+    text += (text.empty() ? "" : ", ") + (before + address);
+  return text;
+}
+
+// Says how other machines get here, and that nothing keeps them out.
+void sayReach(const std::string& grpc_address, const std::string& http_url) {
+  constexpr std::string_view kScheme = "http://";
+  const InterfaceAddresses interfaces = interfaceAddresses();
+  const std::vector<std::string> grpc = reachableAddresses(grpc_address, interfaces);
+  const std::vector<std::string> http =
+      http_url.starts_with(kScheme)
+          ? reachableAddresses(http_url.substr(kScheme.size()), interfaces)
+          : std::vector<std::string>();
+  if (!grpc.empty()) std::printf("Other machines: --server %s\n", joined(grpc, "").c_str());
+  if (!http.empty()) std::printf("Page for other machines: %s\n", joined(http, "http://").c_str());
+  if (!grpc.empty()) {
+    std::printf(
+        "Anybody who reaches %s can publish streams and watch them: there is no password.\n",
+        grpc.front().c_str());
+  } else if (!http.empty()) {
+    std::printf("Anybody who reaches %s can watch all streams: there is no password.\n",
+                http.front().c_str());
+  }
+}
+
 }  // namespace
 
 int serve(const Config& config) {
@@ -40,6 +72,7 @@ int serve(const Config& config) {
   });
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
               service.httpUrl().c_str());
+  sayReach(service.grpcAddress(), service.httpUrl());
   std::fflush(stdout);
 
   int signal = 0;

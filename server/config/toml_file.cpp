@@ -3,11 +3,20 @@
 
 #include <toml++/toml.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "config/read_config.h"
 
 namespace viewloom {
 namespace {
+
+constexpr uint64_t kBytesMax = uint64_t{1} << 20;
 
 std::string placeOf(const std::string& path, const toml::source_region& region) {
   return strCat(path, ":", region.begin.line);
@@ -34,15 +43,40 @@ void flatten(const toml::table& table, const std::string& prefix, const std::str
   }
 }
 
+ConfigError unreadable(const std::string& path, const std::string& problem) {
+  return ConfigError(strCat("--config ", printable(path), ": ", problem,
+                            "; name a settings file, as deploy/viewloomd.example.toml is one"));
+}
+
+// The whole file, looked at before it is opened: a pipe would be waited for.
+std::string readText(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw unreadable(path, "there is no such file");
+  if (std::filesystem::is_directory(status)) throw unreadable(path, "is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw unreadable(path, "is no regular file");
+  const uint64_t size = std::filesystem::file_size(path, error);
+  if (!error && size > kBytesMax) {
+    throw unreadable(path, strCat("has ", size, " bytes; accepted are up to ", kBytesMax));
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || in.bad()) throw unreadable(path, "cannot be read; may you read it?");
+  if (text.find('\0') != std::string::npos) throw unreadable(path, "is no text");
+  return text;
+}
+
 }  // namespace
 
 std::vector<TomlEntry> readTomlFile(const std::string& path) {
+  const std::string text = readText(path);
   try {
     std::vector<TomlEntry> entries;
-    flatten(toml::parse_file(path), "", path, entries);
+    flatten(toml::parse(text, path), "", path, entries);
     return entries;
   } catch (const toml::parse_error& error) {
-    throw ConfigError(strCat(placeOf(path, error.source()), ": ", error.description()));
+    throw ConfigError(strCat(placeOf(path, error.source()), ": ",
+                             printable({error.description().data(), error.description().size()})));
   }
 }
 

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "absl/strings/str_join.h"
 #include "base/nearest_name.h"
-#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -86,10 +84,7 @@ absl::Status checkPreset(std::string_view name, std::string_view field) {
   if (findPreset(name) != nullptr) return absl::OkStatus();
   std::vector<std::string> names;
   for (const Preset& preset : kPresets) names.emplace_back(preset.name);
-  const std::string suggestion = didYouMean(name, names);
-  return fieldError(absl::StatusCode::kNotFound, field,
-                    strCat("there is no \"", name, "\"", suggestion.empty() ? "" : ", ", suggestion,
-                           "; there are ", absl::StrJoin(names, ", ")));
+  return fieldError(absl::StatusCode::kNotFound, field, noSuchName(name, names));
 }
 
 }  // namespace viewloom

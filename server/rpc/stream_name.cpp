@@ -6,7 +6,6 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "base/nearest_name.h"
 
 namespace viewloom {
@@ -30,13 +29,10 @@ absl::Status validateStreamName(const std::string& name, std::string_view field)
 
 absl::Status noSuchStream(const std::string& name, std::string_view field,
                           const StreamDirectory& directory) {
+  const std::vector<StreamEntry> entries = directory.list();
   std::vector<std::string> names;
-  for (const StreamEntry& entry : directory.list()) names.push_back(entry.name);
-  const std::string suggestion = didYouMean(name, names);
-  return fieldError(
-      absl::StatusCode::kNotFound, field,
-      absl::StrCat("there is no \"", name, "\"", suggestion.empty() ? "" : ", ", suggestion,
-                   "; there are: ", names.empty() ? "none" : absl::StrJoin(names, ", ")));
+  for (const StreamEntry& entry : entries) names.push_back(entry.name);
+  return fieldError(absl::StatusCode::kNotFound, field, noSuchName(name, names));
 }
 
 }  // namespace viewloom

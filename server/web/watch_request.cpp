@@ -67,14 +67,6 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
   return text.empty() ? "" : absl::StrCat(", ", text);
 }
 
-absl::Status unknownName(const std::string& field, const std::string& word,
-                         const std::vector<std::string>& names) {
-  return fieldError(
-      absl::StatusCode::kNotFound, field,
-      absl::StrCat("there is no \"", word, "\"", suggestion(word, names), "; there are ",
-                   names.empty() ? "none yet" : absl::StrJoin(names, ", ")));
-}
-
 absl::Status checkKnown(const QueryParameters& parameters, std::span<const ParameterField> all) {
   for (const auto& [name, value] : parameters) {
     bool known = false;
@@ -96,7 +88,7 @@ absl::Status checkPresetName(const QueryParameters& parameters) {
   for (const Preset& known : allPresets()) names.emplace_back(known.name);
   for (const RgbdPreset& known : rgbdPresets()) names.emplace_back(known.name);
   if (std::ranges::find(names, preset->second) != names.end()) return absl::OkStatus();
-  return unknownName("preset", preset->second, names);
+  return fieldError(absl::StatusCode::kNotFound, "preset", noSuchName(preset->second, names));
 }
 
 absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
@@ -170,7 +162,7 @@ absl::StatusOr<std::string> readStream(const QueryParameters& parameters,
   if (streams.exists(stream->second)) return stream->second;
   std::vector<std::string> names;
   for (const StreamEntry& entry : streams.list()) names.push_back(entry.name);
-  return unknownName("stream", stream->second, names);
+  return fieldError(absl::StatusCode::kNotFound, "stream", noSuchName(stream->second, names));
 }
 
 // A radius or "auto"; without one, everything is sharp.

@@ -61,6 +61,13 @@ TEST(NearestName, asksWithTheNamesInQuotes) {
             "did you mean \"16-landscape\" or \"32-landscape\"?");
 }
 
+TEST(NearestName, listsTheNamesThatThereAre) {
+  const std::vector<std::string> names{"go", "portrait"};
+  EXPECT_EQ(noSuchName("potrait", names),
+            "there is no \"potrait\"; there are go, portrait; did you mean \"portrait\"?");
+  EXPECT_EQ(noSuchName("x\033", {}), "there is no \"x\\x1b\"; there are none yet");
+}
+
 TEST(NearestName, isFastForALongWord) {
   EXPECT_EQ(didYouMean(std::string(size_t{1} << 20, 'x'), kPresets), "");
 }

@@ -111,6 +111,37 @@ TEST_F(FilePairsTest, sayWhichFileIsBroken) {
   EXPECT_THAT(add(exr, "cut.exr"), HasSubstr("cut.exr: is no EXR file to be read"));
 }
 
+TEST_F(FilePairsTest, saysWhichHalfWaitsAndWhatItsOtherHalfIsNamed) {
+  FilePairs halves = pairs();
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(halves.add("a_1.png", start).ok());
+  ASSERT_TRUE(halves.add("b_2.png", start).ok());
+  ASSERT_TRUE(halves.add("b_2_depth.png", start).ok());
+  EXPECT_THAT(halves.takeNotes(start + std::chrono::seconds(4)), IsEmpty());
+  EXPECT_THAT(halves.takeNotes(start + FilePairs::kPatience),
+              ElementsAre("a_1.png: waits for its depth, named as a_1_depth.png"));
+  EXPECT_THAT(halves.takeNotes(start + std::chrono::hours(1)), IsEmpty()) << "said once";
+}
+
+TEST_F(FilePairsTest, namesTheFileThatIsNearlyTheOtherHalf) {
+  FilePairs halves = pairs();
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(halves.add("frame_0001.png", start).ok());
+  ASSERT_TRUE(halves.add("fram_0001_depth.png", start).ok());
+  EXPECT_THAT(halves.takeNotes(start + FilePairs::kPatience),
+              ElementsAre(HasSubstr("fram_0001_depth.png waits too, but its name differs"),
+                          HasSubstr("frame_0001.png waits too, but its name differs")));
+}
+
+TEST_F(FilePairsTest, saysWhichOfTwoFilesOfOneHalfIsUsed) {
+  FilePairs halves = pairs();
+  EXPECT_EQ(add(halves, "a.png"), "-");
+  EXPECT_EQ(add(halves, "a_color.png"), "-");
+  EXPECT_THAT(halves.takeNotes({}), ElementsAre(HasSubstr("a.png and a_color.png are both the "
+                                                          "colour of one frame; a_color.png")));
+  EXPECT_EQ(add(halves, "a_depth.png"), "a_color.png + a_depth.png");
+}
+
 TEST_F(FilePairsTest, giveUpTheOldestOfTooManyHalves) {
   FilePairs halves = pairs();
   for (size_t i = 0; i <= FilePairs::kWaitingMax; ++i) {

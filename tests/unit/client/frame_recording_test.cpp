@@ -207,8 +207,7 @@ TEST_F(FrameRecordingTest, endsBehindTheLastWholeMessageOfItsOwner) {
 
 TEST_F(FrameRecordingTest, saysThatItsPlaceCannotBeWritten) {
   const auto recorder = FrameRecorder::create(folder_.path() / "none" / "frames.vlr", clock_);
-  EXPECT_THAT(std::string(recorder.status().message()),
-              HasSubstr("frames.vlr.part: cannot be written"));
+  EXPECT_THAT(std::string(recorder.status().message()), HasSubstr("frames.vlr: cannot be written"));
 }
 
 TEST_F(FrameRecordingTest, refusesWhatNoWriterWritesWithItsPlace) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -116,6 +117,18 @@ TEST_F(ReadConfig, saysWhereAFileIsNoToml) {
   EXPECT_THAT(errorOf(file("device = \"a\"\n[grpc\n")), HasSubstr(path_ + ":2: "));
   EXPECT_THAT(errorOf({.file = "/nonexistent/viewloomd.toml"}),
               HasSubstr("/nonexistent/viewloomd.toml"));
+}
+
+TEST_F(ReadConfig, refusesWhatIsNoSettingsFileInOneSentence) {
+  EXPECT_THAT(errorOf({.file = testing::TempDir()}), HasSubstr("is a folder, not a file"));
+  EXPECT_THAT(errorOf({.file = "/nonexistent/viewloomd.toml"}), HasSubstr("there is no such file"));
+  EXPECT_THAT(errorOf({.file = ""}), HasSubstr("there is no such file"));
+  EXPECT_THAT(errorOf({.file = "/dev/null"}), HasSubstr("is no regular file"));
+  EXPECT_THAT(errorOf(file(std::string("device\0 = 1", 11))), HasSubstr("is no text"));
+  EXPECT_THAT(errorOf(file(std::string((size_t{1} << 20) + 1, '#'))), HasSubstr("1048576"));
+  ASSERT_EQ(mkfifo((path_ + ".fifo").c_str(), 0600), 0);
+  EXPECT_THAT(errorOf({.file = path_ + ".fifo"}), HasSubstr("is no regular file"));
+  std::filesystem::remove(path_ + ".fifo");
 }
 
 TEST(ThreadCount, takesOnePerCoreForZero) {

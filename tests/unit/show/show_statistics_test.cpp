@@ -7,12 +7,6 @@
 namespace viewloom::show {
 namespace {
 
-TEST(Latency, isUnknownWhereClocksDiffer) {
-  EXPECT_EQ(latencySeconds(1'000'000'000, 1'250'000'000), 0.25);
-  EXPECT_EQ(latencySeconds(1'000'000'000, 999'999'999), std::nullopt);
-  EXPECT_EQ(latencySeconds(0, 61'000'000'000), std::nullopt);
-}
-
 TEST(ShownRate, isOverHalfASecondOrMore) {
   ShownRate rate;
   rate.perSecond(1'000'000'000);

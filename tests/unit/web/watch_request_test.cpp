@@ -144,7 +144,8 @@ TEST_F(WatchRequests, nameTheParameterAtFaultAndWhatIsAccepted) {
 TEST_F(WatchRequests, sayWhichStreamsExist) {
   const auto request = parseWatchRequest({{"stream", "sceen"}}, streams_);
   EXPECT_EQ(request.status().code(), absl::StatusCode::kNotFound);
-  EXPECT_EQ(request.status().message(), "stream: there is no \"sceen\"; there are scene");
+  EXPECT_EQ(request.status().message(),
+            "stream: there is no \"sceen\"; there are scene; did you mean \"scene\"?");
 }
 
 }  // namespace

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "base/str_cat.h"
+
+namespace viewloom {
+namespace {
+
+std::filesystem::path partialPath(const std::filesystem::path& path) {
+  return path.string() + ".part";
+}
+
+const char* nameOfKind(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISLNK(mode)) return "a symbolic link";
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+absl::Status checkReplaceable(const std::filesystem::path& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) != 0) {
+    if (errno == ENOENT) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        strCat(path.string(), ": cannot be written (", std::strerror(errno), ")"));
+  }
+  if (S_ISREG(status.st_mode)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      strCat(path.string(), ": is ", nameOfKind(status.st_mode),
+             ", which is never replaced; name a new file, or a regular file to replace"));
+}
+
+}  // namespace
+
+absl::Status checkOutput(const std::filesystem::path& path) {
+  if (path.empty() || !path.has_filename()) {
+    return absl::InvalidArgumentError(
+        strCat("\"", path.string(), "\": is no name of a file; name a file to write"));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(checkReplaceable(path));
+  VIEWLOOM_RETURN_IF_ERROR(checkReplaceable(partialPath(path)));
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(strCat(path.string(), ": cannot be written (",
+                                           std::strerror(errno),
+                                           "); its folder must exist and take new files"));
+}
+
+OutputFile::OutputFile(std::filesystem::path path, int descriptor)
+    : path_(std::move(path)), partial_path_(partialPath(path_)), descriptor_(descriptor) {}
+
+OutputFile::~OutputFile() {
+  close(descriptor_);
+  if (!is_placed_) unlink(partial_path_.c_str());
+}
+
+absl::Status OutputFile::failed(int error) const {
+  const std::string reason = error == EFBIG ? "it reached the largest size allowed"
+                             : error == ENOSPC || error == EDQUOT ? "the disk is full"
+                                                                  : std::strerror(error);
+  return absl::FailedPreconditionError(strCat(path_.string(), ": cannot be written: ", reason));
+}
+
+absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(std::filesystem::path path) {
+  VIEWLOOM_RETURN_IF_ERROR(checkOutput(path));
+  const std::filesystem::path partial = partialPath(path);
+  unlink(partial.c_str());  // left by a command that was killed
+  const int descriptor =
+      ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    return absl::InvalidArgumentError(strCat(path.string(), ": cannot be written (",
+                                             std::strerror(errno),
+                                             "); its folder must exist and take new files"));
+  }
+  return std::unique_ptr<OutputFile>(new OutputFile(std::move(path), descriptor));
+}
+
+absl::Status OutputFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return failed(errno);
+    size_ += static_cast<uint64_t>(written);
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status OutputFile::cutTo(uint64_t bytes) {
+  const bool is_cut = ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0 &&
+                      lseek(descriptor_, static_cast<off_t>(bytes), SEEK_SET) >= 0;
+  if (!is_cut) return failed(errno);
+  size_ = bytes;
+  return absl::OkStatus();
+}
+
+absl::Status OutputFile::replace() {
+  VIEWLOOM_RETURN_IF_ERROR(checkReplaceable(path_));
+  if (rename(partial_path_.c_str(), path_.c_str()) != 0) return failed(errno);
+  is_placed_ = true;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<bool> OutputFile::placeNew() {
+  if (renameat2(AT_FDCWD, partial_path_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0) {
+    is_placed_ = true;
+    return true;
+  }
+  if (errno == EEXIST) return false;
+  // Some file systems of the network know no such renaming; a link does not replace either.
+  if (errno == EINVAL && link(partial_path_.c_str(), path_.c_str()) == 0) {
+    return true;  // and the partial file goes with this object
+  }
+  if (errno == EEXIST) return false;
+  return failed(errno);
+}
+
+}  // namespace viewloom
