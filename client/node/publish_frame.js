@@ -2,9 +2,8 @@
 // Publishes one small frame, a ball before a wall, and holds it until Ctrl-C.
 //   node publish_frame.js --stream demo
 import {once} from 'node:events';
-import {parseArgs} from 'node:util';
 
-import {connect, kCommonOptions, run} from './viewloom.js';
+import {connect, run} from './viewloom.js';
 
 const kSize_px = {width: 320, height: 180};
 const kHalfHeight_rad = 0.3;
@@ -58,8 +57,7 @@ async function writeFrame(call) {
   }
 }
 
-run(async () => {
-  const {values: options} = parseArgs({options: kCommonOptions});
+run({}, async (options) => {
   const client = connect('IngestService', options);
   const call = client.PublishFrames();
   process.once('SIGINT', () => call.end());

@@ -2,14 +2,13 @@
 // Watches one quilt of a stream and saves it as a JPEG, whose name tells its layout.
 //   node watch_quilt.js --stream demo --preset portrait --out quilt
 import {writeFile} from 'node:fs/promises';
-import {parseArgs} from 'node:util';
 
-import {connect, kCommonOptions, run} from './viewloom.js';
+import {connect, run} from './viewloom.js';
 
 // One atlas: its layout, its header, and its bands joined, which are one JPEG file.
-async function receiveQuilt(client, stream, quilt) {
+async function receiveQuilt(client, stream, display) {
   const call = client.StreamAtlases();
-  call.write({open: {stream, display: {quilt}, count: 1, wait_for_stream: true}});
+  call.write({open: {stream, display, count: 1}});
   call.end();
   let layout;
   let header;
@@ -29,15 +28,15 @@ async function receiveQuilt(client, stream, quilt) {
   throw new Error('the server ended before an atlas was whole');
 }
 
-run(async () => {
-  const {values: options} = parseArgs({options: {
-    ...kCommonOptions,
-    preset: {type: 'string', default: 'portrait'},
-    out: {type: 'string', default: 'quilt'},
-  }});
+const kOptions = {
+  preset: {type: 'string', default: 'portrait'},
+  out: {type: 'string', default: 'quilt'},
+};
+
+run(kOptions, async (options) => {
   const client = connect('DisplayService', options);
   const {layout, header, jpeg} =
-      await receiveQuilt(client, options.stream, {preset: options.preset});
+      await receiveQuilt(client, options.stream, {quilt: {preset: options.preset}});
   client.close();
   const file = `${options.out}${layout.suffix}.jpg`;
   await writeFile(file, jpeg);

@@ -110,6 +110,15 @@ class NodeClient(unittest.TestCase):
         self.assertRegex(done.stderr,
                          r"\ANOT_FOUND: open\.display\.quilt\.preset: .*portrait.*\n\Z")
 
+    def test_a_stream_or_a_server_that_is_not_there_is_one_line_with_a_remedy(self):
+        done, pictures = self.watch("--stream", "nothere")
+        self.assertEqual((done.returncode, done.stdout, pictures), (1, "", {}))
+        self.assertRegex(done.stderr, r"\ANOT_FOUND: .*nothere.*demo.*\n\Z")
+        done, pictures = self.watch("--server", "127.0.0.1:1")
+        self.assertEqual((done.returncode, done.stdout, pictures), (1, "", {}))
+        self.assertRegex(done.stderr, r"\Ano viewloomd answers at 127\.0\.0\.1:1: start one with "
+                                      r"`viewloomd serve`.*\n\Z")
+
 
 if __name__ == "__main__":
     try:
