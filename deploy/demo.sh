@@ -53,7 +53,8 @@ give_up() {
 
 deploy/setup.sh
 cmake --preset release -DVIEWLOOM_TESTS=OFF
-cmake --build build/release --parallel "$(nproc)" --target viewloomd viewloom
+cmake --build build/release --parallel "$(nproc)" --target viewloomd viewloom \
+  viewloom_python
 
 mkdir -p "$log_folder"
 trap stop EXIT

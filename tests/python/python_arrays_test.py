@@ -57,7 +57,7 @@ class Refusals(unittest.TestCase):
 
     def test_depth_of_another_shape_or_type(self):
         self.refused("depth[0]", "is a list", depth=[[1.0]], color=[COLOR])
-        self.refused("depth", "has the shape 4x6x1", depth=DEPTH[..., None])
+        self.refused("depth", "has the shape 4x6x2", depth=np.dstack([DEPTH, DEPTH]))
         self.refused("depth", "samples of int32", depth=DEPTH.astype(np.int32))
         self.refused("depth_format", "is needed, as depth is uint16", depth=DEPTH.astype(np.uint16))
         self.refused("depth_format", 'no field named "unit"', depth_format={"unit": "mm"})

@@ -152,12 +152,13 @@ class Asyncio(unittest.IsolatedAsyncioTestCase):
             await asyncio.wait_for(
                 self.server.still("later", "portrait", wait_for_stream=True), 0.05)
 
-    async def test_a_server_that_leaves_is_an_error(self):
-        publisher = await self.server.publish("scene").__aenter__()
-        async with self.server.watch("scene", "portrait") as watcher:
-            self.daemon.process.terminate()
-            await self.refused(watcher.receive(), "UNAVAILABLE", "", "")
-        await self.refused(publisher.close(), "UNAVAILABLE", "", "")
+    async def test_a_server_that_leaves_is_an_error_without_reconnecting(self):
+        async with viewloom.aio.connect(self.daemon.address, reconnect=False) as server:
+            publisher = await server.publish("scene").__aenter__()
+            async with server.watch("scene", "portrait") as watcher:
+                self.daemon.process.terminate()
+                await self.refused(watcher.receive(), "UNAVAILABLE", "", "")
+            await self.refused(publisher.close(), "UNAVAILABLE", "", "")
 
 
 if __name__ == "__main__":

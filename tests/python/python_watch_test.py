@@ -247,9 +247,11 @@ class Watching(unittest.TestCase):
         self.refused(lambda: self.server.still("later", "portrait", wait_for_stream=True,
                                                timeout_s=0.05), "DEADLINE_EXCEEDED", "", "")
 
-    def test_a_server_that_leaves_is_an_error(self):
-        publisher = self.server.publish("scene")
-        watcher = self.server.watch("scene", "portrait")
+    def test_a_server_that_leaves_is_an_error_without_reconnecting(self):
+        server = viewloom.connect(self.daemon.address, reconnect=False)
+        self.addCleanup(server.close)
+        publisher = server.publish("scene")
+        watcher = server.watch("scene", "portrait")
         self.daemon.process.terminate()
         self.refused(watcher.receive, "UNAVAILABLE", "", "")
         self.refused(publisher.close, "UNAVAILABLE", "", "")

@@ -10,12 +10,18 @@ PROGRAM = sys.argv.pop(1)
 
 
 class Viewloomd:
-    def __init__(self):
+    def __init__(self, address="127.0.0.1:0"):
         self.process = subprocess.Popen(
-            [PROGRAM, "serve", "--grpc.address", "127.0.0.1:0", "--http.address", "127.0.0.1:0"],
+            [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0"],
             stdout=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         self.address, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
+
+    def kill(self):
+        """As a crash, or a machine that loses its power."""
+        self.process.kill()
+        self.process.wait(PATIENCE_S)
+        self.process.stdout.close()
 
     def stop(self):
         self.process.terminate()

@@ -14,5 +14,4 @@ depth_m = np.where(is_ball, 1.5, 3.0)
 
 with viewloom.connect(*sys.argv[1:]) as server, server.publish("ball") as publisher:
     publisher.send(viewloom.Source(color, depth_m, fov_y_rad=0.6))
-    with open("ball.jpg", "wb") as file:
-        file.write(server.still("ball", "portrait").jpeg)
+    print("wrote", server.still("ball", "portrait").save("ball.jpg"))

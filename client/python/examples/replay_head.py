@@ -12,6 +12,7 @@ own, is a Camera: {"pose": {"position": {"x": 0.1}, "orientation": {"y": 0.1, "w
 import argparse
 import json
 import pathlib
+import sys
 import time
 from typing import Any, Iterator
 
@@ -71,7 +72,10 @@ def main() -> None:
     parser.add_argument("--focal-distance", type=float, default=0, help="m; 0 = the content's")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("seen"),
                         help="folder for the pairs of pictures, one beside the other")
-    replay(parser.parse_args())
+    try:
+        replay(parser.parse_args())
+    except viewloom.ViewloomError as error:
+        sys.exit(f"replay_head: {error}")
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 import argparse
 import asyncio
+import sys
 
 import viewloom
 
@@ -32,7 +33,10 @@ def main() -> None:
     parser.add_argument("--preset", default="portrait")
     parser.add_argument("--view", type=int, default=24)
     parser.add_argument("--count", type=int, default=0, help="atlases; 0 = until Ctrl-C")
-    asyncio.run(watch(parser.parse_args()))
+    try:
+        asyncio.run(watch(parser.parse_args()))
+    except viewloom.ViewloomError as error:
+        sys.exit(f"watch_asyncio: {error}")
 
 
 if __name__ == "__main__":

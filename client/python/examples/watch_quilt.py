@@ -9,6 +9,7 @@ Needs python3-grpcio, python3-protobuf and python3-pil, and the modules that the
 
 import argparse
 import io
+import sys
 
 import grpc
 from PIL import Image
@@ -24,7 +25,7 @@ def receive_quilt(address, stream, display):
     with grpc.insecure_channel(address) as channel:
         stub = display_service_pb2_grpc.DisplayServiceStub(channel)
         layout, header, jpeg = None, None, bytearray()
-        for message in stub.StreamAtlases(iter([request]), wait_for_ready=True):
+        for message in stub.StreamAtlases(iter([request])):
             kind = message.WhichOneof("message")
             if kind == "layout":
                 layout = message.layout
@@ -55,7 +56,11 @@ def main():
     options = parser.parse_args()
 
     display = display_pb2.Display(quilt=display_pb2.QuiltDisplay(preset=options.preset))
-    layout, header, jpeg = receive_quilt(options.server, options.stream, display)
+    print(f"waiting for a frame of {options.stream}", file=sys.stderr)
+    try:
+        layout, header, jpeg = receive_quilt(options.server, options.stream, display)
+    except grpc.RpcError as error:
+        sys.exit(f"watch_quilt: {options.server}: {error.code().name}: {error.details()}")
     quilt_file = f"{options.out}{layout.suffix}.jpg"
     with open(quilt_file, "wb") as file:
         file.write(jpeg)

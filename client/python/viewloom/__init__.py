@@ -16,15 +16,16 @@ if TYPE_CHECKING:
     from viewloom.atlas import Atlas, view_window
     from viewloom.clock import ClockOffset
     from viewloom.display import encoding
-    from viewloom.errors import BadInput, ViewloomError
+    from viewloom.errors import BadInput, UnlikelyInput, ViewloomError
     from viewloom.publisher import Publisher
     from viewloom.server import Server, connect
     from viewloom.source import Source
+    from viewloom.version import VERSION as __version__
     from viewloom.watcher import Watcher
 else:
     _MODULES = {"Atlas": "atlas", "BadInput": "errors", "ClockOffset": "clock",
                 "Publisher": "publisher", "Server": "server", "Source": "source",
-                "ViewloomError": "errors",
+                "UnlikelyInput": "errors", "ViewloomError": "errors",
                 "Watcher": "watcher", "connect": "server", "encoding": "display",
                 "view_window": "atlas"}
 
@@ -32,9 +33,11 @@ else:
         # Imported when first asked for: who uses viewloom.v1 alone needs no numpy.
         if name == "aio":
             return importlib.import_module("viewloom.aio")
+        if name == "__version__":
+            return importlib.import_module("viewloom.version").VERSION
         if name not in _MODULES:
             raise AttributeError(f"module 'viewloom' has no attribute '{name}'")
         return getattr(importlib.import_module(f"viewloom.{_MODULES[name]}"), name)
 
-__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "ViewloomError",
-           "Watcher", "aio", "connect", "encoding", "view_window"]
+__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "UnlikelyInput",
+           "ViewloomError", "Watcher", "__version__", "aio", "connect", "encoding", "view_window"]

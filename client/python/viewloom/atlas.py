@@ -6,6 +6,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import io
+import pathlib
 from typing import Any, Union
 
 import numpy as np
@@ -13,6 +14,7 @@ import zstandard
 from numpy.typing import NDArray
 from PIL.JpegImagePlugin import JpegImageFile
 
+from viewloom.atlas_file import PathLike, save
 from viewloom.errors import BadInput, data_loss
 from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
@@ -34,7 +36,7 @@ class Band:
     first_row: int
     row_count: int
     encoding: atlas_pb2.BandEncoding
-    data: bytearray
+    data: bytearray = dataclasses.field(repr=False)
 
 
 def _inflate(band: Band, wanted_bytes: int) -> bytes:
@@ -76,19 +78,31 @@ def view_window(picture: NDArray[Any], layout: AtlasLayout, view: int) -> NDArra
     return picture[top:top + layout.tile_size.height, left:left + layout.tile_size.width]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(repr=False)
 class Atlas:
     """All views of a display at one instant. Pictures are decoded when first asked for.
 
     layout:   where the views lie and what they see (proto AtlasLayout).
     header:   frame number, capture time, coverage, stage times (proto AtlasHeader).
     skipped:  atlases of this display that were made since the one before, and overtaken.
+    stream:   the name of the stream.
     """
 
     layout: AtlasLayout
     header: AtlasHeader
-    bands: list[Band] = dataclasses.field(repr=False)
+    bands: list[Band]
     skipped: int = 0
+    stream: str = ""
+
+    def __repr__(self) -> str:
+        tile = self.layout.tile_size
+        kinds = sorted({atlas_pb2.BandEncoding.Name(band.encoding).removeprefix("BAND_ENCODING_")
+                        for band in self.bands})
+        size_bytes = sum(len(band.data) for band in self.bands)
+        return (f"<viewloom.Atlas of {self.stream!r}, frame {self.header.frame_number}: "
+                f"{self.layout.view_count} views of {tile.width}x{tile.height} px in "
+                f"{self.layout.size.width}x{self.layout.size.height}, {size_bytes} bytes of "
+                f"{'+'.join(kinds)}>")
 
     @property
     def image_count(self) -> int:
@@ -192,6 +206,23 @@ class Atlas:
         if not bands or bands[0].encoding != atlas_pb2.BAND_ENCODING_JPEG:
             raise BadInput("encoding", "is not JPEG: there is no file; use color")
         return b"".join(band.data for band in bands)
+
+    @property
+    def is_jpeg(self) -> bool:
+        """Whether all of its colour is one JPEG file."""
+        bands = [band for band in self.bands if band.plane == atlas_pb2.ATLAS_PLANE_COLOR]
+        return self.image_count == 1 and bool(bands) and all(
+            band.encoding == atlas_pb2.BAND_ENCODING_JPEG for band in bands)
+
+    def save(self, path: PathLike) -> pathlib.Path:
+        """Saves the colour as a picture file; says which.
+
+        path: a file that ends in .jpg (the bytes as they came) or .png; or a folder, then with a
+              name that quilt players read the layout from: demo_000001_qs8x6a0.75.jpg.
+        The file is there whole, or not at all. Only regular files are replaced. Raises BadInput,
+        and OSError where the file cannot be written.
+        """
+        return save(self, path)
 
     def view(self, view: int) -> NDArray[np.uint8]:
         """uint8[tile_height_px][tile_width_px][3]: colour of view 0..view_count - 1."""

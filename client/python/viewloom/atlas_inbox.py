@@ -20,7 +20,8 @@ _BYTES_MAX = 8 * 16384 * 16384
 class AtlasInbox:
     """One slot: a newer atlas takes the place of one that was not taken. Thread-safety: none."""
 
-    def __init__(self) -> None:
+    def __init__(self, stream: str = "") -> None:
+        self._stream = stream
         self._layout: Optional[AtlasLayout] = None
         self._header: Optional[AtlasHeader] = None  # of the atlas that is open
         self._bands: list[Band] = []
@@ -30,6 +31,10 @@ class AtlasInbox:
         self._skipped = 0  # since the newest one that was taken
         self.is_ended = False
         self._error: Optional[ViewloomError] = None
+
+    def begin_call(self) -> None:
+        """What comes next belongs to another call: what was begun is discarded."""
+        self._layout = self._header = None
 
     def add(self, response: StreamAtlasesResponse) -> None:
         """Takes a message in. Raises DATA_LOSS when it does not follow those before."""
@@ -68,7 +73,7 @@ class AtlasInbox:
                 or self._band_is_open or len(self._bands) != self._header.band_count):
             raise data_loss(f"atlas {sequence} ended before it was whole")
         self._skipped += self._newest is not None
-        self._newest = Atlas(self._layout, self._header, self._bands)
+        self._newest = Atlas(self._layout, self._header, self._bands, stream=self._stream)
         self._header = None
 
     def end(self, error: Optional[ViewloomError]) -> None:

@@ -7,6 +7,9 @@ import dataclasses
 import time
 from typing import Optional
 
+import grpc
+
+from viewloom.errors import ViewloomError
 from viewloom.v1.display_service_pb2 import (ClockProbe, ClockReply, Presented,
                                              StreamAtlasesRequest)
 
@@ -28,6 +31,12 @@ def presented_request(sequence: int, presented_time_ns: int) -> StreamAtlasesReq
     """Tells when an atlas was shown."""
     return StreamAtlasesRequest(presented=Presented(sequence=sequence,
                                                     presented_time_ns=presented_time_ns))
+
+
+def connection_broke_meanwhile() -> ViewloomError:
+    """Why a measurement has no result."""
+    return ViewloomError(grpc.StatusCode.UNAVAILABLE, "",
+                         "the connection broke while the clock was measured: measure it again")
 
 
 class ServerClock:

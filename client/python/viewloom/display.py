@@ -57,7 +57,7 @@ def open_request(stream: str, display: DisplayLike, given: EncodingLike, *, coun
     """Asks for so many atlases, 0 = until the call ends."""
     return StreamAtlasesRequest(open=OpenDisplay(
         stream=stream, display=display_from(display), encoding=_encoding_from(given), count=count,
-        wait_for_stream=wait_for_stream))
+        wait_for_stream=wait_for_stream, wants_heartbeats=count == 0))
 
 
 def change_request(display: Optional[DisplayLike], given: EncodingLike) -> StreamAtlasesRequest:
@@ -83,3 +83,39 @@ def eyes_request(left: EyeLike, right: EyeLike, time_ns: int,
     return StreamAtlasesRequest(eye_poses=EyePoses(
         time_ns=time_ns, predicted_display_time_ns=predicted_display_time_ns,
         eyes=[_eye_from(left, "left"), _eye_from(right, "right")]))
+
+
+class Opening:
+    """What a call is opened with, and opened with again: it follows what was asked for since.
+
+    Thread-safety: none.
+    """
+
+    def __init__(self, opening: StreamAtlasesRequest) -> None:
+        self._opening = opening
+        self._eyes: Optional[StreamAtlasesRequest] = None
+
+    @property
+    def stream(self) -> str:
+        """Name of the stream that is watched."""
+        return self._opening.open.stream
+
+    def requests(self) -> list[StreamAtlasesRequest]:
+        """For a call. A later one waits for the stream: its publisher may come back later."""
+        opening = StreamAtlasesRequest()
+        opening.CopyFrom(self._opening)
+        self._opening.open.wait_for_stream = True
+        return [opening] if self._eyes is None else [opening, self._eyes]
+
+    def note(self, request: StreamAtlasesRequest) -> None:
+        """Takes in what is asked for within the call."""
+        if request.HasField("eye_poses"):
+            self._eyes = request
+        if not request.HasField("change"):
+            return
+        change = request.change
+        if change.HasField("display"):
+            self._opening.open.display.CopyFrom(change.display)
+            self._eyes = None  # they were before the display that is left
+        if change.HasField("encoding"):
+            self._opening.open.encoding.CopyFrom(change.encoding)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import secrets
 from typing import Any, Iterator, Sequence, Union
 
 import zstandard
@@ -11,12 +12,16 @@ from viewloom.errors import BadInput
 from viewloom.planes import WirePlane
 from viewloom.source import Source, source_header, wire_planes
 from viewloom.v1 import frame_pb2
-from viewloom.v1.ingest_service_pb2 import FrameChunk, PublishFramesRequest, PublishSettings
+from viewloom.v1.ingest_service_pb2 import (FrameChunk, Heartbeat, PublishFramesRequest,
+                                            PublishSettings)
 
 CHUNK_BYTES_MAX = 1 << 20
 
 _TONE_MAPS = {"clip": frame_pb2.TONE_MAP_CLIP, "filmic": frame_pb2.TONE_MAP_FILMIC,
               "agx": frame_pb2.TONE_MAP_AGX}
+
+# Says that the publisher lives, where it has nothing else to say.
+HEARTBEAT = PublishFramesRequest(heartbeat=Heartbeat())
 
 Sources = Union[Source, Sequence[Source]]
 
@@ -71,5 +76,10 @@ def frame_messages(number: int, sources: Sources, *, capture_time_ns: int, expos
 
 
 def settings_message(stream: str, session_id: str) -> PublishFramesRequest:
-    """What a call begins with."""
-    return PublishFramesRequest(settings=PublishSettings(stream=stream, session_id=session_id))
+    """What a call begins with.
+
+    Without a session id it is given a secret one: so a publisher whose line broke takes its own
+    stream over, also before the server knows that the line is dead.
+    """
+    return PublishFramesRequest(settings=PublishSettings(
+        stream=stream, session_id=session_id or secrets.token_hex(16), sends_heartbeats=True))

@@ -8,12 +8,14 @@ from typing import Any, Mapping, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from viewloom.arrays import color_array, depth_array, sample_type
 from viewloom.errors import BadInput
 from viewloom.messages import message_from
 from viewloom.v1 import frame_pb2
 
 DepthFormatLike = Union[frame_pb2.DepthFormat, Mapping[str, Any], None]
 _HALF_MAX = 65504.0  # the largest binary16
+_U16_MAX = 65535
 
 _DEPTH_ENCODINGS = {"f2": frame_pb2.PLANE_ENCODING_DEPTH_F16,
                     "f4": frame_pb2.PLANE_ENCODING_DEPTH_F32,
@@ -42,21 +44,6 @@ class ColorMeaning(NamedTuple):
     alpha: str = "opaque"
 
 
-def _shape_text(array: NDArray[Any]) -> str:
-    return "x".join(map(str, array.shape)) or "a single number"
-
-
-def _sample_type(array: NDArray[Any]) -> str:
-    """ "u1", "f4": kind and bytes, whatever the order of the bytes."""
-    return f"{array.dtype.kind}{array.dtype.itemsize}"
-
-
-def _checked_array(value: Any, field: str, accepted: str) -> NDArray[Any]:
-    if not isinstance(value, np.ndarray):
-        raise BadInput(field, f"is a {type(value).__name__}, must be a numpy array: {accepted}")
-    return value
-
-
 def _word(table: Mapping[str, int], word: str, field: str) -> Any:
     if word not in table:
         raise BadInput(field, f"is {word!r}, must be one of {', '.join(table)}")
@@ -67,7 +54,10 @@ def _half_rgba(color: NDArray[Any], field: str) -> NDArray[Any]:
     """RGBA16F. float[height][width][3 or 4], linear light."""
     peak = np.abs(color).max()
     if not peak <= _HALF_MAX:  # NaN compares false
-        raise BadInput(field, f"holds {peak}, must be finite and at most {_HALF_MAX:.0f}: binary16")
+        remedy = ("" if not np.isfinite(peak) or peak > _U16_MAX else
+                  f'; if it is 0..65535, give {field} / 65535 with transfer="srgb"')
+        raise BadInput(field, f"holds {peak}, must be finite and at most {_HALF_MAX:.0f}: binary16"
+                       + remedy)
     half = np.ones((*color.shape[:2], 4), "<f2")
     half[..., :color.shape[2]] = color
     return half
@@ -75,20 +65,15 @@ def _half_rgba(color: NDArray[Any], field: str) -> NDArray[Any]:
 
 def color_plane(color: Any, field: str, meaning: ColorMeaning = ColorMeaning()) -> WirePlane:
     """uint8 or float [height][width][3 or 4], top row first; raises BadInput for others."""
-    accepted = "uint8 or floats of shape (height, width, 3 or 4), top row first"
-    array = _checked_array(color, field, accepted)
-    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.size == 0:
-        raise BadInput(field, f"has the shape {_shape_text(array)}, must be {accepted}")
-    kind = _sample_type(array)
+    array = color_array(color, field)
+    kind = sample_type(array)
     if kind == "u1":
         encoding = (frame_pb2.PLANE_ENCODING_RGB8 if array.shape[2] == 3
                     else frame_pb2.PLANE_ENCODING_RGBA8)
         samples = np.ascontiguousarray(array)
-    elif kind in ("f2", "f4", "f8"):
+    else:
         encoding = frame_pb2.PLANE_ENCODING_RGBA16F
         samples = _half_rgba(array, field)
-    else:
-        raise BadInput(field, f"has samples of {array.dtype}, must be {accepted}")
     transfer = meaning.transfer or ("srgb" if kind == "u1" else "linear")
     alpha = _word(_ALPHAS, meaning.alpha, "alpha")
     if meaning.alpha != "opaque" and array.shape[2] == 3:
@@ -115,16 +100,11 @@ def depth_plane(depth: Any, field: str,
 
     float64 is sent as float32. uint16 has no natural unit and needs a format.
     """
-    accepted = "floats or uint16 of shape (height, width), top row first"
-    array = _checked_array(depth, field, accepted)
-    if array.ndim != 2 or array.size == 0:
-        raise BadInput(field, f"has the shape {_shape_text(array)}, must be {accepted}")
-    kind = _sample_type(array)
-    if kind not in _DEPTH_ENCODINGS:
-        raise BadInput(field, f"has samples of {array.dtype}, must be {accepted}")
+    array = depth_array(depth, field)
+    kind = sample_type(array)
     if kind == "u2" and given is None:
         raise BadInput("depth_format", f"is needed, as {field} is uint16: of millimetres it is "
-                       "{'meaning': 'DEPTH_MEANING_PLANAR', 'scale': 0.001}")
+                       "{'meaning': 'DEPTH_MEANING_PLANAR', 'scale': 0.001, 'invalid_value': 0}")
     with np.errstate(over="ignore"):  # what is too far for float32 is infinitely far
         wire_type = "<f4" if kind == "f8" else f"<{kind}"
         samples = np.ascontiguousarray(array.astype(wire_type, copy=False))

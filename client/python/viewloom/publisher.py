@@ -12,9 +12,12 @@ from typing import Any, Iterator, Optional
 
 import grpc
 
+from viewloom.connection import Connection
 from viewloom.errors import ViewloomError, error_from_rpc
-from viewloom.frame_messages import Sources, frame_messages, settings_message
-from viewloom.report_ledger import ReportLedger
+from viewloom.frame_messages import HEARTBEAT, Sources, frame_messages
+from viewloom.frame_warnings import FrameWarnings
+from viewloom.report_ledger import Messages, ReportLedger
+from viewloom.retry import HEARTBEAT_S, Backoff, SilenceWatch, is_passing
 from viewloom.v1.ingest_service_pb2 import (FrameReport, PublishAccepted, PublishFramesRequest,
                                             Wanted)
 from viewloom.v1.ingest_service_pb2_grpc import IngestServiceStub
@@ -41,41 +44,96 @@ class Publisher:
     after the other.
     """
 
-    def __init__(self, channel: Any, stream: str, session_id: str, zstd_level: int,
-                 in_flight_max: int) -> None:
+    def __init__(self, connection: Connection, settings: PublishFramesRequest, zstd_level: int,
+                 in_flight_max: int, reconnect: bool) -> None:
+        self._connection = connection
+        self._settings = settings
         self._zstd_level = zstd_level
-        self._frames: queue.SimpleQueue[Optional[list[PublishFramesRequest]]] = queue.SimpleQueue()
+        self._reconnects = reconnect
+        self._warn_of = FrameWarnings()
         self._send_lock = threading.Lock()
         self._changed = threading.Condition()
         self._ledger = ReportLedger(_make_promise, in_flight_max)
+        self._outbox: queue.SimpleQueue[Optional[Messages]] = queue.SimpleQueue()
+        self._call: Any = None
+        self._is_closing = False
+        self._broken_off = threading.Event()
         self._error: Optional[ViewloomError] = None
-        self._is_broken_off = False
-        self._call = IngestServiceStub(channel).PublishFrames(self._requests(stream, session_id))
-        self._reader = threading.Thread(target=self._read, name="viewloom-publisher", daemon=True)
+        self._reader = threading.Thread(target=self._run, name="viewloom-publisher", daemon=True)
         self._reader.start()
         with self._changed:
             self._changed.wait_for(lambda: self._ledger.accepted or self._ledger.ended)
         if self._error is not None:
             raise self._error
 
-    def _requests(self, stream: str, session_id: str) -> Iterator[PublishFramesRequest]:
-        yield settings_message(stream, session_id)
-        for messages in iter(self._frames.get, None):
-            yield from messages
+    def _run(self) -> None:
+        backoff = Backoff()
+        while True:
+            error = self._run_call()
+            with self._changed:
+                was_open = self._ledger.is_open
+                self._ledger.call_ended()
+                may_leave = self._is_closing and self._ledger.may_leave()
+            if self._broken_off.is_set() or error is None:
+                error = None
+                break
+            if not (self._reconnects and self._ledger.accepted and is_passing(error)):
+                break
+            if was_open:
+                backoff.reset()
+            if may_leave:
+                error = None
+                break
+            self._broken_off.wait(backoff.delay_s(error))
+        with self._changed:
+            self._error = error
+            self._ledger.end(error)
+            self._changed.notify_all()
 
-    def _read(self) -> None:
+    def _run_call(self) -> Optional[ViewloomError]:
+        """One call, with what the server has not reported; None = it ended in order.
+
+        All but the first wait in the channel, which finds the server within 0.3 s of its return.
+        """
+        outbox: queue.SimpleQueue[Optional[Messages]] = queue.SimpleQueue()
+        silence = SilenceWatch()
+        with self._changed:
+            if self._broken_off.is_set():
+                return None
+            for messages in self._ledger.unreported():
+                outbox.put(messages)
+            if self._is_closing:
+                outbox.put(None)
+            self._outbox = outbox
+            self._call = IngestServiceStub(self._connection.channel).PublishFrames(
+                self._requests(outbox, silence), wait_for_ready=bool(self._ledger.accepted))
         try:
             for response in self._call:
+                silence.hears(response.HasField("heartbeat"))
                 with self._changed:
                     self._ledger.take(response)
                     self._changed.notify_all()
         except grpc.RpcError as problem:
-            self._error = None if self._is_broken_off else error_from_rpc(problem)
+            return error_from_rpc(problem, self._connection.address)
         finally:
-            with self._changed:
-                self._ledger.end(self._error)
-                self._changed.notify_all()
-            self._frames.put(None)  # lets go of the thread that waits for frames
+            outbox.put(None)  # lets go of the thread that waits for frames
+        return None
+
+    def _requests(self, outbox: queue.SimpleQueue[Optional[Messages]],
+                  silence: SilenceWatch) -> Iterator[PublishFramesRequest]:
+        yield self._settings
+        while True:
+            try:
+                messages = outbox.get(timeout=HEARTBEAT_S)
+            except queue.Empty:
+                if silence.tick():
+                    self._call.cancel()
+                if silence.has_heartbeats:
+                    yield HEARTBEAT
+                continue
+            if messages is None:
+                return
+            yield from messages
 
     @property
     def accepted(self) -> PublishAccepted:
@@ -93,7 +151,8 @@ class Publisher:
         """Sends a frame of one or up to eight sources; its report is the future's result.
 
         The arrays are copied before this returns. It waits while in_flight_max frames are
-        unreported; later frames replace earlier ones that the server has not begun.
+        unreported, and while the server is away; later frames replace earlier ones that the server
+        has not begun. Warns (UnlikelyInput) of a frame that shows nothing, once a stream.
         capture_time_ns: any clock of yours, echoed with every atlas; None = time.time_ns().
         exposure_ev:     stops by which linear colour is raised, -32..32.
         tone_map:        "clip", "filmic" or "agx": how linear colour brighter than white is shown.
@@ -107,10 +166,12 @@ class Publisher:
                 self._ledger.next_number(), sources, exposure_ev=exposure_ev, tone_map=tone_map,
                 capture_time_ns=time.time_ns() if capture_time_ns is None else capture_time_ns,
                 zstd_level=self._zstd_level)
+            self._warn_of.frame(sources)
             with self._changed:
-                self._ledger.may_send()  # the call may have ended meanwhile
-                promise = self._ledger.open_frame()
-            self._frames.put(messages)
+                if self._ledger.ended is not None:
+                    raise self._ledger.ended
+                promise = self._ledger.open_frame(messages)
+                self._outbox.put(messages)  # of a call that broke: the next one takes it from there
             return promise
 
     def close(self, timeout_s: float = CLOSE_TIMEOUT_S) -> None:
@@ -118,7 +179,12 @@ class Publisher:
 
         Raises what the call ended with, if that was an error.
         """
-        self._frames.put(None)
+        with self._changed:
+            self._is_closing = True
+            self._outbox.put(None)
+            has_nothing_to_lose = self._ledger.may_leave()
+        if has_nothing_to_lose:
+            self._break_off()
         self._reader.join(timeout_s)
         is_late = self._reader.is_alive()
         self._break_off()
@@ -128,9 +194,14 @@ class Publisher:
             raise self._error
 
     def _break_off(self) -> None:
-        self._is_broken_off = True
-        self._call.cancel()  # nothing, if it has ended
+        with self._changed:
+            self._broken_off.set()
+            self._call.cancel()  # nothing, if it has ended
         self._reader.join()
+
+    def __repr__(self) -> str:
+        return (f"<viewloom.Publisher {self._settings.settings.stream!r} at "
+                f"{self._connection.address}, {self._ledger.state()}>")
 
     def __enter__(self) -> Publisher:
         return self

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+from textwrap import shorten
 from typing import Any, Optional, Sequence, Union
 
 from numpy.typing import NDArray
@@ -19,7 +20,16 @@ ArrayOrLayers = Union[NDArray[Any], Sequence[NDArray[Any]]]
 _LAYER_COUNT_MAX = 4
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
+def _brief(value: Any) -> str:
+    """On one line: of arrays the type and the shape."""
+    if isinstance(value, (list, tuple)) and any(hasattr(entry, "shape") for entry in value):
+        return f"[{', '.join(map(_brief, value))}]"
+    if hasattr(value, "shape") and hasattr(value, "dtype"):
+        return f"{value.dtype}" + "".join(f"[{count}]" for count in value.shape)
+    return shorten(" ".join(repr(value).split()), 80, placeholder=" ...")
+
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Source:
     """Colour and depth of one camera; with several layers, one array each, the nearest first.
 
@@ -74,6 +84,12 @@ class Source:
     normal_space: str = "camera"
     color_has_reflections: bool = False
     motion: Optional[ArrayOrLayers] = None
+
+    def __repr__(self) -> str:
+        given = [f"{field.name}={_brief(getattr(self, field.name))}"
+                 for field in dataclasses.fields(self)
+                 if getattr(self, field.name) is not field.default]
+        return f"viewloom.Source({', '.join(given)})"
 
     def camera(self, size_px: tuple[int, int]) -> geometry_pb2.Camera:
         """Of depth planes of (width, height) px."""

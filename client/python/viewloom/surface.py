@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viewloom.arrays import as_array, shape_text
 from viewloom.errors import BadInput
 from viewloom.planes import WirePlane
 from viewloom.v1 import frame_pb2
@@ -17,13 +18,11 @@ _SPACES = {"camera": frame_pb2.NORMAL_SPACE_CAMERA, "world": frame_pb2.NORMAL_SP
 
 def _checked(value: Any, field: str, accepted: str, channels: tuple[int, ...]) -> NDArray[Any]:
     """channels: how many a px may have; 0 = an array of two dimensions."""
-    if not isinstance(value, np.ndarray):
-        raise BadInput(field, f"is a {type(value).__name__}, must be a numpy array: {accepted}")
-    channel_count = value.shape[2] if value.ndim == 3 else 0
-    if value.ndim not in (2, 3) or channel_count not in channels or value.size == 0:
-        shape = "x".join(map(str, value.shape)) or "a single number"
-        raise BadInput(field, f"has the shape {shape}, must be {accepted}")
-    return value
+    array = as_array(value, field, accepted)
+    channel_count = array.shape[2] if array.ndim == 3 else 0
+    if array.ndim not in (2, 3) or channel_count not in channels or array.size == 0:
+        raise BadInput(field, f"has the shape {shape_text(array)}, must be {accepted}")
+    return array
 
 
 def _plane(kind: int, encoding: int, samples: NDArray[Any], **more: Any) -> WirePlane:

@@ -14,9 +14,12 @@ from viewloom.aio.publisher import Publisher
 from viewloom.aio.watcher import Watcher
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
+from viewloom.connection import (CHANNEL_OPTIONS, DEFAULT_ADDRESS, Connection,
+                                 checked_address)
 from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
-from viewloom.server import CHANNEL_OPTIONS, DEFAULT_ADDRESS, IN_FLIGHT_MAX
+from viewloom.frame_messages import settings_message
+from viewloom.server import IN_FLIGHT_MAX
 from viewloom.v1 import catalog_service_pb2 as catalog
 from viewloom.v1.catalog_service_pb2_grpc import CatalogServiceStub
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -25,28 +28,33 @@ from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
 class Server:
     """A viewloomd; arguments and errors as of the blocking Server."""
 
-    def __init__(self, address: str = DEFAULT_ADDRESS) -> None:
-        self._channel = grpc.aio.insecure_channel(address, options=CHANNEL_OPTIONS)
+    def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> None:
+        self._address = checked_address(address)
+        self._channel = grpc.aio.insecure_channel(self._address, options=CHANNEL_OPTIONS)
+        self._connection = Connection(self._channel, self._address)
+        self._reconnects = reconnect
         self._catalog = CatalogServiceStub(self._channel)
 
     def publish(self, stream: str, *, session_id: str = "", zstd_level: int = 0,
                 in_flight_max: int = IN_FLIGHT_MAX) -> Publisher:
         """A stream, opened by `async with`."""
-        return Publisher(self._channel, stream, session_id, zstd_level, in_flight_max)
+        return Publisher(self._connection, settings_message(stream, session_id), zstd_level,
+                         in_flight_max, self._reconnects)
 
     def watch(self, stream: str, display: DisplayLike, *, encoding: EncodingLike = None,
               wait_for_stream: bool = False) -> Watcher:
         """Atlases from when `async with` opens it: `async for atlas in watcher`."""
-        return Watcher(self._channel, open_request(stream, display, encoding, count=0,
-                                                   wait_for_stream=wait_for_stream))
+        return Watcher(self._connection, open_request(stream, display, encoding, count=0,
+                                                      wait_for_stream=wait_for_stream),
+                       self._reconnects)
 
     async def still(self, stream: str, display: DisplayLike, *, encoding: EncodingLike = None,
                     wait_for_stream: bool = False, timeout_s: Optional[float] = None) -> Atlas:
         """One atlas, of the newest frame."""
         request = open_request(stream, display, encoding, count=1, wait_for_stream=wait_for_stream)
-        inbox = AtlasInbox()
+        inbox = AtlasInbox(stream)
         call = DisplayServiceStub(self._channel).StreamAtlases(iter([request]), timeout=timeout_s)
-        inbox.end(await read_all(call, inbox.add))
+        inbox.end(await read_all(call, inbox.add, self._address))
         atlas = inbox.take()
         if atlas is None:
             raise data_loss("the server ended before an atlas was whole")
@@ -54,30 +62,39 @@ class Server:
 
     async def streams(self) -> list[catalog.StreamEntry]:
         """All streams, sorted by name."""
-        return list((await _ask(self._catalog.ListStreams, catalog.ListStreamsRequest())).streams)
+        return list((await self._ask(self._catalog.ListStreams, catalog.ListStreamsRequest())).streams)
 
     async def displays(self) -> list[catalog.DisplayEntry]:
         """All displays that are watched now."""
-        return list((await _ask(self._catalog.ListDisplays,
+        return list((await self._ask(self._catalog.ListDisplays,
                                 catalog.ListDisplaysRequest())).displays)
 
     async def presets(self) -> list[catalog.Preset]:
         """All named devices, sorted by name."""
-        return list((await _ask(self._catalog.ListPresets, catalog.ListPresetsRequest())).presets)
+        return list((await self._ask(self._catalog.ListPresets, catalog.ListPresetsRequest())).presets)
 
     async def server_info(self) -> catalog.GetServerInfoResponse:
         """Version, device and limits."""
-        answer: catalog.GetServerInfoResponse = await _ask(self._catalog.GetServerInfo,
+        answer: catalog.GetServerInfoResponse = await self._ask(self._catalog.GetServerInfo,
                                                            catalog.GetServerInfoRequest())
         return answer
 
     async def advise_source(self, display: DisplayLike, near_m: float,
                             far_m: float) -> catalog.AdviseSourceResponse:
         """Which source would serve a display of a scene between two depths."""
-        answer: catalog.AdviseSourceResponse = await _ask(
+        answer: catalog.AdviseSourceResponse = await self._ask(
             self._catalog.AdviseSource,
             catalog.AdviseSourceRequest(display=display_from(display), near_m=near_m, far_m=far_m))
         return answer
+
+    async def _ask(self, method: Any, request: Any) -> Any:
+        try:
+            return await method(request)
+        except grpc.RpcError as problem:
+            raise error_from_rpc(problem, self._address) from None
+
+    def __repr__(self) -> str:
+        return f"<viewloom.aio.Server at {self._address}>"
 
     async def close(self) -> None:
         """Ends the connection, and what still runs on it."""
@@ -91,13 +108,6 @@ class Server:
         await self.close()
 
 
-async def _ask(method: Any, request: Any) -> Any:
-    try:
-        return await method(request)
-    except grpc.RpcError as problem:
-        raise error_from_rpc(problem) from None
-
-
-def connect(address: str = DEFAULT_ADDRESS) -> Server:
-    """A connection to the viewloomd at HOST:PORT, within the running event loop."""
-    return Server(address)
+def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> Server:
+    """As the blocking connect(), within the running event loop."""
+    return Server(address, reconnect=reconnect)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where a server is, and the channel to it."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+
+from viewloom.errors import BadInput
+
+DEFAULT_ADDRESS = "127.0.0.1:50051"
+_DEFAULT_PORT = 50051
+# Two connections of one process do not share a socket, and with it its flow control. Waiting is for
+# those who retry: the channel itself tries again at once. Pings find out that a line is dead.
+CHANNEL_OPTIONS = (("grpc.use_local_subchannel_pool", 1),
+                   ("grpc.initial_reconnect_backoff_ms", 100),
+                   ("grpc.max_reconnect_backoff_ms", 200),
+                   ("grpc.min_reconnect_backoff_ms", 2000),  # how long one attempt may take
+                   ("grpc.keepalive_time_ms", 15000),
+                   ("grpc.keepalive_timeout_ms", 5000),
+                   ("grpc.http2.max_pings_without_data", 0))
+
+
+class Connection(NamedTuple):
+    """A grpc.Channel, blocking or of asyncio, and the address that it goes to."""
+
+    channel: Any
+    address: str
+
+
+def checked_address(address: Any) -> str:
+    """HOST:PORT, with viewloomd's own port where none is given. Raises BadInput."""
+    accepted = 'must be HOST:PORT, as "127.0.0.1:50051", or "unix:PATH"'
+    if not isinstance(address, str):
+        raise BadInput("address", f"is a {type(address).__name__}, {accepted}")
+    if re.match(r"(https?|grpcs?|tcp)://", address):
+        raise BadInput("address", f"is {address!r}, {accepted}: without a scheme in front, and the "
+                       "port of gRPC, not that of the page")
+    if not address or re.search(r"\s", address):
+        raise BadInput("address", f"is {address!r}, {accepted}")
+    if re.match(r"(unix|unix-abstract|dns|ipv4|ipv6|vsock|xds):", address):
+        return address
+    if address.count(":") > 1 and not address.startswith("["):  # a bare IPv6 address
+        return f"[{address}]:{_DEFAULT_PORT}"
+    if re.search(r":\d+$", address):
+        return address
+    return f"{address}:{_DEFAULT_PORT}"
