@@ -8,6 +8,7 @@
 
 #include "base/str_cat.h"
 #include "cli/status_line.h"
+#include "files/container.h"
 #include "files/file_extension.h"
 #include "photos/photo.h"
 
@@ -17,6 +18,9 @@ namespace {
 using inputs::InputKind;
 
 absl::Status validateColors(const FileFeedOptions& options) {
+  for (const std::string& file : options.depths) {
+    VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(file));
+  }
   if (!options.depths.empty() && options.depths.size() != options.colors.size()) {
     return absl::InvalidArgumentError(strCat("--depth has ", options.depths.size(), " files for ",
                                              options.colors.size(),
@@ -25,7 +29,8 @@ absl::Status validateColors(const FileFeedOptions& options) {
   const InputKind kind = options.loader.input.kind;
   if (kind == InputKind::kRgbd || kind == InputKind::k2dPlusZ) return absl::OkStatus();
   for (const std::string& file : options.colors) {
-    if (options.depths.empty() && !isExr(file) && !photos::isPhoto(file)) {
+    VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(file));
+    if (options.depths.empty() && !files::isExr(file) && !photos::isPhoto(file)) {
       return absl::InvalidArgumentError(strCat(
           file,
           ": holds no depth; accepted is an EXR file with Z, a portrait photo (.heic), --depth "
@@ -102,7 +107,7 @@ absl::Status validateView(const FileFeedOptions& options) {
   if (options.view.empty()) return absl::OkStatus();
   for (const auto* const files : {&options.colors, &options.depths}) {
     for (const std::string& file : *files) {
-      if (isExr(file)) return absl::OkStatus();
+      if (files::isExr(file)) return absl::OkStatus();
     }
   }
   return absl::InvalidArgumentError(

@@ -7,11 +7,10 @@ void addFileOptions(CLI::App& app, FileFeedOptions& options) {
   const char* const group = "What";
   app.add_option(
          "colour", options.colors,
-         "Colour files, one a frame: .exr (with depth in Z), .heic (portrait photos), .png, "
-         ".jpg, .pfm, .yuv")
+         "Colour files, one a frame: EXR (with depth in Z), HEIC (portrait photos), PNG, JPEG, "
+         "TIFF, WebP, PFM, PGM, PPM, BMP, NPY, .yuv; told by content, not by name")
       ->group(group);
-  app.add_option("--depth", options.depths,
-                 "Depth files, one a frame: .exr, .png, .jpg, .pfm, .yuv")
+  app.add_option("--depth", options.depths, "Depth files, one a frame: as colour, and DPT")
       ->group(group);
   app.add_option("--deep", options.deeps,
                  "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "

@@ -8,6 +8,7 @@
 
 #include "base/nearest_name.h"
 #include "base/str_cat.h"
+#include "files/container.h"
 #include "files/exr_description.h"
 #include "files/exr_image.h"
 #include "files/file_extension.h"
@@ -18,8 +19,6 @@ namespace {
 
 using inputs::InputKind;
 
-constexpr std::array<const char*, 9> kPictures{".exr", ".png",  ".jpg",  ".jpeg", ".pfm",
-                                               ".yuv", ".heic", ".heif", ".hif"};
 constexpr std::array<const char*, 3> kDepthWords{"disparity", "depth", "disp"};
 constexpr std::array<const char*, 5> kColorWords{"colour", "color", "image", "beauty", "rgb"};
 
@@ -29,10 +28,10 @@ std::string lowered(std::string text) {
   return text;
 }
 
+// By its name alone: the file may be anything, or be gone by now.
 bool isPicture(const std::string& file_name) {
-  const std::string extension = files::extensionOf(file_name);
   return !file_name.starts_with(".") &&
-         std::find(kPictures.begin(), kPictures.end(), extension) != kPictures.end();
+         files::containerOfName(file_name) != files::Container::kUnknown;
 }
 
 bool removeWord(std::string& text, const char* word) {
@@ -70,7 +69,7 @@ absl::StatusOr<bool> FilePairs::isWholePhoto(const std::string& file) const {
 absl::StatusOr<bool> FilePairs::isWhole(const std::string& file) const {
   if (settings_.kind == InputKind::kRgbd || settings_.kind == InputKind::k2dPlusZ) return true;
   if (photos::isPhoto(file)) return isWholePhoto(file);
-  if (!isExr(file)) return false;
+  if (!files::isExr(file)) return false;
   const auto how = inputs::interpret(settings_, {.color = file, .view = view_});
   if (!how.ok()) return how.status();
   const v1::LayerFiles& layer = how->source.layers(0);
@@ -155,7 +154,7 @@ absl::StatusOr<std::optional<FrameFiles>> FilePairs::add(
     const std::string& file_name, std::chrono::steady_clock::time_point now) {
   if (!isPicture(file_name)) return std::optional<FrameFiles>();
   const std::string file = (folder_ / file_name).string();
-  if (isExr(file)) {
+  if (files::isExr(file)) {
     const auto description = files::describeExr(file);
     if (!description.ok()) return description.status();
     if (description->isDeep()) {

@@ -77,8 +77,4 @@ absl::StatusOr<LoadedFiles> FrameLoader::loadAny(const FrameFiles& files) {
   return LoadedFiles{.frame = std::move(read->frame), .how = std::move(read->how)};
 }
 
-bool isExr(const std::string& file) {
-  return files::hasExtension(file, ".exr");
-}
-
 }  // namespace viewloom::cli

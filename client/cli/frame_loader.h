@@ -48,6 +48,4 @@ class FrameLoader {
   inputs::InputReader reader_;
 };
 
-bool isExr(const std::string& file);
-
 }  // namespace viewloom::cli

@@ -16,6 +16,7 @@
 #include "cli/option_trial.h"
 #include "cli/plane_options.h"
 #include "cli/report_error.h"
+#include "files/container.h"
 #include "files/exr_description.h"
 #include "files/file_bytes.h"
 #include "files/file_extension.h"
@@ -41,7 +42,7 @@ void sortFiles(FileFeedOptions& options) {
       continue;
     }
     bool is_deep = false;
-    if (isExr(file)) {
+    if (files::isExr(file)) {
       const absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
       // What cannot be read is told when its turn comes.
       is_deep = description.ok() && description->isDeep();

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "base/str_cat.h"
 #include "cli/file_frames.h"
 #include "cli/status_line.h"
+#include "files/container.h"
 #include "files/exr_description.h"
 #include "files/file_extension.h"
 #include "photos/photo.h"
@@ -195,7 +195,8 @@ absl::StatusOr<std::string> describePhoto(const std::string& file) {
   const absl::StatusOr<photos::Photo> photo = photos::Photo::open(file);
   if (!photo.ok()) return photo.status();
   const photos::PhotoDescription& its = photo->description();
-  std::string text = strCat("HEIC, ", its.width_px, "x", its.height_px, " px");
+  std::string text = strCat(files::nameOf(files::containerOf(file)), ", ", its.width_px, "x",
+                            its.height_px, " px");
   if (its.depth) {
     text = strCat(text, "; depth ", its.depth->width_px, "x", its.depth->height_px,
                   " px: ", its.depth->type);
@@ -208,9 +209,10 @@ absl::StatusOr<std::string> describePhoto(const std::string& file) {
 
 absl::StatusOr<std::string> describeFormat(const std::string& file) {
   if (photos::isPhoto(file)) return describePhoto(file);
-  const std::string extension = files::extensionOf(file);
-  if (!isExr(file)) {
-    return extension == ".json" ? "FrameManifest" : extension.empty() ? "" : extension.substr(1);
+  if (files::hasExtension(file, ".json")) return "FrameManifest";
+  if (!files::isExr(file)) {
+    VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(file));
+    return files::nameOf(files::containerOf(file));
   }
   const absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
   if (!description.ok()) return description.status();

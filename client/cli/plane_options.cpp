@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "files/depth_packing.h"
+
 namespace viewloom::cli {
 namespace {
 
@@ -32,9 +34,17 @@ const std::map<std::string, v1::ImagePart> kSides{{"right", v1::IMAGE_PART_RIGHT
                                                   {"bottom", v1::IMAGE_PART_BOTTOM}};
 const std::map<std::string, bool> kForwards{{"+z", false}, {"-z", true}};
 
+std::map<std::string, v1::DepthPacking> packings() {
+  std::map<std::string, v1::DepthPacking> words;
+  for (int i = v1::DEPTH_PACKING_RGB24; i <= v1::DepthPacking_MAX; ++i) {
+    words[files::nameOf(v1::DepthPacking(i))] = v1::DepthPacking(i);
+  }
+  return words;
+}
+
 std::map<std::string, InputKind> inputKinds() {
   std::map<std::string, InputKind> kinds;
-  for (int kind = 0; kind <= int(InputKind::kRelative); ++kind) {
+  for (int kind = 0; kind <= int(InputKind::kRecord3d); ++kind) {
     kinds[nameOf(InputKind(kind))] = InputKind(kind);
   }
   return kinds;
@@ -58,6 +68,11 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
           "rgbd      one picture, half colour, half depth [between 0.67 and 2 m]\n"
           "2d+z      one picture, half colour, half disparity; --screen, --factor, --screen-code\n"
           "sensor    --depth in whole millimetres, 0 = nothing measured\n"
+          "kitti     --depth in 1/256 m; with --baseline disparity in 1/256 px; 0 = nothing\n"
+          "tum       --depth in 1/5000 m, 0 = nothing\n"
+          "l515      --depth in 0.25 mm, 0 = nothing\n"
+          "d405      --depth in 0.1 mm, 0 = nothing\n"
+          "record3d  --depth in metres (floats) or millimetres, 0 = nothing\n"
           "openxr    --depth between --depth-near and --depth-far\n"
           "tmiv      --depth of normalised disparity (.png, .yuv), --camera JSON\n"
           "iphone    portrait photo (.heic); or --depth in 1/m (.exr, .pfm), or codes as relative\n"
@@ -71,8 +86,8 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
       ->group(group);
   app.add_option(
          "--depth-white", settings.white_code,
-         "rgbd, 2d+z, iphone, relative: the code of white, as 4095 for 12 bits in a file of "
-         "16 [the file's last]")
+         "rgbd, 2d+z, iphone, relative, openxr: the code of white, as 4095 for 12 bits in a "
+         "file of 16, or 32768 of Photoshop [255 or 65535]")
       ->check(CLI::Range(1, 65535))
       ->group(group);
   app.add_option("--screen", settings.screen_m, "2d+z: metres to the screen")
@@ -120,6 +135,17 @@ void addDepthOptions(CLI::App& app, InputSettings& settings) {
   app.add_flag("--depth-far-zero", settings.depth_far_zero,
                "Depth 0 is infinitely far: --depth-invalid 0 --depth-invalid-is-far")
       ->group(group);
+  addNumber("--baseline", settings.baseline_m,
+            "Metres between two cameras: depth is their disparity in pixels (with --focal-px)");
+  addWord(app, "--depth-packing", settings.depth_packing, packings(),
+          "Depth packed in colour, 0 at black to 1 at white (--depth-scale: metres at white)\n"
+          "rgb24, bgr24    red, or blue, is the lowest byte; white is 1000 m, as CARLA has it\n"
+          "rgba32, abgr32  red, or alpha, is the highest byte: three.js since r163, and before\n"
+          "rg16, gr16      red, or green, is the high byte\n"
+          "float32         the bytes of a float, blue lowest: TartanAir\n"
+          "hue             RealSense's colours, between --depth-near and --depth-far")
+      ->group(group);
+  app.add_flag("--flip", settings.flips_depth, "Depth rows are stored upside down")->group(group);
   app.add_option("--connection-tolerance", settings.connection_tolerance,
                  "Largest step in 1/Z (1/m) inside one surface; 0 = measured")
       ->check(CLI::NonNegativeNumber)
@@ -164,6 +190,8 @@ void addPlaneOptions(CLI::App& app, InputSettings& settings) {
       ->group("Colour");
   addWord(app, "--alpha", settings.alpha, kAlphas,
           "What alpha says: opaque, premultiplied or straight [by the file]")
+      ->group("Colour");
+  app.add_flag("--flip-color", settings.flips_color, "Colour rows are stored upside down")
       ->group("Colour");
   addWord(
       app, "--tone-map", settings.tone_map, kToneMaps,

@@ -181,6 +181,7 @@ absl::StatusOr<PlaneImage> readExrColor(const std::filesystem::path& path,
   if (!image.ok()) return image;
   image->encoding = v1::PLANE_ENCODING_RGBA16F;
   image->has_alpha = names.size() == 4;
+  image->is_premultiplied = image->has_alpha;
   completeRgba(image->bytes, names.size());
   const Imf::Header& header = (*file)->header(found->front().part);
   if (Imf::hasChromaticities(header)) image->chromaticities = Imf::chromaticities(header);

@@ -12,8 +12,14 @@ namespace {
 
 absl::StatusOr<uint64_t> fileSize(const std::filesystem::path& path, uint64_t bytes_max) {
   std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return refuseFile(path.string(),
+                      "is a folder; name its files, as FOLDER/*.exr, or follow it with publish "
+                      "--watch-folder");
+  }
   if (!std::filesystem::is_regular_file(path, error)) {
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
+    return absl::NotFoundError(
+        absl::StrCat(path.string(), ": no such file; check the name and the folder"));
   }
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error) return absl::NotFoundError(absl::StrCat(path.string(), ": ", error.message()));
@@ -30,8 +36,23 @@ absl::Status refuseFile(const std::string& path, const std::string& problem) {
   return absl::InvalidArgumentError(absl::StrCat(path, ": ", problem));
 }
 
+absl::Status refuseCutShort(const std::string& path, const std::string& format) {
+  return refuseFile(path, absl::StrCat("ends before its picture is whole (", format,
+                                       "): it is cut short or still being written; wait until it "
+                                       "is complete, or write it again"));
+}
+
+absl::Status refuseDamaged(const std::string& path, const std::string& format,
+                           const std::string& detail) {
+  return refuseFile(
+      path, absl::StrCat("is damaged (", format, ": ", detail, "); copy or export it again"));
+}
+
 absl::Status checkFile(const std::filesystem::path& path) {
-  return fileSize(path, kFileBytesMax).status();
+  const absl::StatusOr<uint64_t> size = fileSize(path, kFileBytesMax);
+  if (!size.ok()) return size.status();
+  if (*size > 0) return absl::OkStatus();
+  return refuseFile(path.string(), "is empty: its writer failed or has not begun; write it again");
 }
 
 absl::StatusOr<std::vector<uint8_t>> readFileBytes(const std::filesystem::path& path,

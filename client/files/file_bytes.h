@@ -18,11 +18,17 @@ inline constexpr uint64_t kFileBytesMax = (uint64_t{8192} * 8192 + 4096) * 16;
 // INVALID_ARGUMENT that says which file, what came and what is accepted.
 absl::Status refuseFile(const std::string& path, const std::string& problem);
 
+// INVALID_ARGUMENT for a file that ends before its picture is whole, or is otherwise broken.
+// `format` and `detail` say where: "PNG", "IDAT: CRC error".
+absl::Status refuseCutShort(const std::string& path, const std::string& format);
+absl::Status refuseDamaged(const std::string& path, const std::string& format,
+                           const std::string& detail);
+
 // NOT_FOUND with the path, or INVALID_ARGUMENT when it is larger than bytes_max.
 absl::StatusOr<std::vector<uint8_t>> readFileBytes(const std::filesystem::path& path,
                                                    uint64_t bytes_max = kFileBytesMax);
 
-// OK when the path is a file that can be read and no larger than kFileBytesMax.
+// OK when the path is a file that can be read, is not empty and no larger than kFileBytesMax.
 absl::Status checkFile(const std::filesystem::path& path);
 
 // Writes beside the path and renames: readers see the old file, or the whole new one. Fails as

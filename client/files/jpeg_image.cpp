@@ -7,7 +7,11 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "files/exif.h"
 #include "files/file_bytes.h"
+#include "files/icc_profile.h"
+#include "files/jpeg_segments.h"
+#include "files/primaries.h"
 
 namespace viewloom::files {
 namespace {
@@ -17,17 +21,7 @@ struct DestroyJpeg {
 };
 using JpegHandle = std::unique_ptr<void, DestroyJpeg>;
 
-// The first frame marker says how the picture is coded: SOF0 is baseline.
-bool isBaseline(const std::vector<uint8_t>& bytes) {
-  size_t at = 2;  // after SOI
-  while (at + 4 <= bytes.size() && bytes[at] == 0xFF) {
-    const uint8_t marker = bytes[at + 1];
-    const bool is_table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
-    if (marker >= 0xC0 && marker <= 0xCF && !is_table) return marker == 0xC0;
-    at += 2 + (size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
-  }
-  return false;
-}
+constexpr uint8_t kBaseline = 0xC0;
 
 struct JpegHeader {
   int width_px = 0;
@@ -41,7 +35,8 @@ absl::StatusOr<JpegHeader> readHeader(const std::string& name, std::span<const u
   int subsampling = 0;
   if (tjDecompressHeader3(handle, bytes.data(), bytes.size(), &header.width_px, &header.height_px,
                           &subsampling, &header.color_space) != 0) {
-    return refuseFile(name, absl::StrCat("is no JPEG: ", tjGetErrorStr2(handle)));
+    return refuseFile(name, absl::StrCat("is no JPEG that can be read: ", tjGetErrorStr2(handle),
+                                         "; copy or export it again"));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));
   if (header.color_space == TJCS_CMYK || header.color_space == TJCS_YCCK) {
@@ -53,6 +48,7 @@ absl::StatusOr<JpegHeader> readHeader(const std::string& name, std::span<const u
 }  // namespace
 
 absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint8_t> bytes) {
+  const JpegSegments segments = readJpegSegments(bytes);
   const JpegHandle handle(tjInitDecompress());
   const absl::StatusOr<JpegHeader> header = readHeader(name, bytes, handle.get());
   if (!header.ok()) return header.status();
@@ -60,6 +56,7 @@ absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint
                   .height_px = static_cast<uint32_t>(header->height_px),
                   .channels = 3,
                   .bits = 8,
+                  .coding = codingOfIcc(segments.icc),
                   .bytes = {}};
   picture.bytes.resize(size_t{3} * picture.width_px * picture.height_px);
   // TJFLAG_STOPONWARNING: a truncated file is an error, not a half grey picture. TJFLAG_LIMITSCANS:
@@ -67,9 +64,10 @@ absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint
   if (tjDecompress2(handle.get(), bytes.data(), bytes.size(), picture.bytes.data(),
                     header->width_px, 0, header->height_px, TJPF_RGB,
                     TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
-    return absl::DataLossError(absl::StrCat(name, ": ", tjGetErrorStr2(handle.get())));
+    return segments.end == 0 ? refuseCutShort(name, "JPEG")
+                             : refuseDamaged(name, "JPEG", tjGetErrorStr2(handle.get()));
   }
-  return picture;
+  return turned(std::move(picture), orientationOf(segments.exif));
 }
 
 absl::StatusOr<Picture> readJpeg(const std::filesystem::path& path) {
@@ -84,15 +82,25 @@ absl::StatusOr<PlaneImage> readJpegColor(const std::filesystem::path& path) {
   const JpegHandle handle(tjInitDecompress());
   const absl::StatusOr<JpegHeader> header = readHeader(path.string(), *bytes, handle.get());
   if (!header.ok()) return header.status();
-  if (!isBaseline(*bytes) || header->color_space == TJCS_RGB) {
+  const JpegSegments segments = readJpegSegments(*bytes);
+  if (segments.end == 0) return refuseCutShort(path.string(), "JPEG");
+  const ColorCoding coding = codingOfIcc(segments.icc);
+  const std::optional<Imf::Chromaticities> chromaticities = coding.chromaticities();
+  const bool is_known = !chromaticities || knownPrimaries(*chromaticities);
+  const bool is_as_sent = segments.frame_marker == kBaseline && segments.scan_count == 1 &&
+                          header->color_space != TJCS_RGB && is_known &&
+                          orientationOf(segments.exif) == 1;
+  if (!is_as_sent || !ToneCurve(v1::COLOR_TRANSFER_UNSPECIFIED, coding, {}).isSrgb()) {
     absl::StatusOr<Picture> picture = decodeJpeg(path.string(), *bytes);
     if (!picture.ok()) return picture.status();
-    return colorPlane(*std::move(picture), false);
+    return colorPlane(*std::move(picture), v1::COLOR_TRANSFER_UNSPECIFIED);
   }
+  bytes->resize(segments.end);
   return PlaneImage{.width_px = static_cast<uint32_t>(header->width_px),
                     .height_px = static_cast<uint32_t>(header->height_px),
                     .encoding = v1::PLANE_ENCODING_JPEG,
-                    .has_alpha = false,
+                    .code_max = 255,
+                    .chromaticities = chromaticities,
                     .bytes = *std::move(bytes)};
 }
 

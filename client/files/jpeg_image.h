@@ -10,14 +10,15 @@
 
 namespace viewloom::files {
 
-// JPEG (baseline, grey or YCbCr: the file's own bytes) or RGB8 (progressive and others, decoded).
-// CMYK is refused.
+// JPEG (baseline, grey or YCbCr, upright: the file's own bytes up to the end of its first picture)
+// or RGB8 (progressive, turned by Exif, and others: decoded). Primaries by an ICC profile. CMYK and
+// files that are cut short are refused.
 absl::StatusOr<PlaneImage> readJpegColor(const std::filesystem::path& path);
 
 // The same pixels, always decoded to three channels.
 absl::StatusOr<Picture> readJpeg(const std::filesystem::path& path);
 
-// Of a whole file in memory; `name` is for messages.
+// The picture of a file in memory, turned by Exif; `name` is for messages.
 absl::StatusOr<Picture> decodeJpeg(const std::string& name, std::span<const uint8_t> bytes);
 
 }  // namespace viewloom::files

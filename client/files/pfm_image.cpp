@@ -1,129 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/pfm_image.h"
 
-#include <Imath/half.h>
-
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
-#include <string>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
+#include "files/stored_samples.h"
+#include "files/text_header.h"
 
 namespace viewloom::files {
 namespace {
-
-// The text before the samples ends within this many bytes; longer ones are no PFM.
-constexpr size_t kHeaderBytesMax = 256;
 
 struct PfmHeader {
   int64_t width_px = 0;
   int64_t height_px = 0;
   uint32_t channels = 0;
-  bool little_endian = false;
-  size_t samples_offset_bytes = 0;
+  bool is_big_endian = false;
+  size_t end_bytes = 0;  // behind the scale
 };
 
-absl::StatusOr<PfmHeader> parseHeader(const std::string& file, const std::vector<uint8_t>& bytes) {
-  std::istringstream text(std::string(
-      bytes.begin(),
-      bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kHeaderBytesMax))));
-  std::string magic;
-  double scale = 0;
+absl::StatusOr<PfmHeader> parseHeader(const std::string& name, std::span<const uint8_t> bytes) {
+  TextHeader text(bytes);
+  const std::string magic = text.takeWord();
   PfmHeader header;
-  text >> magic >> header.width_px >> header.height_px >> scale;
-  if (!text || (magic != "PF" && magic != "Pf") || scale == 0 || !std::isfinite(scale)) {
-    return refuseFile(file, "has no PFM header; accepted is PF or Pf, width, height, scale");
+  const bool has_sizes = absl::SimpleAtoi(text.takeWord(), &header.width_px) &&
+                         absl::SimpleAtoi(text.takeWord(), &header.height_px);
+  double scale = 0;
+  if (!has_sizes || !absl::SimpleAtod(text.takeWord(), &scale) ||
+      (magic != "PF" && magic != "Pf") || scale == 0 || !std::isfinite(scale)) {
+    return refuseFile(name,
+                      "has no PFM header; accepted is PF or Pf, width, height, scale: copy or "
+                      "export it again");
   }
+  VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));
   header.channels = magic == "PF" ? 3 : 1;
-  header.little_endian = scale < 0;
-  header.samples_offset_bytes = static_cast<size_t>(text.tellg()) + 1;  // one whitespace byte
-  if (absl::Status size = checkPlaneSize(file, header.width_px, header.height_px); !size.ok()) {
-    return size;
-  }
-  const size_t wanted = header.samples_offset_bytes + size_t{4} * header.channels *
-                                                          static_cast<size_t>(header.width_px) *
-                                                          static_cast<size_t>(header.height_px);
-  if (bytes.size() != wanted) {
-    return refuseFile(file, absl::StrCat("has ", bytes.size(), " bytes; ", header.width_px, "x",
-                                         header.height_px, " px need ", wanted));
-  }
+  header.is_big_endian = scale > 0;
+  header.end_bytes = text.offset();
   return header;
 }
 
-float sampleAt(const uint8_t* bytes, bool little_endian) {
-  uint32_t bits = 0;
-  for (int i = 0; i < 4; ++i) bits |= uint32_t{bytes[i]} << (8 * (little_endian ? i : 3 - i));
-  return std::bit_cast<float>(bits);
-}
-
-// Calls visit(index of the sample in top-down order, value) for every sample.
-template <typename Visit>
-void forEachSample(const PfmHeader& header, const std::vector<uint8_t>& bytes, const Visit& visit) {
-  const auto row_samples = static_cast<size_t>(header.width_px) * header.channels;
-  const auto height = static_cast<size_t>(header.height_px);
-  for (size_t row = 0; row < height; ++row) {
-    const size_t stored_row = height - 1 - row;
-    const uint8_t* in = &bytes[header.samples_offset_bytes + 4 * stored_row * row_samples];
-    for (size_t i = 0; i < row_samples; ++i) {
-      visit(row * row_samples + i, sampleAt(in + 4 * i, header.little_endian));
-    }
+// One byte of white space ends the header, or CR LF: the file's length tells which.
+absl::StatusOr<std::span<const uint8_t>> samplesOf(const std::string& name, const PfmHeader& header,
+                                                   std::span<const uint8_t> bytes) {
+  const size_t sample_bytes = size_t{4} * header.channels * static_cast<size_t>(header.width_px) *
+                              static_cast<size_t>(header.height_px);
+  const size_t left = bytes.size() - header.end_bytes;
+  if (left < sample_bytes + 1) return refuseCutShort(name, "PFM");
+  const auto between = bytes.subspan(header.end_bytes, left - sample_bytes);
+  if (between.size() > 2 || !std::all_of(between.begin(), between.end(), isSpaceByte)) {
+    return refuseDamaged(
+        name, "PFM",
+        absl::StrCat("has ", bytes.size(), " bytes; ", header.width_px, "x", header.height_px,
+                     " px need ", header.end_bytes + 1 + sample_bytes));
   }
-}
-
-struct PfmFile {
-  PfmHeader header;
-  std::vector<uint8_t> bytes;
-};
-
-absl::StatusOr<PfmFile> readPfm(const std::filesystem::path& path, uint32_t channels,
-                                const char* accepted) {
-  absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
-  if (!bytes.ok()) return bytes.status();
-  const absl::StatusOr<PfmHeader> header = parseHeader(path.string(), *bytes);
-  if (!header.ok()) return header.status();
-  if (header->channels != channels) {
-    return refuseFile(path.string(),
-                      absl::StrCat("has ", header->channels, " channels; accepted is ", accepted));
-  }
-  return PfmFile{*header, *std::move(bytes)};
+  return bytes.last(sample_bytes);
 }
 
 }  // namespace
 
+absl::StatusOr<Picture> decodePfm(const std::string& name, std::span<const uint8_t> bytes) {
+  const absl::StatusOr<PfmHeader> header = parseHeader(name, bytes);
+  if (!header.ok()) return header.status();
+  const auto samples = samplesOf(name, *header, bytes);
+  if (!samples.ok()) return samples.status();
+  Picture picture{.width_px = static_cast<uint32_t>(header->width_px),
+                  .height_px = static_cast<uint32_t>(header->height_px),
+                  .channels = header->channels,
+                  .bits = 32,
+                  .coding = {},
+                  .bytes = {}};
+  picture.bytes.resize(samples->size());
+  const SampleType type{NumberKind::kFloat, 4, header->is_big_endian};
+  for (size_t i = 0; i < picture.bytes.size() / 4; ++i) {
+    storeSample(&(*samples)[4 * i], type, picture, i);
+  }
+  flipRows(picture.bytes, picture.height_px);
+  return picture;
+}
+
 absl::StatusOr<PlaneImage> readPfmColor(const std::filesystem::path& path) {
-  const absl::StatusOr<PfmFile> file = readPfm(path, 3, "PF, 3 channels, as colour");
-  if (!file.ok()) return file.status();
-  PlaneImage image{.width_px = static_cast<uint32_t>(file->header.width_px),
-                   .height_px = static_cast<uint32_t>(file->header.height_px),
-                   .encoding = v1::PLANE_ENCODING_RGBA16F,
-                   .has_alpha = false,
-                   .bytes = {}};
-  std::vector<uint16_t> rgba(size_t{4} * image.width_px * image.height_px,
-                             Imath::half(1.0F).bits());
-  forEachSample(file->header, file->bytes, [&](size_t index, float value) {
-    rgba[index / 3 * 4 + index % 3] = Imath::half(value).bits();
-  });
-  image.bytes.resize(2 * rgba.size());
-  std::memcpy(image.bytes.data(), rgba.data(), image.bytes.size());
-  return image;
+  const absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  absl::StatusOr<Picture> picture = decodePfm(path.string(), *bytes);
+  if (!picture.ok()) return picture.status();
+  return colorPlane(*std::move(picture), v1::COLOR_TRANSFER_UNSPECIFIED);
 }
 
 absl::StatusOr<PlaneImage> readPfmDepth(const std::filesystem::path& path) {
-  const absl::StatusOr<PfmFile> file = readPfm(path, 1, "Pf, 1 channel, as depth");
-  if (!file.ok()) return file.status();
-  PlaneImage image{.width_px = static_cast<uint32_t>(file->header.width_px),
-                   .height_px = static_cast<uint32_t>(file->header.height_px),
-                   .encoding = v1::PLANE_ENCODING_DEPTH_F32,
-                   .has_alpha = false,
-                   .bytes = {}};
-  image.bytes.resize(size_t{4} * image.width_px * image.height_px);
-  forEachSample(file->header, file->bytes, [&](size_t index, float value) {
-    std::memcpy(&image.bytes[4 * index], &value, sizeof(value));
-  });
-  return image;
+  const absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  const absl::StatusOr<Picture> picture = decodePfm(path.string(), *bytes);
+  if (!picture.ok()) return picture.status();
+  return depthPlane(path.string(), *picture, false);
 }
 
 }  // namespace viewloom::files

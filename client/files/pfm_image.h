@@ -3,15 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
-#include "files/plane_image.h"
+#include "files/picture.h"
 
 namespace viewloom::files {
 
-// "PF" as colour: binary16 RGBA with alpha 1. The scale's size is ignored, its sign is the byte
-// order.
+// "PF", three channels, or "Pf", grey. The scale's size is ignored, its sign is the byte order. The
+// header may have comments and any white space, CR LF included. `name` is for messages.
+absl::StatusOr<Picture> decodePfm(const std::string& name, std::span<const uint8_t> bytes);
+
+// As colorPlane and depthPlane make it.
 absl::StatusOr<PlaneImage> readPfmColor(const std::filesystem::path& path);
-// "Pf" as depth: binary32.
 absl::StatusOr<PlaneImage> readPfmDepth(const std::filesystem::path& path);
 
 }  // namespace viewloom::files

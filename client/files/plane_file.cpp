@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/plane_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,23 +8,18 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "files/container.h"
+#include "files/depth_packing.h"
 #include "files/exr_image.h"
+#include "files/foreign_file.h"
 #include "files/jpeg_image.h"
-#include "files/pfm_image.h"
+#include "files/picture_file.h"
 #include "files/plane_image.h"
-#include "files/png_image.h"
 #include "files/primaries.h"
 #include "files/yuv_image.h"
 
 namespace viewloom::files {
 namespace {
-
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 // A relative name starts at the folder; std::filesystem leaves absolute ones alone.
 std::filesystem::path resolve(const v1::PlaneFile& file, const std::filesystem::path& folder) {
@@ -34,72 +27,86 @@ std::filesystem::path resolve(const v1::PlaneFile& file, const std::filesystem::
 }
 
 // What only some formats know must not be asked of others.
-absl::Status refuseForeign(const v1::PlaneFile& file, const std::string& extension) {
-  const bool is_exr = extension == ".exr", is_yuv = extension == ".yuv";
-  const bool has_parts = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+absl::Status refuseForeign(const v1::PlaneFile& file, Container container) {
+  const bool is_exr = container == Container::kExr, is_yuv = container == Container::kYuv;
   if (!is_exr && !file.channels().empty()) {
     return invalidField("channels",
                         absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
   }
-  if (!has_parts && file.part() != v1::IMAGE_PART_UNSPECIFIED) {
-    return invalidField(
-        "part", absl::StrCat("given for ", file.file(), "; accepted for PNG and JPEG only"));
+  if ((is_exr || is_yuv) && file.part() != v1::IMAGE_PART_UNSPECIFIED) {
+    return invalidField("part", absl::StrCat("given for ", file.file(),
+                                             "; accepted for PNG, JPEG and other pictures, not "
+                                             "for EXR and .yuv"));
+  }
+  if (is_exr && file.transfer() == v1::COLOR_TRANSFER_SRGB) {
+    return invalidField("transfer",
+                        absl::StrCat("is SRGB for ", file.file(), "; accepted for EXR is LINEAR"));
+  }
+  if ((is_exr || is_yuv) && file.packing() != v1::DEPTH_PACKING_UNSPECIFIED) {
+    return invalidField("packing", absl::StrCat("given for ", file.file(),
+                                                "; accepted for pictures of 8 bits a channel"));
   }
   if (is_yuv != file.has_raw()) {
     return invalidField("raw", absl::StrCat(is_yuv ? "is missing for " : "given for ", file.file(),
                                             "; it belongs to .yuv files"));
   }
-  return absl::OkStatus();
+  if (container != Container::kHeic) return absl::OkStatus();
+  return invalidField(
+      "file", absl::StrCat("is ", file.file(), ", a HEIC photo; accepted here are ", kPictureKinds,
+                           " without HEIC: give photos as the colour of publish or inspect"));
+}
+
+absl::StatusOr<Picture> readPart(const v1::PlaneFile& file, const std::filesystem::path& path,
+                                 PictureUse use) {
+  absl::StatusOr<Picture> picture = readPicture(path, use);
+  if (!picture.ok()) return picture.status();
+  return cutPart(file.file(), *std::move(picture), file.part());
 }
 
 absl::StatusOr<PlaneImage> readColor(const v1::PlaneFile& file, const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
-  VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, extension));
-  if (extension == ".exr") {
+  VIEWLOOM_RETURN_IF_ERROR(checkPictureFile(path));
+  const Container container = containerOf(path);
+  VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, container));
+  if (container == Container::kExr) {
     const std::vector<std::string> channels(file.channels().begin(), file.channels().end());
     return readExrColor(path, channels);
   }
-  if (extension == ".pfm") return readPfmColor(path);
-  if (extension == ".yuv") return readYuvColor(path, file.raw());
-  const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (!is_jpeg && extension != ".png") {
-    return invalidField("file",
-                        absl::StrCat("is ", file.file(),
-                                     "; accepted as colour are .exr, .png, .jpg, .pfm and .yuv"));
-  }
-  if (is_jpeg && file.part() == v1::IMAGE_PART_UNSPECIFIED) return readJpegColor(path);
-  absl::StatusOr<Picture> picture = is_jpeg ? readJpeg(path) : readPng(path, PngUse::kColor);
+  if (container == Container::kYuv) return readYuvColor(path, file.raw());
+  const bool is_whole = file.part() == v1::IMAGE_PART_UNSPECIFIED && !file.flip();
+  if (container == Container::kJpeg && is_whole) return readJpegColor(path);
+  absl::StatusOr<Picture> picture = readPart(file, path, PictureUse::kColor);
   if (!picture.ok()) return picture.status();
-  picture = cutPart(file.file(), *std::move(picture), file.part());
-  if (!picture.ok()) return picture.status();
-  return colorPlane(*std::move(picture), file.transfer() == v1::COLOR_TRANSFER_LINEAR);
+  return colorPlane(*std::move(picture), file.transfer());
 }
 
 absl::StatusOr<PlaneImage> readDepth(const v1::PlaneFile& file, const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
-  VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, extension));
-  if (extension == ".exr") {
+  VIEWLOOM_RETURN_IF_ERROR(checkPictureFile(path));
+  const Container container = containerOf(path);
+  VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, container));
+  if (container == Container::kExr) {
     const std::vector<std::string> channels(file.channels().begin(), file.channels().end());
     return readExrDepth(path, channels);
   }
-  if (extension == ".pfm") return readPfmDepth(path);
-  if (extension == ".yuv") return readYuvDepth(path, file.raw());
-  const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (!is_jpeg && extension != ".png") {
-    return invalidField("file",
-                        absl::StrCat("is ", file.file(),
-                                     "; accepted as depth are .exr, .png, .jpg, .pfm and .yuv"));
+  if (container == Container::kYuv) return readYuvDepth(path, file.raw());
+  const bool has_digits =
+      file.packing() != v1::DEPTH_PACKING_UNSPECIFIED && file.packing() != v1::DEPTH_PACKING_HUE;
+  if (has_digits && container == Container::kJpeg) {
+    return invalidField("packing", absl::StrCat("given for ", file.file(),
+                                                ", a JPEG, which changes digits; accepted are "
+                                                "lossless pictures, as PNG"));
   }
-  absl::StatusOr<Picture> picture = is_jpeg ? readJpeg(path) : readPng(path, PngUse::kDepth);
+  absl::StatusOr<Picture> picture = readPart(file, path, PictureUse::kDepth);
+  if (picture.ok() && file.packing() != v1::DEPTH_PACKING_UNSPECIFIED) {
+    picture = unpackDepth(file.file(), *picture, file.packing());
+  }
   if (!picture.ok()) return picture.status();
-  picture = cutPart(file.file(), *std::move(picture), file.part());
-  if (!picture.ok()) return picture.status();
+  if (file.code_max() != 0 && picture->bits != 32) picture->code_max = file.code_max();
   return depthPlane(file.file(), *picture, file.depth().meaning() == v1::DEPTH_MEANING_WINDOW);
 }
 
-v1::AlphaMode alphaOf(const PlaneImage& image, const std::filesystem::path& path) {
+v1::AlphaMode alphaOf(const PlaneImage& image) {
   if (!image.has_alpha) return v1::ALPHA_MODE_OPAQUE;
-  return extensionOf(path) == ".exr" ? v1::ALPHA_MODE_PREMULTIPLIED : v1::ALPHA_MODE_STRAIGHT;
+  return image.is_premultiplied ? v1::ALPHA_MODE_PREMULTIPLIED : v1::ALPHA_MODE_STRAIGHT;
 }
 
 }  // namespace
@@ -123,12 +130,11 @@ LoadedPlane withBytes(PlaneImage image, v1::PlaneKind kind) {
 
 absl::StatusOr<LoadedPlane> makeColorPlane(const v1::PlaneFile& file, PlaneImage image) {
   const bool linear = image.encoding == v1::PLANE_ENCODING_RGBA16F;
-  if (linear && file.transfer() == v1::COLOR_TRANSFER_SRGB && extensionOf(file.file()) != ".png") {
-    return invalidField("transfer", absl::StrCat("is SRGB for ", file.file(),
-                                                 "; accepted for EXR and PFM is LINEAR"));
-  }
+  const v1::ColorTransfer stored =
+      image.transfer == v1::COLOR_TRANSFER_UNSPECIFIED ? v1::COLOR_TRANSFER_SRGB : image.transfer;
   const v1::AlphaMode alpha =
-      file.alpha() == v1::ALPHA_MODE_UNSPECIFIED ? alphaOf(image, file.file()) : file.alpha();
+      file.alpha() == v1::ALPHA_MODE_UNSPECIFIED ? alphaOf(image) : file.alpha();
+  if (file.flip()) flipRows(image.bytes, image.height_px);
   v1::ColorPrimaries primaries = file.primaries();
   if (primaries == v1::COLOR_PRIMARIES_UNSPECIFIED) {
     const absl::StatusOr<v1::ColorPrimaries> settled = settlePrimaries(file.file(), image);
@@ -137,15 +143,15 @@ absl::StatusOr<LoadedPlane> makeColorPlane(const v1::PlaneFile& file, PlaneImage
   }
   LoadedPlane loaded = withBytes(std::move(image), v1::PLANE_KIND_COLOR);
   loaded.plane.set_transfer(linear ? v1::COLOR_TRANSFER_LINEAR
-                            : file.transfer() == v1::COLOR_TRANSFER_UNSPECIFIED
-                                ? v1::COLOR_TRANSFER_SRGB
-                                : file.transfer());
+                            : file.transfer() == v1::COLOR_TRANSFER_UNSPECIFIED ? stored
+                                                                                : file.transfer());
   loaded.plane.set_primaries(primaries);
   loaded.plane.set_alpha(alpha);
   return loaded;
 }
 
 LoadedPlane makeDepthPlane(const v1::PlaneFile& file, PlaneImage image) {
+  if (file.flip()) flipRows(image.bytes, image.height_px);
   LoadedPlane loaded = withBytes(std::move(image), v1::PLANE_KIND_DEPTH);
   *loaded.plane.mutable_depth() = file.depth();
   return loaded;

@@ -14,7 +14,7 @@ namespace viewloom::files {
 struct LoadedPlane {
   v1::Plane plane;  // complete but for compression
   SharedBytes bytes;
-  uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
+  uint32_t code_max = 0;  // as PlaneImage
 };
 
 // The file's px as colour, and how they are described for the wire. `folder`: where relative names
@@ -24,11 +24,11 @@ absl::StatusOr<PlaneImage> readColorImage(const v1::PlaneFile& file,
 LoadedPlane withBytes(PlaneImage image, v1::PlaneKind kind);
 
 // Relative file names are taken from `folder`. What the manifest leaves open comes from the file:
-// transfer LINEAR for EXR, PFM and 16-bit PNG, else SRGB; alpha PREMULTIPLIED for EXR with A,
-// STRAIGHT for PNG with alpha, else OPAQUE.
+// transfer by what it says, else LINEAR for floats and SRGB for whole numbers; alpha PREMULTIPLIED
+// for EXR and TIFF that say so, else STRAIGHT, or OPAQUE without it.
 absl::StatusOr<LoadedPlane> loadColorPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder);
-// 8-bit PNG and JPEG samples count 0..255, or, as WINDOW depth, 0..1.
+// Samples of 8 bits count 0..255, or, as WINDOW depth, 0..1.
 absl::StatusOr<LoadedPlane> loadDepthPlane(const v1::PlaneFile& file,
                                            const std::filesystem::path& folder);
 

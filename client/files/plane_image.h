@@ -20,8 +20,10 @@ struct PlaneImage {
   uint32_t width_px = 0;
   uint32_t height_px = 0;
   v1::PlaneEncoding encoding = v1::PLANE_ENCODING_UNSPECIFIED;
+  v1::ColorTransfer transfer = v1::COLOR_TRANSFER_UNSPECIFIED;  // of 8 bits, where it is not sRGB
   bool has_alpha = false;
-  uint32_t code_max = 0;  // DEPTH_U16: the largest that the file's bits can hold
+  bool is_premultiplied = false;  // by the file, where there is alpha
+  uint32_t code_max = 0;          // whole numbers: the code of white, else 0; packed depth: 1
   std::optional<Imf::Chromaticities> chromaticities;  // colour whose file states them
   std::vector<uint8_t> bytes;                         // packed, top row first
 };

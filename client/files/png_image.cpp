@@ -3,23 +3,29 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <array>
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "files/exif.h"
 #include "files/file_bytes.h"
+#include "files/icc_profile.h"
 
 namespace viewloom::files {
 namespace {
+
+constexpr char kCutShort[] = "cut short";
 
 // One libpng reading. libpng reports errors by longjmp: each method that calls it sets its own
 // landing place and keeps no object alive across it.
 class PngReader {
  public:
-  explicit PngReader(const std::filesystem::path& path)
-      : file_(std::fopen(path.c_str(), "rb"), &std::fclose),
+  explicit PngReader(std::span<const uint8_t> bytes)
+      : rest_(bytes),
         png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::onError, &onWarning)),
         info_(png_create_info_struct(png_)) {}
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -34,23 +40,19 @@ class PngReader {
   size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
 
   bool readHeader() {
-    if (file_ == nullptr) {
-      error_ = "cannot be opened";
-      return false;
-    }
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_user_limits(png_, static_cast<png_uint_32>(kSideMax_px),
                         static_cast<png_uint_32>(kSideMax_px));
-    png_init_io(png_, file_.get());
+    png_set_read_fn(png_, this, &PngReader::onRead);
     png_read_info(png_, info_);
     return true;
   }
 
   // From here on samples are 8 or 16 bits (little endian), and colour is RGB or RGBA.
-  bool expand(PngUse use) {
+  bool expand(PictureUse use) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_expand(png_);
-    if (use == PngUse::kColor) png_set_gray_to_rgb(png_);
+    if (use == PictureUse::kColor) png_set_gray_to_rgb(png_);
     png_set_swap(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
@@ -60,8 +62,40 @@ class PngReader {
   bool readRows(png_bytep* rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_read_image(png_, rows);
-    png_read_end(png_, nullptr);
+    png_read_end(png_, info_);
     return true;
+  }
+
+  // What the chunks before the samples say of colour. Chunks behind the samples count for nothing.
+  ColorCoding coding() {
+    png_charp name = nullptr;
+    png_bytep profile = nullptr;
+    png_uint_32 size = 0;
+    int kind = 0;
+    if (png_get_iCCP(png_, info_, &name, &kind, &profile, &size) != 0) {
+      return codingOfIcc({profile, size});
+    }
+    ColorCoding coding;
+    if (png_get_sRGB(png_, info_, &kind) != 0) return coding;
+    double gamma = 0;
+    if (png_get_gAMA(png_, info_, &gamma) != 0 && gamma > 0.01 && gamma < 100) {
+      coding.gamma = gamma;
+    }
+    std::array<double, 8> xy{};  // white, red, green, blue
+    if (png_get_cHRM(png_, info_, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6], &xy[7]) !=
+        0) {
+      coding.has_chromaticities = true;
+      for (size_t i = 0; i < 8; ++i) coding.xy[i] = static_cast<float>(xy[(i + 2) % 8]);
+    }
+    return coding;
+  }
+
+  // Also of a chunk behind the samples: ask when all is read.
+  uint32_t orientation() {
+    png_uint_32 size = 0;
+    png_bytep exif = nullptr;
+    if (png_get_eXIf_1(png_, info_, &size, &exif) == 0) return 1;
+    return orientationOf(tiffOfExif({exif, size}));
   }
 
  private:
@@ -69,9 +103,15 @@ class PngReader {
     static_cast<PngReader*>(png_get_error_ptr(png))->error_ = message;
     png_longjmp(png, 1);
   }
+  static void onRead(png_structp png, png_bytep out, png_size_t count) {
+    std::span<const uint8_t>& rest = static_cast<PngReader*>(png_get_io_ptr(png))->rest_;
+    if (count > rest.size()) png_error(png, kCutShort);
+    std::copy(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(count), out);
+    rest = rest.subspan(count);
+  }
   static void onWarning(png_structp, png_const_charp) {}  // odd ancillary chunks change no sample
 
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::span<const uint8_t> rest_;
   png_structp png_;
   png_infop info_;
   std::string error_;
@@ -79,36 +119,48 @@ class PngReader {
 
 }  // namespace
 
-absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PngUse use) {
-  VIEWLOOM_RETURN_IF_ERROR(checkFile(path));
-  PngReader reader(path);
-  const auto refusal = [&] { return refuseFile(path.string(), "PNG: " + reader.error()); };
+absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PictureUse use) {
+  const absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  return decodePng(path.string(), *bytes, use);
+}
+
+absl::StatusOr<Picture> decodePng(const std::string& name, std::span<const uint8_t> bytes,
+                                  PictureUse use) {
+  PngReader reader(bytes);
+  const auto refusal = [&] {
+    const bool is_short = reader.error() == kCutShort;
+    return is_short ? refuseCutShort(name, "PNG") : refuseDamaged(name, "PNG", reader.error());
+  };
   if (!reader.readHeader()) return refusal();
-  VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(path.string(), reader.width(), reader.height()));
-  if (use == PngUse::kDepth && reader.bitDepth() < 8) {
-    return refuseFile(path.string(), absl::StrCat("has samples of ", reader.bitDepth(),
-                                                  " bits; accepted as depth is grey of 8 or 16"));
+  VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, reader.width(), reader.height()));
+  if (use == PictureUse::kDepth && reader.bitDepth() < 8) {
+    return refuseFile(name, absl::StrCat("has samples of ", reader.bitDepth(),
+                                         " bits; accepted as depth is grey of 8 or 16"));
   }
+  const ColorCoding coding = use == PictureUse::kColor ? reader.coding() : ColorCoding();
   if (!reader.expand(use)) return refusal();
   Picture picture{.width_px = reader.width(),
                   .height_px = reader.height(),
                   .channels = reader.channels(),
                   .bits = reader.bitDepth(),
+                  .coding = coding,
                   .bytes = std::vector<uint8_t>(reader.rowBytes() * reader.height())};
   std::vector<png_bytep> rows(picture.height_px);
   for (size_t y = 0; y < rows.size(); ++y) rows[y] = &picture.bytes[y * reader.rowBytes()];
   if (!reader.readRows(rows.data())) return refusal();
-  return picture;
+  return turned(std::move(picture), reader.orientation());
 }
 
 absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples) {
-  absl::StatusOr<Picture> picture = readPng(path, PngUse::kColor);
+  absl::StatusOr<Picture> picture = readPng(path, PictureUse::kColor);
   if (!picture.ok()) return picture.status();
-  return colorPlane(*std::move(picture), linear_samples);
+  return colorPlane(*std::move(picture),
+                    linear_samples ? v1::COLOR_TRANSFER_LINEAR : v1::COLOR_TRANSFER_UNSPECIFIED);
 }
 
 absl::StatusOr<PlaneImage> readPngDepth(const std::filesystem::path& path, bool spread) {
-  const absl::StatusOr<Picture> picture = readPng(path, PngUse::kDepth);
+  const absl::StatusOr<Picture> picture = readPng(path, PictureUse::kDepth);
   if (!picture.ok()) return picture.status();
   return depthPlane(path.string(), *picture, spread);
 }

@@ -3,16 +3,21 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "files/picture.h"
 
 namespace viewloom::files {
 
-enum class PngUse { kColor, kDepth };
+// Palettes are expanded. Turned by the eXIf chunk. Of colour, what the file says counts: of iCCP,
+// sRGB, gAMA and cHRM the first that is there, as the PNG specification orders them. For depth,
+// samples of less than 8 bits are refused.
+absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PictureUse use);
 
-// Palettes are expanded and, for colour, grey: three or four channels. Gamma chunks are ignored.
-// For depth, samples of less than 8 bits are refused.
-absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PngUse use);
+// The same of a file in memory; `name` is for messages.
+absl::StatusOr<Picture> decodePng(const std::string& name, std::span<const uint8_t> bytes,
+                                  PictureUse use);
 
 // As colorPlane and depthPlane make it.
 absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples);

@@ -10,24 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 
 namespace viewloom::files {
 namespace {
 
-bool isNamed(const v1::PlaneFile& file, const char* extension) {
-  return absl::EndsWithIgnoreCase(file.file(), extension);
-}
-
-absl::Status checkFile(const v1::PlaneFile& file, v1::PlaneKind kind) {
-  if (!isNamed(file, ".exr") && !isNamed(file, ".png") && !isNamed(file, ".pfm")) {
-    return invalidField(
-        "file", absl::StrCat("is ", file.file(), "; accepted here are .exr, .png and .pfm"));
-  }
-  if (kind == v1::PLANE_KIND_MOTION && isNamed(file, ".png")) {
-    return invalidField("file", absl::StrCat("is ", file.file(), "; accepted are .exr and .pfm"));
-  }
+absl::Status checkFields(const v1::PlaneFile& file) {
   const char* const foreign = file.transfer() != v1::COLOR_TRANSFER_UNSPECIFIED     ? "transfer"
                               : file.primaries() != v1::COLOR_PRIMARIES_UNSPECIFIED ? "primaries"
                               : file.alpha() != v1::ALPHA_MODE_UNSPECIFIED          ? "alpha"
@@ -80,7 +68,7 @@ std::vector<uint8_t> halfVectors(const PlaneImage& image, bool is_unsigned) {
 absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
                                              const std::filesystem::path& folder,
                                              v1::PlaneKind kind) {
-  VIEWLOOM_RETURN_IF_ERROR(checkFile(file, kind));
+  VIEWLOOM_RETURN_IF_ERROR(checkFields(file));
   v1::PlaneFile as_stored = file;
   as_stored.set_transfer(v1::COLOR_TRANSFER_LINEAR);
   absl::StatusOr<PlaneImage> image = readColorImage(as_stored, folder);
@@ -88,9 +76,20 @@ absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
   const bool is_half = image->encoding == v1::PLANE_ENCODING_RGBA16F;
   PlaneImage plane{.width_px = image->width_px, .height_px = image->height_px, .bytes = {}};
   const bool is_normal = kind == v1::PLANE_KIND_NORMAL;
+  const bool is_whole = image->code_max != 0;  // v of at most n stands for v / n
+  if (kind == v1::PLANE_KIND_MOTION && is_whole) {
+    return invalidField("file", absl::StrCat("is ", file.file(),
+                                             ", of whole numbers; accepted are floats, as EXR, "
+                                             "PFM and TIFF have them"));
+  }
+  if (image->encoding == v1::PLANE_ENCODING_JPEG) {
+    return invalidField("file", absl::StrCat("is ", file.file(),
+                                             ", a JPEG, which changes numbers; accepted are EXR, "
+                                             "PNG, PFM and other lossless files"));
+  }
   if (kind == v1::PLANE_KIND_MOTION || (is_normal && is_half)) {
     plane.encoding = v1::PLANE_ENCODING_XYZ16F;
-    plane.bytes = halfVectors(*image, isNamed(file, ".png"));
+    plane.bytes = halfVectors(*image, is_whole);
   } else if (kind == v1::PLANE_KIND_ROUGHNESS) {
     plane.encoding = v1::PLANE_ENCODING_R8;
     plane.bytes = bytesOf(*image, 1);

@@ -11,6 +11,7 @@
 #include "files/file_bytes.h"
 #include "inputs/cut_depth.h"
 #include "inputs/photo_frame.h"
+#include "inputs/sensor_presets.h"
 #include "inspect/stored_numbers.h"
 #include "photos/photo.h"
 
@@ -48,10 +49,7 @@ absl::Status InputReader::settleFormat(Interpretation& how, files::LoadedFrame& 
     return absl::OkStatus();
   }
   v1::Plane& plane = depthOf(frame);
-  uint32_t& code_max = frame.code_max.front();
-  if (code_max > 0 && settings_.white_code) {
-    code_max = static_cast<uint32_t>(*settings_.white_code);
-  }
+  const uint32_t code_max = frame.code_max.front();
   SampleRange range{.black = 0, .white = double(code_max)};
   if (code_max == 0) {
     if (how.kind == InputKind::kIphone) {  // floats are in 1/m as they are
@@ -78,11 +76,36 @@ absl::Status InputReader::settleFormat(Interpretation& how, files::LoadedFrame& 
   return absl::OkStatus();
 }
 
-// Inverse depth has its sky at 0. Measurements that failed are 0, too, but lie elsewhere.
+// Units that only the samples, or the camera, tell.
+absl::Status InputReader::settlePixels(const Interpretation& how, files::LoadedFrame& frame) const {
+  v1::Source& source = *frame.wire.header.mutable_sources(0);
+  v1::Plane& plane = *source.mutable_layers(0)->mutable_planes(1);
+  if (how.kind == InputKind::kRecord3d) {
+    settleRecord3d(settings_, frame.code_max.front() == 0, *plane.mutable_depth());
+  }
+  if (!settings_.baseline_m) return absl::OkStatus();
+  const bool has_camera =
+      how.source.camera().has_intrinsics() || settings_.focal_px || settings_.fov_y_deg;
+  if (!has_camera || plane.depth().meaning() != v1::DEPTH_MEANING_DISPARITY ||
+      how.range != DepthRange::kStated) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "--baseline ", *settings_.baseline_m,
+        has_camera ? " is given for depth that is no disparity in px; it goes with --input kitti "
+                     "or --depth-meaning disparity"
+                   : " needs the focal length of the cameras: give --focal-px, in pixels of the "
+                     "depth"));
+  }
+  settleBaseline(source.camera().intrinsics().focal_x_px(), *settings_.baseline_m,
+                 *plane.mutable_depth());
+  return absl::OkStatus();
+}
+
+// Inverse depth has its sky at 0. Measurements that failed are 0, too, but lie elsewhere. Where an
+// offset is added, 0 is as good a sample as any.
 void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
   v1::Plane& plane = depthOf(frame);
   if (plane.depth().meaning() != v1::DEPTH_MEANING_DISPARITY) return;
-  if (plane.depth().has_invalid_value()) return;
+  if (plane.depth().has_invalid_value() || plane.depth().offset() != 0) return;
   if (!has_scattered_zeros_) {
     const std::vector<float> stored = inspect::storedNumbers(plane, *frame.wire.planes[1]);
     const inspect::ZeroPattern pattern =
@@ -99,12 +122,6 @@ void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
   if (*has_scattered_zeros_) plane.mutable_depth()->set_invalid_value(0);
 }
 
-absl::Status InputReader::settleDepth(Interpretation& how, files::LoadedFrame& frame) {
-  VIEWLOOM_RETURN_IF_ERROR(settleFormat(how, frame));
-  settleZeros(how, frame);
-  return absl::OkStatus();
-}
-
 absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   absl::StatusOr<Interpretation> how = interpret(settings_, files);
   if (!how.ok()) return how.status();
@@ -113,9 +130,11 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   absl::StatusOr<files::LoadedFrame> frame =
       photos::isPhoto(files.color) ? loadPhotoFrame(how->source) : files::loadFrame(manifest, "");
   if (!frame.ok()) return frame.status();
-  VIEWLOOM_RETURN_IF_ERROR(settleDepth(*how, *frame));
+  VIEWLOOM_RETURN_IF_ERROR(settleFormat(*how, *frame));
   v1::Source& source = *frame->wire.header.mutable_sources(0);
   *source.mutable_camera() = settleCamera(settings_, *how, source.layers(0).planes(1).size());
+  VIEWLOOM_RETURN_IF_ERROR(settlePixels(*how, *frame));
+  settleZeros(*how, *frame);
   if (settings_.no_surface_beyond_m) {
     VIEWLOOM_RETURN_IF_ERROR(cutDepth(*settings_.no_surface_beyond_m, source, frame->wire));
   }

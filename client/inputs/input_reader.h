@@ -27,8 +27,8 @@ class InputReader {
   absl::StatusOr<ReadInput> read(const InputFiles& files);
 
  private:
-  absl::Status settleDepth(Interpretation& how, files::LoadedFrame& frame);
   absl::Status settleFormat(Interpretation& how, files::LoadedFrame& frame);
+  absl::Status settlePixels(const Interpretation& how, files::LoadedFrame& frame) const;
   void settleZeros(Interpretation& how, files::LoadedFrame& frame);
 
   InputSettings settings_;

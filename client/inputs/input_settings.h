@@ -26,6 +26,11 @@ enum class InputKind {
   kTmiv,      // MPEG's test model: camera JSON, normalised disparity
   kIphone,    // disparity in 1/m, or normalised between two of them
   kRelative,  // inverse depth of unknown scale, as networks estimate it
+  kKitti,     // KITTI: 1 / 256 m, or 1 / 256 px of disparity with a baseline, 0 = nothing
+  kTum,       // TUM RGB-D: 1 / 5000 m, 0 = nothing
+  kL515,      // RealSense L515: 0.25 mm, 0 = nothing
+  kD405,      // RealSense D405: 0.1 mm, 0 = nothing
+  kRecord3d,  // Record3D: metres as floats, or millimetres, 0 = nothing
 };
 
 // As --input takes it: "blender".
@@ -46,6 +51,10 @@ struct InputSettings {
   bool depth_invalid_is_far = false;
   bool depth_far_zero = false;
   std::optional<double> no_surface_beyond_m;
+  std::optional<double> baseline_m;  // depth is disparity in px of two cameras so far apart
+  v1::DepthPacking depth_packing = v1::DEPTH_PACKING_UNSPECIFIED;
+  bool flips_depth = false;     // rows are stored the other way round
+  bool flips_color = false;
   double connection_tolerance = 0;  // 1/m; 0 = measured
 
   v1::ColorTransfer transfer = v1::COLOR_TRANSFER_UNSPECIFIED;
@@ -61,7 +70,7 @@ struct InputSettings {
 
   v1::ImagePart depth_side = v1::IMAGE_PART_RIGHT;  // kRgbd, k2dPlusZ
   bool is_black_near = false;                       // kRgbd, kRelative
-  std::optional<double> white_code;                 // whole numbers; none = the file's last
+  std::optional<uint32_t> white_code;               // whole numbers; none = the file's last
   double screen_m = 1;                              // k2dPlusZ
   double factor = 64;                               // k2dPlusZ, of 64 = 100 %
   double screen_code = 128;                         // k2dPlusZ: the code that lies in the screen

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "files/container.h"
 #include "files/exr_description.h"
 #include "files/exr_image.h"
 #include "files/file_bytes.h"
@@ -28,7 +29,7 @@ void setChannels(const ExrLayers& layers, v1::LayerFiles& layer) {
 }
 
 absl::Status setChannelsOfView(const std::string& view, v1::PlaneFile& plane, bool is_color) {
-  if (view.empty() || !files::hasExtension(plane.file(), ".exr")) return absl::OkStatus();
+  if (view.empty() || !files::isExr(plane.file())) return absl::OkStatus();
   const absl::StatusOr<files::ExrViewChannels> channels =
       files::exrChannelsOfView(plane.file(), view);
   if (!channels.ok()) return channels.status();

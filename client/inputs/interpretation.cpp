@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "files/container.h"
 #include "files/file_bytes.h"
 #include "files/file_extension.h"
 #include "files/yuv_image.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpret_exr.h"
 #include "inputs/interpret_photo.h"
+#include "inputs/sensor_presets.h"
 #include "inputs/tmiv_camera.h"
 #include "inputs/used_options.h"
 #include "photos/photo.h"
@@ -18,7 +20,7 @@
 namespace viewloom::inputs {
 namespace {
 
-constexpr std::array<std::pair<InputKind, const char*>, 11> kNames{
+constexpr std::array<std::pair<InputKind, const char*>, 16> kNames{
     {{InputKind::kAuto, "auto"},
      {InputKind::kPlain, "plain"},
      {InputKind::kBlender, "blender"},
@@ -29,7 +31,15 @@ constexpr std::array<std::pair<InputKind, const char*>, 11> kNames{
      {InputKind::kOpenXr, "openxr"},
      {InputKind::kTmiv, "tmiv"},
      {InputKind::kIphone, "iphone"},
-     {InputKind::kRelative, "relative"}}};
+     {InputKind::kRelative, "relative"},
+     {InputKind::kKitti, "kitti"},
+     {InputKind::kTum, "tum"},
+     {InputKind::kL515, "l515"},
+     {InputKind::kD405, "d405"},
+     {InputKind::kRecord3d, "record3d"}}};
+
+// CARLA's cameras see as far; white of their packed depth.
+constexpr double kCarlaFar_m = 1000;
 
 absl::Status refuseInput(InputKind kind, const std::string& problem) {
   return absl::InvalidArgumentError(absl::StrCat("--input ", nameOf(kind), " ", problem));
@@ -103,14 +113,52 @@ absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
   return absl::OkStatus();
 }
 
+// What packed samples of 0..1 stand for, where no kind of input says it.
+absl::Status readPacking(const InputSettings& settings, Interpretation& result) {
+  v1::DepthFormat& format = *result.source.mutable_layers(0)->mutable_depth()->mutable_depth();
+  const v1::DepthPacking packing = settings.depth_packing;
+  const bool is_window = settings.depth_meaning == v1::DEPTH_MEANING_WINDOW;
+  if (packing == v1::DEPTH_PACKING_HUE && !is_window && !settings.depth_scale) {
+    if (settings.near_m && settings.far_m) {
+      // librealsense's hues grow with the distance, or, coded as disparity, with nearness.
+      InputSettings hues = settings;
+      if (hues.depth_meaning == v1::DEPTH_MEANING_UNSPECIFIED) {
+        hues.depth_meaning = v1::DEPTH_MEANING_PLANAR;
+      }
+      hues.is_black_near = hues.depth_meaning == v1::DEPTH_MEANING_PLANAR;
+      absl::StatusOr<v1::DepthFormat> between = normalisedFormat(hues, {});
+      if (!between.ok()) return between.status();
+      format = *std::move(between);
+      result.range = DepthRange::kBetween;
+      return absl::OkStatus();
+    }
+    return absl::InvalidArgumentError(
+        "--depth-packing hue needs --depth-near and --depth-far, the metres between which depth "
+        "was coloured (--depth-meaning disparity where it was coloured by disparity)");
+  }
+  const bool has_far = packing == v1::DEPTH_PACKING_RGB24 || packing == v1::DEPTH_PACKING_BGR24;
+  if (!has_far || is_window || settings.depth_scale ||
+      settings.depth_meaning == v1::DEPTH_MEANING_DISPARITY) {
+    return absl::OkStatus();
+  }
+  format.set_scale(kCarlaFar_m);
+  result.notes.push_back(
+      absl::StrCat("depth: packed, white is ", kCarlaFar_m, " m as CARLA has it (--depth-scale)"));
+  return absl::OkStatus();
+}
+
 // Kinds that say what depth samples mean; where the files lie is settled.
 absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& result) {
   v1::DepthFormat& format = *result.source.mutable_layers(0)->mutable_depth()->mutable_depth();
   switch (result.kind) {
     case InputKind::kSensor:
+    case InputKind::kKitti:
+    case InputKind::kTum:
+    case InputKind::kL515:
+    case InputKind::kD405:
+    case InputKind::kRecord3d:
       VIEWLOOM_RETURN_IF_ERROR(requireDepthFile(result.kind, result));
-      format.set_scale(0.001);
-      format.set_invalid_value(0);
+      format = sensorFormat(settings, result.kind);
       return absl::OkStatus();
     case InputKind::kOpenXr:
       format.set_meaning(v1::DEPTH_MEANING_WINDOW);
@@ -132,12 +180,8 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
       result.range = DepthRange::k2dPlusZ;
       return absl::OkStatus();
     default:
-      return absl::OkStatus();
+      return readPacking(settings, result);
   }
-}
-
-bool isExr(const std::string& file) {
-  return files::hasExtension(file, ".exr");
 }
 
 absl::Status readByKind(const InputSettings& settings, const InputFiles& files,
@@ -154,7 +198,8 @@ absl::Status readByKind(const InputSettings& settings, const InputFiles& files,
     case InputKind::kTmiv:
       return readTmiv(settings, files, result);
     default:
-      if (isExr(files.color)) VIEWLOOM_RETURN_IF_ERROR(interpretExr(settings, files, result));
+      if (files::isExr(files.color))
+        VIEWLOOM_RETURN_IF_ERROR(interpretExr(settings, files, result));
       break;
   }
   return readDepthMeaning(settings, result);
@@ -183,6 +228,12 @@ absl::StatusOr<Interpretation> interpret(const InputSettings& settings, const In
   layer.mutable_color()->set_transfer(settings.transfer);
   layer.mutable_color()->set_primaries(settings.primaries);
   layer.mutable_color()->set_alpha(settings.alpha);
+  layer.mutable_color()->set_flip(settings.flips_color);
+  layer.mutable_depth()->set_flip(settings.flips_depth);
+  layer.mutable_depth()->set_packing(settings.depth_packing);
+  layer.mutable_depth()->set_code_max(settings.white_code.value_or(0));
+  VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(files.color));
+  if (!files.depth.empty()) VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(files.depth));
   if (settings.pixel_aspect) result.pixel_aspect = *settings.pixel_aspect;
   VIEWLOOM_RETURN_IF_ERROR(readByKind(settings, files, result));
   v1::DepthFormat& format = *layer.mutable_depth()->mutable_depth();

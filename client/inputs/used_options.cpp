@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "files/container.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -61,8 +62,10 @@ constexpr std::array<OptionUse, 15> kUses{{
               !uses.has_scale;
      },
      "--input rgbd, iphone and relative without --depth-scale"},
-    {"--depth-white", [](const Uses& uses) { return uses.is_between || uses.is_2d_plus_z; },
-     "--input rgbd, 2d+z, iphone and relative without --depth-scale"},
+    {"--depth-white",
+     [](const Uses& uses) { return uses.is_between || uses.is_2d_plus_z || uses.is_window; },
+     "--depth-meaning window, and to --input rgbd, 2d+z, openxr, iphone and relative without "
+     "--depth-scale"},
     {"--depth-meaning", [](const Uses& uses) { return !uses.is_2d_plus_z; },
      "every --input but 2d+z"},
     {"--depth-scale", isScaled, "every --input but 2d+z and openxr, and no --depth-meaning window"},
@@ -117,10 +120,6 @@ absl::Status refuseContradictions(const InputSettings& settings, const InputFile
   return absl::OkStatus();
 }
 
-bool isExr(const std::string& file) {
-  return file.ends_with(".exr") || file.ends_with(".EXR");
-}
-
 }  // namespace
 
 absl::Status refuseUnusedOptions(const InputSettings& settings, const InputFiles& files,
@@ -132,7 +131,7 @@ absl::Status refuseUnusedOptions(const InputSettings& settings, const InputFiles
       .is_2d_plus_z = how.range == DepthRange::k2dPlusZ,
       .is_window = how.range == DepthRange::kStated && meaning == v1::DEPTH_MEANING_WINDOW,
       .has_scale = settings.depth_scale.has_value(),
-      .has_exr_camera = isExr(files.color) && how.kind != InputKind::kUnreal};
+      .has_exr_camera = files::isExr(files.color) && how.kind != InputKind::kUnreal};
   const std::set<std::string> given = givenOptions(settings);
   for (const OptionUse& use : kUses) {
     if (!given.contains(use.option) || use.is_used(uses)) continue;

@@ -76,4 +76,25 @@ DepthXmp parseDepthXmp(std::string_view text) {
   return parsed;
 }
 
+std::optional<GoogleDepth> parseGoogleDepth(std::string_view xml, std::string_view extended_xml) {
+  constexpr char kNamespace[] = "http://ns.google.com/photos/1.0/depthmap/";
+  GoogleDepth parsed;
+  std::optional<double> unit_m;
+  for (const std::string_view text : {xml, extended_xml}) {
+    const absl::string_view part(text.data(), text.size());
+    const std::string prefix = prefixOf(part, kNamespace);
+    if (prefix.empty()) continue;
+    if (parsed.data.empty()) parsed.data = valueOf(part, prefix, "Data");
+    if (parsed.format.empty()) parsed.format = valueOf(part, prefix, "Format");
+    if (!parsed.near_m) parsed.near_m = numberOf(part, prefix, "Near");
+    if (!parsed.far_m) parsed.far_m = numberOf(part, prefix, "Far");
+    if (valueOf(part, prefix, "Units") == "mm") unit_m = 0.001;
+  }
+  if (parsed.data.empty()) return std::nullopt;
+  for (std::optional<double>* distance : {&parsed.near_m, &parsed.far_m}) {
+    if (*distance) **distance *= unit_m.value_or(1);
+  }
+  return parsed;
+}
+
 }  // namespace viewloom::photos

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Apple's XMP says of a photo's depth image.
+// What XMP says of a photo's depth image.
 #pragma once
 
 #include <optional>
@@ -19,5 +19,15 @@ struct DepthXmp {
 // Properties may be elements or attributes, under any prefix that is bound to the namespaces
 // http://ns.apple.com/pixeldatainfo/1.0/ and http://ns.apple.com/depthData/1.0/.
 DepthXmp parseDepthXmp(std::string_view xml);
+
+// Google's depth map of a photo.
+struct GoogleDepth {
+  std::string format;                   // RangeInverse or RangeLinear
+  std::optional<double> near_m, far_m;  // of code 0 and of the largest
+  std::string data;                     // base64 of a picture
+};
+
+// GDepth of a photo's XMP, whose Data may be in its extended XMP. Nothing without Data.
+std::optional<GoogleDepth> parseGoogleDepth(std::string_view xml, std::string_view extended_xml);
 
 }  // namespace viewloom::photos

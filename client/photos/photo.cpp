@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photos/photo.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <exception>
 #include <utility>
@@ -10,8 +8,13 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "files/container.h"
+#include "files/exif.h"
 #include "files/file_bytes.h"
-#include "photos/exif_focal.h"
+#include "files/icc_profile.h"
+#include "files/jpeg_image.h"
+#include "files/jpeg_segments.h"
+#include "photos/jpeg_depth.h"
 
 namespace viewloom::photos {
 namespace {
@@ -30,7 +33,7 @@ std::optional<double> focalOf(const heif_image_handle* image) {
   if (heif_image_handle_get_list_of_metadata_block_IDs(image, "Exif", &id, 1) != 1) return {};
   std::vector<uint8_t> item(heif_image_handle_get_metadata_size(image, id));
   if (heif_image_handle_get_metadata(image, id, item.data()).code != heif_error_Ok) return {};
-  return focal35mm(tiffOfItem(item));
+  return files::focal35mm(files::tiffOfItem(item));
 }
 
 struct PlaneRequest {
@@ -96,16 +99,20 @@ absl::StatusOr<Rows> decode(const std::string& name, const heif_image_handle* ha
 }  // namespace
 
 bool isPhoto(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".heic" || extension == ".heif" || extension == ".hif";
+  const files::Container container = files::containerOf(file);
+  if (container != files::Container::kJpeg) return container == files::Container::kHeic;
+  const absl::StatusOr<std::vector<uint8_t>> bytes = files::readFileBytes(file, kPhotoBytesMax);
+  return bytes.ok() && findJpegDepth(*bytes, files::readJpegSegments(*bytes)).has_value();
 }
 
 absl::StatusOr<Photo> Photo::open(const std::filesystem::path& path) {
   absl::StatusOr<std::vector<uint8_t>> bytes = files::readFileBytes(path, kPhotoBytesMax);
   if (!bytes.ok()) return bytes.status();
   Photo photo(path.string(), *std::move(bytes));
+  if (files::containerOf(path) == files::Container::kJpeg) {
+    VIEWLOOM_RETURN_IF_ERROR(photo.readJpeg());
+    return photo;
+  }
   try {
     VIEWLOOM_RETURN_IF_ERROR(photo.readBoxes());
     photo.describe();
@@ -119,6 +126,26 @@ absl::StatusOr<Photo> Photo::open(const std::filesystem::path& path) {
         files::checkPlaneSize(photo.name_, its.depth->width_px, its.depth->height_px));
   }
   return photo;
+}
+
+absl::Status Photo::readJpeg() {
+  is_jpeg_ = true;
+  const files::JpegSegments segments = files::readJpegSegments(bytes_);
+  const absl::StatusOr<files::Picture> color = files::decodeJpeg(name_, bytes_);
+  if (!color.ok()) return color.status();
+  description_.width_px = color->width_px;
+  description_.height_px = color->height_px;
+  description_.profile = {.is_stated = !segments.icc.empty(),
+                          .primaries = files::primariesOfIcc(segments.icc)};
+  description_.focal_35mm = files::focal35mm(segments.exif);
+  std::optional<JpegDepth> found = findJpegDepth(bytes_, segments);
+  if (!found) return absl::OkStatus();
+  absl::StatusOr<files::Picture> depth =
+      decodeJpegDepth(name_, *found, files::orientationOf(segments.exif));
+  if (!depth.ok()) return depth.status();
+  jpeg_depth_ = *std::move(depth);
+  description_.depth = std::move(found->depth);
+  return absl::OkStatus();
 }
 
 absl::Status Photo::readBoxes() {
@@ -147,7 +174,7 @@ void Photo::describe() {
 }
 
 absl::Status Photo::requireDepth() const {
-  if (depth_ != nullptr) return absl::OkStatus();
+  if (depth_ != nullptr || jpeg_depth_) return absl::OkStatus();
   const std::string others =
       description_.other_types.empty()
           ? "no auxiliary image"
@@ -158,6 +185,11 @@ absl::Status Photo::requireDepth() const {
 }
 
 absl::StatusOr<files::PlaneImage> Photo::readColor() const {
+  if (is_jpeg_) {
+    absl::StatusOr<files::Picture> picture = files::decodeJpeg(name_, bytes_);
+    if (!picture.ok()) return picture.status();
+    return files::colorPlane(*std::move(picture), v1::COLOR_TRANSFER_UNSPECIFIED);
+  }
   const absl::StatusOr<Rows> rows = decode(name_, color_.get(), kRgb);
   if (!rows.ok()) return rows.status();
   files::PlaneImage image{.width_px = description_.width_px,
@@ -173,6 +205,7 @@ absl::StatusOr<files::PlaneImage> Photo::readColor() const {
 
 absl::StatusOr<files::PlaneImage> Photo::readDepth() const {
   VIEWLOOM_RETURN_IF_ERROR(requireDepth());
+  if (jpeg_depth_) return files::depthPlane(name_, *jpeg_depth_, false);
   const absl::StatusOr<Rows> rows = decode(name_, depth_.get(), kLuma);
   if (!rows.ok()) return rows.status();
   const PhotoDepth& depth = *description_.depth;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photos with depth as phones write them: HEIC, whose second, auxiliary image is the depth.
+// Photos with depth as phones write them: HEIC, whose second, auxiliary image is the depth, and
+// JPEG with a depth map in XMP or as an auxiliary picture.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +9,14 @@
 #include <vector>
 
 #include "base/status.h"
+#include "files/picture.h"
 #include "files/plane_image.h"
 #include "photos/color_profile.h"
 #include "photos/photo_depth.h"
 
 namespace viewloom::photos {
 
-// By its name: .heic, .heif, .hif.
+// A HEIC file, told as files::containerOf tells it, or a JPEG with depth inside.
 bool isPhoto(const std::string& file);
 
 struct PhotoDescription {
@@ -30,7 +32,7 @@ struct PhotoDescription {
 // one owner.
 class Photo {
  public:
-  // INVALID_ARGUMENT for what is no HEIC, is cut short, or is larger than planes may be.
+  // INVALID_ARGUMENT for what is neither, is cut short, or is larger than planes may be.
   static absl::StatusOr<Photo> open(const std::filesystem::path& path);
 
   const PhotoDescription& description() const { return description_; }
@@ -49,13 +51,16 @@ class Photo {
       : name_(std::move(name)), bytes_(std::move(bytes)) {}
 
   absl::Status readBoxes();
+  absl::Status readJpeg();
   void describe();
 
   std::string name_;
   std::vector<uint8_t> bytes_;  // libheif reads in them for as long as it lives
   HeifOwned<heif_context> context_;
   HeifOwned<heif_image_handle> color_;
-  HeifOwned<heif_image_handle> depth_;  // null without one
+  HeifOwned<heif_image_handle> depth_;        // null without one
+  std::optional<files::Picture> jpeg_depth_;  // of JPEG
+  bool is_jpeg_ = false;
   PhotoDescription description_;
 };
 

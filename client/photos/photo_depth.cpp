@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "photos/depth_xmp.h"
-
 namespace viewloom::photos {
 namespace {
 
@@ -49,17 +47,6 @@ std::optional<CodeEnds> usable(double at_zero, double at_most) {
   return CodeEnds{at_zero, at_most};
 }
 
-void readXmp(const DepthXmp& xmp, PhotoDepth& depth) {
-  depth.is_relative = xmp.accuracy == "relative";
-  if (xmp.image_type == "depth") depth.quantity = CodeQuantity::kDistance;
-  if (!xmp.float_min || !xmp.float_max) return;
-  const double int_min = xmp.int_min.value_or(0), int_max = xmp.int_max.value_or(depth.code_max);
-  const double per_code = (*xmp.float_max - *xmp.float_min) / (int_max - int_min);
-  depth.ends = usable(*xmp.float_min - int_min * per_code,
-                      *xmp.float_min + (depth.code_max - int_min) * per_code);
-  depth.origin = "XMP";
-}
-
 // Of a depth image: libheif looks in vain for that of any other auxiliary one.
 void readRepresentation(const heif_image_handle* image, heif_item_id id, PhotoDepth& depth) {
   const heif_depth_representation_info* found = nullptr;
@@ -84,6 +71,17 @@ void readRepresentation(const heif_image_handle* image, heif_item_id id, PhotoDe
 }
 
 }  // namespace
+
+void readDepthXmp(const DepthXmp& xmp, PhotoDepth& depth) {
+  depth.is_relative = xmp.accuracy == "relative";
+  if (xmp.image_type == "depth") depth.quantity = CodeQuantity::kDistance;
+  if (!xmp.float_min || !xmp.float_max) return;
+  const double int_min = xmp.int_min.value_or(0), int_max = xmp.int_max.value_or(depth.code_max);
+  const double per_code = (*xmp.float_max - *xmp.float_min) / (int_max - int_min);
+  depth.ends = usable(*xmp.float_min - int_min * per_code,
+                      *xmp.float_min + (depth.code_max - int_min) * per_code);
+  depth.origin = "XMP";
+}
 
 FoundDepth findDepth(const heif_image_handle* photo) {
   FoundDepth found;
@@ -111,7 +109,7 @@ FoundDepth findDepth(const heif_image_handle* photo) {
                    .height_px = static_cast<uint32_t>(heif_image_handle_get_height(handle)),
                    .code_max = bits >= 8 && bits <= 16 ? (1U << bits) - 1 : 255,
                    .type = std::move(type)};
-    readXmp(xmp, found.depth);
+    readDepthXmp(xmp, found.depth);
     if (!found.depth.ends && isDepthType(found.depth.type)) {
       readRepresentation(handle, id, found.depth);
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "photos/depth_xmp.h"
 #include "photos/heif_handles.h"
 
 namespace viewloom::photos {
@@ -38,6 +39,9 @@ struct FoundDepth {
   PhotoDepth depth;
   std::vector<std::string> other_types;  // of auxiliary images that are no depth
 };
+
+// What the codes stand for by Apple's XMP; its numbers count for `depth.code_max`.
+void readDepthXmp(const DepthXmp& xmp, PhotoDepth& depth);
 
 // The first auxiliary image whose type is depth, or whose XMP says that it is disparity or depth.
 // Numbers come from Apple's XMP; else from the depth representation information (ITU-T H.265,

@@ -20,4 +20,7 @@ bool fuzzPredicted(std::span<const uint8_t> bytes);
 // The bytes are a script: a header, then chunks. What is accepted is decoded.
 bool fuzzFrame(std::span<const uint8_t> bytes);
 
+// The bytes are a picture file of a container that is read by hand, or a JPEG's segments.
+bool fuzzPicture(std::span<const uint8_t> bytes);
+
 }  // namespace viewloom

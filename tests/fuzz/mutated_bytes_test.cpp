@@ -64,6 +64,9 @@ TEST(MutatedBytes, keepPredictedPlanesWhole) {
 TEST(MutatedBytes, leaveFramesWholeOrRefused) {
   walk(fuzzFrame, frameSeeds());
 }
+TEST(MutatedBytes, leavePicturesWholeOrRefused) {
+  walk(fuzzPicture, pictureSeeds());
+}
 
 }  // namespace
 }  // namespace viewloom

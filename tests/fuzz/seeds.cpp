@@ -2,7 +2,9 @@
 #include "fuzz/seeds.h"
 
 #include <cstddef>
+#include <string>
 
+#include "unit/client/written_pictures.h"
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/predicted_samples.h"
 #include "unit/decode/zstd_samples.h"
@@ -55,6 +57,19 @@ SeedBytes frameSeeds() {
                                6, 3, 2, 24, 0, 1, 2, 0, 0, 0, packed_bytes};
   const Bytes predicted = joined({packed_bytes}, packed);
   return {joined(header, joined(depth, color)), joined(predicted_header, joined(predicted, color))};
+}
+
+SeedBytes pictureSeeds() {
+  const auto bytesOf = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
+  const std::string bmp_info("\x28\0\0\0\2\0\0\0\1\0\0\0\1\0\x18\0", 16);
+  return {bytesOf("Pf\n# two\n2 1\n-1\n12345678"),
+          bytesOf("P2 2 1 9 1 2"),
+          bytesOf("P6 1 1 255\nabc"),
+          bytesOf(files::writtenNpy("<u2", "(1, 2)", "abcd")),
+          bytesOf(files::rawBytes<float>({202021.25F}) + files::rawBytes<int32_t>({1, 1}) + "abcd"),
+          bytesOf(std::string("BM\x3e\0\0\0\0\0\0\0\x36\0\0\0", 14) + bmp_info +
+                  std::string(24, '\0') + "abcdef" + std::string(2, '\0')),
+          bytesOf(files::writtenJpeg(8, 8, Bytes(192, 99), files::exifOrientation(6)))};
 }
 
 }  // namespace viewloom

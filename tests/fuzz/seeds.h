@@ -13,5 +13,6 @@ SeedBytes jpegSeeds();
 SeedBytes zstdSeeds();
 SeedBytes predictedSeeds();
 SeedBytes frameSeeds();
+SeedBytes pictureSeeds();
 
 }  // namespace viewloom

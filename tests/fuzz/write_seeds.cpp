@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the seeds as a corpus: write_seeds jpeg|zstd|predicted|frame FOLDER
+// Writes the seeds as a corpus: write_seeds jpeg|zstd|predicted|frame|picture FOLDER
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -13,9 +13,10 @@ int main(int argc, char** argv) {
                                     : kind == "zstd"      ? viewloom::zstdSeeds()
                                     : kind == "predicted" ? viewloom::predictedSeeds()
                                     : kind == "frame"     ? viewloom::frameSeeds()
+                                    : kind == "picture"   ? viewloom::pictureSeeds()
                                                           : viewloom::SeedBytes{};
   if (seeds.empty()) {
-    std::fprintf(stderr, "usage: write_seeds jpeg|zstd|predicted|frame FOLDER\n");
+    std::fprintf(stderr, "usage: write_seeds jpeg|zstd|predicted|frame|picture FOLDER\n");
     return 2;
   }
   const std::filesystem::path folder(argv[2]);

@@ -8,10 +8,12 @@
 
 #include "files/png_writer.h"
 #include "unit/client/test_files.h"
+#include "unit/client/written_pictures.h"
 
 namespace viewloom::files {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // A colour PNG and a depth PNG of 2x1 px, and a manifest around them.
@@ -114,10 +116,11 @@ TEST_F(FrameManifestTest, namesTheFieldAndTheFileAtFault) {
   EXPECT_THAT(refusal(source(layer("none.png", "depth.png"))),
               HasSubstr("sources[0].layers[0].color: "));
   EXPECT_THAT(refusal(source(layer("none.png", "depth.png"))), HasSubstr("none.png: no such file"));
+  folder_.write("color.gif", "GIF89a");
   EXPECT_THAT(refusal(source(layer("color.gif", "depth.png"))),
-              HasSubstr("sources[0].layers[0].color.file: is color.gif; accepted as colour are"));
-  EXPECT_THAT(refusal(source(layer("color.png", "depth.gif"))),
-              HasSubstr("sources[0].layers[0].depth.file: is depth.gif; accepted as depth are"));
+              AllOf(HasSubstr("sources[0].layers[0].color: "), HasSubstr("color.gif: is a GIF")));
+  EXPECT_THAT(refusal(source(layer("color.png", "color.gif"))),
+              AllOf(HasSubstr("sources[0].layers[0].depth: "), HasSubstr("color.gif: is a GIF")));
 }
 
 TEST_F(FrameManifestTest, refusesDepthPlanesOfDifferentSizes) {
@@ -169,11 +172,12 @@ TEST_F(FrameManifestTest, takesVectorsAndSharesOfFloats) {
 TEST_F(FrameManifestTest, namesTheSurfacePlaneAtFault) {
   const std::string at = "sources[0].layers[0].";
   EXPECT_THAT(refusal(source(layerWith(R"("motion": {"file": "color.png"})"))),
-              HasSubstr(at + "motion.file: is color.png; accepted are .exr and .pfm"));
+              HasSubstr(at + "motion.file: is color.png, of whole numbers; accepted are floats"));
   EXPECT_THAT(refusal(source(layerWith(R"("specular": {"file": "none.png"})"))),
               HasSubstr(at + "specular: "));
+  folder_.write("normal.jpg", writtenJpeg(2, 1, std::vector<uint8_t>(6, 128)));
   EXPECT_THAT(refusal(source(layerWith(R"("normal": {"file": "normal.jpg"})"))),
-              HasSubstr(at + "normal.file: is normal.jpg; accepted here are .exr, .png and .pfm"));
+              HasSubstr(at + "normal.file: is normal.jpg, a JPEG, which changes numbers"));
   EXPECT_THAT(refusal(source(layerWith(
                   R"("roughness": {"file": "depth.png", "transfer": "COLOR_TRANSFER_SRGB"})"))),
               HasSubstr(at + "roughness.transfer: given for depth.png"));

@@ -63,11 +63,30 @@ TEST(JpegImage, refusesCmyk) {
 TEST(JpegImage, refusesWhatIsNoJpegAndTruncatedProgressiveFiles) {
   const TestFolder folder;
   EXPECT_THAT(std::string(readJpegColor(folder.write("x.jpg", "GIF89a")).status().message()),
-              HasSubstr("is no JPEG"));
+              HasSubstr("is no JPEG that can be read"));
   EXPECT_FALSE(readJpegColor(folder.write("x.jpg", "")).ok());
   const std::string bytes = compress(64, 64, TJPF_RGB, TJSAMP_420, TJFLAG_PROGRESSIVE);
   const auto image = readJpegColor(folder.write("x.jpg", bytes.substr(0, bytes.size() / 2)));
-  EXPECT_EQ(image.status().code(), absl::StatusCode::kDataLoss);
+  EXPECT_THAT(std::string(image.status().message()), HasSubstr("ends before its picture is whole"));
+}
+
+TEST(JpegImage, refusesBaselineFilesThatAreCutShort) {
+  const TestFolder folder;
+  const std::string bytes = compress(64, 64, TJPF_RGB, TJSAMP_420, 0);
+  for (const size_t count : {bytes.size() / 2, bytes.size() - 2}) {
+    const auto image = readJpegColor(folder.write("x.jpg", bytes.substr(0, count)));
+    EXPECT_THAT(std::string(image.status().message()), HasSubstr("still being written"));
+  }
+}
+
+TEST(JpegImage, readsTheFirstPictureOfSeveral) {
+  const TestFolder folder;
+  const std::string first = compress(16, 8, TJPF_RGB, TJSAMP_420, 0);
+  const auto image =
+      readJpegColor(folder.write("a.mpo", first + compress(64, 64, TJPF_RGB, TJSAMP_420, 0)));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(image->width_px, 16U);
+  EXPECT_EQ(image->bytes.size(), first.size());
 }
 
 TEST(JpegImage, refusesSidesBeyondTheLimit) {

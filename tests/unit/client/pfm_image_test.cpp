@@ -88,14 +88,36 @@ TEST(PfmImage, refusesHostileSizesAndWrongLengths) {
   EXPECT_THAT(messageOf(readPfmDepth(folder.write("x.pfm", "Pf\n1 1\n-1\n" + sample + "x"))),
               HasSubstr("1x1 px need"));
   EXPECT_THAT(messageOf(readPfmDepth(folder.write("x.pfm", "Pf\n2 1\n-1\n" + sample))),
-              HasSubstr("2x1 px need"));
+              HasSubstr("ends before its picture is whole (PFM)"));
 }
 
-TEST(PfmImage, refusesTheOtherChannelCount) {
+TEST(PfmImage, readsGreyAsColourAndGreyColourAsDepth) {
   const TestFolder folder;
-  const auto grey = folder.write("g.pfm", "Pf\n1 1\n-1\n" + floats({1}, true));
-  EXPECT_THAT(messageOf(readPfmColor(grey)), HasSubstr("has 1 channels; accepted is PF"));
+  const auto grey = readPfmColor(folder.write("g.pfm", "Pf\n1 1\n-1\n" + floats({0.5F}, true)));
+  ASSERT_TRUE(grey.ok()) << grey.status();
+  Imath::half rgba[4];
+  std::memcpy(static_cast<void*>(rgba), grey->bytes.data(), sizeof(rgba));
+  EXPECT_THAT(rgba, ElementsAre(0.5F, 0.5F, 0.5F, 1.0F));
+  const auto depth =
+      readPfmDepth(folder.write("c.pfm", "PF 2 1 -1\n" + floats({4, 4, 4, 2, 2, 2}, true)));
+  ASSERT_TRUE(depth.ok()) << depth.status();
+  EXPECT_THAT(samplesOf(*depth), ElementsAre(4, 2));
+  EXPECT_THAT(
+      messageOf(readPfmDepth(folder.write("c.pfm", "PF 1 1 -1\n" + floats({4, 1, 0}, true)))),
+      HasSubstr("is coloured"));
   EXPECT_EQ(readPfmColor(folder.path() / "none.pfm").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(PfmImage, readsCommentsAndEveryWhiteSpaceOfHeaders) {
+  const TestFolder folder;
+  // A first sample whose lowest byte is a line feed: the file's length tells what ends the header.
+  const std::string samples = floats({std::bit_cast<float>(0x3F80000AU), 7}, true);
+  for (const char* header : {"Pf\r\n2 1\r\n-1.0\r\n", "Pf\n# made by hand\n2\n1\n-1.000000\n",
+                             "Pf  2\t1   -1 \n", "Pf\r2 1\r-1\r"}) {
+    const auto image = readPfmDepth(folder.write("w.pfm", header + samples));
+    ASSERT_TRUE(image.ok()) << image.status() << header;
+    EXPECT_THAT(samplesOf(*image), ElementsAre(std::bit_cast<float>(0x3F80000AU), 7)) << header;
+  }
 }
 
 }  // namespace

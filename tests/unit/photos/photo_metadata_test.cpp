@@ -3,16 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "files/exif.h"
+#include "files/icc_profile.h"
 #include "photos/color_profile.h"
 #include "photos/depth_xmp.h"
-#include "photos/exif_focal.h"
 #include "unit/photos/written_photo.h"
 
 namespace viewloom::test {
 namespace {
 
+using files::focal35mm;
 using photos::DepthXmp;
-using photos::focal35mm;
 using photos::parseDepthXmp;
 
 TEST(DepthXmp, readsElements) {
@@ -60,7 +61,7 @@ TEST(ExifFocal, readsBothByteOrders) {
   EXPECT_EQ(focal35mm(little), 77);
   Bytes item{0, 0, 0, 2, 'x', 'x'};
   item.insert(item.end(), little.begin(), little.end());
-  EXPECT_EQ(focal35mm(photos::tiffOfItem(item)), 77);
+  EXPECT_EQ(focal35mm(files::tiffOfItem(item)), 77);
   for (size_t length = 0; length < 52; ++length) {
     const auto cut = focal35mm(std::span(little).first(length));
     EXPECT_TRUE(!cut || length >= 50) << length;
@@ -71,21 +72,21 @@ TEST(ExifFocal, readsBothByteOrders) {
   Bytes far = little;
   far[33] = 0xFF;
   EXPECT_FALSE(focal35mm(far)) << "a directory beyond the end";
-  EXPECT_TRUE(photos::tiffOfItem(Bytes{255, 255, 255, 255, 0}).empty());
-  EXPECT_TRUE(photos::tiffOfItem(Bytes{0, 0}).empty());
+  EXPECT_TRUE(files::tiffOfItem(Bytes{255, 255, 255, 255, 0}).empty());
+  EXPECT_TRUE(files::tiffOfItem(Bytes{0, 0}).empty());
 }
 
 TEST(IccPrimaries, endWithTheirBytes) {
   const Bytes profile = portrait().icc;
-  EXPECT_EQ(photos::primariesOfIcc(profile), v1::COLOR_PRIMARIES_DISPLAY_P3);
+  EXPECT_EQ(files::primariesOfIcc(profile), v1::COLOR_PRIMARIES_DISPLAY_P3);
   for (size_t length = 0; length + 4 < profile.size(); ++length) {
-    EXPECT_FALSE(photos::primariesOfIcc(std::span(profile).first(length))) << length;
+    EXPECT_FALSE(files::primariesOfIcc(std::span(profile).first(length))) << length;
   }
   Bytes many = profile;
   many[128] = many[129] = 0xFF;  // four thousand million tags
-  EXPECT_EQ(photos::primariesOfIcc(many), v1::COLOR_PRIMARIES_DISPLAY_P3);
+  EXPECT_EQ(files::primariesOfIcc(many), v1::COLOR_PRIMARIES_DISPLAY_P3);
   many[132] = 'x';
-  EXPECT_FALSE(photos::primariesOfIcc(many));
+  EXPECT_FALSE(files::primariesOfIcc(many));
 }
 
 }  // namespace
