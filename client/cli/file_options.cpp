@@ -7,7 +7,7 @@ void addFileOptions(CLI::App& app, FileFeedOptions& options) {
   const char* const group = "What";
   app.add_option(
          "colour", options.colors,
-         "Colour files, one a frame: EXR (with depth in Z), HEIC (portrait photos), PNG, JPEG, "
+         "Colour files, one a frame: EXR (with depth in Z or alike), HEIC (portrait photos), PNG, JPEG, "
          "TIFF, WebP, PFM, PGM, PPM, BMP, NPY, .yuv; told by content, not by name")
       ->group(group);
   app.add_option("--depth", options.depths, "Depth files, one a frame: as colour, and DPT")
@@ -21,7 +21,8 @@ void addFileOptions(CLI::App& app, FileFeedOptions& options) {
          "Light that all samples of a deep px let through comes from a black sky, not from what "
          "lies beside the px")
       ->group(group);
-  app.add_option("--view", options.view, "View of multi-view EXR files, as right or left")
+  app.add_option("--view", options.view,
+                 "View of multi-view EXR files, as right or left [the file's default]")
       ->group(group);
   app.add_option("--manifest", options.manifests,
                  "FrameManifest JSON files, one a frame: layers, cameras, everything")

@@ -10,7 +10,6 @@
 #include "base/str_cat.h"
 #include "files/container.h"
 #include "files/exr_description.h"
-#include "files/exr_image.h"
 #include "files/file_extension.h"
 #include "photos/photo.h"
 
@@ -73,10 +72,7 @@ absl::StatusOr<bool> FilePairs::isWhole(const std::string& file) const {
   const auto how = inputs::interpret(settings_, {.color = file, .view = view_});
   if (!how.ok()) return how.status();
   const v1::LayerFiles& layer = how->source.layers(0);
-  if (!layer.depth().channels().empty()) return true;
-  const auto usual = files::exrChannelsOfView(file, view_);
-  if (!usual.ok()) return usual.status();
-  return !usual->color.empty() && !usual->depth.empty();
+  return !layer.color().channels().empty() && !layer.depth().channels().empty();
 }
 
 void FilePairs::giveUpOldest() {

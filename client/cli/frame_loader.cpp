@@ -5,6 +5,7 @@
 
 #include "files/file_extension.h"
 #include "inputs/depth_format.h"
+#include "inputs/interpret_deep.h"
 
 namespace viewloom::cli {
 
@@ -40,12 +41,14 @@ absl::StatusOr<LoadedFiles> FrameLoader::loadDeep(const std::string& file) const
   v1::DepthFormat planar;
   planar.set_meaning(v1::DEPTH_MEANING_PLANAR);
   *deep.mutable_depth() = inputs::withSettings(planar, options_.input);
+  absl::StatusOr<inputs::Interpretation> how = inputs::interpretDeep(options_.input, deep);
+  if (!how.ok()) return how.status();
   absl::StatusOr<files::LoadedFrame> frame = files::loadFrame(manifest, "");
   if (!frame.ok()) return frame.status();
   v1::Source& loaded = *frame->wire.header.mutable_sources(0);
   *loaded.mutable_camera() =
-      inputs::settleCamera(options_.input, {}, loaded.layers(0).planes(1).size());
-  return LoadedFiles{.frame = *std::move(frame), .how = {}};
+      inputs::settleCamera(options_.input, *how, loaded.layers(0).planes(1).size());
+  return LoadedFiles{.frame = *std::move(frame), .how = *std::move(how)};
 }
 
 absl::StatusOr<LoadedFiles> FrameLoader::load(const FrameFiles& files) {

@@ -68,7 +68,9 @@ absl::StatusOr<InspectedFile> inspectFiles(const FrameFiles& files, FrameLoader&
   const bool is_stated =
       !files.manifest.empty() ||
       (inspected.loaded.how && inspected.loaded.how->source.camera().has_intrinsics());
-  inspected.camera_is_assumed = !is_stated && !options.input.fov_y_deg && !options.input.focal_px;
+  const bool sees_all = inspected.loaded.frame.wire.header.sources(0).cube_map();
+  inspected.camera_is_assumed =
+      !sees_all && !is_stated && !options.input.fov_y_deg && !options.input.focal_px;
   if (display) {
     absl::StatusOr<DisplayNeed> need = displayNeed(
         *display, inspected.loaded.frame.wire.header.sources(0), inspected.sources.front());

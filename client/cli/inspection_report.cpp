@@ -187,8 +187,8 @@ Json cameraJson(const v1::Camera& camera, bool is_assumed) {
 }
 
 std::string kindOf(const InspectedFile& inspected) {
-  if (inspected.loaded.how) return nameOf(inspected.loaded.how->kind);
-  return inspected.loaded.frame.deep.empty() ? "manifest" : "deep";
+  if (!inspected.loaded.frame.deep.empty()) return inspected.loaded.how ? "deep" : "manifest";
+  return inspected.loaded.how ? nameOf(inspected.loaded.how->kind) : "manifest";
 }
 
 absl::StatusOr<std::string> describePhoto(const std::string& file) {
@@ -236,7 +236,8 @@ std::string warningText(const inspect::Suspicion& suspicion) {
 std::string reportText(const InspectedFile& inspected) {
   std::string text = inspected.file + "\n";
   addLine(text, "file", inspected.format);
-  addLine(text, "read as", kindOf(inspected) + (inspected.loaded.how ? " (--input)" : ""));
+  const bool has_kind = inspected.loaded.how && inspected.loaded.frame.deep.empty();
+  addLine(text, "read as", kindOf(inspected) + (has_kind ? " (--input)" : ""));
   if (inspected.loaded.how) {
     for (const std::string& note : inspected.loaded.how->notes) addLine(text, "", note);
   }

@@ -32,6 +32,8 @@ const std::map<std::string, v1::ImagePart> kSides{{"right", v1::IMAGE_PART_RIGHT
                                                   {"left", v1::IMAGE_PART_LEFT},
                                                   {"top", v1::IMAGE_PART_TOP},
                                                   {"bottom", v1::IMAGE_PART_BOTTOM}};
+const std::map<std::string, inputs::Projection> kProjections{
+    {"flat", inputs::Projection::kFlat}, {"equirect", inputs::Projection::kEquirect}};
 const std::map<std::string, bool> kForwards{{"+z", false}, {"-z", true}};
 
 std::map<std::string, v1::DepthPacking> packings() {
@@ -63,8 +65,12 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
   addWord(app, "--input", settings.kind, inputKinds(),
           "What wrote the files; every option below overrides what it brings [auto: EXR by its "
           "header, .heic as iphone, else plain]\n"
-          "blender   multilayer EXR: Combined and Depth\n"
+          "blender   multilayer EXR: Combined and Depth; File Output: Image and Depth\n"
           "unreal    Movie Render Queue EXR: FinalImage and WorldDepth in cm, with its camera\n"
+          "nuke      EXR of Nuke: depth is 1/Z\n"
+          "arnold, vray, redshift, houdini\n"
+          "          EXR with depth in scene units, of any sign; 1e9 and more is infinitely far;\n"
+          "          vray, redshift: --depth-near and --depth-far where 0 and 1 stand for them\n"
           "rgbd      one picture, half colour, half depth [between 0.67 and 2 m]\n"
           "2d+z      one picture, half colour, half disparity; --screen, --factor, --screen-code\n"
           "sensor    --depth in whole millimetres, 0 = nothing measured\n"
@@ -77,6 +83,12 @@ void addKindOptions(CLI::App& app, InputSettings& settings) {
           "tmiv      --depth of normalised disparity (.png, .yuv), --camera JSON\n"
           "iphone    portrait photo (.heic); or --depth in 1/m (.exr, .pfm), or codes as relative\n"
           "relative  --depth of an estimating network [between 0.67 and 2 m]")
+      ->group(group);
+  app.add_option("--color-channels,--colour-channels", settings.color_channels,
+                 "EXR: colour, a layer (beauty) or channels (R,G,B or R,G,B,A) [by their names]")
+      ->group(group);
+  app.add_option("--depth-channel", settings.depth_channel,
+                 "EXR: the channel of depth [by its name, as Z, depth.Z or WorldDepth.R]")
       ->group(group);
   addWord(app, "--depth-side", settings.depth_side, kSides,
           "rgbd, 2d+z: where in the picture depth is [right]")
@@ -170,6 +182,15 @@ void addCameraOptions(CLI::App& app, InputSettings& settings) {
   app.add_option("--pixel-aspect", settings.pixel_aspect,
                  "Width of a px divided by its height; 2 for halves squeezed into one picture [1]")
       ->check(CLI::Range(0.01, 100.0))
+      ->group(group);
+  const auto project = [&settings](const std::string& word) {
+    settings.projection = kProjections.at(word);
+  };
+  app.add_option_function<std::string>(
+         "--projection", project,
+         "flat, or equirect: a panorama of all directions, depth along the ray, which is sent as a "
+         "cube map [by an EXR's envmap, else flat]")
+      ->check(CLI::IsMember(kProjections))
       ->group(group);
   addWord(app, "--camera-forward", settings.looks_along_minus_z, kForwards,
           "Which way the camera of an EXR's worldToCamera looks [+z]")

@@ -10,8 +10,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "files/byte_cursor.h"
+#include "files/exr_layer_names.h"
 #include "files/exr_unpack.h"
 #include "files/file_bytes.h"
+#include "files/plane_image.h"
 
 namespace viewloom::files {
 
@@ -26,11 +28,16 @@ DeepExr::DeepExr(std::string path, std::vector<uint8_t> bytes, DeepExrHeader hea
                  const DeepUnits& units)
     : path_(std::move(path)), bytes_(std::move(bytes)), header_(std::move(header)), units_(units) {}
 
-absl::StatusOr<DeepExr> DeepExr::open(const std::filesystem::path& path, const DeepUnits& units) {
+absl::StatusOr<DeepExr> DeepExr::open(const std::filesystem::path& path, const DeepUnits& units,
+                                      const std::optional<ExrWindow>& window) {
   absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path, kDeepFileBytesMax);
   if (!bytes.ok()) return bytes.status();
   absl::StatusOr<DeepExrHeader> header = readDeepHeader(path.string(), *bytes);
   if (!header.ok()) return header.status();
+  if (window) {
+    VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(path.string(), window->width(), window->height()));
+    header->part.display = *window;
+  }
   DeepExr file(path.string(), *std::move(bytes), *std::move(header), units);
   VIEWLOOM_RETURN_IF_ERROR(file.findChannels());
   return file;
@@ -42,7 +49,10 @@ absl::Status DeepExr::findChannels() {
   bool is_found[kWantedCount] = {};
   for (const ExrHeaderChannel& channel : header_.part.channels) {
     for (int wanted = 0; wanted < kWantedCount; ++wanted) {
-      if (channel.name != kNames[wanted]) continue;
+      const bool is_exact = channel.name == kNames[wanted];
+      const std::string last = channel.name.substr(channel.name.rfind('.') + 1);
+      const bool is_alike = !is_found[wanted] && lowered(last) == lowered(kNames[wanted]);
+      if (!is_exact && !is_alike) continue;
       channels_[wanted] = {channel.type, sample_bytes_};
       is_found[wanted] = true;
     }
@@ -63,6 +73,12 @@ absl::Status DeepExr::refuse(const Chunk& chunk, const std::string& problem) con
   const std::string where = has_tiles ? absl::StrCat("tile ", chunk.column, ", ", chunk.row)
                                       : absl::StrCat("row ", chunk.row + header_.part.data.min_y);
   return refuseFile(path_, absl::StrCat(where, ": ", problem));
+}
+
+std::optional<Imf::Chromaticities> DeepExr::chromaticities() const {
+  if (!header_.part.chromaticities) return std::nullopt;
+  const auto& [rx, ry, gx, gy, bx, by, wx, wy] = *header_.part.chromaticities;
+  return Imf::Chromaticities({rx, ry}, {gx, gy}, {bx, by}, {wx, wy});
 }
 
 bool DeepExr::isInView(const Chunk& chunk) const {

@@ -2,9 +2,12 @@
 // Deep OpenEXR files: the samples of every pixel.
 #pragma once
 
+#include <OpenEXR/ImfChromaticities.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,7 +31,7 @@ struct DeepUnits {
   double offset_m = 0;
 };
 
-// Some pixels of a row of the display window, side by side.
+// Some pixels of a row of the window, side by side.
 struct DeepRow {
   uint32_t x = 0;  // of the first pixel
   uint32_t y = 0;
@@ -36,17 +39,20 @@ struct DeepRow {
   std::span<const deep::DeepSample> samples;  // of one pixel after the other, in no order
 };
 
-// A deep scan line or tile part: R, G, B, A and Z, and ZBack where samples have thickness, each of
-// any type, uncompressed or as RLE or ZIPS. Of several parts the first deep one counts; of several
-// levels, the largest.
+// A deep scan line or tile part: R, G, B, A and Z, and ZBack where samples have thickness, in any
+// case and behind any layer's name, each of any type, uncompressed or as RLE or ZIPS. Of several
+// parts the first deep one counts; of several levels, the largest.
 class DeepExr {
  public:
-  static absl::StatusOr<DeepExr> open(const std::filesystem::path& path, const DeepUnits& units);
+  // `window`: the px to read, in the file's own; none = its display window.
+  static absl::StatusOr<DeepExr> open(const std::filesystem::path& path, const DeepUnits& units,
+                                      const std::optional<ExrWindow>& window = {});
 
   uint32_t widthPx() const { return static_cast<uint32_t>(header_.part.display.width()); }
   uint32_t heightPx() const { return static_cast<uint32_t>(header_.part.display.height()); }
+  std::optional<Imf::Chromaticities> chromaticities() const;
 
-  // Visits all pixels of the display window that the file has samples for, in any order, in pieces
+  // Visits all pixels of the window that the file has samples for, in any order, in pieces
   // of rows. Stops with what is wrong, and where, when a chunk is not as it must be.
   absl::Status forEachRow(const std::function<void(const DeepRow&)>& visit);
 

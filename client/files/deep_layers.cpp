@@ -15,6 +15,7 @@
 #include "deep/tidy_pixel.h"
 #include "files/deep_exr.h"
 #include "files/file_bytes.h"
+#include "files/primaries.h"
 
 namespace viewloom::files {
 namespace {
@@ -159,14 +160,23 @@ LoadedPlane describe(std::vector<uint8_t> bytes, const DeepExr& file, v1::PlaneK
   return loaded;
 }
 
-DeepLayers layersOf(const v1::DeepFile& options, const DeepExr& file, DeepSplit& split) {
+absl::StatusOr<DeepLayers> layersOf(const v1::DeepFile& options, const DeepExr& file,
+                                    DeepSplit& split) {
   DeepLayers layers{.planes = {}, .report = split.report()};
   for (size_t i = 0; i < split.planes().layerCount(); ++i) {
-    LoadedPlane& color = layers.planes.emplace_back(
-        describe(split.planes().takeColor(i), file, v1::PLANE_KIND_COLOR));
+    std::vector<uint8_t> rgba16f = split.planes().takeColor(i);
+    v1::ColorPrimaries primaries = options.primaries();
+    const std::optional<Imf::Chromaticities> stated = file.chromaticities();
+    if (primaries == v1::COLOR_PRIMARIES_UNSPECIFIED && stated) {
+      const auto settled = settlePrimaries(options.file(), *stated, rgba16f);
+      if (!settled.ok()) return settled.status();
+      primaries = *settled;
+    }
+    LoadedPlane& color =
+        layers.planes.emplace_back(describe(std::move(rgba16f), file, v1::PLANE_KIND_COLOR));
     color.plane.set_encoding(v1::PLANE_ENCODING_RGBA16F);
     color.plane.set_transfer(v1::COLOR_TRANSFER_LINEAR);
-    color.plane.set_primaries(options.primaries());
+    color.plane.set_primaries(primaries);
     color.plane.set_alpha(v1::ALPHA_MODE_PREMULTIPLIED);
     LoadedPlane& depth = layers.planes.emplace_back(
         describe(split.planes().takeDepth(i), file, v1::PLANE_KIND_DEPTH));
@@ -196,7 +206,7 @@ absl::StatusOr<DeepLayers> loadDeepLayers(const v1::DeepFile& options,
       .offset_m = options.depth().offset(),
   };
   const std::filesystem::path path = folder / options.file();
-  absl::StatusOr<DeepExr> file = DeepExr::open(path, units);
+  absl::StatusOr<DeepExr> file = DeepExr::open(path, units, exrWindow(options.window()));
   if (!file.ok()) return file.status();
   const uint64_t bytes_max =
       uint64_t{layer_count_max} * file->widthPx() * file->heightPx() * (kColorBytes + kDepthBytes);
@@ -207,8 +217,8 @@ absl::StatusOr<DeepLayers> loadDeepLayers(const v1::DeepFile& options,
   }
   DeepSplit split(*file, layer_count_max, options.black_sky());
   VIEWLOOM_RETURN_IF_ERROR(split.run());
-  DeepLayers layers = layersOf(options, *file, split);
-  layers.report.file = options.file();
+  absl::StatusOr<DeepLayers> layers = layersOf(options, *file, split);
+  if (layers.ok()) layers->report.file = options.file();
   return layers;
 }
 

@@ -6,8 +6,6 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
-#include "absl/strings/str_cat.h"
-
 namespace viewloom::files {
 namespace {
 
@@ -24,7 +22,8 @@ std::optional<ExrChannel> channelOfPart(const Imf::MultiPartInputFile& file, int
   return ExrChannel{.part = part,
                     .name = name,
                     .type = channel->type,
-                    .subsampled = channel->xSampling != 1 || channel->ySampling != 1};
+                    .x_sampling = channel->xSampling,
+                    .y_sampling = channel->ySampling};
 }
 
 // Whether the channels without a prefix of this part belong to what is called `prefix`.
@@ -50,39 +49,6 @@ std::optional<ExrChannel> findExrChannel(const Imf::MultiPartInputFile& file,
     }
   }
   return std::nullopt;
-}
-
-ExrViewChannels usualExrChannels(const Imf::MultiPartInputFile& file, const std::string& view) {
-  const std::string prefix = view.empty() ? "" : view + ".";
-  const auto has = [&](const char* name) {
-    return findExrChannel(file, prefix + name).has_value();
-  };
-  ExrViewChannels channels;
-  if (has("R") && has("G") && has("B")) {
-    channels.color = {prefix + "R", prefix + "G", prefix + "B"};
-    if (has("A")) channels.color.push_back(prefix + "A");
-  } else if (has("Y")) {
-    channels.color = {prefix + "Y"};
-  }
-  for (const char* name : {"Z", "depth.Z", "Depth.Z", "depth"}) {
-    if (!has(name)) continue;
-    channels.depth = {prefix + name};
-    break;
-  }
-  return channels;
-}
-
-std::string listExrChannels(const Imf::MultiPartInputFile& file) {
-  std::string names;
-  for (int part = 0; part < file.parts(); ++part) {
-    const Imf::Header& header = file.header(part);
-    const std::string prefix = file.parts() > 1 && header.hasName() ? header.name() + "." : "";
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-      absl::StrAppend(&names, names.empty() ? "" : ", ", prefix, it.name(),
-                      isFlat(header) ? "" : " (deep)");
-    }
-  }
-  return names;
 }
 
 }  // namespace viewloom::files

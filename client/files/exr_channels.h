@@ -8,24 +8,20 @@
 #include <optional>
 #include <string>
 
-#include "files/exr_image.h"
-
 namespace viewloom::files {
 
 struct ExrChannel {
   int part = 0;
   std::string name;  // in that part
   Imf::PixelType type = Imf::HALF;
-  bool subsampled = false;
+  int x_sampling = 1;
+  int y_sampling = 1;
+
+  bool isSubsampled() const { return x_sampling != 1 || y_sampling != 1; }
 };
 
 // The channel a name stands for, see exr_image.h.
 std::optional<ExrChannel> findExrChannel(const Imf::MultiPartInputFile& file,
                                          const std::string& name);
-
-ExrViewChannels usualExrChannels(const Imf::MultiPartInputFile& file, const std::string& view);
-
-// All channels of the file, for messages: "R, G, B, left.R".
-std::string listExrChannels(const Imf::MultiPartInputFile& file);
 
 }  // namespace viewloom::files

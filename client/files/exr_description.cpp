@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
@@ -24,20 +25,28 @@ std::string typeName(Imf::PixelType type) {
   return type == Imf::HALF ? "half" : type == Imf::FLOAT ? "float" : "uint";
 }
 
+ExrWindow windowOf(const Imath::Box2i& box) {
+  return {box.min.x, box.min.y, box.max.x, box.max.y};
+}
+
 ExrDescribedPart describePart(const Imf::Header& header, bool has_siblings) {
   ExrDescribedPart part;
   if (header.hasName()) part.name = header.name();
+  if (header.hasView()) part.view = header.view();
   part.type = header.hasType()              ? header.type()
               : header.hasTileDescription() ? "tiledimage"
                                             : "scanlineimage";
-  const auto& display = header.displayWindow();
-  part.width_px = int64_t{display.max.x} - display.min.x + 1;
-  part.height_px = int64_t{display.max.y} - display.min.y + 1;
+  part.display = windowOf(header.displayWindow());
+  part.data = windowOf(header.dataWindow());
+  part.width_px = part.display.width();
+  part.height_px = part.display.height();
   const std::string prefix = has_siblings && !part.name.empty() ? part.name + "." : "";
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     const std::string name = it.name();
-    part.channels.push_back({.name = name.starts_with(prefix) ? name : prefix + name,
-                             .type = typeName(it.channel().type)});
+    part.channels.push_back(
+        {.name = name.starts_with(prefix) ? name : prefix + name,
+         .type = typeName(it.channel().type),
+         .is_subsampled = it.channel().xSampling != 1 || it.channel().ySampling != 1});
   }
   return part;
 }
@@ -76,29 +85,48 @@ bool ExrDescription::isDeep() const {
                      [](const ExrDescribedPart& part) { return part.isDeep(); });
 }
 
+ExrDescription describeExr(const Imf::MultiPartInputFile& file) {
+  ExrDescription description;
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& header = file.header(part);
+    description.parts.push_back(describePart(header, file.parts() > 1));
+    if (header.hasView()) description.views.push_back(header.view());
+  }
+  const Imf::Header& first = file.header(0);
+  if (Imf::hasMultiView(first)) description.views = Imf::multiView(first);
+  for (auto it = first.begin(); it != first.end(); ++it) {
+    if (auto text = textOf(it.attribute())) description.texts[it.name()] = *std::move(text);
+  }
+  description.world_to_camera = matrixOf(first, "worldToCamera");
+  description.world_to_ndc = matrixOf(first, "worldToNDC");
+  if (Imf::hasChromaticities(first)) description.chromaticities = Imf::chromaticities(first);
+  description.pixel_aspect = double{first.pixelAspectRatio()};
+  if (Imf::hasEnvmap(first)) {
+    description.envmap =
+        Imf::envmap(first) == Imf::ENVMAP_CUBE ? ExrEnvmap::kCube : ExrEnvmap::kLatLong;
+  }
+  return description;
+}
+
 absl::StatusOr<ExrDescription> describeExr(const std::filesystem::path& path) {
   const auto file = openExr(path);
   if (!file.ok()) return file.status();
   try {
-    ExrDescription description;
-    for (int part = 0; part < (*file)->parts(); ++part) {
-      const Imf::Header& header = (*file)->header(part);
-      description.parts.push_back(describePart(header, (*file)->parts() > 1));
-      if (header.hasView()) description.views.push_back(header.view());
-    }
-    const Imf::Header& first = (*file)->header(0);
-    if (Imf::hasMultiView(first)) description.views = Imf::multiView(first);
-    for (auto it = first.begin(); it != first.end(); ++it) {
-      if (auto text = textOf(it.attribute())) description.texts[it.name()] = *std::move(text);
-    }
-    description.world_to_camera = matrixOf(first, "worldToCamera");
-    description.world_to_ndc = matrixOf(first, "worldToNDC");
-    if (Imf::hasChromaticities(first)) description.chromaticities = Imf::chromaticities(first);
-    description.pixel_aspect = first.pixelAspectRatio();
-    return description;
+    return describeExr(**file);
   } catch (const std::exception& error) {
     return absl::DataLossError(absl::StrCat(path.string(), ": ", error.what()));
   }
+}
+
+std::string listExrChannels(const ExrDescription& description) {
+  std::string names;
+  for (const ExrDescribedPart& part : description.parts) {
+    for (const ExrDescribedChannel& channel : part.channels) {
+      absl::StrAppend(&names, names.empty() ? "" : ", ", channel.name,
+                      part.isDeep() ? " (deep)" : "");
+    }
+  }
+  return names;
 }
 
 }  // namespace viewloom::files

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/exr_header.h"
 
+#include <bit>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -111,6 +112,11 @@ class HeaderReader {
     if (is("displayWindow", "box2i")) part.display = takeWindow(content);
     if (is("chunkCount", "int")) part.chunk_count = content.takeSigned32();
     if (is("channels", "chlist")) part.channels = takeChannels(content);
+    if (is("chromaticities", "chromaticities")) {
+      for (float& number : part.chromaticities.emplace()) {
+        number = std::bit_cast<float>(content.take32());
+      }
+    }
     if (is("tiles", "tiledesc")) {
       part.tile_width_px = content.take32();
       part.tile_height_px = content.take32();

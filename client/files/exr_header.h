@@ -3,6 +3,7 @@
 // that trusts their bytes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -46,6 +47,8 @@ struct ExrPart {
   uint32_t tile_width_px = 0;              // 0 = no tiles
   uint32_t tile_height_px = 0;
   std::optional<int32_t> chunk_count;
+  // x and y of red, green, blue and white, as in the file.
+  std::optional<std::array<float, 8>> chromaticities;
   uint64_t chunk_table_offset = 0;  // where in the file the offsets of its chunks begin
 
   // Of the largest level.

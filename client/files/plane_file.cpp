@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/plane_file.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,6 +33,10 @@ absl::Status refuseForeign(const v1::PlaneFile& file, Container container) {
   const bool is_exr = container == Container::kExr, is_yuv = container == Container::kYuv;
   if (!is_exr && !file.channels().empty()) {
     return invalidField("channels",
+                        absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
+  }
+  if (!is_exr && file.has_window()) {
+    return invalidField("window",
                         absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
   }
   if ((is_exr || is_yuv) && file.part() != v1::IMAGE_PART_UNSPECIFIED) {
@@ -69,7 +75,7 @@ absl::StatusOr<PlaneImage> readColor(const v1::PlaneFile& file, const std::files
   VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, container));
   if (container == Container::kExr) {
     const std::vector<std::string> channels(file.channels().begin(), file.channels().end());
-    return readExrColor(path, channels);
+    return readExrColor(path, channels, exrWindow(file.window()));
   }
   if (container == Container::kYuv) return readYuvColor(path, file.raw());
   const bool is_whole = file.part() == v1::IMAGE_PART_UNSPECIFIED && !file.flip();
@@ -79,13 +85,25 @@ absl::StatusOr<PlaneImage> readColor(const v1::PlaneFile& file, const std::files
   return colorPlane(*std::move(picture), file.transfer());
 }
 
+// A sample that is no surface.
+float nothingOf(const v1::DepthFormat& format) {
+  if (format.has_invalid_value() && !format.invalid_is_far()) {
+    return static_cast<float>(format.invalid_value());
+  }
+  const bool is_metric = format.meaning() == v1::DEPTH_MEANING_PLANAR ||
+                         format.meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
+  const bool is_far = format.has_invalid_value() && format.invalid_value() == 0;
+  const bool is_zero = is_metric && format.offset() == 0 && !is_far;
+  return is_zero ? 0 : std::numeric_limits<float>::quiet_NaN();
+}
+
 absl::StatusOr<PlaneImage> readDepth(const v1::PlaneFile& file, const std::filesystem::path& path) {
   VIEWLOOM_RETURN_IF_ERROR(checkPictureFile(path));
   const Container container = containerOf(path);
   VIEWLOOM_RETURN_IF_ERROR(refuseForeign(file, container));
   if (container == Container::kExr) {
     const std::vector<std::string> channels(file.channels().begin(), file.channels().end());
-    return readExrDepth(path, channels);
+    return readExrDepth(path, channels, exrWindow(file.window()), nothingOf(file.depth()));
   }
   if (container == Container::kYuv) return readYuvDepth(path, file.raw());
   const bool has_digits =
@@ -110,6 +128,15 @@ v1::AlphaMode alphaOf(const PlaneImage& image) {
 }
 
 }  // namespace
+
+std::optional<ExrWindow> exrWindow(const v1::ExrWindow& window) {
+  if (!window.has_size()) return std::nullopt;
+  // Sizes are limited to what planes have, corners to what keeps the sums below 2^31.
+  const auto corner = [](int32_t at) { return std::clamp(at, -(1 << 30), 1 << 30); };
+  const auto side = [](uint32_t px) { return static_cast<int32_t>(std::min(px, 1U << 20)); };
+  const int32_t x = corner(window.min_x()), y = corner(window.min_y());
+  return ExrWindow{x, y, x + side(window.size().width()) - 1, y + side(window.size().height()) - 1};
+}
 
 absl::StatusOr<PlaneImage> readColorImage(const v1::PlaneFile& file,
                                           const std::filesystem::path& folder) {

@@ -3,13 +3,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "base/byte_pool.h"
 #include "base/status.h"
+#include "files/exr_header.h"
 #include "files/plane_image.h"
 #include "viewloom/v1/manifest.pb.h"
 
 namespace viewloom::files {
+
+// The px that a manifest names; none = the display window.
+std::optional<ExrWindow> exrWindow(const v1::ExrWindow& window);
 
 struct LoadedPlane {
   v1::Plane plane;  // complete but for compression

@@ -95,24 +95,29 @@ std::optional<v1::ColorPrimaries> knownPrimaries(const Imf::Chromaticities& chro
   return std::nullopt;
 }
 
-absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file, PlaneImage& image) {
-  if (!image.chromaticities) return v1::COLOR_PRIMARIES_BT709;
-  if (const auto known = knownPrimaries(*image.chromaticities)) return *known;
+absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file,
+                                                   const Imf::Chromaticities& stated,
+                                                   std::vector<uint8_t>& rgba16f) {
+  if (const auto known = knownPrimaries(stated)) return *known;
   const absl::Status refusal = refuseFile(
       file, "has chromaticities that span no colours; state the primaries instead, as bt709");
   try {
     const Imf::Chromaticities& target = knownOnes().back().chromaticities;
-    const Imath::M33d xyz_from_file = upper(Imf::RGBtoXYZ(*image.chromaticities, 1));
+    const Imath::M33d xyz_from_file = upper(Imf::RGBtoXYZ(stated, 1));
     const Imath::M33d target_from_xyz = upper(Imf::RGBtoXYZ(target, 1)).inverse();
-    const Imath::M33d matrix = xyz_from_file *
-                               adaptation(whiteXyz(*image.chromaticities), whiteXyz(target)) *
-                               target_from_xyz;
+    const Imath::M33d matrix =
+        xyz_from_file * adaptation(whiteXyz(stated), whiteXyz(target)) * target_from_xyz;
     if (!isFinite(matrix) || std::abs(matrix.determinant()) < 1e-6) return refusal;
-    convert(matrix, image.bytes);
+    convert(matrix, rgba16f);
   } catch (const std::exception&) {  // Imf::RGBtoXYZ divides by what is 0
     return refusal;
   }
   return v1::COLOR_PRIMARIES_BT2020;
+}
+
+absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file, PlaneImage& image) {
+  if (!image.chromaticities) return v1::COLOR_PRIMARIES_BT709;
+  return settlePrimaries(file, *image.chromaticities, image.bytes);
 }
 
 }  // namespace viewloom::files

@@ -18,5 +18,9 @@ std::optional<v1::ColorPrimaries> knownPrimaries(const Imf::Chromaticities& chro
 // unknown ones is converted to BT2020, its white adapted to D65 (Bradford). Chromaticities that
 // span no colours are refused.
 absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file, PlaneImage& image);
+// The same for RGBA16F px alone.
+absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file,
+                                                   const Imf::Chromaticities& stated,
+                                                   std::vector<uint8_t>& rgba16f);
 
 }  // namespace viewloom::files

@@ -10,7 +10,10 @@
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
 #include "inputs/cut_depth.h"
+#include "inputs/missing_channels.h"
+#include "inputs/panorama.h"
 #include "inputs/photo_frame.h"
+#include "inputs/renderer_depth.h"
 #include "inputs/sensor_presets.h"
 #include "inspect/stored_numbers.h"
 #include "photos/photo.h"
@@ -125,6 +128,7 @@ void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
 absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   absl::StatusOr<Interpretation> how = interpret(settings_, files);
   if (!how.ok()) return how.status();
+  VIEWLOOM_RETURN_IF_ERROR(requireExrChannels(files, *how));
   v1::FrameManifest manifest;
   *manifest.add_sources() = how->source;
   absl::StatusOr<files::LoadedFrame> frame =
@@ -132,6 +136,16 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   if (!frame.ok()) return frame.status();
   VIEWLOOM_RETURN_IF_ERROR(settleFormat(*how, *frame));
   v1::Source& source = *frame->wire.header.mutable_sources(0);
+  if (isRenderer(how->kind)) {
+    settleRendererDepth(settings_, *source.mutable_layers(0)->mutable_planes(1),
+                        frame->wire.planes[1], how->notes);
+  }
+  if (how->projection != Projection::kFlat) {
+    how->notes.push_back(absl::StrCat(
+        "panorama of all directions", settings_.projection ? "" : " by the header's envmap",
+        ": sent as a cube map, to which --fov and --focal-px do not apply"));
+    VIEWLOOM_RETURN_IF_ERROR(makeCubeMap(files.color, how->projection, *frame));
+  }
   *source.mutable_camera() = settleCamera(settings_, *how, source.layers(0).planes(1).size());
   VIEWLOOM_RETURN_IF_ERROR(settlePixels(*how, *frame));
   settleZeros(*how, *frame);
@@ -144,7 +158,12 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
 v1::Camera settleCamera(const InputSettings& settings, const Interpretation& how,
                         const v1::SizePx& depth_size) {
   v1::Camera camera = how.source.camera();
-  const double width = depth_size.width(), height = depth_size.height();
+  if (how.projection != Projection::kFlat) {
+    camera.clear_intrinsics();
+    return camera;
+  }
+  const double width = how.display ? how.display->width_px : depth_size.width();
+  const double height = how.display ? how.display->height_px : depth_size.height();
   v1::Intrinsics& intrinsics = *camera.mutable_intrinsics();
   const bool is_stated = how.source.camera().has_intrinsics();
   if (is_stated && how.camera_size) {
@@ -169,6 +188,10 @@ v1::Camera settleCamera(const InputSettings& settings, const Interpretation& how
   if (settings.principal_px.size() == 2) {
     intrinsics.set_principal_x_px(settings.principal_px[0]);
     intrinsics.set_principal_y_px(settings.principal_px[1]);
+  }
+  if (how.display) {
+    intrinsics.set_principal_x_px(intrinsics.principal_x_px() + how.display->left_px);
+    intrinsics.set_principal_y_px(intrinsics.principal_y_px() + how.display->top_px);
   }
   return camera;
 }

@@ -15,10 +15,15 @@
 namespace viewloom::inputs {
 
 enum class InputKind {
-  kAuto,      // by the file's header, else kPlain
-  kPlain,     // colour and depth as the settings say
-  kBlender,   // multilayer EXR of Blender
-  kUnreal,    // EXR of Unreal's Movie Render Queue
+  kAuto,     // by the file's header, else kPlain
+  kPlain,    // colour and depth as the settings say
+  kBlender,  // multilayer EXR of Blender
+  kUnreal,   // EXR of Unreal's Movie Render Queue
+  kNuke,     // EXR of Nuke: depth is 1/Z
+  kArnold,   // EXR of these renderers: Z in scene units
+  kVray,
+  kRedshift,
+  kHoudini,
   kRgbd,      // colour and depth halves of one picture
   k2dPlusZ,   // 2D-plus-Depth: disparity about a screen, beside the colour
   kSensor,    // depth camera: whole numbers of millimetres, 0 = nothing measured
@@ -31,6 +36,13 @@ enum class InputKind {
   kL515,      // RealSense L515: 0.25 mm, 0 = nothing
   kD405,      // RealSense D405: 0.1 mm, 0 = nothing
   kRecord3d,  // Record3D: metres as floats, or millimetres, 0 = nothing
+};
+
+// How the px of a picture lie around the camera.
+enum class Projection {
+  kFlat,      // a pinhole's picture
+  kEquirect,  // all directions: longitude across, latitude down, the middle is ahead
+  kCube,      // OpenEXR's cube: six faces, one below the other
 };
 
 // As --input takes it: "blender".
@@ -67,6 +79,11 @@ struct InputSettings {
   std::vector<double> principal_px;  // none = the middle
   std::optional<double> pixel_aspect;
   bool looks_along_minus_z = false;  // cameras of EXR matrices: else along +z
+
+  // EXR: a layer, or channels ("R,G,B"); a channel; "" = by their names.
+  std::string color_channels;
+  std::string depth_channel;
+  std::optional<Projection> projection;  // none = the file's
 
   v1::ImagePart depth_side = v1::IMAGE_PART_RIGHT;  // kRgbd, k2dPlusZ
   bool is_black_near = false;                       // kRgbd, kRelative

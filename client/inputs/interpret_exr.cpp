@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs/interpret_exr.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "files/container.h"
 #include "files/exr_description.h"
 #include "files/exr_image.h"
 #include "files/file_bytes.h"
-#include "files/file_extension.h"
-#include "inputs/exr_camera.h"
+#include "inputs/exr_header_facts.h"
 #include "inputs/exr_layers.h"
-#include "inputs/unreal_camera.h"
+#include "inputs/exr_tool.h"
+#include "inputs/exr_windows.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -22,147 +25,254 @@ namespace {
 constexpr double kBlenderNothing = 1e10;
 constexpr double kMetresPerCentimetre = 0.01;
 
-void setChannels(const ExrLayers& layers, v1::LayerFiles& layer) {
-  layer.mutable_color()->mutable_channels()->Assign(layers.color.begin(), layers.color.end());
-  layer.mutable_depth()->clear_channels();
-  layer.mutable_depth()->add_channels(layers.depth);
+using Names = std::vector<std::string>;
+
+// A description with what it takes to speak of its file.
+struct Described {
+  std::string file;
+  files::ExrDescription description;
+  std::string view;  // as the file calls it
+};
+
+absl::StatusOr<std::optional<Described>> describe(const std::string& file,
+                                                  const std::string& view) {
+  if (!files::isExr(file)) return std::optional<Described>();
+  absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
+  if (!description.ok()) return description.status();
+  const absl::StatusOr<std::string> found = files::exrView(*description, view);
+  if (!found.ok() && !description->isDeep()) {
+    return files::refuseFile(file, std::string(found.status().message()));
+  }
+  return std::optional(Described{file, *std::move(description), found.value_or("")});
 }
 
-absl::Status setChannelsOfView(const std::string& view, v1::PlaneFile& plane, bool is_color) {
-  if (view.empty() || !files::isExr(plane.file())) return absl::OkStatus();
-  const absl::StatusOr<files::ExrViewChannels> channels =
-      files::exrChannelsOfView(plane.file(), view);
-  if (!channels.ok()) return channels.status();
-  const std::vector<std::string>& names = is_color ? channels->color : channels->depth;
+const files::ExrDescribedPart& partOf(const files::ExrDescription& description,
+                                      const Names& names) {
+  for (const files::ExrDescribedPart& part : description.parts) {
+    for (const files::ExrDescribedChannel& channel : part.channels) {
+      if (!names.empty() && channel.name == names.front()) return part;
+    }
+  }
+  return description.parts.front();
+}
+
+void setNames(const Names& names, v1::PlaneFile& plane) {
   plane.mutable_channels()->Assign(names.begin(), names.end());
-  return absl::OkStatus();
 }
 
 class ExrInterpreter {
  public:
-  ExrInterpreter(const InputSettings& settings, const InputFiles& files,
-                 const files::ExrDescription& description, Interpretation& result)
-      : settings_(settings), files_(files), description_(description), result_(result) {}
+  // `color`, `depth`: the files that are EXR files, at least one; `depth` of a file of its own.
+  ExrInterpreter(const InputSettings& settings, const std::optional<Described>& color,
+                 const std::optional<Described>& depth, bool has_depth_file, Interpretation& result)
+      : settings_(settings),
+        color_(color ? &*color : nullptr),
+        depth_(depth ? &*depth : nullptr),
+        has_depth_file_(has_depth_file),
+        result_(result) {}
 
   absl::Status interpret() {
-    if (!settings_.pixel_aspect && description_.pixel_aspect > 0.01 &&
-        description_.pixel_aspect < 100) {
-      result_.pixel_aspect = description_.pixel_aspect;
-    }
-    VIEWLOOM_RETURN_IF_ERROR(findLayers());
-    return result_.kind == InputKind::kUnreal ? findUnrealCamera() : findCamera();
+    const Described& header = color_ != nullptr ? *color_ : *depth_;
+    readHeaderFacts(settings_, header.description, result_);
+    VIEWLOOM_RETURN_IF_ERROR(findChannels());
+    settleWindows();
+    return readHeaderCamera(settings_, header.file, header.description, result_);
   }
 
  private:
-  v1::LayerFiles& layer() { return *result_.source.mutable_layers(0); }
-  v1::DepthFormat& depth() { return *layer().mutable_depth()->mutable_depth(); }
-  bool mayDetect() const { return settings_.kind == InputKind::kAuto && files_.depth.empty(); }
+  v1::PlaneFile& colorPlane() { return *result_.source.mutable_layers(0)->mutable_color(); }
+  v1::PlaneFile& depthPlane() { return *result_.source.mutable_layers(0)->mutable_depth(); }
+  // The file that the depth is in; nullptr when that is no EXR file.
+  const Described* depthFile() const { return has_depth_file_ ? depth_ : color_; }
+  bool mayDetect() const { return settings_.kind == InputKind::kAuto; }
 
-  absl::Status findLayers() {
-    if (result_.kind == InputKind::kUnreal || mayDetect()) {
-      if (const auto layers = unrealLayers(description_)) {
-        readUnreal(*layers);
+  absl::Status findChannels() {
+    const Described* const depth_file = depthFile();
+    if (color_ != nullptr) {
+      found_.color = files::usualExrChannels(color_->description, color_->view).color;
+    }
+    if (depth_file != nullptr) {
+      found_.depth = has_depth_file_
+                         ? files::onlyExrDepth(depth_file->description, depth_file->view)
+                         : files::usualExrChannels(color_->description, color_->view).depth;
+    }
+    VIEWLOOM_RETURN_IF_ERROR(findTool());
+    VIEWLOOM_RETURN_IF_ERROR(takeNamed());
+    if (color_ != nullptr) setNames(found_.color, colorPlane());
+    if (depth_file != nullptr) setNames(found_.depth, depthPlane());
+    note();
+    return absl::OkStatus();
+  }
+
+  absl::Status takeNamed() {
+    if (!settings_.color_channels.empty() && color_ != nullptr) {
+      absl::StatusOr<Names> names =
+          files::namedExrColor(color_->description, color_->view, settings_.color_channels);
+      if (!names.ok())
+        return files::refuseFile(color_->file, std::string(names.status().message()));
+      found_.color = *std::move(names);
+    }
+    const Described* const file = depthFile();
+    if (!settings_.depth_channel.empty() && file != nullptr) {
+      absl::StatusOr<Names> names =
+          files::namedExrDepth(file->description, file->view, settings_.depth_channel);
+      if (!names.ok()) return files::refuseFile(file->file, std::string(names.status().message()));
+      found_.depth = *std::move(names);
+    }
+    return absl::OkStatus();
+  }
+
+  // Names of Blender and Unreal tell themselves; other tools say who they are.
+  absl::Status findTool() {
+    const bool may_be_unreal = result_.kind == InputKind::kUnreal || mayDetect();
+    const bool is_world_depth =
+        !found_.depth.empty() && found_.depth.front().ends_with("WorldDepth.R");
+    if (color_ != nullptr && !has_depth_file_ && may_be_unreal) {
+      if (const auto layers = unrealLayers(color_->description)) {
+        found_ = {layers->color, {layers->depth}};
+        setUnreal();
         return absl::OkStatus();
       }
     }
-    if (result_.kind == InputKind::kBlender || mayDetect()) {
-      if (const auto layers = blenderLayers(description_, files_.view)) {
-        readBlender(*layers);
-        return absl::OkStatus();
-      }
-    }
-    if (result_.kind == InputKind::kUnreal) {
-      return refuse(
-          "has no channel that ends in WorldDepth.R beside FinalImage's or plain R, G, B");
-    }
-    if (result_.kind == InputKind::kBlender) return readPlainBlender();
-    VIEWLOOM_RETURN_IF_ERROR(setChannelsOfView(files_.view, *layer().mutable_color(), true));
-    return setChannelsOfView(files_.view, *layer().mutable_depth(), false);
-  }
-
-  absl::Status refuse(const std::string& problem) const {
-    return files::refuseFile(files_.color, absl::StrCat(problem,
-                                                        "; --input plain reads R, G, B and "
-                                                        "Z by any other name"));
-  }
-
-  void readUnreal(const ExrLayers& layers) {
-    result_.kind = InputKind::kUnreal;
-    setChannels(layers, layer());
-    depth().set_scale(kMetresPerCentimetre);
-    result_.notes.push_back(absl::StrCat("Unreal: colour in ", layers.color.front(), ", depth in ",
-                                         layers.depth, " in cm"));
-  }
-
-  void readBlender(const ExrLayers& layers) {
-    setChannels(layers, layer());
-    setBlenderDepth();
-    result_.notes.push_back(absl::StrCat(
-        "Blender: colour in ", layers.color.front(), ", depth in ", layers.depth,
-        " in scene units along the view axis (--depth-meaning ray for Cycles before 2.8)"));
-  }
-
-  // A file of a single layer has its channels without prefix.
-  absl::Status readPlainBlender() {
-    setBlenderDepth();
-    VIEWLOOM_RETURN_IF_ERROR(setChannelsOfView(files_.view, *layer().mutable_color(), true));
-    return setChannelsOfView(files_.view, *layer().mutable_depth(), false);
-  }
-
-  void setBlenderDepth() {
-    result_.kind = InputKind::kBlender;
-    depth().set_invalid_value(kBlenderNothing);
-    depth().set_invalid_is_far(true);
-  }
-
-  absl::Status findUnrealCamera() {
-    const files::ExrDescribedPart& part = description_.parts.front();
-    auto camera = unrealCamera(files_.color, description_.texts, double(part.width_px),
-                               double(part.height_px), result_.pixel_aspect);
-    if (!camera.ok()) return camera.status();
-    if (!*camera) {
-      result_.notes.push_back("Unreal: no camera in the header");
+    if (may_be_unreal && has_depth_file_ && is_world_depth) {
+      setUnreal();
       return absl::OkStatus();
     }
-    *result_.source.mutable_camera() = **std::move(camera);
+    if (color_ != nullptr && !has_depth_file_ && mayBeBlender()) {
+      if (const auto layers = blenderLayers(color_->description, color_->view)) {
+        found_ = {layers->color, {layers->depth}};
+        setBlender();
+        return absl::OkStatus();
+      }
+    }
+    if (result_.kind == InputKind::kUnreal && !has_depth_file_ && settings_.depth_channel.empty()) {
+      return files::refuseFile(color_->file,
+                               "has no channel that ends in WorldDepth.R beside FinalImage's or "
+                               "plain R, G, B; --input plain reads R, G, B and Z by any other "
+                               "name, --color-channels and --depth-channel name them");
+    }
+    if (result_.kind == InputKind::kUnreal) setUnreal();
+    if (mayDetect()) detectByHeader();
+    if (result_.kind == InputKind::kBlender) setBlender();
     return absl::OkStatus();
   }
 
-  absl::Status findCamera() {
-    const files::ExrDescribedPart& part = description_.parts.front();
-    auto camera = exrCamera(files_.color, description_,
-                            {.width_px = double(part.width_px),
-                             .height_px = double(part.height_px),
-                             .metres_per_unit = settings_.depth_scale.value_or(1),
-                             .looks_along_minus_z = settings_.looks_along_minus_z});
-    if (result_.kind == InputKind::kPlain && settings_.kind == InputKind::kPlain) {
-      return absl::OkStatus();  // what the user says holds, whatever the header has
+  bool mayBeBlender() const { return result_.kind == InputKind::kBlender || mayDetect(); }
+
+  void detectByHeader() {
+    const Described* const file = depthFile();
+    if (file == nullptr || result_.kind != InputKind::kPlain) return;
+    const auto tool = toolOf(file->description);
+    // Values, without a colour, are V to Blender's File Output alone.
+    const bool is_blender_value = !found_.depth.empty() && (found_.depth.front() == "V" ||
+                                                            found_.depth.front().ends_with(".V"));
+    if (tool) {
+      result_.kind = *tool;
+    } else if (is_blender_value) {
+      result_.kind = InputKind::kBlender;
+    } else if (isOfNuke(file->description)) {
+      result_.notes.push_back(
+          "Nuke wrote the file; depth that Nuke itself made is 1/Z: --input nuke");
     }
-    if (!camera.ok()) return camera.status();
-    if (!*camera) return absl::OkStatus();
-    v1::Camera& stated = *result_.source.mutable_camera();
-    *stated.mutable_pose() = (*camera)->pose;
-    if ((*camera)->intrinsics) *stated.mutable_intrinsics() = *(*camera)->intrinsics;
-    result_.notes.push_back(
-        absl::StrCat("camera of worldToCamera", (*camera)->intrinsics ? " and worldToNDC" : "",
-                     ", which looks along ", settings_.looks_along_minus_z ? "-z" : "+z",
-                     " (--camera-forward)"));
-    return absl::OkStatus();
+  }
+
+  void setUnreal() {
+    result_.kind = InputKind::kUnreal;
+    depthPlane().mutable_depth()->set_scale(kMetresPerCentimetre);
+  }
+
+  void setBlender() {
+    result_.kind = InputKind::kBlender;
+    v1::DepthFormat& format = *depthPlane().mutable_depth();
+    format.set_invalid_value(kBlenderNothing);
+    format.set_invalid_is_far(true);
+  }
+
+  void note() {
+    std::string note = absl::StrCat(nameOf(result_.kind), ": ");
+    if (color_ != nullptr && !found_.color.empty()) {
+      absl::StrAppend(&note, "colour in ", absl::StrJoin(found_.color, ", "));
+      const bool has_chroma = found_.color.size() > 2 && found_.color[1].ends_with("RY");
+      if (has_chroma) absl::StrAppend(&note, " (luminance and chroma)");
+    }
+    if (depthFile() != nullptr && !found_.depth.empty()) {
+      absl::StrAppend(&note, note.ends_with(": ") ? "" : ", ", "depth in ", found_.depth.front(),
+                      found_.depth.size() > 1 ? ", which the other channels repeat" : "",
+                      meaning());
+      const files::ExrDescribedPart& part = partOf(depthFile()->description, found_.depth);
+      for (const files::ExrDescribedChannel& channel : part.channels) {
+        if (channel.name == found_.depth.front() && channel.type == "uint") {
+          absl::StrAppend(&note, " of whole numbers");
+        }
+      }
+    }
+    if (!note.ends_with(": ")) result_.notes.push_back(std::move(note));
+  }
+
+  std::string meaning() const {
+    switch (result_.kind) {
+      case InputKind::kUnreal:
+        return " in cm";
+      case InputKind::kBlender:
+        return " in scene units along the view axis (--depth-meaning ray for Cycles before 2.8)";
+      case InputKind::kNuke:
+        return " as 1/Z (--depth-meaning ray or planar for others)";
+      case InputKind::kArnold:
+      case InputKind::kVray:
+      case InputKind::kRedshift:
+      case InputKind::kHoudini:
+        return " in scene units along the view axis (--depth-scale 0.01 for centimetres)";
+      default:
+        return "";
+    }
+  }
+
+  void settleWindows() {
+    const Described* const depth_file = depthFile();
+    std::vector<ExrFrameWindows> windows;
+    const auto take = [&windows](const Described* file, const Names& names) {
+      if (file == nullptr) return;
+      const files::ExrDescribedPart& part = partOf(file->description, names);
+      windows.push_back({part.display, part.data});
+    };
+    take(color_, found_.color);
+    take(depth_file, found_.depth);
+    const bool has_overscan =
+        std::any_of(windows.begin(), windows.end(), [](const ExrFrameWindows& its) {
+          return !isSame(intersection(its.display, its.data), its.data);
+        });
+    if (windows.size() < 2 || !isSame(windows[0].display, windows[1].display)) {
+      if (has_overscan) {
+        result_.notes.push_back(
+            "overscan is left out: colour and depth do not have the same display window");
+      }
+      return;
+    }
+    v1::ExrWindow window;
+    settleWindow({windows[0].display, intersection(windows[0].data, windows[1].data)}, window,
+                 result_);
+    if (!window.has_size()) return;
+    *colorPlane().mutable_window() = window;
+    *depthPlane().mutable_window() = window;
   }
 
   const InputSettings& settings_;
-  const InputFiles& files_;
-  const files::ExrDescription& description_;
+  const Described* color_;
+  const Described* depth_;
+  const bool has_depth_file_;
   Interpretation& result_;
+  files::ExrViewChannels found_;
 };
 
 }  // namespace
 
 absl::Status interpretExr(const InputSettings& settings, const InputFiles& files,
                           Interpretation& result) {
-  const absl::StatusOr<files::ExrDescription> description = files::describeExr(files.color);
-  if (!description.ok()) return description.status();
-  return ExrInterpreter(settings, files, *description, result).interpret();
+  const auto color = describe(files.color, files.view);
+  if (!color.ok()) return color.status();
+  const auto depth = describe(files.depth, files.view);
+  if (!depth.ok()) return depth.status();
+  return ExrInterpreter(settings, *color, *depth, !files.depth.empty(), result).interpret();
 }
 
 }  // namespace viewloom::inputs

@@ -8,7 +8,8 @@
 
 namespace viewloom::inputs {
 
-// Completes `result`, whose kind is kAuto's kPlain, or what the settings demand.
+// Completes `result`, whose kind is kAuto's kPlain, or what the settings demand. Colour, depth or
+// both are EXR files. Channels that are not found stay open.
 absl::Status interpretExr(const InputSettings& settings, const InputFiles& files,
                           Interpretation& result);
 

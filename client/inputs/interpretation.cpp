@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs/interpretation.h"
 
-#include <array>
+#include <cmath>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "files/container.h"
 #include "files/file_bytes.h"
@@ -20,23 +21,18 @@
 namespace viewloom::inputs {
 namespace {
 
-constexpr std::array<std::pair<InputKind, const char*>, 16> kNames{
-    {{InputKind::kAuto, "auto"},
-     {InputKind::kPlain, "plain"},
-     {InputKind::kBlender, "blender"},
-     {InputKind::kUnreal, "unreal"},
-     {InputKind::kRgbd, "rgbd"},
-     {InputKind::k2dPlusZ, "2d+z"},
-     {InputKind::kSensor, "sensor"},
-     {InputKind::kOpenXr, "openxr"},
-     {InputKind::kTmiv, "tmiv"},
-     {InputKind::kIphone, "iphone"},
-     {InputKind::kRelative, "relative"},
-     {InputKind::kKitti, "kitti"},
-     {InputKind::kTum, "tum"},
-     {InputKind::kL515, "l515"},
-     {InputKind::kD405, "d405"},
-     {InputKind::kRecord3d, "record3d"}}};
+constexpr std::pair<InputKind, const char*> kNames[] = {
+    {InputKind::kAuto, "auto"},       {InputKind::kPlain, "plain"},
+    {InputKind::kBlender, "blender"}, {InputKind::kUnreal, "unreal"},
+    {InputKind::kNuke, "nuke"},       {InputKind::kArnold, "arnold"},
+    {InputKind::kVray, "vray"},       {InputKind::kRedshift, "redshift"},
+    {InputKind::kHoudini, "houdini"}, {InputKind::kRgbd, "rgbd"},
+    {InputKind::k2dPlusZ, "2d+z"},    {InputKind::kSensor, "sensor"},
+    {InputKind::kOpenXr, "openxr"},   {InputKind::kTmiv, "tmiv"},
+    {InputKind::kIphone, "iphone"},   {InputKind::kRelative, "relative"},
+    {InputKind::kKitti, "kitti"},     {InputKind::kTum, "tum"},
+    {InputKind::kL515, "l515"},       {InputKind::kD405, "d405"},
+    {InputKind::kRecord3d, "record3d"}};
 
 // CARLA's cameras see as far; white of their packed depth.
 constexpr double kCarlaFar_m = 1000;
@@ -147,6 +143,22 @@ absl::Status readPacking(const InputSettings& settings, Interpretation& result) 
   return absl::OkStatus();
 }
 
+// Depth that a renderer wrote as 0..1 between two distances.
+absl::Status readBetween(const InputSettings& settings, v1::DepthFormat& format,
+                         Interpretation& result) {
+  if (!settings.near_m && !settings.far_m) return absl::OkStatus();
+  const double near_m = settings.near_m.value_or(0), far_m = settings.far_m.value_or(0);
+  if (settings.depth_scale || !std::isfinite(far_m) || near_m == far_m) {
+    return refuseInput(result.kind,
+                       "takes --depth-near and --depth-far, the metres that 0 and 1 stand for, as "
+                       "two different finite numbers and without --depth-scale");
+  }
+  format.set_scale(far_m - near_m);
+  format.set_offset(near_m);
+  result.range = DepthRange::kBetween;
+  return absl::OkStatus();
+}
+
 // Kinds that say what depth samples mean; where the files lie is settled.
 absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& result) {
   v1::DepthFormat& format = *result.source.mutable_layers(0)->mutable_depth()->mutable_depth();
@@ -160,6 +172,12 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
       VIEWLOOM_RETURN_IF_ERROR(requireDepthFile(result.kind, result));
       format = sensorFormat(settings, result.kind);
       return absl::OkStatus();
+    case InputKind::kNuke:
+      format.set_meaning(v1::DEPTH_MEANING_DISPARITY);
+      return absl::OkStatus();
+    case InputKind::kVray:
+    case InputKind::kRedshift:
+      return readBetween(settings, format, result);
     case InputKind::kOpenXr:
       format.set_meaning(v1::DEPTH_MEANING_WINDOW);
       if (settings.near_m && settings.far_m) return absl::OkStatus();
@@ -198,8 +216,9 @@ absl::Status readByKind(const InputSettings& settings, const InputFiles& files,
     case InputKind::kTmiv:
       return readTmiv(settings, files, result);
     default:
-      if (files::isExr(files.color))
+      if (files::isExr(files.color) || files::isExr(files.depth)) {
         VIEWLOOM_RETURN_IF_ERROR(interpretExr(settings, files, result));
+      }
       break;
   }
   return readDepthMeaning(settings, result);
@@ -216,6 +235,12 @@ std::string nameOf(InputKind kind) {
 
 absl::StatusOr<Interpretation> interpret(const InputSettings& settings, const InputFiles& files) {
   Interpretation result;
+  if (!files::isExr(files.color) && !files::isExr(files.depth) &&
+      !(settings.color_channels.empty() && settings.depth_channel.empty())) {
+    return absl::InvalidArgumentError(
+        "--color-channels and --depth-channel choose channels of EXR files; none is given");
+  }
+  result.projection = settings.projection.value_or(Projection::kFlat);
   result.kind = settings.kind;
   if (settings.kind == InputKind::kAuto) {
     result.kind = settings.camera_file.empty() ? InputKind::kPlain : InputKind::kTmiv;

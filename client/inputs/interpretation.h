@@ -19,11 +19,22 @@ enum class DepthRange {
   k2dPlusZ,     // ... by twoDPlusZFormat
 };
 
+// Where the display window of an EXR file lies in planes that are larger: what the camera was set
+// up for.
+struct DisplayFrame {
+  double left_px = 0;
+  double top_px = 0;
+  double width_px = 0;
+  double height_px = 0;
+};
+
 struct Interpretation {
   InputKind kind = InputKind::kPlain;     // never kAuto
   v1::SourceFiles source;                 // one layer; the camera as far as files state it
   std::optional<v1::SizePx> camera_size;  // px that the camera's intrinsics count; none = depth's
   double pixel_aspect = 1;                // width of a px divided by its height
+  std::optional<DisplayFrame> display;    // of the depth plane; none = all of it
+  Projection projection = Projection::kFlat;
   DepthRange range = DepthRange::kStated;
   uint32_t video_frame_count = 1;  // of .yuv files
   std::vector<std::string> notes;  // what a user may want to know, a sentence each

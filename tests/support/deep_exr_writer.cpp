@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTileDescription.h>
 
 #include <cstdint>
@@ -58,6 +59,7 @@ Imf::Header headerOf(const DeepPicture& picture, const DeepFileOptions& options)
   header.compression() = options.compression;
   header.setType(options.tile_side_px > 0 ? Imf::DEEPTILE : Imf::DEEPSCANLINE);
   header.setName("deep");
+  if (options.chromaticities) Imf::addChromaticities(header, *options.chromaticities);
   if (options.tile_side_px > 0) {
     const auto side = static_cast<unsigned>(options.tile_side_px);
     header.setTileDescription(Imf::TileDescription(

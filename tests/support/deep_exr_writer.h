@@ -3,11 +3,13 @@
 #pragma once
 
 #include <Imath/ImathBox.h>
+#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfPixelType.h>
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ struct DeepFileOptions {
   bool is_second_part = false;  // behind a flat one
   // By channel; FLOAT where nothing is said. Further channels are written as zeros.
   std::map<std::string, Imf::PixelType> types;
+  std::optional<Imf::Chromaticities> chromaticities;
 };
 
 // Throws when OpenEXR does.

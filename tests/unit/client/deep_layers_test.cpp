@@ -70,6 +70,32 @@ class DeepLayersTest : public ::testing::Test {
   TestFolder folder_;
 };
 
+// ACEScg's red at D60 is far outside Rec.709; grey stays grey.
+TEST_F(DeepLayersTest, convertsColourOfUnknownChromaticities) {
+  const Box2i box = boxOf(2, 1);
+  const Imf::Chromaticities ap1({0.713F, 0.293F}, {0.165F, 0.83F}, {0.128F, 0.044F},
+                                {0.32168F, 0.33767F});
+  test::writeDeepExr(
+      folder_.path() / "deep.exr",
+      {.data = box,
+       .display = box,
+       .pixels = {{surface(2, 0.5F, {0.5F, 0.5F, 0.5F})}, {surface(2, 1, {1, 0, 0})}}},
+      {.chromaticities = ap1});
+  options_.set_file("deep.exr");
+  const auto layers = loadDeepLayers(options_, folder_.path());
+  ASSERT_TRUE(layers.ok()) << layers.status();
+  EXPECT_EQ(layers->planes[0].plane.primaries(), v1::COLOR_PRIMARIES_BT2020);
+  const glm::dvec4 grey = colorOf(*layers, 0, 0), red = colorOf(*layers, 0, 1);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(grey[i], 0.25, 0.001);
+  EXPECT_NEAR(grey.a, 0.5, 0.001);
+  // Computed apart, from the definitions of both spaces and Bradford's adaptation.
+  EXPECT_NEAR(red.r, 1.0258, 0.002);
+  EXPECT_NEAR(red.g, -0.0022, 0.002);
+  EXPECT_NEAR(red.b, -0.0050, 0.002);
+  options_.set_primaries(v1::COLOR_PRIMARIES_BT709);
+  EXPECT_EQ(colorOf(*loadDeepLayers(options_, folder_.path()), 0, 1).r, 1) << "as it is told";
+}
+
 TEST_F(DeepLayersTest, putsEverySurfaceInALayerOfItsOwn) {
   const auto layers = load(std::vector<DeepPixel>{
       {surface(4, 1, {0, 0, 1}), surface(2, 0.5F, {1, 0.5F, 0})}, {surface(8, 1, {0, 1, 0})}, {}});

@@ -139,11 +139,11 @@ TEST(RendererInputs, areRefusedWhereTheirChannelsAreMissing) {
   const TestFolder folder;
   const auto path = folder.path() / "flat.exr";
   writeExr(path, kWidth, kHeight,
-           {constant("R", 1), constant("G", 1), constant("B", 1), constant("depth.V", 1)});
+           {constant("R", 1), constant("G", 1), constant("B", 1), constant("mist.V", 1)});
   EXPECT_THAT(refusalOf({.kind = InputKind::kUnreal}, {.color = path}),
               HasSubstr("has no channel that ends in WorldDepth.R"));
   EXPECT_THAT(refusalOf({.kind = InputKind::kBlender}, {.color = path}),
-              HasSubstr("no depth in 0 channels"));
+              HasSubstr("name its channel with --depth-channel"));
 }
 
 TEST(RendererInputs, refuseFilesCutShortAtEveryLength) {
