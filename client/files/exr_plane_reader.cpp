@@ -35,6 +35,9 @@ ExrPlaneReader::ExrPlaneReader(Imf::MultiPartInputFile& file, int part, const Ex
 
 void ExrPlaneReader::readInto(std::vector<uint8_t>& plane, std::span<const std::string> names) {
   if (visible_.width() < 1) return;
+  // OpenEXR refuses to read into nothing.
+  if (std::all_of(names.begin(), names.end(), [](const auto& name) { return name.empty(); }))
+    return;
   const size_t row_bytes = pixel_bytes_ * static_cast<size_t>(data_width_px_);
   std::vector<uint8_t> rows(row_bytes * kRowsAtOnce);
   for (int y = visible_.min_y; y <= visible_.max_y; y += kRowsAtOnce) {

@@ -153,7 +153,11 @@ std::optional<ForeignKind> foreignKind(std::string_view head, const std::filesys
   const auto kindOf = [&](const Signature& found) {
     return ForeignKind{found.what, remedyFor(found, path)};
   };
-  if (const Signature* const found = find(kSignatures, head)) return kindOf(*found);
+  // Cut short within its brand, a file of boxes is what its name says.
+  constexpr size_t kBrandEnd = 12;
+  const bool has_brand = head.size() >= kBrandEnd;
+  const Signature* const known = find(kSignatures, head);
+  if (known != nullptr && (known->bytes != "ftyp" || has_brand)) return kindOf(*known);
   const std::string extension = absl::AsciiStrToLower(path.extension().string());
   for (const ForeignName& name : kNames) {
     if (extension == name.extension) return kindOf({0, {}, name.family, name.what});

@@ -38,6 +38,7 @@ absl::StatusOr<JpegHeader> readHeader(const std::string& name, std::span<const u
     return refuseFile(name, absl::StrCat("is no JPEG that can be read: ", tjGetErrorStr2(handle),
                                          "; copy or export it again"));
   }
+  if (header.width_px == 0 && header.height_px == 0) return refuseCutShort(name, "JPEG");
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));
   if (header.color_space == TJCS_CMYK || header.color_space == TJCS_YCCK) {
     return refuseFile(name, "is a CMYK JPEG; accepted are grey, YCbCr and RGB");

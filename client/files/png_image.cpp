@@ -8,6 +8,7 @@
 #include <csetjmp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -25,7 +26,8 @@ constexpr char kCutShort[] = "cut short";
 class PngReader {
  public:
   explicit PngReader(std::span<const uint8_t> bytes)
-      : rest_(bytes),
+      : bytes_(bytes),
+        rest_(bytes),
         png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::onError, &onWarning)),
         info_(png_create_info_struct(png_)) {}
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -76,7 +78,7 @@ class PngReader {
       return codingOfIcc({profile, size});
     }
     ColorCoding coding;
-    if (png_get_sRGB(png_, info_, &kind) != 0) return coding;
+    if (isSrgb()) return coding;
     double gamma = 0;
     if (png_get_gAMA(png_, info_, &gamma) != 0 && gamma > 0.01 && gamma < 100) {
       coding.gamma = gamma;
@@ -111,6 +113,21 @@ class PngReader {
   }
   static void onWarning(png_structp, png_const_charp) {}  // odd ancillary chunks change no sample
 
+  // Whether a chunk before the samples states sRGB. libpng forgets the chunk when gAMA or cHRM
+  // contradicts it.
+  bool isSrgb() const {
+    constexpr size_t kSignatureBytes = 8, kFrameBytes = 12;  // of a chunk: length, name, CRC
+    size_t at = kSignatureBytes;
+    while (bytes_.size() >= kFrameBytes && at <= bytes_.size() - kFrameBytes) {
+      const std::string_view name(reinterpret_cast<const char*>(&bytes_[at + 4]), 4);
+      if (name == "sRGB") return true;
+      if (name == "IDAT") return false;
+      at += kFrameBytes + png_get_uint_32(&bytes_[at]);
+    }
+    return false;
+  }
+
+  std::span<const uint8_t> bytes_;
   std::span<const uint8_t> rest_;
   png_structp png_;
   png_infop info_;

@@ -206,7 +206,10 @@ class ExrInterpreter {
         }
       }
     }
-    if (!note.ends_with(": ")) result_.notes.push_back(std::move(note));
+    // The names that everybody expects are not worth a line.
+    const bool is_usual = note == "plain: colour in R, G, B, depth in Z" ||
+                          note == "plain: colour in R, G, B, A, depth in Z";
+    if (!is_usual && !note.ends_with(": ")) result_.notes.push_back(std::move(note));
   }
 
   std::string meaning() const {

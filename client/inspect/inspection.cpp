@@ -82,7 +82,8 @@ absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFr
       found.measures = measureDepth(found.samples);
       const uint32_t code_max =
           layer_index < frame.code_max.size() ? frame.code_max[layer_index] : 0;
-      found.suspicions = suspectDepth({found.depth, code_max, found.samples, found.measures});
+      found.suspicions =
+          suspectDepth({found.depth, code_max, found.samples, found.measures, source.cube_map()});
       const auto add = [&found](const std::vector<Suspicion>& suspicions) {
         found.suspicions.insert(found.suspicions.end(), suspicions.begin(), suspicions.end());
       };

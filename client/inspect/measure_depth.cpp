@@ -90,8 +90,9 @@ DepthMeasures measureDepth(const DepthSamples& samples) {
 }
 
 float medianIn(const DepthSamples& samples, const ImageArea& area) {
+  // Rounded, so that areas at opposite rims have the same size.
   const auto at = [](double share, uint32_t side_px) {
-    return static_cast<size_t>(share * side_px);
+    return static_cast<size_t>(std::lround(share * side_px));
   };
   std::vector<float> surfaces;
   for (size_t y = at(area.top, samples.height_px); y < at(area.bottom, samples.height_px); ++y) {

@@ -66,6 +66,7 @@ class Rules {
   }
 
   void suspectInsideOut() {
+    if (facts_.is_cube_map) return;  // its top is not above
     const std::string sign = insideOutSign(samples_, measures_);
     if (!sign.empty()) say("inside-out", sign + ": near and far may be swapped");
   }

@@ -23,11 +23,12 @@ struct DepthFacts {
   uint32_t code_max;  // of whole numbers; 0 = floats
   const DepthSamples& samples;
   const DepthMeasures& measures;
+  bool is_cube_map = false;  // six views, one below the other
 };
 
 // Rules, none of which is a proof:
 //   empty       no surface in more than half of the px
-//   inside-out  a sign that near and far are swapped (arrangement.h)
+//   inside-out  a sign that near and far are swapped (arrangement.h), in one view
 //   flat        98 % of surfaces within a hundredth of each other in 1/Z, and no sky
 //   clipped     a hundredth of surfaces at the largest code that the file has room for, or at 0,
 //               unless that is the far end of inverse depth; or a twentieth at the largest number

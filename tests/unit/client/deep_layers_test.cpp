@@ -206,6 +206,8 @@ TEST_F(DeepLayersTest, hasALayerWhateverIsInTheFile) {
 }
 
 TEST_F(DeepLayersTest, refusesByFieldAndFile) {
+  EXPECT_THAT(refusal(), HasSubstr("is a folder"));
+  options_.set_file("missing.exr");
   EXPECT_THAT(refusal(), HasSubstr("no such file"));
   options_.set_layers(5);
   EXPECT_THAT(refusal(), HasSubstr("layers: is 5; accepted is 1..4"));

@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
@@ -65,6 +66,29 @@ TEST(ExrImage, interleavesChannelsWhateverTheirOrderInTheFile) {
   EXPECT_TRUE(image->has_alpha);
   for (size_t channel = 0; channel < 4; ++channel) {
     EXPECT_EQ(halfAt(*image, 3, 2, channel), half(sampleAt(channel, 3, 2)));
+  }
+}
+
+TEST(ExrImage, readsSubsampledLuminanceAndChromaAsColour) {
+  const TestFolder folder;
+  const std::filesystem::path path = folder.path() / "chroma.exr";
+  const int width_px = 8, height_px = 6;
+  const std::vector<Imf::Rgba> pixels(width_px * height_px, Imf::Rgba(0.75F, 0.5F, 0.25F, 0.5F));
+  for (const Imf::RgbaChannels channels : {Imf::WRITE_YC, Imf::WRITE_YCA}) {
+    {
+      Imf::RgbaOutputFile file(path.c_str(), width_px, height_px, channels);
+      file.setFrameBuffer(pixels.data(), 1, width_px);
+      file.writePixels(height_px);
+    }
+    const auto image = readExrColor(path, {});
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->has_alpha, channels == Imf::WRITE_YCA);
+    for (const uint32_t x : {0U, 3U, 7U}) {
+      EXPECT_NEAR(halfAt(*image, x, 5, 0), 0.75F, 0.01F) << x;
+      EXPECT_NEAR(halfAt(*image, x, 5, 1), 0.5F, 0.01F) << x;
+      EXPECT_NEAR(halfAt(*image, x, 5, 2), 0.25F, 0.01F) << x;
+      EXPECT_EQ(halfAt(*image, x, 5, 3), image->has_alpha ? 0.5F : 1) << x;
+    }
   }
 }
 

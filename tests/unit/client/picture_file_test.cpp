@@ -247,8 +247,8 @@ TEST_F(PictureFileTest, honoursWhatPngSaysOfColourInItsOrder) {
   EXPECT_EQ(plane(8, {.gamma = 1}).transfer, v1::COLOR_TRANSFER_LINEAR);
   EXPECT_EQ(plane(8, {.gamma = 0.45455}).transfer, v1::COLOR_TRANSFER_UNSPECIFIED);
   EXPECT_EQ(plane(8, {.gamma = 1, .has_srgb = true}).transfer, v1::COLOR_TRANSFER_UNSPECIFIED);
-  // 128 / 255 to the power of 1.8 is 0.289 of light, 147.5 of 255 in sRGB.
-  EXPECT_NEAR(plane(8, {.gamma = 1 / 1.8}).bytes[0], 147.5, 1);
+  // 128 / 255 to the power of 1.8 is 0.289 of light, 146.4 of 255 in sRGB.
+  EXPECT_NEAR(plane(8, {.gamma = 1 / 1.8}).bytes[0], 146.4, 1);
   const auto lightOf = [](const PlaneImage& image) {
     uint16_t bits = 0;
     std::memcpy(&bits, image.bytes.data(), 2);

@@ -163,10 +163,12 @@ TEST_F(ExrInputs, showAViewOfStereoFilesWithoutBeingAsked) {
 // Colours that OpenEXR itself splits into luminance and half as much chroma.
 TEST_F(ExrInputs, readLuminanceAndChromaAsColour) {
   const std::string path = folder_.path() / "yc.exr";
-  Imf::RgbaOutputFile file(path.c_str(), Imf::Header(kWidth, kHeight), Imf::WRITE_YC);
-  std::vector<Imf::Rgba> pixels(kWidth * kHeight, Imf::Rgba(0.75F, 0.25F, 0.5F));
-  file.setFrameBuffer(pixels.data(), 1, kWidth);
-  file.writePixels(kHeight);
+  {
+    Imf::RgbaOutputFile file(path.c_str(), Imf::Header(kWidth, kHeight), Imf::WRITE_YC);
+    std::vector<Imf::Rgba> pixels(kWidth * kHeight, Imf::Rgba(0.75F, 0.25F, 0.5F));
+    file.setFrameBuffer(pixels.data(), 1, kWidth);
+    file.writePixels(kHeight);
+  }
   const std::string depth = write({{"Z", Imf::FLOAT, depthOf}});
   const auto read = readInput({}, {.color = path, .depth = depth});
   const auto rgba = colorAt(read, 7, 5);

@@ -117,6 +117,7 @@ TEST_F(PictureInputsTest, saysWhatIsWrongWithHalves) {
   wrong.far_m = 0.5;
   EXPECT_THAT(refusalOf(wrong, {.color = file("rgbd.png")}),
               HasSubstr("--depth-near is 1 and --depth-far 0.5; accepted are"));
+  writePng(file("rgbd2.png"), 4, 2, 1, 8, std::vector<uint16_t>(8, 7));
   EXPECT_THAT(refusalOf(settings, {.color = file("rgbd.png"), .depth = file("rgbd2.png")}),
               HasSubstr("has its depth beside the colour"));
   writePng(file("odd.png"), 5, 2, 1, 8, std::vector<uint16_t>(10, 7));

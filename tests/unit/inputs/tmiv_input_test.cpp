@@ -143,11 +143,15 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
   EXPECT_THAT(refusal(R"(, "BitDepthDepth": 40)"), HasSubstr("BitDepthDepth is 40; accepted"));
   EXPECT_THAT(refusal(R"(, "Projection": "Equirectangular")"), HasSubstr("Perspective"));
   EXPECT_THAT(refusal(R"(, "HasInvalidDepth": 3)"), HasSubstr("true or false"));
+  for (const char* name : {"a.png", "c.png"}) {
+    writePng(file(name), kWidth, kHeight, 1, 16, std::vector<uint16_t>(8, 50));
+  }
   write("[1, 2");
-  EXPECT_THAT(refusalOf(settings_, {.color = "a.png", .depth = "b.png"}), HasSubstr("is no JSON"));
+  EXPECT_THAT(refusalOf(settings_, {.color = file("a.png"), .depth = file("c.png")}),
+              HasSubstr("is no JSON"));
   write(R"([{"Name": "a"}, {"Name": "b"}])");
-  EXPECT_THAT(refusalOf(settings_, {.color = "a.png", .depth = "c.png"}),
-              HasSubstr("has no camera of c.png; its cameras are a, b"));
+  EXPECT_THAT(refusalOf(settings_, {.color = file("a.png"), .depth = file("c.png")}),
+              HasSubstr("c.png; its cameras are a, b"));
 }
 
 }  // namespace

@@ -76,6 +76,15 @@ TEST(Suspicions, seeASkyBeforeEverything) {
   EXPECT_THAT(kindsOf(made), Not(Contains("inside-out")));
 }
 
+TEST(Suspicions, judgeNoTopAndNoFloorOfACubeMap) {
+  const DepthPlane made = room([](float depth_m) { return 8 - depth_m; });
+  v1::Camera camera;
+  const auto samples = readDepthSamples(made.plane, made.bytes, camera);
+  ASSERT_TRUE(samples.ok()) << samples.status();
+  const DepthMeasures measures = measureDepth(*samples);
+  EXPECT_THAT(suspectDepth({made.plane, 0, *samples, measures, true}), IsEmpty());
+}
+
 TEST(Suspicions, seeFlatDepth) {
   EXPECT_THAT(kindsOf(room([](float depth_m) { return 100 + 0.01F * depth_m; })),
               ElementsAre("flat"));

@@ -146,10 +146,13 @@ TEST_F(PhotoInputsTest, letsTheCommandLineOverride) {
   expectInvZ(inside_out, 3, 1, 1.525 - 0.005 * secondCode(3, 1));
   const auto plain_color = read(portrait(), {.primaries = v1::COLOR_PRIMARIES_BT709});
   EXPECT_EQ(planeOf(plain_color, 0).primaries(), v1::COLOR_PRIMARIES_BT709);
-  EXPECT_THAT(refusal(portrait(), {.near_m = 0.5}), HasSubstr("--depth-far 0; accepted are"));
+  expectInvZ(read(portrait(), {.near_m = 0.5}), 0, 0, 1 / 1.5);  // far is three times near
+  EXPECT_THAT(refusal(portrait(), {.near_m = 0.5, .far_m = 0}),
+              HasSubstr("--depth-far 0; accepted are"));
   EXPECT_THAT(refusal(portrait(), {.depth_scale = 1, .near_m = 0.5, .far_m = 4}),
               HasSubstr("accepted is either"));
-  EXPECT_THAT(refusal(portrait(), {.min_depth = 0.5}), HasSubstr("--depth-min and --depth-max"));
+  EXPECT_THAT(refusal(portrait(), {.min_depth = 0.5}),
+              HasSubstr("--depth-min is given, which --input iphone does not take"));
   EXPECT_THAT(refusal(portrait(), {.kind = InputKind::kSensor}),
               HasSubstr("is read without --depth by --input iphone, or none; --input sensor is"));
 }
