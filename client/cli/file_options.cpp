@@ -7,8 +7,8 @@ void addFileOptions(CLI::App& app, FileFeedOptions& options) {
   const char* const group = "What";
   app.add_option(
          "colour", options.colors,
-         "Colour files, one a frame: EXR (with depth in Z or alike), HEIC (portrait photos), PNG, JPEG, "
-         "TIFF, WebP, PFM, PGM, PPM, BMP, NPY, .yuv; told by content, not by name")
+         "Colour files, one a frame: EXR (with depth in Z or alike), HEIC (portrait photos), PNG, "
+         "JPEG, TIFF, WebP, PFM, PGM, PPM, BMP, NPY, .yuv; told by content, not by name")
       ->group(group);
   app.add_option("--depth", options.depths, "Depth files, one a frame: as colour, and DPT")
       ->group(group);

@@ -51,7 +51,8 @@ class Server:
               wait_for_stream: bool = False) -> Watcher:
         """Atlases of a stream on a display, from now on. Close it, or use `with`.
 
-        display:  the name of a device in presets(), a mapping {"quilt": {"columns": 8, ...}} or a Display.
+        display:  the name of a device in presets(), a mapping {"quilt": {"columns": 8, ...}} or
+                  a Display.
         encoding: of viewloom.encoding(), a mapping or an AtlasEncoding; None = JPEG.
         wait_for_stream: an unknown stream is waited for, instead of NOT_FOUND.
         """

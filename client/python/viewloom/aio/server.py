@@ -62,7 +62,8 @@ class Server:
 
     async def streams(self) -> list[catalog.StreamEntry]:
         """All streams, sorted by name."""
-        return list((await self._ask(self._catalog.ListStreams, catalog.ListStreamsRequest())).streams)
+        return list((await self._ask(self._catalog.ListStreams,
+                                     catalog.ListStreamsRequest())).streams)
 
     async def displays(self) -> list[catalog.DisplayEntry]:
         """All displays that are watched now."""
@@ -71,7 +72,8 @@ class Server:
 
     async def presets(self) -> list[catalog.Preset]:
         """All named devices, sorted by name."""
-        return list((await self._ask(self._catalog.ListPresets, catalog.ListPresetsRequest())).presets)
+        return list((await self._ask(self._catalog.ListPresets,
+                                     catalog.ListPresetsRequest())).presets)
 
     async def server_info(self) -> catalog.GetServerInfoResponse:
         """Version, device and limits."""
