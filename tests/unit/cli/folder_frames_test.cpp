@@ -47,6 +47,15 @@ class FolderFramesTest : public ::testing::Test {
     return depth;
   }
 
+  // Notes but for warnings, which come whenever the look at a frame is done.
+  static std::vector<std::string> takeSkips(FolderFrames& frames) {
+    std::vector<std::string> notes = frames.takeNotes();
+    std::erase_if(notes, [](const std::string& note) {
+      return note.find(": warning: ") != std::string::npos;
+    });
+    return notes;
+  }
+
   const files::TestFolder folder_;
 };
 
@@ -81,7 +90,7 @@ TEST_F(FolderFramesTest, waitsForFilesThatAreBeingWritten) {
   early << bytes.substr(bytes.size() / 2);
   early.close();
   EXPECT_EQ(next(*frames), 5);
-  EXPECT_THAT(frames->takeNotes(), IsEmpty());
+  EXPECT_THAT(takeSkips(*frames), IsEmpty());
   // As careful writers do it.
   std::filesystem::rename(file("whole"), file("moved.exr"));
   EXPECT_EQ(next(*frames), 5);
@@ -96,7 +105,7 @@ TEST_F(FolderFramesTest, skipsBrokenFilesWithALineEach) {
   writeWhole(file("b.exr"), 2);
   EXPECT_EQ(next(*frames), 1);
   EXPECT_EQ(next(*frames), 2);
-  EXPECT_THAT(frames->takeNotes(),
+  EXPECT_THAT(takeSkips(*frames),
               ElementsAre(HasSubstr("text.exr: is no EXR file"), HasSubstr("cut.exr: ")));
   EXPECT_THAT(frames->description(), HasSubstr("2 read, 2 skipped"));
 }

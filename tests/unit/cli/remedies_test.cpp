@@ -198,7 +198,8 @@ TEST_F(RemediesTest, turnBlackAndWhite) {
   // Black is near.
   const FrameFiles files =
       pair(16, [](int x, int y) { return 60000 - 80000 * (1 / double{depthAt(x, y)} - 0.25); });
-  EXPECT_EQ(remedyOf(inspected(files, "--input relative"), "inside-out"), "--black-near");
+  const std::string spread = "--input relative --depth-near 0.5 --depth-far 4";
+  EXPECT_EQ(remedyOf(inspected(files, spread), "inside-out"), "--black-near");
   EXPECT_THAT(inspected(files, "--input relative --black-near").suspicions, IsEmpty());
 }
 
