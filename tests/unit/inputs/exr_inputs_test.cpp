@@ -20,12 +20,9 @@ namespace {
 
 using files::TestFolder;
 using inputs::InputKind;
-using inputs::InputSettings;
 using ::testing::Contains;
 using ::testing::HasSubstr;
-
 constexpr int kWidth = 16, kHeight = 8;
-using Names = std::array<const char*, 4>;
 
 WrittenChannel constant(const std::string& name, float value, Imf::PixelType type = Imf::HALF) {
   return {name, type, [value](int, int) { return value; }};
@@ -68,14 +65,15 @@ class ExrInputs : public ::testing::Test {
 };
 
 TEST_F(ExrInputs, findColourAndDepthByTheNamesOfOtherTools) {
-  const std::vector<Names> tools{{"r", "g", "b", "Z"},
-                                 {"red", "green", "blue", "depth.z"},
-                                 {"R", "G", "B", "Z.Z"},
-                                 {"R", "G", "B", "Pz"},
-                                 {"C.r", "C.g", "C.b", "Pz.z"},
-                                 {"rgba.R", "rgba.G", "rgba.B", "zDepth.R"},
-                                 {"Beauty.R", "Beauty.G", "Beauty.B", "VRayZDepth.R"},
-                                 {"Image.R", "Image.G", "Image.B", "Depth.V"}};
+  const std::vector<std::array<const char*, 4>> tools{
+      {"r", "g", "b", "Z"},
+      {"red", "green", "blue", "depth.z"},
+      {"R", "G", "B", "Z.Z"},
+      {"R", "G", "B", "Pz"},
+      {"C.r", "C.g", "C.b", "Pz.z"},
+      {"rgba.R", "rgba.G", "rgba.B", "zDepth.R"},
+      {"Beauty.R", "Beauty.G", "Beauty.B", "VRayZDepth.R"},
+      {"Image.R", "Image.G", "Image.B", "Depth.V"}};
   for (const auto& [red, green, blue, depth] : tools) {
     const std::string path = write({constant(red, 0.25F),
                                     constant(green, 0.5F),
@@ -129,7 +127,7 @@ TEST_F(ExrInputs, takeTheChannelsThatAreNamedAndListThemOtherwise) {
                                   {"far.q", Imf::FLOAT, depthOf}});
   EXPECT_THAT(refusalOf({}, {.color = path}),
               AllOf(HasSubstr("--color-channels"), HasSubstr("second.R")));
-  InputSettings settings{.color_channels = "Second"};
+  inputs::InputSettings settings{.color_channels = "Second"};
   EXPECT_THAT(refusalOf(settings, {.color = path}), HasSubstr("--depth-channel"));
   settings.depth_channel = "far.Q";
   EXPECT_EQ(colorAt(readInput(settings, {.color = path}), 1, 1)[0], 0.5F);
