@@ -39,7 +39,7 @@ class StreamWait {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   bool is_here_ = false;  // the stream was seen since the last event
-  std::jthread thread_;  // last: uses the rest
+  std::jthread thread_;   // last: uses the rest
 };
 
 // "waiting for stream "noe": no frame has come to this server yet; ...", by the names of the
