@@ -85,15 +85,13 @@ absl::StatusOr<PlaneImage> readColor(const v1::PlaneFile& file, const std::files
   return colorPlane(*std::move(picture), file.transfer());
 }
 
-// A sample that is no surface.
+// The sample where an EXR file has no data. A renderer that crops to what it hit means there what it
+// writes elsewhere for nothing; without such a number it is no surface.
 float nothingOf(const v1::DepthFormat& format) {
-  if (format.has_invalid_value() && !format.invalid_is_far()) {
-    return static_cast<float>(format.invalid_value());
-  }
+  if (format.has_invalid_value()) return static_cast<float>(format.invalid_value());
   const bool is_metric = format.meaning() == v1::DEPTH_MEANING_PLANAR ||
                          format.meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
-  const bool is_far = format.has_invalid_value() && format.invalid_value() == 0;
-  const bool is_zero = is_metric && format.offset() == 0 && !is_far;
+  const bool is_zero = is_metric && format.offset() == 0;
   return is_zero ? 0 : std::numeric_limits<float>::quiet_NaN();
 }
 
