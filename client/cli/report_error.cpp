@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <utility>
 
 #include "base/printable.h"
@@ -49,11 +50,12 @@ class ConnectionTeller {
 
   void tellRetrying(const ConnectionEvent& event) {
     const auto now = std::chrono::steady_clock::now();
+    const bool was_connected = std::exchange(is_connected_, false);
     const bool is_same = event.reason.code() == reason_.code() &&
                          isFromTransport(event.reason) == isFromTransport(reason_);
     if (is_same && now - told_at_ < kTellAgain) return;
     // What to do is said once; then only that it goes on.
-    const bool is_gone = is_same && !is_connected_;
+    const bool is_gone = is_same && !was_connected;
     const std::string what = is_gone && absl::IsUnavailable(event.reason)
                                  ? strCat("still no answer from ", common_.server)
                                  : explain(event.reason, common_);
@@ -63,7 +65,6 @@ class ConnectionTeller {
                               formatNumber(static_cast<double>(event.delay_ns) * 1e-9, 1), " s"));
     reason_ = event.reason;
     told_at_ = now;
-    is_connected_ = false;
   }
 
   StatusLine* line_;
@@ -103,8 +104,9 @@ int reportError(const absl::Status& status, const CommonOptions& common) {
 }
 
 OnConnection sayConnections(StatusLine& line, const CommonOptions& common) {
-  return [teller = ConnectionTeller(line, common)](const ConnectionEvent& event) mutable {
-    teller.tell(event);
+  // Shared, as whoever calls may keep copies of the callback.
+  return [teller = std::make_shared<ConnectionTeller>(line, common)](const ConnectionEvent& event) {
+    teller->tell(event);
   };
 }
 
