@@ -238,7 +238,7 @@ class Modes(PageTest):
               if (value?.coverage) value.views_outside = window.outside;
               return value;
             };""")
-        self.open()
+        self.open(f"{SMALL}&mode=quilt")
         self.browser.wait_for("!document.getElementById('outside').hidden")
         text = self.browser.evaluate("document.getElementById('outside').innerText")
         for words in ("views 0–6 by 4 %", "view 47 by 50 %"):
