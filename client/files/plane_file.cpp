@@ -85,8 +85,8 @@ absl::StatusOr<PlaneImage> readColor(const v1::PlaneFile& file, const std::files
   return colorPlane(*std::move(picture), file.transfer());
 }
 
-// The sample where an EXR file has no data. A renderer that crops to what it hit means there what it
-// writes elsewhere for nothing; without such a number it is no surface.
+// The sample where an EXR file has no data: the number that stands for nothing elsewhere in the
+// file, as a renderer crops to what it hit. Without such a number it is no surface.
 float nothingOf(const v1::DepthFormat& format) {
   if (format.has_invalid_value()) return static_cast<float>(format.invalid_value());
   const bool is_metric = format.meaning() == v1::DEPTH_MEANING_PLANAR ||
