@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What looks wrong in published frames, found beside publishing them.
+// Suspicions about published frames, found beside publishing them.
 #pragma once
 
 #include <chrono>

@@ -14,7 +14,7 @@
 namespace viewloom::cli {
 namespace {
 
-// What fields of a manifest can say.
+// Remedies that fields of a manifest can express.
 const std::set<std::string> kOfManifests{
     "--depth-meaning",  "--depth-scale", "--depth-offset",        "--depth-near",
     "--depth-far",      "--depth-min",   "--depth-max",           "--depth-invalid",

@@ -19,7 +19,7 @@ namespace {
 // The same problem is told again after so long.
 constexpr std::chrono::seconds kTellAgain{10};
 
-// What a refusal says happened, without the field and without what a program could send instead.
+// The event that a refusal reports, without its field and without its advice to programs.
 std::string happening(const std::string& message) {
   const std::string text = message.substr(0, message.find("; "));
   const size_t colon = text.find(": ");
@@ -54,7 +54,7 @@ class ConnectionTeller {
     const bool is_same = event.reason.code() == reason_.code() &&
                          isFromTransport(event.reason) == isFromTransport(reason_);
     if (is_same && now - told_at_ < kTellAgain) return;
-    // What to do is said once; then only that it goes on.
+    // The remedy is said once, later only the fact that the server is still away.
     const bool is_gone = is_same && !was_connected;
     const std::string what = is_gone && absl::IsUnavailable(event.reason)
                                  ? strCat("still no answer from ", common_.server)

@@ -26,7 +26,7 @@ enum class Container {
   kYuv,
 };
 
-// As messages and reports name it: "PNG".
+// The name in messages and reports: "PNG".
 const char* nameOf(Container container);
 
 // By the file's first bytes, so that a renamed file is read. By its name, in any case, where the

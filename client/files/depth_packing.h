@@ -8,7 +8,7 @@
 
 namespace viewloom::files {
 
-// As --depth-packing takes it: "rgb24".
+// The word for --depth-packing: "rgb24".
 const char* nameOf(v1::DepthPacking packing);
 
 // The whole number that its digits make at white; 1 where they make none.

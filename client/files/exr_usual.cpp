@@ -129,7 +129,7 @@ ExrViewChannels usualExrChannels(const ExrDescription& description, const std::s
       take(i < colors.size() ? &colors[i] : nullptr, j < depths.size() ? &depths[j] : nullptr);
     }
   }
-  // What the default view lacks, another may have.
+  // Another view may have channels that the default view lacks.
   for (size_t i = 0; view.empty() && i < description.views.size(); ++i) {
     if (!channels.color.empty() && !channels.depth.empty()) break;
     const ExrViewChannels others = usualExrChannels(description, description.views[i]);
