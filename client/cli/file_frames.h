@@ -41,8 +41,7 @@ class FileFrames final : public FrameFeed {
 
   absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) override;
   std::string description() const override;
-  // What splitting deep files cost, once for each, how the first of other files is read, and what
-  // looks wrong.
+  // The cost of splitting each deep file, the reading of the first other file, and suspicions.
   std::vector<std::string> takeNotes() override;
   std::vector<std::string> takeLastNotes() override;
   bool isLive() const override { return false; }
