@@ -4,6 +4,8 @@ set(VIEWLOOM_SHADERS
   structure/convert_color.comp
   structure/prepare_columns.comp
   structure/measure_depth.comp
+  structure/settle_range.comp
+  structure/measure_range.comp
   structure/settle_tolerance.comp
   structure/smooth_columns.comp
   structure/fill_apron.comp

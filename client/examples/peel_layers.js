@@ -18,7 +18,8 @@ const IN_FRONT = 1e9; // 1/m: before the first layer, everything is kept
 
 export class LayerPeeler {
   // minSeparation: how much further than the layer before a surface must lie, as a share of 1/Z.
-  // Less than the 2 % by which viewloom tells surfaces apart, and two layers become one again.
+  // Less than viewloom's step between surfaces (up to 2.7 % of the picture's range of 1/Z), and
+  // two layers become one again.
   constructor(gl, {widthPx, heightPx, layerCount = 2, minSeparation = 0.05}) {
     if (!gl.getExtension("EXT_color_buffer_float")) {
       throw new Error("peeling needs EXT_color_buffer_float, which this device lacks");

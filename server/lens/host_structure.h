@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "frame/surface_steps.h"
 #include "shared/structure_abi.h"
 #include "structure/structure_slot.h"
 
@@ -21,16 +22,10 @@ struct HostStructure {
   const uint32_t* color = nullptr;                             // layer after layer; sRGB, red first
   uint32_t color_stride = 0;                                   // texels from layer to layer
   float inv_z_max = 0;                                         // 1/m
-  // Largest step between two facets that are one surface: absolute (1/m), and of the nearer 1/Z.
-  float kappa_abs = 0;
-  float kappa_rel = 0;
+  StepRule kappa;                                              // steps within a surface
 
   const abi::uvec2* level(uint32_t layer, uint32_t level) const {
     return cells[layer] + abi::levelOffset(level, padded_area);
-  }
-  float connectionTolerance(float nearer_inv_z) const {
-    const float relative = kappa_rel * nearer_inv_z;
-    return relative > kappa_abs ? relative : kappa_abs;
   }
 };
 

@@ -106,8 +106,8 @@ int32_t guessSeen(const GatheredRays& rays, const OpenRay& open) {
     const float far_side = passing.surfaceAt(path.at(front));
     const float near_side = passing.surfaceAt(path.at(behind));
     if (far_side < 0) continue;
-    const bool is_linked = std::abs(near_side - far_side) <=
-                           structure.connectionTolerance(std::max(near_side, far_side));
+    const bool is_linked =
+        std::abs(near_side - far_side) <= structure.kappa.at(std::max(near_side, far_side));
     return passing.texelAt(path.at(is_linked ? behind : front));
   }
   return kNoTexel;

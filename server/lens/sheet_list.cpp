@@ -98,7 +98,7 @@ struct SheetList::Search {
     if (layer == 0) return false;
     const SurfaceCell front = surfaceCell(structure, layer - 1, at.level, at.cell);
     const float inv_z = front.at(part.at - at.center());
-    return front.is_plane && inv_z - part.inv_z <= structure.connectionTolerance(inv_z);
+    return front.is_plane && inv_z - part.inv_z <= structure.kappa.at(inv_z);
   }
 };
 

@@ -91,9 +91,8 @@ void FreshGrid::drawFootprint(uint32_t layer, uint32_t x, uint32_t y) {
 // each other may both reach over a px: no further apart than kappa they are one surface.
 void FreshGrid::offer(uint32_t px, uint64_t key) {
   if (in_front_ != nullptr) {
-    const Kappa& kappa = surfaces_->kappa();
     const float in_front = in_front_[px];
-    const float apart = std::max(kappa.absolute, kappa.relative * std::max(in_front, 0.0F));
+    const float apart = surfaces_->steps().kappa.at(in_front);
     if (!(in_front >= 0 && in_front - invZOfKey(key) > apart)) return;
   }
   const std::atomic_ref nearest(nearest_[px]);

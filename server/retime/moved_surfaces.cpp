@@ -57,11 +57,11 @@ void MovedSurfaces::prepare(FramePtr frame, WorkerPool& workers) {
   frame_ = std::move(frame);
   columns_.prepare(frame_, workers);
   held_inv_z_ = columns_.rowSource().columns;
-  kappa_ = columns_.measured().kappa;
+  steps_ = columns_.measured().steps;
   beginFrame(workers);
   forEachRow(size_px_, workers, [&](uint32_t y, uint32_t) { standRow(y); });
   links_.find(
-      *held_inv_z_, kappa_, workers, [&](uint32_t y) { return isNearMoving(y); },
+      *held_inv_z_, steps_, workers, [&](uint32_t y) { return isNearMoving(y); },
       [&](uint32_t y) { return quadColumns(y); });
 }
 

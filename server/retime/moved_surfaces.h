@@ -37,7 +37,7 @@ class MovedSurfaces {
   }
   uint32_t layerOf(uint32_t sample) const { return sample / uint32_t(size_px_.area()); }
   uint32_t pxOf(uint32_t sample) const { return sample % uint32_t(size_px_.area()); }
-  const Kappa& kappa() const { return kappa_; }
+  const SurfaceSteps& steps() const { return steps_; }
   // As the frame has it, in canonical form (sweep/depth_columns.h).
   const float* heldRow(uint32_t layer, uint32_t y) const { return held_inv_z_->row(layer, int(y)); }
 
@@ -81,7 +81,7 @@ class MovedSurfaces {
   uint32_t layer_count_ = 0;
   SweepSource columns_;
   const DepthColumns* held_inv_z_ = nullptr;  // its
-  Kappa kappa_;
+  SurfaceSteps steps_;
   SurfaceLinks links_;
   std::vector<Columns> moving_columns_;  // [row]
   std::vector<WayRange> ways_;           // [row], of what moves in it, px

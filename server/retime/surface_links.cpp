@@ -30,10 +30,11 @@ SurfaceLinks::Scratch::Scratch(uint32_t width, uint32_t layer_count) {
   }
 }
 
-std::vector<SurfaceLinks::Scratch> SurfaceLinks::begin(const DepthColumns& held, const Kappa& kappa,
+std::vector<SurfaceLinks::Scratch> SurfaceLinks::begin(const DepthColumns& held,
+                                                       const SurfaceSteps& steps,
                                                        uint32_t worker_count) {
   held_ = &held;
-  kappa_ = kappa;
+  steps_ = steps;
   if (size_px_ != held.sizePx() || layer_count_ != held.layerCount()) {
     size_px_ = held.sizePx();
     layer_count_ = held.layerCount();
@@ -59,14 +60,14 @@ void SurfaceLinks::linkRow(int y, Scratch& scratch) {
   };
   const FiveRows here = rowsAround(*held_, y);
   findSlopesX(here, rowsOf(scratch.slope_x));
-  linkColumns(facets(here, scratch.slope_x), kappa_, rowsOf(scratch.to_right),
+  linkColumns(facets(here, scratch.slope_x), steps_, rowsOf(scratch.to_right),
               rowsOf(scratch.to_left));
   const bool has_below = y + 1 < int(size_px_.height);
   if (has_below) {
     const FiveRows below = rowsAround(*held_, y + 1);
     findSlopesY(here, rowsOf(scratch.slope_y));
     findSlopesY(below, rowsOf(scratch.slope_y_below));
-    linkRows(facets(here, scratch.slope_y), facets(below, scratch.slope_y_below), kappa_,
+    linkRows(facets(here, scratch.slope_y), facets(below, scratch.slope_y_below), steps_,
              rowsOf(scratch.to_below), rowsOf(scratch.to_above));
   }
   for (uint32_t i = 0; i < layer_count_; ++i) {

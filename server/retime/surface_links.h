@@ -22,9 +22,9 @@ class SurfaceLinks {
   // Links of the rows for which `asks`, and those of the quads that begin in `quadColumns` of a
   // row. `held` stay as they are while links are asked.
   template <typename Asks, typename QuadColumns>
-  void find(const DepthColumns& held, const Kappa& kappa, WorkerPool& workers, const Asks& asks,
-            const QuadColumns& quadColumns) {
-    std::vector<Scratch> scratch = begin(held, kappa, workers.workerCount());
+  void find(const DepthColumns& held, const SurfaceSteps& steps, WorkerPool& workers,
+            const Asks& asks, const QuadColumns& quadColumns) {
+    std::vector<Scratch> scratch = begin(held, steps, workers.workerCount());
     forEachRow(size_px_, workers, [&](uint32_t y, uint32_t worker) {
       if (asks(y)) linkRow(int(y), scratch[worker]);
     });
@@ -59,7 +59,8 @@ class SurfaceLinks {
     ByLayer<AlignedArray<uint8_t>> to_right, to_left, to_below, to_above;
   };
 
-  std::vector<Scratch> begin(const DepthColumns& held, const Kappa& kappa, uint32_t worker_count);
+  std::vector<Scratch> begin(const DepthColumns& held, const SurfaceSteps& steps,
+                             uint32_t worker_count);
   void linkRow(int y, Scratch& scratch);
   void quadRow(uint32_t y, const Columns& columns);
   bool areInRow(uint32_t px, uint32_t beside) const {
@@ -72,7 +73,7 @@ class SurfaceLinks {
   const DepthColumns* held_ = nullptr;
   SizePx size_px_;
   uint32_t layer_count_ = 0;
-  Kappa kappa_;
+  SurfaceSteps steps_;
   AlignedArray<uint8_t> to_right_;  // [sample], as sweep/link_kernels.h
   AlignedArray<uint8_t> to_below_;
   AlignedArray<QuadLayers> quads_;

@@ -153,9 +153,13 @@ void Recording::prepare() {
 void Recording::measure() {
   const SizePx size = slot_.shape().depth_px;
   constexpr uint32_t kStripPx = abi::kMeasuredBlocks * abi::kBlockPx;
-  dispatch(passes_.measure_depth, slot_.buildPush(),
-           groups(groups(size.width, kStripPx), abi::kNodeGroupSize),
-           groups(size.height, abi::kBlockPx), 1);
+  const auto overStrips = [&](const ComputePass& pass) {
+    dispatch(pass, slot_.buildPush(), groups(groups(size.width, kStripPx), abi::kNodeGroupSize),
+             groups(size.height, abi::kBlockPx), 1);
+  };
+  overStrips(passes_.measure_depth);
+  dispatch(passes_.settle_range, slot_.buildPush(), 1, 1, 1);
+  overStrips(passes_.measure_range);
   dispatch(passes_.settle_tolerance, slot_.buildPush(), 1, 1, 1);
 }
 

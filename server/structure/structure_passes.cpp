@@ -9,7 +9,9 @@
 #include "shaders/fill_apron.h"
 #include "shaders/flatten_entries.h"
 #include "shaders/measure_depth.h"
+#include "shaders/measure_range.h"
 #include "shaders/prepare_columns.h"
+#include "shaders/settle_range.h"
 #include "shaders/settle_tolerance.h"
 #include "shaders/smooth_columns.h"
 #include "shared/cube_abi.h"
@@ -54,6 +56,8 @@ ComputePass makeApronPass(const Device& device, std::span<const uint32_t> spirv,
 
 StructurePasses::StructurePasses(const Device& device, const StructureVariant& variant)
     : measure_depth(makePass(device, variant, measure_depth_spirv, {}, "measure depth")),
+      settle_range(makePass(device, variant, settle_range_spirv, {}, "settle range")),
+      measure_range(makePass(device, variant, measure_range_spirv, {}, "measure range")),
       settle_tolerance(makePass(device, variant, settle_tolerance_spirv, {}, "settle tolerance")),
       smooth_columns(
           makePass(device, variant, smooth_columns_spirv, {variant.layer_count}, "smooth columns")),

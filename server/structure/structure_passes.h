@@ -21,6 +21,8 @@ struct StructurePasses {
   StructurePasses(const Device& device, const StructureVariant& variant);
 
   ComputePass measure_depth;
+  ComputePass settle_range;
+  ComputePass measure_range;
   ComputePass settle_tolerance;
   ComputePass smooth_columns;
   ComputePass build_facets;

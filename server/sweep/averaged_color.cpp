@@ -67,7 +67,7 @@ RowColumns AveragedColor::columnsOf(int y) {
   if (row.columns_linked_of == y) return columns;
   row.columns_linked_of = y;
   findSlopesX(rows, slopes);
-  linkColumns(facets, source_.kappa, to_right, to_left);
+  linkColumns(facets, source_.steps, to_right, to_left);
   return columns;
 }
 
@@ -83,7 +83,7 @@ void AveragedColor::linkToRowBelow(int y) {
     to_below[i] = above.layers[i].links[abi::kEdgeBottom].data();
     to_above[i] = below.layers[i].links[abi::kEdgeTop].data();
   }
-  linkRows(facetsAlongY(y), facetsAlongY(y + 1), source_.kappa, to_below, to_above);
+  linkRows(facetsAlongY(y), facetsAlongY(y + 1), source_.steps, to_below, to_above);
 }
 
 void AveragedColor::markMixedOf(int y) {

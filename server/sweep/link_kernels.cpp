@@ -11,8 +11,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-HWY_INLINE Mask mayLink(Vec a, Vec b, const Kappa& kappa) {
-  const Vec tolerance = hn::Max(set(kappa.absolute), hn::Mul(set(kappa.relative), hn::Max(a, b)));
+// Each operation is rounded alone, as stepAt of shaders/lib/structure_access.glsl.
+HWY_INLINE Vec stepAt(const StepRule& rule, Vec nearer) {
+  return hn::Max(set(rule.least), hn::Mul(set(rule.share), hn::Sub(nearer, set(rule.from))));
+}
+
+HWY_INLINE Mask mayLink(Vec a, Vec b, const StepRule& kappa) {
+  const Vec tolerance = stepAt(kappa, hn::Max(a, b));
   return hn::And(hn::Ge(hn::Min(a, b), hn::Zero(kFloats)),
                  hn::Le(hn::Abs(hn::Sub(a, b)), tolerance));
 }
@@ -22,7 +27,7 @@ constexpr int32_t kNoLayer = int32_t(abi::kLayerCountMax);
 // The layer nearest to each value among those of the other side not linked to their own layer.
 template <uint32_t kLayers>
 HWY_INLINE IntVec nearestFree(Vec value, const Vec* there, const Mask* taken, uint32_t own_layer,
-                              const Kappa& kappa) {
+                              const StepRule& kappa) {
   IntVec nearest = hn::Set(kInts, kNoLayer);
   Vec distance_min = set(3.4e38F);
   for (uint32_t i = 0; i < kLayers; ++i) {
@@ -39,8 +44,8 @@ HWY_INLINE IntVec nearestFree(Vec value, const Vec* there, const Mask* taken, ui
 // Links across an edge, whose middle the layers meet at `here` and `there`: 1 + layer of the other
 // side, or 0.
 template <uint32_t kLayers>
-HWY_INLINE void linkAcross(const Vec* here, const Vec* there, const Kappa& kappa, IntVec* to_there,
-                           IntVec* to_here) {
+HWY_INLINE void linkAcross(const Vec* here, const Vec* there, const StepRule& kappa,
+                           IntVec* to_there, IntVec* to_here) {
   Mask taken[kLayers];
   Mask has_free = noLane();
   for (uint32_t i = 0; i < kLayers; ++i) {
@@ -77,9 +82,9 @@ HWY_INLINE Vec facetAt(Vec inv_z, Vec slope, float offset) {
 }
 
 // kDeepEdge where a facet without a link is the far side of a deep silhouette.
-HWY_INLINE IntVec markDeep(IntVec link, Vec far, Vec near) {
-  const Mask is_deep = hn::And(hn::Ge(far, hn::Zero(kFloats)),
-                               hn::Gt(hn::Mul(near, set(1.0F - abi::kDeepStep)), far));
+HWY_INLINE IntVec markDeep(IntVec link, Vec far, Vec near, const StepRule& deep) {
+  const Mask is_deep =
+      hn::And(hn::Ge(far, hn::Zero(kFloats)), hn::Gt(hn::Sub(near, stepAt(deep, near)), far));
   const auto has_none = hn::Eq(link, hn::Zero(kInts));
   return hn::IfThenElse(hn::And(hn::RebindMask(kInts, is_deep), has_none),
                         hn::Set(kInts, int32_t(abi::kDeepEdge)), link);
@@ -95,16 +100,16 @@ struct EdgeSides {
 // Of the edges at x. `exists`: whether there is a facet here; and there.
 template <uint32_t kLayers>
 struct EdgeVectors {
-  EdgeVectors(const EdgeSides& sides, size_t x, const Kappa& kappa) {
+  EdgeVectors(const EdgeSides& sides, size_t x, const SurfaceSteps& steps) {
     for (uint32_t i = 0; i < kLayers; ++i) {
       here[i] = facetAt(loadAt(sides.here.inv_z, i, x, 0), loadAt(sides.here.slope, i, x, 0), 0.5F);
       there[i] = facetAt(loadAt(sides.there.inv_z, i, x, sides.shift),
                          loadAt(sides.there.slope, i, x, sides.shift), -0.5F);
     }
-    linkAcross<kLayers>(here, there, kappa, to_there, to_here);
+    linkAcross<kLayers>(here, there, steps.kappa, to_there, to_here);
     for (uint32_t i = 0; i < kLayers; ++i) {
-      to_there[i] = markDeep(to_there[i], here[i], there[i]);
-      to_here[i] = markDeep(to_here[i], there[i], here[i]);
+      to_there[i] = markDeep(to_there[i], here[i], there[i], steps.deep);
+      to_here[i] = markDeep(to_here[i], there[i], here[i], steps.deep);
     }
   }
 
@@ -115,15 +120,15 @@ struct EdgeVectors {
 };
 
 template <uint32_t kLayers>
-HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
-                        const ByLayer<uint8_t*>& to_left) {
+HWY_INLINE void linkRow(const FacetRow& row, const SurfaceSteps& steps,
+                        const ByLayer<uint8_t*>& to_right, const ByLayer<uint8_t*>& to_left) {
   constexpr Bytes kBytes;
   for (uint32_t i = 0; i < kLayers; ++i) {
     to_left[i][0] = row.inv_z[i][0] >= 0 ? uint8_t{0} : uint8_t(i + 1);
   }
   // Behind the last column lies the guard: slopes there are not read, as nothing is there.
   for (size_t x = 0; x < row.width; x += hn::Lanes(kFloats)) {
-    const EdgeVectors<kLayers> edges({row, row, 1}, x, kappa);
+    const EdgeVectors<kLayers> edges({row, row, 1}, x, steps);
     for (uint32_t i = 0; i < kLayers; ++i) {
       const Vec zero = hn::Zero(kFloats);
       const IntVec own = hn::Set(kInts, int32_t(i) + 1);
@@ -137,17 +142,17 @@ HWY_INLINE void linkRow(const FacetRow& row, const Kappa& kappa, const ByLayer<u
   }
 }
 
-void LinkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
+void LinkColumns(const FacetRow& row, const SurfaceSteps& steps, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left) {
-  VIEWLOOM_BY_LAYER_COUNT(row.layer_count, linkRow, row, kappa, to_right, to_left)
+  VIEWLOOM_BY_LAYER_COUNT(row.layer_count, linkRow, row, steps, to_right, to_left)
 }
 
 template <uint32_t kLayers>
-HWY_INLINE void linkTwoRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+HWY_INLINE void linkTwoRows(const FacetRow& above, const FacetRow& below, const SurfaceSteps& steps,
                             const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above) {
   constexpr Bytes kBytes;
   for (size_t x = 0; x < above.width; x += hn::Lanes(kFloats)) {
-    const EdgeVectors<kLayers> edges({above, below, 0}, x, kappa);
+    const EdgeVectors<kLayers> edges({above, below, 0}, x, steps);
     for (uint32_t i = 0; i < kLayers; ++i) {
       hn::StoreU(hn::DemoteTo(kBytes, edges.to_there[i]), kBytes, to_below[i] + x);
       hn::StoreU(hn::DemoteTo(kBytes, edges.to_here[i]), kBytes, to_above[i] + x);
@@ -155,9 +160,9 @@ HWY_INLINE void linkTwoRows(const FacetRow& above, const FacetRow& below, const 
   }
 }
 
-void LinkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+void LinkRows(const FacetRow& above, const FacetRow& below, const SurfaceSteps& steps,
               const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above){
-    VIEWLOOM_BY_LAYER_COUNT(above.layer_count, linkTwoRows, above, below, kappa, to_below,
+    VIEWLOOM_BY_LAYER_COUNT(above.layer_count, linkTwoRows, above, below, steps, to_below,
                             to_above)}
 
 HWY_INLINE WordVec packedBlend(const Channels& here, const Channels& there, Vec share) {
@@ -169,7 +174,7 @@ HWY_INLINE WordVec packedBlend(const Channels& here, const Channels& there, Vec 
 }
 
 template <uint32_t kLayers>
-HWY_INLINE void blendOf(const TexelRow& row, const Kappa& kappa) {
+HWY_INLINE void blendOf(const TexelRow& row, const StepRule& kappa) {
   const Vec share = set(row.share);
   const float toward = row.is_below ? 0.5F : -0.5F;
   for (size_t x = 0; x < row.here.width; x += hn::Lanes(kFloats)) {
@@ -199,7 +204,7 @@ HWY_INLINE void blendOf(const TexelRow& row, const Kappa& kappa) {
   }
 }
 
-void BlendRows(const TexelRow& row, const Kappa& kappa) {
+void BlendRows(const TexelRow& row, const StepRule& kappa) {
   VIEWLOOM_BY_LAYER_COUNT(row.here.layer_count, blendOf, row, kappa)
 }
 
@@ -213,17 +218,17 @@ HWY_EXPORT(LinkColumns);
 HWY_EXPORT(LinkRows);
 HWY_EXPORT(BlendRows);
 
-void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
+void linkColumns(const FacetRow& row, const SurfaceSteps& steps, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left) {
-  HWY_DYNAMIC_DISPATCH(LinkColumns)(row, kappa, to_right, to_left);
+  HWY_DYNAMIC_DISPATCH(LinkColumns)(row, steps, to_right, to_left);
 }
 
-void linkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+void linkRows(const FacetRow& above, const FacetRow& below, const SurfaceSteps& steps,
               const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above) {
-  HWY_DYNAMIC_DISPATCH(LinkRows)(above, below, kappa, to_below, to_above);
+  HWY_DYNAMIC_DISPATCH(LinkRows)(above, below, steps, to_below, to_above);
 }
 
-void blendRows(const TexelRow& row, const Kappa& kappa) {
+void blendRows(const TexelRow& row, const StepRule& kappa) {
   HWY_DYNAMIC_DISPATCH(BlendRows)(row, kappa);
 }
 

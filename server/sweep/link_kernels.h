@@ -14,12 +14,12 @@ namespace viewloom {
 // Links between the columns of a row: 0 = silhouette, 1 + k = linked to layer k of the column on
 // the right (left), abi::kDeepEdge. uint8[width] each; 1 + its own layer where there is no facet:
 // nothing begins or ends there.
-void linkColumns(const FacetRow& row, const Kappa& kappa, const ByLayer<uint8_t*>& to_right,
+void linkColumns(const FacetRow& row, const SurfaceSteps& steps, const ByLayer<uint8_t*>& to_right,
                  const ByLayer<uint8_t*>& to_left);
 
 // Links between two rows, at the middles of their columns' edges; `slope` is that along y. As of
 // columns, but for 0 where there is no facet.
-void linkRows(const FacetRow& above, const FacetRow& below, const Kappa& kappa,
+void linkRows(const FacetRow& above, const FacetRow& below, const SurfaceSteps& steps,
               const ByLayer<uint8_t*>& to_below, const ByLayer<uint8_t*>& to_above);
 
 // Colours of a row between the samples of two rows: of each facet, blended with what it is linked
@@ -33,6 +33,6 @@ struct TexelRow {
   bool is_below = false;  // the other row
   ByLayer<uint32_t*> texels;
 };
-void blendRows(const TexelRow& row, const Kappa& kappa);
+void blendRows(const TexelRow& row, const StepRule& kappa);
 
 }  // namespace viewloom

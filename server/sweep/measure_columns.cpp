@@ -13,20 +13,20 @@ namespace {
 
 constexpr uint32_t kBlockPx = abi::kBlockPx;
 
-float depthQuantile(std::span<const uint32_t> bins, float surface_count, float share) {
-  const float wanted = share * surface_count;
-  float below = 0;
-  for (uint32_t bin = 0; bin < bins.size(); ++bin) {
-    const float here = float(bins[bin]);
+// Within its bin as if samples were spread evenly.
+float depthQuantile(const ColumnHistograms& histograms, const RangeHistogram& range, float share) {
+  const float wanted = share * float(range.bounds.surface_count);
+  if (wanted <= float(histograms.depth[0])) return 0;
+  float below = float(range.bounds.below_count);
+  for (uint32_t bin = 0; bin < range.counts.size(); ++bin) {
+    const float here = float(range.counts[bin]);
     if (here > 0 && below + here >= wanted) {
-      const float start = abi::binStart(bin, abi::kDepthMantissaBits);
-      const float end = abi::binStart(bin + 1, abi::kDepthMantissaBits);
-      const float part = std::clamp((wanted - below) / here, 0.0F, 1.0F);
-      return bin == 0 ? 0 : start * (1 - part) + end * part;
+      const float part = std::max(wanted - below, 0.0F) / here;
+      return range.bounds.begin + (float(bin) + part) / range.bounds.bins_per_inv_z;
     }
     below += here;
   }
-  return 0;
+  return range.bounds.begin + float(range.counts.size()) / range.bounds.bins_per_inv_z;
 }
 
 // The end of the bin that holds the quantile, counted from bin `first`; without so many zeros.
@@ -40,6 +40,11 @@ float noiseQuantile(std::span<const uint32_t> bins, uint32_t first, float zero_c
     return bin == 0 ? 0 : abi::binStart(bin + 1, abi::kNoiseMantissaBits);
   }
   return 0;
+}
+
+template <typename Counts>
+void addTo(Counts& sums, const Counts& counts) {
+  std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
 }
 
 // Of surfaces: the sky is neither rounded nor noisy.
@@ -71,51 +76,84 @@ void ColumnHistograms::addBlockRow(const DepthColumns& columns, uint32_t block_r
 }
 
 void ColumnHistograms::add(const ColumnHistograms& other) {
-  const auto addTo = [](auto& sums, const auto& counts) {
-    std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
-  };
   addTo(depth, other.depth);
   addTo(noise, other.noise);
 }
 
-MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCounts& counts,
-                              float given_kappa) {
-  const float surface_count =
-      float(std::accumulate(histograms.depth.begin(), histograms.depth.end(), uint64_t{0}));
-  const auto quantile = [&](float share) {
-    return depthQuantile(histograms.depth, surface_count, share);
-  };
+abi::RangeBounds settleRange(const ColumnHistograms& histograms) {
+  const auto& depth = histograms.depth;
+  const auto surface_count = std::accumulate(depth.begin(), depth.end(), uint32_t{0});
+  uint32_t far_bin = 0, near_bin = 0, below_count = 0, count = 0;
+  for (uint32_t bin = 0; bin < depth.size(); ++bin) {
+    if (depth[bin] == 0) continue;
+    if (float(count) < abi::kFarQuantile * float(surface_count)) {
+      far_bin = bin;
+      below_count = count;
+    }
+    if (float(count) < abi::kNearQuantile * float(surface_count)) near_bin = bin;
+    count += depth[bin];
+  }
+  return abi::rangeBounds(far_bin, near_bin, below_count, surface_count);
+}
+
+void RangeHistogram::addBlockRow(const DepthColumns& columns, uint32_t block_row) {
+  const SizePx size_px = columns.sizePx();
+  const float* const row =
+      columns.row(0, int(std::min(block_row * kBlockPx + 2, size_px.height - 1)));
+  for (uint32_t block = 0; block * kBlockPx < size_px.width; ++block) {
+    const float inv_z = row[std::min(block * kBlockPx + 2, size_px.width - 1)];
+    const uint32_t bin = abi::rangeBin(inv_z, bounds);
+    if (inv_z >= 0 && bin < counts.size()) ++counts[bin];
+  }
+}
+
+void RangeHistogram::add(const RangeHistogram& other) {
+  addTo(counts, other.counts);
+}
+
+MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHistogram& range,
+                              const ColumnCounts& counts, float given_kappa) {
+  const auto quantile = [&](float share) { return depthQuantile(histograms, range, share); };
   const float inv_z_near = quantile(abi::kNearQuantile);
+  const float inv_z_far = quantile(abi::kFarQuantile);
+  const float inv_z_range = inv_z_near - inv_z_far;
   const float step =
-      abi::stepOfDepth(noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile), inv_z_near);
+      abi::stepOfDepth(noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile), inv_z_range);
   const float surface_sigma = surfaceSigma(histograms);
   const Smoothing smoothing = {
       .reach = abi::smoothingReach(step, noiseQuantile(histograms.noise, 1, 0, 0.5F), surface_sigma,
-                                   inv_z_near),
+                                   inv_z_range),
       .first_pass = abi::firstSmoothingPass(step, surface_sigma)};
   const bool is_noisy = smoothing.reach > 0 && smoothing.first_pass > 0;
   const float sigma = std::max(noiseQuantile(histograms.noise, 0, 0, 0.5F) / abi::kMedianPerSigma,
                                is_noisy ? surface_sigma : 0);
   const bool is_given = given_kappa > 0;
-  const Kappa kappa = {
-      .absolute =
-          is_given ? given_kappa : std::max(abi::kKappaSteps * step, abi::kKappaSigmas * sigma),
-      .relative = is_given ? 0 : abi::kKappaRelative};
+  const float base = abi::baseOfSteps(inv_z_near, inv_z_far);
+  const float least =
+      std::max({abi::leastStep(abi::kKappaRelative, inv_z_range), abi::kRoundingShare * inv_z_near,
+                abi::kKappaSteps * step, abi::kKappaSigmas * sigma});
+  const SurfaceSteps steps = {.kappa = {.least = is_given ? given_kappa : least,
+                                        .share = is_given ? 0 : abi::kKappaRelative,
+                                        .from = base},
+                              .deep = {.least = abi::leastStep(abi::kDeepStep, inv_z_range),
+                                       .share = abi::kDeepStep,
+                                       .from = base},
+                              .inv_z_range = inv_z_range};
   const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
   return {.stats = {.depth_step = step,
                     .noise_sigma = sigma,
-                    .connection_tolerance = kappa.absolute,
+                    .connection_tolerance = steps.kappa.least,
                     .bad_samples_count = counts.bad_samples_count,
                     .unsorted_columns_count = counts.unsorted_columns_count,
                     .inv_z_min = has_surface ? counts.inv_z_min : 0.0F,
                     .inv_z_max = has_surface ? counts.inv_z_max : 0.0F,
                     .inv_z_near = inv_z_near,
-                    .inv_z_far = quantile(abi::kFarQuantile),
+                    .inv_z_far = inv_z_far,
                     .smoothing_reach = smoothing.reach},
           .depths =
               depthSpread(histograms.depth,
                           [](uint32_t bin) { return abi::binStart(bin, abi::kDepthMantissaBits); }),
-          .kappa = kappa,
+          .steps = steps,
           .smoothing = smoothing};
 }
 

@@ -7,15 +7,10 @@
 
 #include "frame/depth_spread.h"
 #include "frame/stage_times.h"
+#include "frame/surface_steps.h"
 #include "sweep/depth_columns.h"
 
 namespace viewloom {
-
-// kappa(a, b) = max(absolute, relative max(a, b)), shaders/README.md, Links.
-struct Kappa {
-  float absolute = 0;  // 1/m
-  float relative = 0;
-};
 
 // Of layer 0, one px of every block of 4x4.
 struct ColumnHistograms {
@@ -27,15 +22,27 @@ struct ColumnHistograms {
   void add(const ColumnHistograms& other);
 };
 
+// Where their percentiles lie, for a finer look.
+abi::RangeBounds settleRange(const ColumnHistograms& histograms);
+
+// Of the same px, between the percentiles.
+struct RangeHistogram {
+  abi::RangeBounds bounds;
+  std::array<uint32_t, abi::kRangeHistogramBinCount> counts{};
+
+  void addBlockRow(const DepthColumns& columns, uint32_t block_row);
+  void add(const RangeHistogram& other);
+};
+
 struct MeasuredColumns {
   SourceStats stats;
   DepthSpread depths;  // of layer 0
-  Kappa kappa;
+  SurfaceSteps steps;
   Smoothing smoothing;
 };
 
 // `given_kappa`: the publisher's connection tolerance, 1/m; 0 = measured.
-MeasuredColumns settleColumns(const ColumnHistograms& histograms, const ColumnCounts& counts,
-                              float given_kappa);
+MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHistogram& range,
+                              const ColumnCounts& counts, float given_kappa);
 
 }  // namespace viewloom

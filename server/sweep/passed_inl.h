@@ -57,7 +57,9 @@ HWY_INLINE Mask reachesAsFar(const SurfaceRow& row, float edge_px, Vec moved_px,
   const Vec last = set(float(row.width_px) - 1);
   Mask goes_on = hn::Or(hn::Lt(mirrored, set(0)), hn::Gt(mirrored, last));
   const IntVec column = hn::ConvertTo(kInts, hn::Min(hn::Max(mirrored, set(0)), last));
-  const Vec apart_max = hn::Mul(far, set(abi::kDeepStep));
+  const StepRule& deep = row.deep;
+  const Vec apart_max =
+      hn::Max(set(deep.least), hn::Mul(set(deep.share), hn::Sub(far, set(deep.from))));
   for (uint32_t i = 0; i < row.layer_count; ++i) {
     const Vec inv_z = hn::GatherIndex(kFloats, row.inv_z[i], column);
     goes_on = hn::Or(goes_on, hn::Le(hn::Abs(hn::Sub(inv_z, far)), apart_max));

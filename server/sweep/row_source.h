@@ -15,7 +15,7 @@ namespace viewloom {
 struct RowSource {
   const DepthColumns* columns = nullptr;
   ByLayer<const uint32_t*> color{};  // uint32[height][width]
-  Kappa kappa;
+  SurfaceSteps steps;
   SweepFault planted_fault = SweepFault::kNone;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "frame/surface_steps.h"
 #include "shared/structure_abi.h"
 #include "sweep/aligned_array.h"
 
@@ -103,6 +104,7 @@ struct SurfaceRow {
   float clean = 0;                      // how far mixed texels have given way, 0..1
   AlignedArray<int32_t> nearest_texel;  // [column]: of layer 0, 256 times its index; -1: none
   ByLayer<const float*> inv_z{};        // of the samples, [column]
+  StepRule deep;                        // steps that lead to another thing
   float left_inv_z = 0;                 // of layer 0 at the border of the image; kNoSurface
   float right_inv_z = 0;
 

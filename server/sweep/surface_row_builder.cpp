@@ -41,7 +41,7 @@ SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float
                                      float px_per_inv_z) {
   const SizePx size_px = source.columns->sizePx();
   reserve(*source.columns);
-  kappa_ = source.kappa;
+  steps_ = source.steps;
   planted_fault_ = source.planted_fault;
   tolerance_ = tolerance;
   px_per_inv_z_ = px_per_inv_z;
@@ -69,6 +69,7 @@ void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
   const FiveRows rows = rowsAround(*source.columns, y);
   inv_z_ = rows.inv_z[2];
   made_.inv_z = inv_z_;
+  made_.deep = steps_.deep;
   FacetRow facets{.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
   ByLayer<float*> slope_x{};
   ByLayer<float*> slope_y{};
@@ -96,7 +97,7 @@ void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
   } else {
     findSlopesX(rows, slope_x);
     findSlopesY(rows, slope_y);
-    linkColumns(facets, source.kappa, to_right, to_left);
+    linkColumns(facets, source.steps, to_right, to_left);
   }
   for (uint32_t i = 0; hasFault(SweepFault::kCrossLinks) && i < layer_count_; ++i) {
     for (uint8_t* links : {to_right[i], to_left[i]}) {
@@ -134,7 +135,7 @@ void SurfaceRowBuilder::blendTexels(const RowSource& source, int y, float dy) {
         readableColorRow(source, i, has_there ? y_there : y, layer.color_there.data());
   }
   if (row.share > 0) findSlopesY(rows_there, slope_there);
-  blendRows(row, source.kappa);
+  blendRows(row, source.steps.kappa);
 }
 
 // From its first facet on, through links to any layer, as far as it is connected.
@@ -217,8 +218,7 @@ void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t f
       continue;
     }
     search.last = falling - 1;
-    const float kappa = std::max(kappa_.absolute, kappa_.relative * search.left[begin]);
-    search.tolerance = std::min(tolerance_, 0.5F * kappa);
+    search.tolerance = std::min(tolerance_, 0.5F * steps_.kappa.at(search.left[begin]));
     if (hasFault(SweepFault::kTolerance)) search.tolerance *= 8;
     float end_inv_z = 0;
     const uint32_t end = findRunEnd(search, begin, &end_inv_z);

@@ -61,7 +61,7 @@ class SurfaceRowBuilder {
   ByLayer<LayerScratch> layers_;
   ByLayer<const float*> inv_z_{};
   ByLayer<const float*> slope_y_{};
-  Kappa kappa_;
+  SurfaceSteps steps_;
   SweepFault planted_fault_ = SweepFault::kNone;
   AveragedColor averaged_;
   float reach_x_px_ = 0;

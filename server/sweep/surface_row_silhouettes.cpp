@@ -51,7 +51,7 @@ void SurfaceRowBuilder::addSilhouette(uint32_t layer, Travel travel, uint32_t co
   };
   if (link == 0 && !is_border) step.near_texel = texelOf(column);
   const bool has_far_side = link == 0 && (is_border || is_over);
-  const bool is_deep = is_border || own * (1.0F - abi::kDeepStep) > low;
+  const bool is_deep = is_border || own - steps_.deep.at(own) > low;
   if (has_far_side && low < high && !is_deep) {
     step.texel = addBetween(texelOf(size_t(before)), texelOf(column));
     step.texel_per_inv_z = kSubtexelSteps / (high - low);
@@ -81,8 +81,7 @@ bool SurfaceRowBuilder::isKnownBehind(uint32_t layer, Travel travel, uint32_t co
   for (uint32_t i = layer + 1; i < layer_count_; ++i) {
     if (inv_z_[i][column] < 0) continue;
     const float behind = atEdge(i, column, goes_left);
-    const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(behind, far));
-    if (behind - far <= kappa) return true;
+    if (behind - far <= steps_.kappa.at(std::max(behind, far))) return true;
   }
   return false;
 }
@@ -116,13 +115,14 @@ float SurfaceRowBuilder::goesOnInFront(uint32_t layer, Travel travel, uint32_t c
 // distances that double. As findFarSide in shaders/lib/far_side.glsl.
 int32_t SurfaceRowBuilder::texelBeyondNothing(Travel travel, uint32_t column) const {
   const float near = inv_z_[0][column];
-  const float deep = near * (1.0F - abi::kDeepStep);
+  const float deep = near - steps_.deep.at(near);
+  const float bound = steps_.deep.before(near);
   const int64_t back = travel == Travel::kLeft ? 1 : -1;
   for (uint32_t probe = 0; probe < abi::kFarSideProbes; ++probe) {
     const int64_t x = int64_t{column} + back * (1 + (int64_t{1} << probe));
     const size_t inside = size_t(std::clamp<int64_t>(x, 0, int64_t{width_} - 1));
     const float inv_z = inv_z_[0][inside];
-    if (inv_z < 0 || inv_z >= near / (1.0F - abi::kDeepStep)) continue;
+    if (inv_z < 0 || inv_z >= bound) continue;
     return made_.nearest_texel[inv_z < deep ? inside : column];
   }
   return kBackgroundTexel;

@@ -44,22 +44,25 @@ void SweepSource::prepare(FramePtr frame, WorkerPool& workers) {
     counts[worker].add(
         columns_.prepareRows(first, std::min(kRowsPerPiece, size_px.height - first)));
   });
-  const uint32_t block_rows = pieceCount(size_px.height, abi::kBlockPx);
-  std::vector<ColumnHistograms> histograms(workers.workerCount());
+  for (size_t worker = 1; worker < counts.size(); ++worker) counts[0].add(counts[worker]);
+  const ColumnHistograms histograms = measured(ColumnHistograms{}, workers);
+  const RangeHistogram range = measured(RangeHistogram{settleRange(histograms)}, workers);
+  const float given_kappa = float(frame_->format.sources.front().connection_tolerance);
+  measured_ = settleColumns(histograms, range, counts[0], given_kappa);
+  if (measured_.smoothing.reach > 0) smooth(workers);
+}
+
+template <typename Histogram>
+Histogram SweepSource::measured(const Histogram& empty, WorkerPool& workers) const {
+  const uint32_t block_rows = pieceCount(columns_.sizePx().height, abi::kBlockPx);
+  std::vector<Histogram> by_worker(workers.workerCount(), empty);
   workers.forEach(pieceCount(block_rows, kBlockRowsPerPiece), [&](uint32_t piece, uint32_t worker) {
     const uint32_t first = piece * kBlockRowsPerPiece;
     const uint32_t end = std::min(first + kBlockRowsPerPiece, block_rows);
-    for (uint32_t row = first; row < end; ++row) {
-      histograms[worker].addBlockRow(columns_, row);
-    }
+    for (uint32_t row = first; row < end; ++row) by_worker[worker].addBlockRow(columns_, row);
   });
-  for (size_t worker = 1; worker < counts.size(); ++worker) {
-    counts[0].add(counts[worker]);
-    histograms[0].add(histograms[worker]);
-  }
-  measured_ = settleColumns(histograms[0], counts[0],
-                            float(frame_->format.sources.front().connection_tolerance));
-  if (measured_.smoothing.reach > 0) smooth(workers);
+  for (size_t worker = 1; worker < by_worker.size(); ++worker) by_worker[0].add(by_worker[worker]);
+  return by_worker[0];
 }
 
 void SweepSource::smooth(WorkerPool& workers) {
@@ -81,7 +84,7 @@ void SweepSource::smooth(WorkerPool& workers) {
 }
 
 RowSource SweepSource::rowSource() const {
-  RowSource source{.columns = &columns_, .kappa = measured_.kappa};
+  RowSource source{.columns = &columns_, .steps = measured_.steps};
   for (uint32_t i = 0; i < columns_.layerCount(); ++i) {
     source.color[i] = reinterpret_cast<const uint32_t*>(frame_->sources.front()[i].color->data());
   }

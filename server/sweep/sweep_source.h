@@ -25,6 +25,9 @@ class SweepSource {
   uint64_t sizeBytes() const { return columns_.sizeBytes(); }
 
  private:
+  // Of all blocks, by all workers; of `empty`'s kind.
+  template <typename Histogram>
+  Histogram measured(const Histogram& empty, WorkerPool& workers) const;
   void smooth(WorkerPool& workers);
 
   FramePtr frame_;

@@ -33,12 +33,11 @@ size_t firstPixel(const AtlasLayout& layout, uint32_t tile, uint32_t tile_row) {
   return row * layout.size_px.width + size_t{tile % layout.columns} * layout.tile_size_px.width;
 }
 
-// How far mixed texels give way, as far as rays go in px of the source: see cleanShare in
-// shaders/lib/ray_light.glsl.
+// How far mixed texels give way, as far as the view moves the nearest against the furthest, px of
+// the source: see cleanShare in shaders/lib/ray_light.glsl.
 float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t width_px) {
-  const float inv_z_near = std::max(picture.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin;
   const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
-  return std::min(std::abs(eye_px_m) * inv_z_near, 1.0F);
+  return std::min(std::abs(eye_px_m) * picture.source.steps.inv_z_range, 1.0F);
 }
 
 }  // namespace

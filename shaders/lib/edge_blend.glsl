@@ -70,7 +70,7 @@ float edgeBetween(Scene scene, Seen near, Seen other, bool is_sought) {
 // Whether two neighbours are far enough apart for an edge: one thing is not linked to another that
 // is nearer to it than this.
 bool mayBeEdge(Scene scene, float a, float b) {
-  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, max(a, b));
+  const float kappa = stepAt(scene.kappa, max(a, b));
   return abs(a - b) > kEdgeStepKappas * kappa;
 }
 

@@ -16,6 +16,11 @@ bool lacksFarSide(Walk walk, WalkStart start) {
   return has_none && (walk.far_axis != kAxisNone || start.behind_count > 0u);
 }
 
+// What stands a deep step before a surface: where stepAt leads to that.
+float deepBefore(vec3 deep, float inv_z) {
+  return max(inv_z + deep.x, deep.z + (inv_z - deep.z) / (1.0 - deep.y));
+}
+
 // Looks away from what such a ray ended behind, at distances that double. Beside nothing for the
 // first surface back along the ray that is not nearer by a deep step: samples may be missing beside
 // what stands in front, as a sensor sees no more there; one that is as far is taken to go on over
@@ -32,8 +37,8 @@ void findFarSide(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
   const uvec2 near = loadFacet(scene.layers, 0u, scene.extent, near_cell);
   const float near_inv_z = is_beside ? facetInvZ(near) : ray.start.z + start.t * ray.extent.z;
   const int last_side = is_beside ? -1 : 1;
-  const float deep_inv_z = near_inv_z * (1.0 - kDeepStep);
-  float bound = is_beside ? near_inv_z / (1.0 - kDeepStep) : deep_inv_z;
+  const float deep_inv_z = near_inv_z - stepAt(scene.deep, near_inv_z);
+  float bound = is_beside ? deepBefore(scene.deep, near_inv_z) : deep_inv_z;
   uint probe = 0u;
   for (;;) {
     if (isNever(scene, 6u)) break;

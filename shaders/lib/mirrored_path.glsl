@@ -57,7 +57,7 @@ void turn(Mirror mirror, Spot spot, Pinhole pinhole, vec2 place, inout Path path
 // By how much what is one with a surface may stand out from it. `moved_px`: as for reflectedRay().
 float surfaceError(Scene scene, Pinhole pinhole, Spot spot, vec3 eye, float moved_px) {
   const float cross = length(cross(metricPoint(pinhole, vec3(spot.point.xy, 1.0)), eye));
-  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);
+  const float kappa = stepAt(scene.kappa, spot.point.z);
   const float seen = min(moved_px / max(cross, 1e-30), 0.5 * kappa);
   const float measured = max(kStepsOfSurface * measured_head.depth_step,
                              kSigmasOfSurface * measured_head.noise_sigma);

@@ -11,11 +11,8 @@ Scene pushedScene(bool fills_border) {
   scene.layers = push.layers;
   scene.layer_count = push.layer_count;
   scene.extent = makeExtent(ivec2(sizeOf(push.source_size_px)));
-  // A little in front of everything; never 0, it is a divisor.
-  scene.inv_z_near =
-      max(uintBitsToFloat(measured_head.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
   scene.fills_border = fills_border;
-  scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
+  addMeasured(scene, measured_head);
   return scene;
 }
 

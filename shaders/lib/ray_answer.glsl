@@ -93,7 +93,7 @@ RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 
   answer.view_inv_z = places.hit;
   // What is off by kappa in the source's 1/Z is off by kappa Z^2 metres, and as far in the view.
   const float z_per_s = point.z > 0.0 ? answer.view_inv_z / point.z : abs(direction.z);
-  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, point.z);
+  const float kappa = stepAt(scene.kappa, point.z);
   answer.tolerance = min(kappa * z_per_s * z_per_s, kToleranceShareMax * answer.view_inv_z);
   // A ray that is never seen is known nowhere.
   answer.entry_inv_z =

@@ -48,10 +48,11 @@ struct Light {
   bool is_known;
 };
 
-// A view moves what is nearest by the extent of its rays: from the source's own place the source is
-// seen as it is, from a px beside it none of the samples that may be mixed. By axis.
-vec2 cleanShare(Ray ray) {
-  return min(abs(ray.extent.xy), vec2(1.0));
+// How far a view moves the nearest against the furthest, px: from the source's own place the source
+// is seen as it is, from a px beside it none of the samples that may be mixed. By axis.
+vec2 cleanShare(Scene scene, Ray ray) {
+  const float range = scene.inv_z_range / max(scene.inv_z_range, abs(ray.extent.z));
+  return min(abs(ray.extent.xy) * range, vec2(1.0));
 }
 
 // The next surface behind the one that a ray hit. Where that is rough its own facets may be met
@@ -59,7 +60,7 @@ vec2 cleanShare(Ray ray) {
 // or nothing was hit, the first answer.
 Walk walkBehind(Scene scene, ViewParams view, Ray ray, Walk first) {
   const float hit_inv_z = ray.start.z + first.t * ray.extent.z;
-  const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, hit_inv_z);
+  const float apart = stepAt(scene.kappa, hit_inv_z);
   Walk walk = first;
   for (;;) {
     if (isNever(scene, 9u) || !first.is_hit) break;
@@ -92,7 +93,7 @@ Light surfaceLight(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
                          : own_links;
   const bool goes_on = walk.ends_behind && !lacksFarSide(walk, start);
   const bool is_known = walk.is_hit || goes_on || is_border;
-  const vec4 color = surfaceColor(scene, layer, cell, links, at, cleanShare(ray));
+  const vec4 color = surfaceColor(scene, layer, cell, links, at, cleanShare(scene, ray));
   return Light(color, is_known && (own_links & kFacetExists) != 0u);
 }
 
@@ -117,7 +118,7 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
     const vec4 last = vec4(seen.is_known ? seen.color.rgb : background, 1.0);
     const vec4 color = walk.is_hit ? seen.color : last;
     const float inv_z = ray.start.z + walk.t * ray.extent.z;
-    const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, counted_inv_z);
+    const float apart = stepAt(scene.kappa, counted_inv_z);
     const bool is_counted =
         walk.is_hit && walk.layer == counted_layer && abs(counted_inv_z - inv_z) <= apart;
     light += is_counted ? vec3(0.0) : transmittance * color.rgb;

@@ -8,13 +8,13 @@
 // The layer of a column that continues a facet there: the surface nearest to the facet's plane, if
 // it is within the connection tolerance for every px between. kLayerCountMax: none.
 uint continuingLayer(Address layers[kLayerCountMax], uint layer_count, Extent extent, uint layer,
-                     ivec2 cell, ivec2 column, vec2 kappa) {
+                     ivec2 cell, ivec2 column, vec3 kappa) {
   if (column == cell) return layer;
   const vec2 apart = vec2(column - cell);
   const uvec2 facet = loadFacet(layers, layer, extent, cell);
   const float expected = facetAt(facetInvZ(facet), unpackSlopes(facet.y), apart);
   float distance_min =
-      connectionTolerance(kappa.x, kappa.y, expected) * max(abs(apart.x) + abs(apart.y), 1.0);
+      stepAt(kappa, expected) * max(abs(apart.x) + abs(apart.y), 1.0);
   uint nearest = kLayerCountMax;
   for (uint i = 0u; i < layer_count; ++i) {
     const float inv_z = facetInvZ(loadFacet(layers, i, extent, column));
@@ -92,7 +92,7 @@ struct TexelCover {
 
 // `low`, `high`: of the texel, px; the columns at its corners are looked at.
 TexelCover coverOf(Address layers[kLayerCountMax], uint layer_count, Extent extent,
-                   SurfacePlace place, vec2 low, vec2 high, vec2 kappa) {
+                   SurfacePlace place, vec2 low, vec2 high, vec3 kappa) {
   const ivec2 first = ivec2(low + kCoverRounding_px);
   const ivec2 last = max(first, ivec2(ceil(high - kCoverRounding_px)) - 1);
   TexelCover cover = TexelCover(kLayerCountMax, true);
@@ -114,14 +114,14 @@ TexelCover coverOf(Address layers[kLayerCountMax], uint layer_count, Extent exte
   return cover;
 }
 
-// Where colour of another size is taken from. `kappa`: absolute, relative. `clean`: by which what
+// Where colour of another size is taken from. `kappa`: of stepAt. `clean`: by which what
 // may be mixed gives way, 0..1.
 struct ScaledColor {
   Address texels[kLayerCountMax];
   ColorSizes sizes;
   uint format;
   uint layer_count;
-  vec2 kappa;
+  vec3 kappa;
   float clean;
 };
 

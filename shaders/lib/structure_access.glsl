@@ -113,9 +113,20 @@ uint withLink(uint links, uint edge, uint link) {
   return (links & ~(7u << (edge * kLinkBits))) | (link << (edge * kLinkBits));
 }
 
-// Largest step between two facets that are one surface, 1/m.
-float connectionTolerance(float kappa_abs, float kappa_rel, float nearer_inv_z) {
-  return max(kappa_abs, kappa_rel * nearer_inv_z);
+// Steps between two surfaces, 1/m (shaders/README.md, Steps): x = the least, y = share of the
+// nearer one's distance from z. Every operation is rounded alone, as the sweep does it.
+float stepAt(vec3 steps, float nearer_inv_z) {
+  return max(steps.x, steps.y * (nearer_inv_z - steps.z));
+}
+
+// Largest step between two facets that are one surface.
+vec3 connectedSteps(MeasuredHead measured) {
+  return vec3(measured.kappa_abs, measured.kappa_rel, measured.inv_z_base);
+}
+
+// Beyond such a step stands another thing.
+vec3 deepSteps(MeasuredHead measured) {
+  return vec3(measured.deep_abs, kDeepStep, measured.inv_z_base);
 }
 
 #endif  // VIEWLOOM_LIB_STRUCTURE_ACCESS_GLSL_

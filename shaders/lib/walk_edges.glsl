@@ -5,16 +5,27 @@
 
 #include "lib/fault.glsl"
 #include "lib/structure_access.glsl"
+#include "shared/trace_abi.h"
 
 // What is walked through.
 struct Scene {
   Address layers[kLayerCountMax];
   uint layer_count;
   Extent extent;
-  float inv_z_near;   // nothing is nearer, 1/m
-  vec2 kappa;         // connection tolerance: absolute (1/m), relative
+  float inv_z_near;   // a little in front of everything, 1/m
+  float inv_z_range;  // that the source shows, 1/m
+  vec3 kappa;         // steps within a surface (stepAt)
+  vec3 deep;          // and between two things
   bool fills_border;  // else what leaves the image takes the background
 };
+
+// What the build measured. Two of it are divisors, and never 0.
+void addMeasured(inout Scene scene, MeasuredHead measured) {
+  scene.inv_z_near = max(uintBitsToFloat(measured.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
+  scene.inv_z_range = max(measured.inv_z_near - measured.inv_z_far, kInvZNearMin);
+  scene.kappa = connectedSteps(measured);
+  scene.deep = deepSteps(measured);
+}
 
 // False, which no compiler knows; differs by `loop`, so that none knows it from the loop around.
 // The head of every loop that lanes leave at its end one after the other: shaders/README.md, Loops.
@@ -92,7 +103,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
     const float front = point.z - facetAtPoint(facet, to_cell, point.xy);
     const bool comes_closer = extent.z < dot(unpackSlopes(facet.y), extent.xy);
     const float error_max =
-        0.5 * connectionTolerance(scene.kappa.x, scene.kappa.y, facetInvZ(facet));
+        0.5 * stepAt(scene.kappa, facetInvZ(facet));
     const float slack = comes_closer ? min(tolerance, error_max) : 0.0;
     if (leaving) {
       if (leads_forward && front <= slack) result.hit_layer = to_layer;
@@ -108,7 +119,7 @@ Crossing meetEdge(Scene scene, uint event, uint layer, Place at, ivec2 direction
       result.far_inv_z = goes_on && !hasFault(kFaultFarSideEnds) ? far : kNoSurface;
       const float near =
           facetAtPoint(loadFacet(scene.layers, layer, scene.extent, at.cell), at.cell, point.xy);
-      const bool is_deep = !crosses || near * (1.0 - kDeepStep) > far;
+      const bool is_deep = !crosses || near - stepAt(scene.deep, near) > far;
       result.far_share = is_deep ? 0.0 : clamp(front / max(near - far, 1e-30), 0.0, 1.0);
     }
     if (!leaving || result.hit_layer != kNoLayer || from == scene.layer_count) break;
@@ -137,7 +148,7 @@ bool reachesAsFar(Scene scene, bool met, float far_inv_z, vec2 mirrored) {
   for (;;) {
     if (isNever(scene, 7u)) break;
     const float inv_z = facetInvZ(loadFacet(scene.layers, layer, scene.extent, inside));
-    reaches = reaches || (is_known && abs(inv_z - far_inv_z) <= kDeepStep * far_inv_z);
+    reaches = reaches || (is_known && abs(inv_z - far_inv_z) <= stepAt(scene.deep, far_inv_z));
     ++layer;
     if (!is_known || reaches || layer == scene.layer_count) break;
   }

@@ -23,6 +23,8 @@ VIEWLOOM_ABI_CONST uint kFaultErrorUnderstated = 6u;  // planes state a quarter 
 VIEWLOOM_ABI_CONST uint kFaultGapPassed = 7u;       // smoothing moves layers through each other
 VIEWLOOM_ABI_CONST uint kFaultApronEmpty = 8u;   // faces of a cube map end at their edges
 VIEWLOOM_ABI_CONST uint kFaultFaceTurned = 9u;   // their neighbours surround them upside down
+// Steps between surfaces are shares of inv_z itself
+VIEWLOOM_ABI_CONST uint kFaultStepsFromInfinity = 10u;
 // In the walk.
 VIEWLOOM_ABI_CONST uint kFaultLayerDropped = 16u;   // only layer 0 is walked
 VIEWLOOM_ABI_CONST uint kFaultPlaneOff = 17u;       // planes are evaluated a px aside

@@ -12,15 +12,18 @@ VIEWLOOM_ABI_CONST uint kDepthMantissaBits = 5u;
 VIEWLOOM_ABI_CONST uint kNoiseMantissaBits = 4u;
 VIEWLOOM_ABI_CONST uint kLeastExponent = 127u - 40u;
 
-// Differences of a few roundings are none: 8 ulp, as a share of inv_z.
+// Differences of a few roundings are none: 8 ulp, as a share of inv_z. Nothing else is a share of
+// inv_z itself: that depends on where infinity lies (shaders/README.md, Steps).
 VIEWLOOM_ABI_CONST float kRoundingShare = 8.0f / 8388608.0f;
 
 // kappa of a source that does not state its own (see shaders/README.md, Links).
 VIEWLOOM_ABI_CONST float kKappaSteps = 1.5f;
 VIEWLOOM_ABI_CONST float kKappaSigmas = 8.0f;
-// A surface is one up to where neighbours differ by a fiftieth of their depth: at a focal length of
-// 1000 px, up to 87 degrees from the image plane. Limbs of smooth bodies are as steep as that.
+// A surface is one up to where neighbours differ by a fiftieth of their distance from the base:
+// limbs of smooth bodies are as steep as that.
 VIEWLOOM_ABI_CONST float kKappaRelative = 0.02f;
+// So far behind the far percentile lies the base of steps, as a share of the range.
+VIEWLOOM_ABI_CONST float kBaseMargin = 1.0f / 3.0f;
 // |second difference| of independent noise: sigma sqrt(1 + 4 + 1), and a median of 0.6745 of that.
 VIEWLOOM_ABI_CONST float kMedianPerSigma = 0.6745f * 2.44949f;
 // Among differences that are not zero, a quantised source has none below its step.
@@ -30,14 +33,15 @@ VIEWLOOM_ABI_CONST float kFarQuantile = 0.02f;
 VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 
 // What is coarse is smoothed (shaders/README.md, Coarse depth).
-// px of disparity between infinity and the near percentile from the outermost eye of a wide cone.
+// px of disparity between the far and the near percentile from the outermost eye of a wide cone.
 VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;
 // Half a step shows when it moves a px by more than the default tolerance of 0.25 px.
 VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
 // Noise shows when its sigma moves a px by more than one.
 VIEWLOOM_ABI_CONST float kShownSigmas = kWideSpan_px;
-// Depth of fewer steps, or of more noise, is none: flat things one behind the other step, too.
-VIEWLOOM_ABI_CONST float kFewestSteps = 32.0f;
+// Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other
+// step, too.
+VIEWLOOM_ABI_CONST float kFewestSteps = 16.0f;
 // Second differences of a surface that is rounded to steps are one or two steps, or 0: the median
 // of those that are not 0 lies no higher than that, by a bin.
 VIEWLOOM_ABI_CONST float kStepsMedian = 2.2f;
@@ -60,31 +64,62 @@ VIEWLOOM_ABI_FUNCTION uint depthBin(float inv_z) {
   return logBin(inv_z, kDepthMantissaBits, kDepthHistogramBinCount);
 }
 
+// The bin of the range histogram; the number of bins outside of the range.
+VIEWLOOM_ABI_FUNCTION uint rangeBin(float inv_z, RangeBounds range) {
+  const float place = (inv_z - range.begin) * range.bins_per_inv_z;
+  const bool is_inside = place >= 0.0f && place <= float(kRangeHistogramBinCount);
+  const uint last = kRangeHistogramBinCount - 1u;
+  return !is_inside ? kRangeHistogramBinCount : uint(place) < last ? uint(place) : last;
+}
+
+// From the bin that holds the far percentile to that of the near one. An offset of all inv_z makes
+// bins of the depth histogram coarse; those of the range histogram stay as fine as the range.
+VIEWLOOM_ABI_FUNCTION RangeBounds rangeBounds(uint far_bin, uint near_bin, uint below_count,
+                                              uint surface_count) {
+  RangeBounds range;
+  range.begin = binStart(far_bin, kDepthMantissaBits);
+  const float width = binStart(near_bin + 1u, kDepthMantissaBits) - range.begin;
+  range.bins_per_inv_z = surface_count == 0u ? 0.0f : float(kRangeHistogramBinCount) / width;
+  range.below_count = below_count;
+  range.surface_count = surface_count;
+  return range;
+}
+
 // Bin 0 also holds 0.
 VIEWLOOM_ABI_FUNCTION uint noiseBin(float difference) {
   return logBin(difference, kNoiseMantissaBits, kNoiseHistogramBinCount);
 }
 
+// inv_z that steps between surfaces are shares from: behind all but the furthest.
+VIEWLOOM_ABI_FUNCTION float baseOfSteps(float inv_z_near, float inv_z_far) {
+  return inv_z_far - kBaseMargin * (inv_z_near - inv_z_far);
+}
+
+// The least step of a rule that is a share of the distance from there: what is further is as far.
+VIEWLOOM_ABI_FUNCTION float leastStep(float share, float inv_z_range) {
+  return share * kBaseMargin * inv_z_range;
+}
+
 // The step that depth may be rounded to; 0 where it is too large for one.
-VIEWLOOM_ABI_FUNCTION float stepOfDepth(float least_difference, float inv_z_near) {
-  return kFewestSteps * least_difference <= inv_z_near ? least_difference : 0.0f;
+VIEWLOOM_ABI_FUNCTION float stepOfDepth(float least_difference, float inv_z_range) {
+  return kFewestSteps * least_difference <= inv_z_range ? least_difference : 0.0f;
 }
 
 // Whether depth is rounded to steps; not where exact surfaces merely end before others.
 // `step_median`: of differences that are not 0.
-VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float inv_z_near) {
-  const float step = stepOfDepth(depth_step, inv_z_near);
+VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float inv_z_range) {
+  const float step = stepOfDepth(depth_step, inv_z_range);
   return step > 0.0f && step_median <= kStepsMedian * step;
 }
 
 // How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped.
 VIEWLOOM_ABI_FUNCTION float smoothingReach(float depth_step, float step_median, float noise_sigma,
-                                           float inv_z_near) {
-  const bool is_stepped = isStepped(depth_step, step_median, inv_z_near);
-  if (is_stepped) return kShownSteps * depth_step > inv_z_near ? 0.5f * depth_step : 0.0f;
+                                           float inv_z_range) {
+  const bool is_stepped = isStepped(depth_step, step_median, inv_z_range);
+  if (is_stepped) return kShownSteps * depth_step > inv_z_range ? 0.5f * depth_step : 0.0f;
   const bool is_noisy = noise_sigma > kStepsOfNoise * depth_step &&
-                        kFewestSteps * noise_sigma <= inv_z_near &&
-                        kShownSigmas * noise_sigma > inv_z_near;
+                        kFewestSteps * noise_sigma <= inv_z_range &&
+                        kShownSigmas * noise_sigma > inv_z_range;
   return is_noisy ? 2.0f * noise_sigma : 0.0f;
 }
 

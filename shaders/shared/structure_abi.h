@@ -85,10 +85,11 @@ VIEWLOOM_ABI_CONST uint kEdgeRight = 1u;
 VIEWLOOM_ABI_CONST uint kEdgeTop = 2u;
 VIEWLOOM_ABI_CONST uint kEdgeBottom = 3u;
 VIEWLOOM_ABI_CONST uint kLinkBits = 3u;
-// The far side of a deep silhouette: beyond it the same layer is nearer by more than kDeepStep, as
-// a share of the nearer inv_z. Two things then, of which a sample beside the edge may show a bit of
-// both; what steps by less may be one that is steep.
+// The far side of a deep silhouette: beyond it the same layer is nearer by more than a deep step.
+// Two things then, of which a sample beside the edge may show a bit of both; what steps by less may
+// be one that is steep.
 VIEWLOOM_ABI_CONST uint kDeepEdge = 7u;
+// A deep step, as a share of the nearer one's distance from MeasuredHead.inv_z_base.
 VIEWLOOM_ABI_CONST float kDeepStep = 0.15f;
 // Beside nothing a far side is looked for at distances that double: up to 128 px away.
 VIEWLOOM_ABI_CONST uint kFarSideProbes = 8u;
@@ -184,6 +185,15 @@ struct BuildPush {
 // Measured by the build.
 VIEWLOOM_ABI_CONST uint kDepthHistogramBinCount = 2048u;  // 32 bins an octave, 2^-40 .. 2^24 1/m
 VIEWLOOM_ABI_CONST uint kNoiseHistogramBinCount = 1024u;  // 16 bins an octave
+VIEWLOOM_ABI_CONST uint kRangeHistogramBinCount = 1024u;  // of equal width, over RangeBounds
+
+// Where the percentiles of inv_z lie, by the bins of the depth histogram.
+struct RangeBounds {
+  float begin;           // 1/m
+  float bins_per_inv_z;  // 0: there is no range
+  uint below_count;      // samples before the begin
+  uint surface_count;    // all samples
+};
 
 struct MeasuredHead {
   uint bad_samples_count;
@@ -192,8 +202,12 @@ struct MeasuredHead {
   uint inv_z_min_bits;  // float bits, over surfaces of all layers
   float depth_step;     // 1/m
   float noise_sigma;    // 1/m
-  float kappa_abs;      // 1/m
+  // Steps between two surfaces, 1/m (shaders/README.md, Steps): the least, and a share of how far
+  // the nearer one is before inv_z_base.
+  float kappa_abs;  // within a surface
   float kappa_rel;
+  float deep_abs;  // between two things; its share is kDeepStep
+  float inv_z_base;
   float inv_z_far;        // 2nd percentile of layer 0, 1/m
   float inv_z_near;       // 98th percentile of layer 0, 1/m
   float smoothing_reach;  // how far smoothing may move a sample, 1/m
@@ -202,12 +216,14 @@ struct MeasuredHead {
   // fine.
   uvec3 long_groups;
   uvec3 short_groups;
+  RangeBounds range;
 };
 
 struct Measured {
   MeasuredHead head;
   uint depth_histogram[kDepthHistogramBinCount];  // of inv_z, layer 0
   uint noise_histogram[kNoiseHistogramBinCount];  // of second differences of inv_z, layer 0
+  uint range_histogram[kRangeHistogramBinCount];  // of inv_z between both percentiles, layer 0
 };
 
 // What a colour plane holds on the device.
@@ -240,7 +256,7 @@ struct ConvertColorPush {
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
 static_assert(sizeof(BuildPush) == 108);
-static_assert(offsetof(Measured, noise_histogram) == 72 + 4 * kDepthHistogramBinCount);
+static_assert(offsetof(Measured, noise_histogram) == 96 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 48);
 #endif
 

@@ -41,7 +41,7 @@ void addLinks(inout RowLinks links, uint edge, EdgeLinks across) {
 }
 
 // Edges between the columns of a row, and those beside it.
-void linkColumns(inout RowLinks links, FacetRow row, FacetRow left, FacetRow right, vec2 kappa) {
+void linkColumns(inout RowLinks links, FacetRow row, FacetRow left, FacetRow right, Steps steps) {
   const EdgeSide here = sideOf(row, vec2(0.5, 0.0));
   const EdgeSide own_left = sideOf(row, vec2(-0.5, 0.0));
   const EdgeSide beyond = sideOf(right, vec2(-0.5, 0.0));
@@ -55,10 +55,10 @@ void linkColumns(inout RowLinks links, FacetRow row, FacetRow left, FacetRow rig
   }
   EdgeLinks to_right;
   EdgeLinks to_left;
-  linkAcross(here, there, kappa, to_right, to_left);
+  linkAcross(here, there, steps, to_right, to_left);
   EdgeLinks first_to_left;
   EdgeLinks unused;
-  linkAcross(first, sideOf(left, vec2(0.5, 0.0)), kappa, first_to_left, unused);
+  linkAcross(first, sideOf(left, vec2(0.5, 0.0)), steps, first_to_left, unused);
   for (uint i = 0u; i < kLayerCount; ++i) {
     to_left.link[i] = uvec4(first_to_left.link[i].x, to_left.link[i].xyz);
     to_left.forward_high[i] = vec4(first_to_left.forward_high[i].x, to_left.forward_high[i].xyz);
@@ -121,7 +121,7 @@ uvec2 planeOrBox(Extent extent, uint layer, ivec2 origin, PlaneFit fit, vec2 box
   if (hasFault(kFaultErrorUnderstated)) error *= 0.25;
   const uint code = errorCode(error);
   const float kappa =
-      connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, inv_z_min);
+      stepAt(connectedSteps(measured_head), inv_z_min);
   if (fitted_center >= 0.0 && error <= kErrorMax && errorOfCode(code) <= 0.5 * kappa) {
     return packPlane(kLevelFirst, center, slope, code);
   }
@@ -186,7 +186,7 @@ void main() {
   const ivec2 origin = ivec2(cell) * kBlockPx;
   if (origin.x >= int(push.width_px)) return;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
-  const vec2 kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
+  const Steps steps = Steps(connectedSteps(measured_head), deepSteps(measured_head));
   const ivec2 covered = min(extent.size_px - origin, ivec2(kBlockPx));
   const vec4 columns = vec4(lessThan(ivec4(0, 1, 2, 3), ivec4(covered.x)));
   const bool has_right = origin.x + kBlockPx < extent.size_px.x;
@@ -206,7 +206,7 @@ void main() {
     const FacetRow here = loadRow(push.layers, extent, pixel, exists);
     EdgeLinks to_below;
     EdgeLinks to_above;
-    linkAcross(sideOf(above, vec2(0.0, 0.5)), sideOf(here, vec2(0.0, -0.5)), kappa, to_below,
+    linkAcross(sideOf(above, vec2(0.0, 0.5)), sideOf(here, vec2(0.0, -0.5)), steps, to_below,
                to_above);
     addLinks(links_above, kEdgeBottom, to_below);
     for (uint i = 0u; i < kLayerCount; ++i) {
@@ -223,7 +223,7 @@ void main() {
     const FacetRow left = loadOne(push.layers, extent, pixel - ivec2(1, 0), exists && origin.x > 0);
     const FacetRow right =
         loadOne(push.layers, extent, pixel + ivec2(kBlockPx, 0), exists && has_right);
-    linkColumns(links_above, here, left, right, kappa);
+    linkColumns(links_above, here, left, right, steps);
     above = here;
     ++row;
   } while (row <= kBlockPx);

@@ -58,7 +58,7 @@ void main() {
     error += box.y * (8.0 / 8388608.0);
     const uint code = errorCode(error);
     const float kappa =
-        connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, box.x);
+        stepAt(connectedSteps(measured_head), box.x);
     if (fitted_center >= 0.0 && error <= kErrorMax && errorOfCode(code) <= 0.5 * kappa) {
       node = packPlane(push.level, center, slope, code);
     }

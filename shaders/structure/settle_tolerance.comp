@@ -4,25 +4,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "lib/fault.glsl"
 #include "lib/memory.glsl"
 #include "shared/histogram.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
-float depthQuantile(MeasuredRef measured, float count, float share) {
-  const float wanted = share * count;
-  float below = 0.0;
-  for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
-    const float here = float(measured.value.depth_histogram[bin]);
+// Within its bin as if samples were spread evenly.
+float depthQuantile(MeasuredRef measured, float share) {
+  const RangeBounds range = measured.value.head.range;
+  const float wanted = share * float(range.surface_count);
+  if (wanted <= float(measured.value.depth_histogram[0])) return 0.0;
+  float below = float(range.below_count);
+  for (uint bin = 0u; bin < kRangeHistogramBinCount; ++bin) {
+    const float here = float(measured.value.range_histogram[bin]);
     if (here > 0.0 && below + here >= wanted) {
-      const float start = binStart(bin, kDepthMantissaBits);
-      const float end = binStart(bin + 1u, kDepthMantissaBits);
-      return bin == 0u ? 0.0 : mix(start, end, clamp((wanted - below) / here, 0.0, 1.0));
+      return range.begin + (float(bin) + max(wanted - below, 0.0) / here) / range.bins_per_inv_z;
     }
     below += here;
   }
-  return 0.0;
+  return range.begin + float(kRangeHistogramBinCount) / range.bins_per_inv_z;
 }
 
 // The end of the bin that holds the quantile, counted from bin `first`; without so many zeros.
@@ -39,22 +41,14 @@ float noiseQuantile(MeasuredRef measured, uint first, float zero_count, float sh
   return 0.0;
 }
 
-float surfaceCount(MeasuredRef measured) {
-  uint count = 0u;
-  for (uint bin = 0u; bin < kDepthHistogramBinCount; ++bin) {
-    count += measured.value.depth_histogram[bin];
-  }
-  return float(count);
-}
-
 // Smoothing, where depth is so coarse that it shows.
-float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_near) {
+float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_range) {
   const float step_median = noiseQuantile(measured, 1u, 0.0, 0.5);
   // The sky is neither rounded nor noisy.
   const float sky_count =
       min(float(measured.value.depth_histogram[0]), float(measured.value.noise_histogram[0]));
   const float noise_sigma = noiseQuantile(measured, 0u, sky_count, 0.5) / kMedianPerSigma;
-  const float reach = smoothingReach(depth_step, step_median, noise_sigma, inv_z_near);
+  const float reach = smoothingReach(depth_step, step_median, noise_sigma, inv_z_range);
   const uint first_pass = firstSmoothingPass(depth_step, noise_sigma);
   const uint blocks_x = (push.width_px + uint(kBlockPx) - 1u) / uint(kBlockPx);
   const uvec3 groups = uvec3((blocks_x + kNodeGroupSize - 1u) / kNodeGroupSize,
@@ -69,18 +63,24 @@ float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_near) 
 
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
-  const float surface_count = surfaceCount(measured);
-  const float inv_z_near = depthQuantile(measured, surface_count, kNearQuantile);
+  const float inv_z_near = depthQuantile(measured, kNearQuantile);
+  const float inv_z_far = depthQuantile(measured, kFarQuantile);
+  const float inv_z_range = inv_z_near - inv_z_far;
   const float depth_step =
-      stepOfDepth(noiseQuantile(measured, 1u, 0.0, kStepQuantile), inv_z_near);
+      stepOfDepth(noiseQuantile(measured, 1u, 0.0, kStepQuantile), inv_z_range);
   const float noise_sigma = max(noiseQuantile(measured, 0u, 0.0, 0.5) / kMedianPerSigma,
-                                settleSmoothing(measured, depth_step, inv_z_near));
+                                settleSmoothing(measured, depth_step, inv_z_range));
   const float given = push.given_kappa;
   measured.value.head.depth_step = depth_step;
   measured.value.head.noise_sigma = noise_sigma;
+  const float least = max(leastStep(kKappaRelative, inv_z_range), kRoundingShare * inv_z_near);
   measured.value.head.kappa_abs =
-      given > 0.0 ? given : max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma);
+      given > 0.0 ? given
+                  : max(least, max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma));
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  measured.value.head.inv_z_far = depthQuantile(measured, surface_count, kFarQuantile);
+  measured.value.head.deep_abs = leastStep(kDeepStep, inv_z_range);
+  measured.value.head.inv_z_base =
+      hasFault(kFaultStepsFromInfinity) ? 0.0 : baseOfSteps(inv_z_near, inv_z_far);
+  measured.value.head.inv_z_far = inv_z_far;
   measured.value.head.inv_z_near = inv_z_near;
 }

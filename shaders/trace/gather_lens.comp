@@ -67,7 +67,7 @@ bool isOwnSurface(uint layer, Extent extent, ivec2 cell, vec2 at, float inv_z) {
   if (layer == 0u) return true;
   const uvec2 front = loadFacet(push.layers, layer - 1u, extent, cell);
   const float apart =
-      connectionTolerance(measured_head.kappa_abs, measured_head.kappa_rel, inv_z);
+      stepAt(connectedSteps(measured_head), inv_z);
   return facetAtPoint(front, cell, at) - inv_z > apart;
 }
 
@@ -137,7 +137,7 @@ vec3 exactLight(Scene scene, ViewParams view, LensRay lens_ray, Nearest met) {
   if (ray.t_begin >= ray.t_end) return vec3(-1.0);
   const vec2 end_px = is_met ? vec2(met.cell) + 0.5 : (ray.start + ray.extent).xy;
   const float bound = startBound(scene, min(ray.start.xy, end_px), max(ray.start.xy, end_px));
-  const float apart = connectionTolerance(scene.kappa.x, scene.kappa.y, met.inv_z);
+  const float apart = stepAt(scene.kappa, met.inv_z);
   if (is_met && bound <= met.inv_z + apart) return lightOf(met, scene.extent);
   return lightOfWalk(scene, view, ray, bound);
 }
@@ -161,10 +161,8 @@ Scene sceneOf(GatherPush given) {
   scene.layers = given.layers;
   scene.layer_count = given.layer_count;
   scene.extent = makeExtent(ivec2(sizeOf(given.source_size_px)));
-  scene.inv_z_near =
-      max(uintBitsToFloat(measured_head.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
   scene.fills_border = (given.fill & kFillBorder) != 0u;
-  scene.kappa = vec2(measured_head.kappa_abs, measured_head.kappa_rel);
+  addMeasured(scene, measured_head);
   return scene;
 }
 

@@ -59,7 +59,7 @@ void goOn(Scene scene, Pinhole pinhole, Spot spot, Mirror mirror, Path came, uve
   const vec2 place = samplePlace(push.sample_index, path.sample_count, push.bounce, px,
                                  extras.sample_index);
   turn(mirror, spot, pinhole, place, came);
-  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);
+  const float kappa = stepAt(scene.kappa, spot.point.z);
   path.is_on = 1u;
   path.is_bent = came.is_bent ? 1u : 0u;
   path.walk = settings.walk;

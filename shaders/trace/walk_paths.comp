@@ -63,7 +63,7 @@ Beginning beginBeside(Scene scene, Pinhole pinhole, ReflectedPath path, vec3 dir
   if (!is_seen || from.z <= 0.0) return elsewhere;
   const vec3 point = vec3(from.xy, 1.0) / from.z;
   const Spot spot = spotAt(scene, point);
-  const float kappa = connectionTolerance(scene.kappa.x, scene.kappa.y, spot.point.z);
+  const float kappa = stepAt(scene.kappa, spot.point.z);
   const float apart = min(max(kappa, path.apart_m * point.z * point.z),
                           kToleranceShareMax * point.z);
   const uvec2 facet = loadFacet(scene.layers, spot.layer, scene.extent, spot.cell);

@@ -97,7 +97,7 @@ layout(set = 0, binding = kBindingUnfinished, scalar) buffer Unfinished {
 #include "lib/walk.glsl"
 #include "lib/walk_tasks.glsl"
 
-Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
+Seen seenOf(Scene scene, Ray ray, Walk walk, Light light, vec3 background) {
   const vec2 px_per_inv_z = ray.extent.xy / (ray.extent.z == 0.0 ? 1.0 : ray.extent.z);
   Seen seen;
   seen.color = light.is_known ? light.color.rgb : background;
@@ -106,7 +106,7 @@ Seen seenOf(Ray ray, Walk walk, Light light, vec3 background) {
   seen.layer = walk.layer;
   seen.at_sky = ray.start.xy - ray.start.z * px_per_inv_z;
   seen.px_per_inv_z = px_per_inv_z;
-  seen.clean = cleanShare(ray).x;
+  seen.clean = cleanShare(scene, ray).x;
   return seen;
 }
 
@@ -145,7 +145,7 @@ Traced traceRay(Scene scene, ViewParams view, vec2 tile_px, vec3 near_eye, float
     light = opaqueLight(scene, ray, walk);
   traced.ray = ray;
   traced.walk = walk;
-  traced.seen = seenOf(ray, walk, light, background);
+  traced.seen = seenOf(scene, ray, walk, light, background);
   traced.is_known = light.is_known;
   return traced;
 }

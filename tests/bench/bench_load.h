@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "frame/surface_steps.h"
 #include "trace/trace_job.h"
 
 namespace viewloom::bench {
@@ -17,10 +18,7 @@ struct LoadSource {
   SizePx size_px;
   std::vector<std::vector<float>> inv_z;    // 1/m; kNoSurface where there is none; 0 is the sky
   std::vector<std::vector<uint32_t>> rgba;  // sRGB, red in the low byte
-  // Two neighbours are one surface when they are no further apart than
-  // max(kappa_abs, kappa_rel * the nearer): what viewloom's build settled on, 1/m.
-  float kappa_abs = 0;
-  float kappa_rel = 0;
+  StepRule kappa;       // largest step within a surface, as viewloom's build settled it
   float inv_z_max = 0;  // of all layers
 };
 

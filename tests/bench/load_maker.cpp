@@ -23,8 +23,9 @@ LoadSource sourceOf(const Frame& frame, const StructureImage& image,
   LoadSource source{.size_px = frame.format.sources.front().layers.front().depth.size_px,
                     .inv_z = {},
                     .rgba = {},
-                    .kappa_abs = measured.kappa_abs,
-                    .kappa_rel = measured.kappa_rel,
+                    .kappa = {.least = measured.kappa_abs,
+                              .share = measured.kappa_rel,
+                              .from = measured.inv_z_base},
                     .inv_z_max = float(inv_z_max)};
   for (const LayerImage& layer : image.layers) source.inv_z.push_back(layer.inv_z);
   for (const LayerPlanes& planes : frame.sources.front()) {

@@ -3,6 +3,7 @@
 // they are. The data lies beside the source tree; without it the tests are skipped.
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -94,6 +95,22 @@ TEST_F(FidelityTest, ofCoarseDepthMakesMoreThanTheCutMesh) {
       EXPECT_GT(score(set, view, "viewloom", pixel_class),
                 score(set, view, "cut mesh", pixel_class))
           << set << ", " << pixel_class;
+    }
+  }
+}
+
+// The same pictures, of a source in which infinity lies elsewhere.
+TEST_F(FidelityTest, doesNotDependOnWhereInfinityLies) {
+  constexpr double kChange_max_db = 0.1;
+  for (const char* shift : {"-0.04", "0.2", "10"}) {
+    const std::string shifted = std::string("antinous, 1/Z + ") + shift;
+    for (const Json& each : reports().at(shifted).at("views")) {
+      const auto name = each.at("view").get<std::string>();
+      for (const char* pixel_class : {"covered", "all", "hidden"}) {
+        EXPECT_NEAR(score(shifted.c_str(), name.c_str(), "viewloom", pixel_class),
+                    score("antinous", name.c_str(), "viewloom", pixel_class), kChange_max_db)
+            << shifted << ", view " << name << ", " << pixel_class;
+      }
     }
   }
 }

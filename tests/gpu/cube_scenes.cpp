@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "gpu/walk_under_test.h"
 #include "oracle/smooth_planes.h"
 
 namespace viewloom {
@@ -123,7 +124,7 @@ oracle::OracleCube oracleOf(const oracle::Scene& cube,
                                                  .step = float(stats.depth_step),
                                                  .sigma = float(stats.noise_sigma)});
     result.nearest_inv_z.push_back(stats.inv_z_max);
-    result.kappas.push_back({float(stats.connection_tolerance), cube.kappa.relative});
+    result.kappas.push_back(kappaOf(cube, stats));
   }
   const oracle::FacePlanes whole = oracle::withAprons(kept);
   for (size_t face = 0; face < size_t{kFaceCount}; ++face) {

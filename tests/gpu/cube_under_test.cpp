@@ -39,8 +39,7 @@ JudgedCube judgeCube(SourcesUnderTest& tracer, uint64_t seed) {
   JudgedCube judged;
   WalkUnderTest reader(tracer.device());
   for (size_t face = 0; face < size_t{kFaceCount}; ++face) {
-    StructureImage image = reader.readBack(*tracer.structure().parts()[face]);
-    image.kappa_rel = scene.kappa.relative;
+    const StructureImage image = reader.readBack(*tracer.structure().parts()[face]);
     judged.complaints.add(checkStructure(image, cube.faces[face]));
   }
   const auto views = viewsAround(random);

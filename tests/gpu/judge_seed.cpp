@@ -26,8 +26,7 @@ JudgedSeed judgeSeed(WalkUnderTest& walk, uint64_t seed) {
   const oracle::Scene scene = oracle::randomScene(seed);
   const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
   const oracle::OracleSource source = sourceOf(scene, *slot);
-  StructureImage image = walk.readBack(*slot);
-  image.kappa_rel = scene.kappa.relative;
+  const StructureImage image = walk.readBack(*slot);
 
   const double tolerance_px = kTolerances_px[seed % 3];
   oracle::Random random(seed);

@@ -247,9 +247,7 @@ void checkPlanes(const StructureImage& structure, const OracleSource& source,
                  const oracle::Facet& facet = source.facet({place.layer, column, row});
                  largest = std::max(largest, boundsOf(facet).high);
                });
-               const double kappa =
-                   std::max(double(structure.kappa_abs), double(structure.kappa_rel) * largest);
-               if (double(node.error) > 0.5 * kappa) {
+               if (double(node.error) > 0.5 * source.kappa().at(largest)) {
                  complaints.add("a plane states more than kappa / 2", place.name());
                }
              });

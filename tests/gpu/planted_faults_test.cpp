@@ -31,8 +31,7 @@ void lookAtScene(WalkUnderTest& walk, const oracle::Scene& scene,
                  Findings& findings) {
   const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(scene));
   const oracle::OracleSource source = sourceOf(scene, *slot);
-  StructureImage image = walk.readBack(*slot);
-  image.kappa_rel = scene.kappa.relative;
+  const StructureImage image = walk.readBack(*slot);
   findings.complaints.add(checkStructure(image, source));
   findings.verdict.add(judgeViews(walk, *slot, source, views, kTolerance_px, name).verdict);
 }
@@ -112,25 +111,26 @@ TEST_P(PlantedFaultTest, isFound) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, PlantedFaultTest,
-    testing::Values(PlantedFault{abi::kFaultSlopeSign, "slopeSign", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultCrossLinks, "crossLinks", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultHoleIsSurface, "holeIsSurface", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultBoxTooSmall, "boxTooSmall", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultChildForgotten, "childForgotten", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultErrorUnderstated, "errorUnderstated",
-                                 FoundBy::kStructure},
-                    PlantedFault{abi::kFaultGapPassed, "gapPassed", FoundBy::kStructure},
-                    PlantedFault{abi::kFaultSlopeSign, "slopeSignInTheWalk", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultCrossLinks, "crossLinksInTheWalk", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultLayerDropped, "layerDropped", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultPlaneOff, "planeOff", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultNeverClimbs, "neverClimbs", FoundBy::kVisits},
-                    PlantedFault{abi::kFaultBehindIsHit, "behindIsHit", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultLinks, "links", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultEntryInFront, "entryInFront", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultFarSideEnds, "farSideEnds", FoundBy::kWalk},
-                    PlantedFault{abi::kFaultFarSideEndless, "farSideEndless", FoundBy::kWalk}),
+    testing::Values(
+        PlantedFault{abi::kFaultSlopeSign, "slopeSign", FoundBy::kStructure},
+        PlantedFault{abi::kFaultCrossLinks, "crossLinks", FoundBy::kStructure},
+        PlantedFault{abi::kFaultHoleIsSurface, "holeIsSurface", FoundBy::kStructure},
+        PlantedFault{abi::kFaultBoxTooSmall, "boxTooSmall", FoundBy::kStructure},
+        PlantedFault{abi::kFaultChildForgotten, "childForgotten", FoundBy::kStructure},
+        PlantedFault{abi::kFaultErrorUnderstated, "errorUnderstated", FoundBy::kStructure},
+        PlantedFault{abi::kFaultGapPassed, "gapPassed", FoundBy::kStructure},
+        PlantedFault{abi::kFaultStepsFromInfinity, "stepsFromInfinity", FoundBy::kStructure},
+        PlantedFault{abi::kFaultSlopeSign, "slopeSignInTheWalk", FoundBy::kWalk},
+        PlantedFault{abi::kFaultCrossLinks, "crossLinksInTheWalk", FoundBy::kWalk},
+        PlantedFault{abi::kFaultLayerDropped, "layerDropped", FoundBy::kWalk},
+        PlantedFault{abi::kFaultPlaneOff, "planeOff", FoundBy::kWalk},
+        PlantedFault{abi::kFaultNeverClimbs, "neverClimbs", FoundBy::kVisits},
+        PlantedFault{abi::kFaultBehindIsHit, "behindIsHit", FoundBy::kWalk},
+        PlantedFault{abi::kFaultLinks, "links", FoundBy::kWalk},
+        PlantedFault{abi::kFaultEntryInFront, "entryInFront", FoundBy::kWalk},
+        PlantedFault{abi::kFaultErrorIgnored, "errorIgnored", FoundBy::kWalk},
+        PlantedFault{abi::kFaultFarSideEnds, "farSideEnds", FoundBy::kWalk},
+        PlantedFault{abi::kFaultFarSideEndless, "farSideEndless", FoundBy::kWalk}),
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 class NoFaultTest : public GpuTest {};

@@ -249,8 +249,7 @@ TEST_F(RgbdViewsTest, showsTheSecondLayerBelowTheFirst) {
   for (uint32_t y = 0; y < kSource_px.height; ++y) {
     for (uint32_t x = 0; x < kSource_px.width; ++x) {
       const float behind_inv_z = source_.rowSource().columns->row(1, int(y))[x];
-      const float kappa = std::max(float(source_.measured().stats.connection_tolerance),
-                                   abi::kKappaRelative * sentInvZ(x, y));
+      const float kappa = source_.measured().steps.kappa.at(sentInvZ(x, y));
       const bool is_behind = behind_inv_z >= 0 && sentInvZ(x, y) - behind_inv_z > kappa;
       const double inv_z = double{is_behind ? behind_inv_z : sentInvZ(x, y)};
       const uint32_t at = y * kSource_px.width + x;

@@ -23,8 +23,7 @@ class SmallBindingsTest : public DeviceNeededTest {
       EXPECT_TRUE(slot->writesByAddress());
       EXPECT_EQ(slot->readsByAddress(), reads_by_address);
       const oracle::OracleSource source = sourceOf(scene, *slot);
-      StructureImage image = walk.readBack(*slot);
-      image.kappa_rel = scene.kappa.relative;
+      const StructureImage image = walk.readBack(*slot);
       const Complaints complaints = checkStructure(image, source);
       EXPECT_TRUE(complaints.empty()) << scene.name << "\n" << complaints.text();
       const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);

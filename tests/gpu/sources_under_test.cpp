@@ -71,7 +71,7 @@ class OraclesOfScenes {
     } else {
       const StructureSlot& slot = *parts.front();
       source.source = &sources_.emplace_back(sourceOf(scene, slot));
-      source.kappa = {float(slot.stats().connection_tolerance), scene.kappa.relative};
+      source.kappa = kappaOf(scene, slot.stats());
     }
     posed_.push_back(source);
   }

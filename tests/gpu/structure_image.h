@@ -40,8 +40,6 @@ struct LayerImage {
 struct StructureImage {
   int width = 0;
   int height = 0;
-  float kappa_abs = 0;  // 1/m
-  float kappa_rel = 0;
   std::vector<LayerImage> layers;
 };
 

@@ -31,8 +31,7 @@ class StructureTest : public GpuTest {
 
   Complaints check(const oracle::Scene& scene) {
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
-    StructureImage image = walk_.readBack(*slot);
-    image.kappa_rel = scene.kappa.relative;
+    const StructureImage image = walk_.readBack(*slot);
     return checkStructure(image, sourceOf(scene, *slot));
   }
 

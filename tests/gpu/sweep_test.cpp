@@ -120,7 +120,7 @@ TEST(Sweep, staysOnSurfacesThatRaysGraze) {
     SweepUnderTest sweep;
     sweep.prepare(frameOf(scene));
     RowSource source = sweep.source().rowSource();
-    source.kappa = {.absolute = 0, .relative = 0.02F};
+    source.steps.kappa = {.least = 0, .share = 0.02F};
     const SurfaceRow& row = builder.build(source, 0.5, float(0.1 / eye_px_m), float(eye_px_m));
     swept.reserve(kViewWidth, row.pieceCountMax());
     float eye = float(eye_px_m);

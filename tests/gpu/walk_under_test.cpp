@@ -143,9 +143,14 @@ oracle::OracleSource sourceOf(const oracle::Scene& scene, const SourceStats& sta
   const oracle::Coarseness coarseness = {.reach = float(stats.smoothing_reach),
                                          .step = float(stats.depth_step),
                                          .sigma = float(stats.noise_sigma)};
-  return {oracle::smoothedPlanes(oracle::canonicalPlanes(scene.planes), coarseness),
-          scene.pinhole,
-          {float(stats.connection_tolerance), scene.kappa.relative}};
+  return {oracle::smoothedPlanes(oracle::canonicalPlanes(scene.planes), coarseness), scene.pinhole,
+          kappaOf(scene, stats)};
+}
+
+oracle::ConnectionTolerance kappaOf(const oracle::Scene& scene, const SourceStats& stats) {
+  return {.absolute = float(stats.connection_tolerance),
+          .relative = scene.kappa.relative,
+          .range = {.near = float(stats.inv_z_near), .far = float(stats.inv_z_far)}};
 }
 
 std::vector<TracedView> splitByView(const AtlasLayout& layout,
@@ -206,9 +211,7 @@ std::vector<Element> WalkUnderTest::read(const LayeredBuffer& arrays, uint32_t l
 
 StructureImage WalkUnderTest::readBack(const StructureSlot& slot) {
   const StructureLayout& layout = slot.layout();
-  StructureImage image{.width = int(layout.size_px.width),
-                       .height = int(layout.size_px.height),
-                       .kappa_abs = float(slot.stats().connection_tolerance)};
+  StructureImage image{.width = int(layout.size_px.width), .height = int(layout.size_px.height)};
   for (uint32_t index = 0; index < slot.shape().layerCount(); ++index) {
     const std::vector<PackedPair> cells = read<PackedPair>(slot.structure(), index);
     LayerImage& layer = image.layers.emplace_back();

@@ -36,6 +36,9 @@ TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px
 // What the oracle sees of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);
 
+// The connection tolerance that a build settled on.
+oracle::ConnectionTolerance kappaOf(const oracle::Scene& scene, const SourceStats& stats);
+
 // The same with what was measured otherwise.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const SourceStats& stats);
 

@@ -103,8 +103,7 @@ double surfaceError(const OracleSource& source, const MirrorSpot& spot, const gl
                     const MirrorTolerance& tolerance) {
   const double cross =
       glm::length(glm::cross(lineOfSight(source.pinhole(), spot.x_px, spot.y_px), eye_m));
-  const double kappa =
-      std::max(double{source.kappa().absolute}, double{source.kappa().relative} * spot.inv_z);
+  const double kappa = source.kappa().at(spot.inv_z);
   const double seen = cross > 0 ? std::min(tolerance.moved_rad / cross, 0.5 * kappa) : 0.5 * kappa;
   return seen + tolerance.measured + tolerance.rounding;
 }

@@ -12,8 +12,6 @@ namespace viewloom::oracle {
 namespace {
 
 constexpr int kSlopeSignificantBits = 8;
-// Of the nearer inv_z: surfaces that are further apart are two things.
-constexpr float kDeepStep = 0.15F;
 constexpr int kSmallestSlopeExponent = -100;
 
 float minmod(float a, float b) {
@@ -22,6 +20,20 @@ float minmod(float a, float b) {
 }
 
 }  // namespace
+
+float ShownRange::deepStep(float nearer) const {
+  constexpr float kShare = 0.15F;
+  const float least = kShare * (1.0F / 3.0F) * (near - far);
+  return std::max(least, kShare * (nearer - base()));
+}
+
+float ConnectionTolerance::at(float nearer) const {
+  return std::max(absolute, relative * (nearer - range.base()));
+}
+
+double ConnectionTolerance::at(double nearer) const {
+  return std::max(double{absolute}, double{relative} * (nearer - double{range.base()}));
+}
 
 InvZPlanes makePlanes(int width, int height, int layer_count) {
   const size_t count = size_t(width) * size_t(height) * size_t(layer_count);
@@ -134,8 +146,7 @@ float OracleSource::invZAtEdge(const FacetAt& at, const FacetAt& towards) const 
 bool OracleSource::mayBeLinked(const FacetAt& a, const FacetAt& b) const {
   const float at_a = invZAtEdge(a, b);
   const float at_b = invZAtEdge(b, a);
-  const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(at_a, at_b));
-  return std::abs(at_a - at_b) <= kappa;
+  return std::abs(at_a - at_b) <= kappa_.at(std::max(at_a, at_b));
 }
 
 // Of the facets in the column of `towards`, the one nearest to `from` at the shared edge among
@@ -177,7 +188,8 @@ bool OracleSource::isSilhouette(const FacetAt& at, const FacetAt& towards) const
 
 bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
   if (!exists(far) || !exists(near) || !isSilhouette(far, near)) return false;
-  return invZAtEdge(near, far) * (1.0F - kDeepStep) > invZAtEdge(far, near);
+  const float near_inv_z = invZAtEdge(near, far);
+  return near_inv_z - kappa_.range.deepStep(near_inv_z) > invZAtEdge(far, near);
 }
 
 bool OracleSource::knownBehind(const FacetAt& far, const FacetAt& near) const {
@@ -188,8 +200,7 @@ bool OracleSource::knownBehind(const FacetAt& far, const FacetAt& near) const {
     const FacetAt deeper{layer, near.column, near.row};
     if (!exists(deeper)) continue;
     const float inv_z = invZAtEdge(deeper, far);
-    const float kappa = std::max(kappa_.absolute, kappa_.relative * std::max(inv_z, far_inv_z));
-    if (inv_z - far_inv_z <= kappa) return true;
+    if (inv_z - far_inv_z <= kappa_.at(std::max(inv_z, far_inv_z))) return true;
   }
   return false;
 }
@@ -202,7 +213,8 @@ bool OracleSource::reachesAsFar(double far_inv_z, glm::dvec2 passed_px, glm::dve
   for (int layer = 0; layer < layerCount(); ++layer) {
     const FacetAt at{layer, int(mirrored.x), int(mirrored.y)};
     if (!exists(at)) continue;
-    if (std::abs(double{facet(at).inv_z} - far_inv_z) <= double{kDeepStep} * far_inv_z) return true;
+    const double deep_step = kappa_.range.deepStep(float(far_inv_z));
+    if (std::abs(double{facet(at).inv_z} - far_inv_z) <= deep_step) return true;
   }
   return false;
 }

@@ -43,10 +43,27 @@ constexpr float kRelativeStepF32 = 0x1p-22f;
 // Sorts every column, drops surfaces within the depth step of the last one kept, closes gaps.
 InvZPlanes canonicalPlanes(const InvZPlanes& planes, float relative_step = kRelativeStepF32);
 
-// kappa(a, b) = max(absolute, relative * max(a, b)), 1/m.
+// Percentiles of layer 0, 1/m, from which shares of 1/Z are counted: the base lies a third of the
+// range behind the far one.
+struct ShownRange {
+  float near = 0;
+  float far = 0;
+
+  float base() const { return far - (1.0F / 3.0F) * (near - far); }
+  // Surfaces that are further apart are two things: 15 % of the nearer one's distance from the
+  // base.
+  float deepStep(float nearer) const;
+};
+
+// kappa(a, b) = max(absolute, relative * (max(a, b) - the base of the range)), 1/m.
 struct ConnectionTolerance {
   float absolute = 0;
   float relative = 0;
+  ShownRange range;
+
+  // In binary32, as the structure decides, and as is measured afterwards.
+  float at(float nearer) const;
+  double at(double nearer) const;
 };
 
 // Names a facet: a layer of a column. layer -1 names none.
@@ -92,7 +109,7 @@ class OracleSource {
   bool linked(const FacetAt& a, const FacetAt& b) const;
 
   // Whether `far` is the far side of a deep silhouette towards the column of `near`, of the same
-  // layer: linked to nothing there, and further away by more than 15 % of the nearer inv_z.
+  // layer: linked to nothing there, and further away by more than a deep step.
   bool deepBehind(const FacetAt& far, const FacetAt& near) const;
 
   // Whether a deeper layer of the column of `near` holds at the edge what is as far back as `far`,
@@ -101,8 +118,8 @@ class OracleSource {
   bool knownBehind(const FacetAt& far, const FacetAt& near) const;
 
   // Whether the far side that a ray passed behind at one point of the image, px, is taken to go on
-  // to another: the column mirrored there holds, in some layer, a surface within 15 % of it, or
-  // lies beyond the image.
+  // to another: the column mirrored there holds, in some layer, a surface within a deep step of it,
+  // or lies beyond the image.
   bool reachesAsFar(double far_inv_z, glm::dvec2 passed_px, glm::dvec2 met_px) const;
 
  private:

@@ -36,8 +36,7 @@ double planeErrorAt(const SeenFacets& facets, const ViewRay& seen,
     const glm::dvec3 from_eye = sight - inv_z * seen.ray.origin_m;
     const double turn =
         glm::length(glm::cross(sight, seen.ray.origin_m)) / glm::dot(from_eye, from_eye);
-    const double half_kappa =
-        0.5 * std::max<double>(facets.kappa.absolute, facets.kappa.relative * inv_z);
+    const double half_kappa = 0.5 * facets.kappa.at(inv_z);
     error = std::max(error, turn > 0 ? std::min(half_kappa, output_px * px / turn) : half_kappa);
   }
   return error;

@@ -151,7 +151,7 @@ SourceAnswer sourceAnswer(const TracedSource& traced) {
   result.view_inv_z = depth_m > 0 ? 1 / depth_m : kInfinity;
   // Source metres in depth for each of the view's.
   const double depths = hit.inv_z > 0 ? 1 / (hit.inv_z * depth_m) : -ray.direction.z;
-  const double kappa = std::max<double>(kappas.absolute, kappas.relative * hit.inv_z);
+  const double kappa = kappas.at(hit.inv_z);
   result.tolerance = std::min(kappa * depths * depths, kToleranceShareMax * result.view_inv_z);
   const glm::dvec3 sight = lineOfSight(source.pinhole(), hit.x_px, hit.y_px);
   const double angle = angleBetween(sight, sight - hit.inv_z * ray.origin_m);

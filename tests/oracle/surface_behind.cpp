@@ -9,8 +9,7 @@ namespace viewloom::oracle {
 OracleAnswer behindFirst(const OracleSource& source, OracleAnswer answer) {
   if (answer.hits.empty()) return answer;
   const OracleHit first = answer.hits.front();
-  const ConnectionTolerance& kappa = source.kappa();
-  const double apart = std::max(double{kappa.absolute}, double{kappa.relative} * first.inv_z);
+  const double apart = source.kappa().at(first.inv_z);
   const auto behind = std::find_if(answer.hits.begin(), answer.hits.end(), [&](const auto& hit) {
     return std::abs(hit.inv_z - first.inv_z) > apart;
   });

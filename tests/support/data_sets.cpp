@@ -109,6 +109,13 @@ absl::StatusOr<DataSet> loadAntinous(const std::filesystem::path& data) {
   return set;
 }
 
+DataSet shifted(DataSet set, double inv_z) {
+  set.inv_z_in_focus += inv_z;
+  v1::DepthFormat& format = *set.depth.mutable_depth();
+  format.set_offset(format.offset() + inv_z);
+  return set;
+}
+
 Camera sourceCamera(const DataSet& set) {
   return {.pose = {},
           .intrinsics = {{set.focal_px, set.focal_px},

@@ -44,6 +44,9 @@ absl::StatusOr<DataSet> loadBeachBall(const std::filesystem::path& data,
 // the corners. Named by their number, row by row: 040 is the source.
 absl::StatusOr<DataSet> loadAntinous(const std::filesystem::path& data);
 
+// The same pictures of a set in which infinity lies elsewhere: `inv_z` is added to every 1/Z.
+DataSet shifted(DataSet set, double inv_z);
+
 Camera sourceCamera(const DataSet& set);
 Camera cameraOf(const DataSet& set, const TrueView& view);
 v1::FrameManifest frameManifest(const DataSet& set);

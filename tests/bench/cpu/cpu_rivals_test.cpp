@@ -59,7 +59,7 @@ BenchLoad makeLoad(const std::vector<InvZ>& layers, uint32_t columns, uint32_t r
                    uint32_t scale) {
   BenchLoad load;
   load.source.size_px = kSource;
-  load.source.kappa_abs = 0.02F;
+  load.source.kappa.least = 0.02F;
   for (const InvZ& layer : layers) addLayer(load.source, layer);
   const auto layout = std::make_shared<AtlasLayout>();
   layout->columns = columns;

@@ -13,10 +13,8 @@ void MeshStrip::make(const LoadSource& source) {
   rim_rgba.clear();
   const int width_px = int(source.size_px.width);
   const int height_px = int(source.size_px.height);
-  const float kappa_abs = source.kappa_abs;
-  const float kappa_rel = source.kappa_rel;
-  const auto are_connected = [=](float a, float b) {
-    return std::abs(a - b) <= std::max(kappa_abs, kappa_rel * std::max(a, b));
+  const auto are_connected = [kappa = source.kappa](float a, float b) {
+    return std::abs(a - b) <= kappa.at(std::max(a, b));
   };
   const float* const inv_z = source.inv_z[layer].data();
   for (int y = int(row_begin) - 1; y < int(row_end) - 1; ++y) {

@@ -92,8 +92,7 @@ void PlanarRuns::build() {
 void PlanarRuns::addRuns(uint32_t layer, uint32_t source_row, Runs& runs) const {
   const uint32_t width_px = source().size_px.width;
   const float* const inv_z = source().inv_z[layer].data() + size_t{source_row} * width_px;
-  const float kappa_abs = source().kappa_abs;
-  const float kappa_rel = source().kappa_rel;
+  const StepRule kappa = source().kappa;
   bool is_linked = false;
   for (uint32_t begin = 0; begin < width_px;) {
     const float anchor = inv_z[begin];
@@ -108,8 +107,7 @@ void PlanarRuns::addRuns(uint32_t layer, uint32_t source_row, Runs& runs) const 
     bool links = false;
     for (float before = anchor; x < width_px; ++x) {
       const float w = inv_z[x];
-      links =
-          w >= 0 && std::abs(w - before) <= std::max(kappa_abs, kappa_rel * std::max(w, before));
+      links = w >= 0 && std::abs(w - before) <= kappa.at(std::max(w, before));
       const float inverse = inverse_[x - begin];
       const float least = std::max(slope_min, (w - anchor - tolerance_) * inverse);
       const float most = std::min(slope_max, (w - anchor + tolerance_) * inverse);

@@ -16,8 +16,7 @@ namespace {
 constexpr uint32_t kWord = 8;
 
 bool areConnected(const LoadSource& source, float a, float b) {
-  return std::min(a, b) >= 0 &&
-         std::abs(a - b) <= std::max(source.kappa_abs, source.kappa_rel * std::max(a, b));
+  return std::min(a, b) >= 0 && std::abs(a - b) <= source.kappa.at(std::max(a, b));
 }
 
 }  // namespace

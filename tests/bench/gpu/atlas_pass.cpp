@@ -53,8 +53,7 @@ abi::RivalPush describe(const BenchLoad& load) {
           .padding_top_px = layout.padding_top_px,
           .fill = redFirst(load.job.background_rgb) | (has_border ? abi::kFillBorder : 0),
           .inv_z_near = std::max(source.inv_z_max, abi::kInvZNearMin) * abi::kInvZNearMargin,
-          .kappa_abs = source.kappa_abs,
-          .kappa_rel = source.kappa_rel,
+          .kappa = {source.kappa.least, source.kappa.share, source.kappa.from},
           .box_stride = 0};
 }
 

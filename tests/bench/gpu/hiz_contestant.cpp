@@ -128,8 +128,8 @@ void HiZ::recordLevels(vk::CommandBuffer commands, uint32_t layer, uint32_t leve
                              .layer = layer,
                              .level = level,
                              .box_stride = uint32_t(stride),
-                             .kappa_abs = load_->source.kappa_abs,
-                             .kappa_rel = load_->source.kappa_rel},
+                             .kappa = {load_->source.kappa.least, load_->source.kappa.share,
+                                       load_->source.kappa.from}},
               (columns + abi::kNodeGroupSize - 1) / abi::kNodeGroupSize,
               padded_px.height >> (level + kLevelsPerPass));
 }

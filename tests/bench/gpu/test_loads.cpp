@@ -25,8 +25,7 @@ LoadSource sourceOf(const oracle::Scene& scene, oracle::Random& random) {
   const oracle::InvZPlanes planes = oracle::canonicalPlanes(scene.planes);
   LoadSource source;
   source.size_px = {uint32_t(planes.width), uint32_t(planes.height)};
-  source.kappa_abs = scene.kappa.absolute;
-  source.kappa_rel = scene.kappa.relative;
+  source.kappa = {.least = scene.kappa.absolute, .share = scene.kappa.relative};
   source.inv_z_max = *std::max_element(planes.inv_z.begin(), planes.inv_z.end());
   const ptrdiff_t area = ptrdiff_t(source.size_px.area());
   for (int layer = 0; layer < planes.layer_count; ++layer) {

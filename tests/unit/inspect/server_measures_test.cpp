@@ -36,7 +36,9 @@ SourceStats serverStats(const DepthPlane& made, PlaneEncoding encoding, double s
   const ColumnCounts counts = columns.prepareRows(0, kHeight);
   ColumnHistograms histograms;
   for (uint32_t row = 0; 4 * row < kHeight; ++row) histograms.addBlockRow(columns, row);
-  return settleColumns(histograms, counts, 0).stats;
+  RangeHistogram range{settleRange(histograms)};
+  for (uint32_t row = 0; 4 * row < kHeight; ++row) range.addBlockRow(columns, row);
+  return settleColumns(histograms, range, counts, 0).stats;
 }
 
 void expectTheSame(const DepthPlane& made, PlaneEncoding encoding, double scale) {

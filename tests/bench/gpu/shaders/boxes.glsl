@@ -31,9 +31,10 @@ uint packBox(vec2 box) {
   return low | (high << 16);
 }
 
-vec2 boxOfWord(uint word, uint level, vec2 kappa) {
+vec2 boxOfWord(uint word, uint level, vec3 kappa) {
   const float high = uintBitsToFloat(level == 0u ? word : word & 0xffff0000u);
-  const float low = level == 0u ? high - max(kappa.x, kappa.y * high) : uintBitsToFloat(word << 16);
+  const float thickness = max(kappa.x, kappa.y * (high - kappa.z));
+  const float low = level == 0u ? high - thickness : uintBitsToFloat(word << 16);
   return vec2(low, high);
 }
 

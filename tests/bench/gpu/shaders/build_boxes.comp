@@ -35,7 +35,7 @@ BoxRow rowOfSamples(ivec2 size_px, ivec2 pixel) {
   for (int k = 0; k < 4; ++k) inv_z[k] = texelFetch(inv_z_texels, at + k).x;
   const bvec4 is_inside = lessThan(pixel.x + ivec4(0, 1, 2, 3), ivec4(size_px.x));
   inv_z = mix(vec4(kNoSurface), inv_z, pixel.y < size_px.y ? is_inside : bvec4(false));
-  const vec4 low = inv_z - max(vec4(push.kappa_abs), push.kappa_rel * inv_z);
+  const vec4 low = inv_z - max(vec4(push.kappa.x), push.kappa.y * (inv_z - push.kappa.z));
   return BoxRow(mix(vec4(kBoxEmpty), low, greaterThanEqual(inv_z, vec4(0.0))), inv_z);
 }
 
@@ -44,7 +44,7 @@ BoxRow rowOfBoxes(uvec2 padded_px, uvec2 cell) {
   BoxRow row;
   for (uint k = 0u; k < 4u; ++k) {
     const uint word = texelFetch(box_texels, int(at + k)).x;
-    const vec2 box = boxOfWord(word, push.level, vec2(0.0));
+    const vec2 box = boxOfWord(word, push.level, vec3(0.0));
     row.low[k] = box.x;
     row.high[k] = box.y;
   }

@@ -70,7 +70,7 @@ float passedAt(Scene scene, Ray ray, Met met, float px_t) {
   const float inv_z = sampleAt(scene, met.layer, cellAt(scene, at));
   const float inv_z_before = sampleAt(scene, met.layer, cellAt(scene, before));
   const float kappa =
-      connectionTolerance(scene.kappa.x, scene.kappa.y, max(inv_z, inv_z_before));
+      stepAt(scene.kappa, max(inv_z, inv_z_before));
   const float front_before = before.z - inv_z_before;
   const float front_at = at.z - inv_z;
   const bool passes = before_t >= ray.t_begin && abs(inv_z - inv_z_before) <= kappa &&

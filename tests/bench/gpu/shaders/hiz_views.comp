@@ -28,7 +28,6 @@ Found findHit(Ray ray, float bound) {
   const vec2 start_px = mix(ray.start.xy, -ray.start.xy, goes_back);
   const vec2 extent_px = abs(ray.extent.xy);
   const ivec2 last_cell = (size_px - 1) | flip;
-  const vec2 kappa = vec2(push.kappa_abs, push.kappa_rel);
   float stop_t = ray.t_end;
   float begin_t = clamp((bound - ray.start.z) / ray.extent.z, ray.t_begin, ray.t_end);
   Found found = Found(false, false, ray.t_end, ray.t_end, 0u);
@@ -48,7 +47,7 @@ Found findHit(Ray ray, float bound) {
       if (isNever(2u)) break;
       const uvec2 block = uvec2(cell ^ flip) >> level;
       const uint at = layer * push.box_stride + boxIndex(padded_px, level, block);
-      box = boxOfWord(texelFetch(box_texels, int(at)).x, level, kappa);
+      box = boxOfWord(texelFetch(box_texels, int(at)).x, level, push.kappa);
       const ivec2 end_cell = cell | ((1 << level) - 1);
       const vec2 edge_t = (vec2(end_cell + 1) - start_px) * ray.pace;
       const bool cross_x = edge_t.x <= edge_t.y;
@@ -105,7 +104,7 @@ float boundOfRun(ViewParams view, Run run) {
   for (;;) {
     if (isNever(3u)) break;
     const uint word = texelFetch(box_texels, int(boxIndex(padded_px, kBoundLevel, cell))).x;
-    bound = max(bound, boxOfWord(word, kBoundLevel, vec2(0.0)).y);
+    bound = max(bound, boxOfWord(word, kBoundLevel, vec3(0.0)).y);
     cell = cell.x == last_cell.x ? ivec2(first_cell.x, cell.y + 1) : ivec2(cell.x + 1, cell.y);
     if (cell.y > last_cell.y) break;
   }

@@ -26,8 +26,7 @@ struct RivalPush {
   uint padding_top_px;
   uint fill;         // as TracePush
   float inv_z_near;  // a little in front of everything, > 0
-  float kappa_abs;   // 1/m
-  float kappa_rel;
+  vec3 kappa;        // least (1/m), share, from (1/m): StepRule
   uint box_stride;  // texels from layer to layer of the pyramid
 };
 
@@ -45,8 +44,7 @@ struct BoxesPush {
   uint layer;
   uint level;       // the highest that is there; 0: none
   uint box_stride;  // as RivalPush
-  float kappa_abs;  // 1/m
-  float kappa_rel;
+  vec3 kappa;       // as RivalPush
 };
 
 // Of a copy, in units of 16 bytes.
@@ -66,10 +64,10 @@ struct MarchKnobs {
 VIEWLOOM_ABI_CONST uint kMarchLayerShift = 16u;
 
 #ifdef __cplusplus
-static_assert(sizeof(RivalPush) == 48);
+static_assert(sizeof(RivalPush) == 52);
 static_assert(sizeof(MarchKnobs) == 12);
 static_assert(sizeof(CopyPush) == 16);
-static_assert(sizeof(BoxesPush) == 24);
+static_assert(sizeof(BoxesPush) == 28);
 #endif
 
 VIEWLOOM_ABI_END

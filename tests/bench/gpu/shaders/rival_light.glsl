@@ -25,7 +25,7 @@ int pixelIndex(ivec2 pixel) {
 }
 
 float kappaOf(float nearer_inv_z) {
-  return max(push.kappa_abs, push.kappa_rel * nearer_inv_z);
+  return max(push.kappa.x, push.kappa.y * (nearer_inv_z - push.kappa.z));
 }
 
 // Weight of a tap that belongs to the surface of `own` or not.
