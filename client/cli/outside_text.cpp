@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/outside_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "base/str_cat.h"
 
@@ -13,8 +13,8 @@ namespace {
 constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kRounding_percent = 1e-6;  // of shares that are whole hundredths
 
-std::string degrees(double low_rad, double high_rad) {
-  return strCat(std::ceil((high_rad - low_rad) * kDegPerRad));
+int degrees(double low_rad, double high_rad) {
+  return int(std::ceil((high_rad - low_rad) * kDegPerRad));
 }
 
 }  // namespace
@@ -32,25 +32,19 @@ std::string outsideText(const google::protobuf::RepeatedPtrField<v1::ViewsOutsid
 }
 
 std::vector<std::string> OutsideWarnings::note(const v1::Wanted& wanted) {
-  std::vector<std::string> lines;
-  std::map<uint64_t, std::string> now;
-  for (const v1::DisplayOutside& display : wanted.outside()) {
-    now[display.display_id()] = outsideText(display.views());
-  }
+  if (wanted.outside().empty()) return {};
+  const int width_deg = degrees(wanted.fov().angle_left_rad(), wanted.fov().angle_right_rad());
+  const int height_deg = degrees(wanted.fov().angle_down_rad(), wanted.fov().angle_up_rad());
   std::lock_guard lock(mutex_);
-  for (const auto& [id, text] : now) {
-    if (told_[id] == text) continue;
+  if (width_deg <= told_width_deg_ && height_deg <= told_height_deg_) return {};
+  told_width_deg_ = std::max(told_width_deg_, width_deg);
+  told_height_deg_ = std::max(told_height_deg_, height_deg);
+  std::vector<std::string> lines;
+  for (const v1::DisplayOutside& display : wanted.outside()) {
     lines.push_back(strCat(
-        "display ", id, " looks past the source: ", text, "; a field of view of ",
-        degrees(wanted.fov().angle_left_rad(), wanted.fov().angle_right_rad()), " x ",
-        degrees(wanted.fov().angle_down_rad(), wanted.fov().angle_up_rad()), " degrees is wanted"));
+        "display ", display.display_id(), " looks past the source: ", outsideText(display.views()),
+        "; a field of view of ", width_deg, " x ", height_deg, " degrees is wanted"));
   }
-  for (const auto& [id, text] : told_) {
-    if (!text.empty() && !now.contains(id)) {
-      lines.push_back(strCat("display ", id, " looks past the source no more"));
-    }
-  }
-  told_ = std::move(now);
   return lines;
 }
 

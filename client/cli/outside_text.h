@@ -2,8 +2,6 @@
 // Views that look past their source, in words.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -15,7 +13,8 @@ namespace viewloom::cli {
 // "views 0-6 by 4 %, view 47 by 1 %": shares rounded up; "" where there are none.
 std::string outsideText(const google::protobuf::RepeatedPtrField<v1::ViewsOutside>& views);
 
-// Warns of displays whose views leave the source, once each time they change.
+// Warns of displays whose views leave the source: at first, and whenever a wider field of view is
+// wanted than ever before. Displays that follow an eye come and go many times a second.
 // Thread-safety: all methods may be called from any thread.
 class OutsideWarnings {
  public:
@@ -24,7 +23,8 @@ class OutsideWarnings {
 
  private:
   std::mutex mutex_;
-  std::map<uint64_t, std::string> told_;  // by display
+  int told_width_deg_ = 0;
+  int told_height_deg_ = 0;
 };
 
 }  // namespace viewloom::cli
