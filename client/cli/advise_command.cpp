@@ -83,7 +83,7 @@ void print(const v1::AdviseSourceResponse& advice) {
 }
 
 absl::StatusOr<v1::AdviseSourceRequest> makeRequest(const AdviseOptions& options) {
-  if (options.display.file.empty() && options.display.fov_y_deg == 0) {
+  if (!hasOwnFov(options.display)) {
     return absl::InvalidArgumentError(
         "--fov is missing: without a stream there is none that the display could take over; give "
         "the height of its views in degrees, as --fov 14");

@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
+#include <variant>
 
 #include "base/printable.h"
 #include "base/str_cat.h"
 #include "bridge/bridge.h"
 #include "bridge/quilt_page.h"
 #include "cli/interrupt.h"
+#include "display/named_display.h"
 
 namespace viewloom::cli {
 namespace {
@@ -82,6 +84,17 @@ absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDis
   return query;
 }
 
+// Refuses presets that Bridge cannot show. Names that are unknown here are the server's to judge.
+absl::Status checkShape(const CastOptions& options) {
+  const absl::StatusOr<DisplayKind> named = namedDisplay(options.preset);
+  if (!named.ok() || std::holds_alternative<QuiltSpec>(*named)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      strCat("--preset ", options.preset,
+             " is no quilt, and Bridge shows only quilts. `viewloom list presets` names quilts; "
+             "`viewloom watch ",
+             options.stream, " --preset ", options.preset, " --out FOLDER` saves this display"));
+}
+
 // Shows the quilt, and again every so often, until it is interrupted.
 absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& to) {
   VIEWLOOM_RETURN_IF_ERROR(to.enter());
@@ -107,6 +120,7 @@ absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& t
 }
 
 int run(const CastOptions& options) {
+  if (const absl::Status shape = checkShape(options); !shape.ok()) return fail(shape);
   const absl::StatusOr<HttpAddress> bridge_address =
       bridge::parseHttpAddress(options.bridge, kBridgePort, "--bridge");
   if (!bridge_address.ok()) return fail(bridge_address.status());

@@ -4,9 +4,13 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "base/str_cat.h"
 #include "cli/size_option.h"
+#include "display/named_display.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::cli {
@@ -130,8 +134,56 @@ v1::QuiltDisplay makeQuilt(const DisplayOptions& options) {
   return quilt;
 }
 
+// Display of a device that takes no quilts; empty for other names.
+std::optional<DisplayKind> deviceWithoutQuilts(const DisplayOptions& options) {
+  if (options.preset.empty()) return std::nullopt;
+  absl::StatusOr<DisplayKind> named = namedDisplay(options.preset);
+  if (!named.ok() || std::holds_alternative<QuiltSpec>(*named)) return std::nullopt;
+  return *std::move(named);
+}
+
+// Refuses options that only quilts and lenticular panels take.
+absl::Status refuseShapeOptions(const DisplayOptions& options) {
+  const std::pair<const char*, bool> shape_options[] = {
+      {"--columns", options.columns > 0},
+      {"--rows", options.rows > 0},
+      {"--size", options.size_px.width > 0},
+      {"--cone", options.view_cone_deg != 0},
+      {"--focal-distance", options.focal_distance_m != 0},
+      {"--focus-follow", options.focus_following_s != 0},
+      {"--calibration", !options.calibration_file.empty()}};
+  for (const auto& [name, is_given] : shape_options) {
+    if (!is_given) continue;
+    return absl::InvalidArgumentError(strCat(
+        name, " is for quilts and lenticular panels; --preset ", options.preset,
+        " is neither. Leave out ", name, ", or name a preset of a quilt: `viewloom list presets`"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status setDevice(const DisplayKind& kind, const DisplayOptions& options,
+                       v1::Display& display) {
+  VIEWLOOM_RETURN_IF_ERROR(refuseShapeOptions(options));
+  if (std::holds_alternative<RgbdSpec>(kind)) {
+    display.mutable_rgbd()->set_preset(options.preset);
+    display.mutable_rgbd()->set_fov_y_rad(options.fov_y_deg * kRadPerDeg);
+    return absl::OkStatus();
+  }
+  display.set_preset(options.preset);
+  if (options.fov_y_deg == 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(strCat("--fov: the lenses of --preset ", options.preset,
+                                           " give the field of view. Leave out --fov"));
+}
+
 bool isNative(const DisplayOptions& options) {
   return options.is_native || !options.calibration_file.empty();
+}
+
+// Whether the name alone says what the display is, and this program does not know it. The server
+// opens it, or answers with the nearest names of every kind.
+bool isForServer(const DisplayOptions& options) {
+  return !options.preset.empty() && !namedDisplay(options.preset).ok() && !options.is_native &&
+         options.fov_y_deg == 0 && refuseShapeOptions(options).ok();
 }
 
 }  // namespace
@@ -140,6 +192,12 @@ bool isGiven(const DisplayOptions& options) {
   return !options.file.empty() || !options.preset.empty() || options.columns > 0 ||
          options.rows > 0 || options.size_px.width > 0 || options.view_cone_deg != 0 ||
          options.focal_distance_m != 0 || isNative(options);
+}
+
+bool hasOwnFov(const DisplayOptions& options) {
+  const std::optional<DisplayKind> kind = deviceWithoutQuilts(options);
+  return !options.file.empty() || options.fov_y_deg != 0 ||
+         (kind && std::holds_alternative<IntegralSpec>(*kind));
 }
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
@@ -154,6 +212,14 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (options.rgbd.view_size_px.width > 0) {
     *display.mutable_rgbd() = makeRgbd(options.rgbd, options.fov_y_deg * kRadPerDeg);
     display.mutable_rgbd()->set_preset(options.preset);
+    return display;
+  }
+  if (const auto kind = deviceWithoutQuilts(options)) {
+    VIEWLOOM_RETURN_IF_ERROR(setDevice(*kind, options, display));
+    return display;
+  }
+  if (isForServer(options)) {
+    display.set_preset(options.preset);
     return display;
   }
   display.set_focus_following_s(options.focus_following_s);

@@ -50,6 +50,8 @@ void addPanelOptions(CLI::App& app, DisplayOptions& options);
 
 // Whether a display was named at all.
 bool isGiven(const DisplayOptions& options);
+// Whether the display gives its own field of view, so that it needs none of a stream.
+bool hasOwnFov(const DisplayOptions& options);
 // Colour with depth instead of them; after the options that it excludes.
 void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options);
 

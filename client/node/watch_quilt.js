@@ -36,7 +36,7 @@ const kOptions = {
 run(kOptions, async (options) => {
   const client = connect('DisplayService', options);
   const {layout, header, jpeg} =
-      await receiveQuilt(client, options.stream, {quilt: {preset: options.preset}});
+      await receiveQuilt(client, options.stream, {preset: options.preset});
   client.close();
   const file = `${options.out}${layout.suffix}.jpg`;
   await writeFile(file, jpeg);

@@ -63,6 +63,8 @@ export class DisplayChoice {
     const quilts = ofKind('quilt').map(({name, device}) => new Option(device, name));
     byId('preset').replaceChildren(
         group('Quilts', [...quilts, new Option('custom quilt', '')]),
+        group('Elemental images', ofKind('integral').map(({name, device}) =>
+          new Option(device, name))),
         group('Colour with depth (RGBD, 2D+Z)', this.rgbd.options(ofKind('rgbd'))));
     const standard = parameters.has('columns') ? '' : kDefaultPreset;
     byId('preset').value = parameters.get('preset') ?? this.rgbd.valueOf(parameters) ?? standard;
@@ -71,10 +73,14 @@ export class DisplayChoice {
     this.#showFields();
   }
 
-  // Whether it is colour with depth, and no quilt.
+  // Whether it is no quilt, but seen whole: colour with depth, or elemental images.
   get isRgbd() {
-    return this.rgbd.isForm(byId('preset').value) || this.#preset()?.kind === 'rgbd';
+    return this.rgbd.isForm(byId('preset').value) ||
+        ['rgbd', 'integral'].includes(this.#preset()?.kind);
   }
+
+  // Its device says everything else of it, also how large it is.
+  get #isLenses() { return this.#preset()?.kind === 'integral'; }
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
@@ -188,7 +194,8 @@ export class DisplayChoice {
   #choose(name) {
     if (this.isRgbd) {
       byId('detail').value = '1';
-      this.#keep({...kNone, focus_follow_s: null, ...this.rgbd.chosen(name), detail: '1'});
+      const chosen = this.#isLenses ? {preset: name} : this.rgbd.chosen(name);
+      this.#keep({...kNone, focus_follow_s: null, ...chosen, detail: '1'});
       return;
     }
     if (name) {
@@ -210,7 +217,7 @@ export class DisplayChoice {
   }
 
   #showFields() {
-    this.rgbd.show(this.isRgbd, pageParameters(), this.#preset()?.note);
+    this.rgbd.show(this.isRgbd && !this.#isLenses, pageParameters(), this.#preset()?.note);
     byId('custom').hidden = byId('preset').value !== '';
     for (const name of kQuiltFields) {
       byId(`custom-${name}`).value = pageParameters().get(name) ?? '';

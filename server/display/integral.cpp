@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "display/field_checks.h"
+#include "display/named_display.h"
 
 namespace viewloom {
 namespace {
@@ -26,9 +27,7 @@ absl::Status applyPreset(IntegralSpec& integral) {
       std::find_if(std::begin(kPresets), std::end(kPresets),
                    [&](const auto& known) { return integral.preset == known.name; });
   if (preset == std::end(kPresets)) {
-    return fieldError(
-        absl::StatusCode::kNotFound, "integral.preset",
-        absl::StrCat("there is no \"", integral.preset, "\"; there is ", kPresets[0].name));
+    return unknownPreset(integral.preset, "integral.preset", {kPresets[0].name});
   }
   const auto fill = [](double& given, double value) {
     if (given == 0) given = value;

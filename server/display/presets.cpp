@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/nearest_name.h"
+#include "display/named_display.h"
 
 namespace viewloom {
 namespace {
@@ -84,7 +84,7 @@ absl::Status checkPreset(std::string_view name, std::string_view field) {
   if (findPreset(name) != nullptr) return absl::OkStatus();
   std::vector<std::string> names;
   for (const Preset& preset : kPresets) names.emplace_back(preset.name);
-  return fieldError(absl::StatusCode::kNotFound, field, noSuchName(name, names));
+  return unknownPreset(name, field, names);
 }
 
 }  // namespace viewloom

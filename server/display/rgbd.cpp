@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "display/field_checks.h"
 #include "display/focal_window.h"
+#include "display/named_display.h"
 
 namespace viewloom {
 namespace {
@@ -15,19 +16,23 @@ constexpr uint32_t kDefaultDepthBits = 8;
 // Of the nearest 1/Z, the least range of a stream that is all at one depth.
 constexpr double kRangeShareMin = 0.01;
 
+// Default size of a view: half of a full-HD frame each way. No panel's own size is published.
+constexpr SizePx kPresetViewSize_px{960, 540};
+constexpr const char* kPresetNote =
+    "a view has 960x540 pixels unless you give its size: the panel's size is not published, nor is "
+    "the header that it reads inside the picture, which is not written";
+
 // The 3D Interface White Paper of Philips; Dimenco's displays take the same. Both have white near,
 // 8 bits, and the screen at code 128, an offset that their header could change.
 constexpr RgbdPreset kPresets[] = {
     {.name = "wowvx",
      .device = "Philips WOWvx, Dimenco: 2D-plus-Depth",
      .form = RgbdForm::kColorDepth,
-     .note = "say the px of a view; the header that it reads in the picture is not published and "
-             "not written"},
+     .note = kPresetNote},
     {.name = "wowvx_declipse",
      .device = "Philips WOWvx: Declipse, four quadrants",
      .form = RgbdForm::kTwoLayers,
-     .note = "say the px of a view; the header that it reads in the picture is not published and "
-             "not written"},
+     .note = kPresetNote},
 };
 
 absl::Status applyPreset(RgbdSpec& rgbd) {
@@ -37,11 +42,10 @@ absl::Status applyPreset(RgbdSpec& rgbd) {
   }
   const auto preset = std::ranges::find(kPresets, std::string_view(rgbd.preset), &RgbdPreset::name);
   if (preset == std::end(kPresets)) {
-    return fieldError(absl::StatusCode::kNotFound, "rgbd.preset",
-                      absl::StrCat("there is no \"", rgbd.preset, "\"; there are ",
-                                   kPresets[0].name, ", ", kPresets[1].name));
+    return unknownPreset(rgbd.preset, "rgbd.preset", {kPresets[0].name, kPresets[1].name});
   }
   if (!rgbd.form) rgbd.form = preset->form;
+  if (rgbd.view_size_px == SizePx{}) rgbd.view_size_px = kPresetViewSize_px;
   return absl::OkStatus();
 }
 

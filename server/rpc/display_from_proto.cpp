@@ -5,6 +5,7 @@
 
 #include <google/protobuf/repeated_ptr_field.h>
 
+#include "display/named_display.h"
 #include "rpc/enum_from_proto.h"
 #include "rpc/geometry_from_proto.h"
 #include "rpc/lens_from_proto.h"
@@ -178,6 +179,13 @@ absl::Status assignKind(absl::StatusOr<Spec> kind, std::string_view field, Displ
   return absl::OkStatus();
 }
 
+absl::Status assignNamed(std::string_view name, DisplaySpec& spec) {
+  absl::StatusOr<DisplayKind> named = namedDisplay(name);
+  if (!named.ok()) return named.status();
+  spec.kind = *std::move(named);
+  return absl::OkStatus();
+}
+
 absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
   switch (proto.kind_case()) {
     case v1::Display::kQuilt:
@@ -192,11 +200,14 @@ absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
       return assignKind(integralFromProto(proto.integral()), "integral", spec);
     case v1::Display::kRgbd:
       return assignKind(rgbdFromProto(proto.rgbd()), "rgbd", spec);
+    case v1::Display::kPreset:
+      return assignNamed(proto.preset(), spec);
     case v1::Display::KIND_NOT_SET:
       break;
   }
   return invalidField("kind",
-                      "got none; accepted: quilt, stereo, cameras, lenticular, integral or rgbd");
+                      "got none; accepted: quilt, stereo, cameras, lenticular, integral, "
+                      "rgbd or preset");
 }
 
 ReflectionSpec reflectionFromProto(const v1::ReflectionEffect& proto) {

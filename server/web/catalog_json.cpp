@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "display/integral.h"
 #include "display/presets.h"
 #include "display/rgbd.h"
 
@@ -86,6 +87,12 @@ json presetsJson() {
                        {"size", sizeJson(preset.size_px)},
                        {"aspect", preset.aspect},
                        {"view_cone_deg", preset.view_cone_deg},
+                       {"note", preset.note}});
+  }
+  for (const IntegralPreset& preset : integralPresets()) {
+    entries.push_back({{"name", preset.name},
+                       {"kind", "integral"},
+                       {"device", preset.device},
                        {"note", preset.note}});
   }
   for (const RgbdPreset& preset : rgbdPresets()) {

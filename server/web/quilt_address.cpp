@@ -58,6 +58,12 @@ absl::StatusOr<AddressParts> takeApart(const Url& url, const QuiltAddressForm& f
                                  "STREAM_qs8x6a0.75", form.extensions.front()));
 }
 
+// "?quality=90", or nothing.
+std::string queryText(const QueryParameters& parameters) {
+  const std::string query = queryString(parameters);
+  return query.empty() ? "" : absl::StrCat("?", query);
+}
+
 }  // namespace
 
 absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form,
@@ -72,14 +78,23 @@ absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddres
                        .extension = parts->extension,
                        .file_name = "",
                        .redirect = ""};
+  QueryParameters parameters = parts->parameters;
+  parameters.erase("stream");
+  const std::string stream = percentEncoded(address.request.stream);
+  if (suffix->empty()) {
+    // Players read the suffix of a quilt: other displays are found by their names alone.
+    const std::string preset = parameters["preset"];
+    address.file_name = absl::StrCat(address.request.stream, "_", preset, address.extension);
+    if (parts->suffix.empty()) return address;
+    parameters.erase("preset");
+    address.redirect = absl::StrCat(form.root, stream, "/", percentEncoded(preset),
+                                    address.extension, queryText(parameters));
+    return address;
+  }
   const std::string layout = absl::StrCat(*suffix, address.extension);
   address.file_name = address.request.stream + layout;
   if (*suffix == parts->suffix) return address;
-  QueryParameters parameters = parts->parameters;
-  parameters.erase("stream");
-  const std::string query = queryString(parameters);
-  address.redirect = absl::StrCat(form.root, percentEncoded(address.request.stream), layout,
-                                  query.empty() ? "" : "?", query);
+  address.redirect = absl::StrCat(form.root, stream, layout, queryText(parameters));
   return address;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// URLs that say how the views of a quilt lie: ROOT STREAM_qs8x6a0.75 EXTENSION.
+// URLs of pictures. Those of a quilt say how its views lie: ROOT STREAM_qs8x6a0.75 EXTENSION.
+// Those of other displays name the display: ROOT STREAM/near_eye_2013 EXTENSION.
 #pragma once
 
 #include <string>
@@ -22,14 +23,15 @@ struct QuiltAddressForm {
 struct QuiltAddress {
   WatchRequest request;
   std::string extension;
-  std::string file_name;  // STREAM_qs8x6a0.75 EXTENSION
-  // Where the suffix says what the quilt is. Empty: here.
+  std::string file_name;  // STREAM_qs8x6a0.75 EXTENSION, or STREAM_near_eye_2013 EXTENSION
+  // The URL whose suffix, or whose name, says what the display is. Empty: this URL does.
   std::string redirect;
 };
 
 // Reads ROOT STREAM_qs8x6a0.75 EXTENSION with the parameters of parseWatchRequest. Where no
 // parameter gives them, columns, rows and aspect are those of the suffix. ROOT STREAM/PRESET, also
 // with an extension, and a suffix that does not fit the parameters, redirect to the URL that does.
+// PRESET of another kind than a quilt is served where it is, and a suffix redirects to it.
 // Errors as parseWatchRequest; NOT_FOUND for a path of another form.
 absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form,
                                                const StreamDirectory& streams);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/rgbd_request.h"
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "base/str_cat.h"
-#include "display/rgbd.h"
 
 namespace viewloom {
 namespace {
@@ -60,14 +58,6 @@ absl::Status readWord(const QueryParameters& parameters, const char* name, const
 }
 
 }  // namespace
-
-bool asksForRgbd(const QueryParameters& parameters) {
-  if (parameters.contains("rgbd")) return true;
-  const auto preset = parameters.find("preset");
-  return preset != parameters.end() &&
-         std::ranges::any_of(rgbdPresets(),
-                             [&](const RgbdPreset& known) { return preset->second == known.name; });
-}
 
 std::span<const ParameterField> rgbdParameters() {
   return kParameters;

@@ -11,10 +11,7 @@
 
 namespace viewloom {
 
-// Whether parameters ask for it: by rgbd, or by a preset of that kind.
-bool asksForRgbd(const QueryParameters& parameters);
-
-// What is accepted then.
+// Parameters that colour with depth accepts.
 std::span<const ParameterField> rgbdParameters();
 
 // rgbd (color-depth, two-layers), preset, width and height of a view, near_m, far_m, screen_m,

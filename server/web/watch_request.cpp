@@ -12,8 +12,7 @@
 #include "absl/strings/str_join.h"
 #include "base/nearest_name.h"
 #include "display/atlas_layout.h"
-#include "display/presets.h"
-#include "display/rgbd.h"
+#include "display/named_display.h"
 #include "web/rgbd_request.h"
 #include "web/watch_parameters.h"
 
@@ -47,6 +46,47 @@ constexpr std::array kQuiltParameters = {
     ParameterField{"depth", "with_depth"},
 };
 
+// A panel behind microlenses: its preset gives the size, the lenses and the field of view.
+constexpr std::array kIntegralParameters = {
+    ParameterField{"stream", "stream"},
+    ParameterField{"preset", "integral.preset"},
+    ParameterField{"aperture_m", "effects.lens.aperture_radius_m"},
+    ParameterField{"lens_focus_m", "effects.lens.focus_distance_m"},
+    ParameterField{"effort", "effort"},
+    ParameterField{"rate_hz", "effects.temporal.output_rate_hz"},
+    ParameterField{"between", "effects.temporal.mode"},
+    ParameterField{"reflections", "effects.reflection.bounces"},
+    ParameterField{"quality", "jpeg_quality"},
+    ParameterField{"chroma", "chroma"},
+    ParameterField{"depth", "with_depth"},
+};
+
+enum class AskedKind : uint8_t { kQuilt, kIntegral, kRgbd };
+
+// The kind that parameters ask for, by the name of a device or by "rgbd".
+absl::StatusOr<AskedKind> askedKind(const QueryParameters& parameters) {
+  if (parameters.contains("rgbd")) return AskedKind::kRgbd;
+  const auto preset = parameters.find("preset");
+  if (preset == parameters.end() || preset->second.empty()) return AskedKind::kQuilt;
+  const absl::StatusOr<DisplayKind> named = namedDisplay(preset->second);
+  VIEWLOOM_RETURN_IF_ERROR(named.status());
+  if (std::holds_alternative<RgbdSpec>(*named)) return AskedKind::kRgbd;
+  if (std::holds_alternative<IntegralSpec>(*named)) return AskedKind::kIntegral;
+  return AskedKind::kQuilt;
+}
+
+std::span<const ParameterField> parametersOf(AskedKind kind) {
+  switch (kind) {
+    case AskedKind::kQuilt:
+      return kQuiltParameters;
+    case AskedKind::kIntegral:
+      return kIntegralParameters;
+    case AskedKind::kRgbd:
+      break;
+  }
+  return rgbdParameters();
+}
+
 // The same refusal, told to somebody who wrote a parameter and not a field. Angles came in degrees:
 // the sentence says that its range is in radians.
 absl::Status namedByParameter(const absl::Status& status, std::span<const ParameterField> all) {
@@ -74,21 +114,11 @@ absl::Status checkKnown(const QueryParameters& parameters, std::span<const Param
     if (known) continue;
     std::vector<std::string> names;
     for (const ParameterField& accepted : all) names.emplace_back(accepted.parameter);
-    return invalidField(name, absl::StrCat("there is no such parameter", suggestion(name, names),
-                                           "; accepted are ", absl::StrJoin(names, ", ")));
+    return invalidField(name,
+                        absl::StrCat("this display has no such parameter", suggestion(name, names),
+                                     "; accepted are ", absl::StrJoin(names, ", ")));
   }
   return absl::OkStatus();
-}
-
-// A display is chosen by the same parameter whatever its kind.
-absl::Status checkPresetName(const QueryParameters& parameters) {
-  const auto preset = parameters.find("preset");
-  if (preset == parameters.end() || preset->second.empty()) return absl::OkStatus();
-  std::vector<std::string> names;
-  for (const Preset& known : allPresets()) names.emplace_back(known.name);
-  for (const RgbdPreset& known : rgbdPresets()) names.emplace_back(known.name);
-  if (std::ranges::find(names, preset->second) != names.end()) return absl::OkStatus();
-  return fieldError(absl::StatusCode::kNotFound, "preset", noSuchName(preset->second, names));
 }
 
 absl::StatusOr<QuiltSpec> readQuilt(const QueryParameters& parameters) {
@@ -195,17 +225,21 @@ absl::Status readEffort(const QueryParameters& parameters, DisplaySpec& display)
   return absl::OkStatus();
 }
 
-absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool is_rgbd) {
+absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, AskedKind kind) {
   DisplaySpec display;
-  if (is_rgbd) {
+  if (kind == AskedKind::kRgbd) {
     absl::StatusOr<RgbdSpec> rgbd = readRgbd(parameters);
     VIEWLOOM_RETURN_IF_ERROR(rgbd.status());
     display.kind = *std::move(rgbd);
     return display;
   }
-  absl::StatusOr<QuiltSpec> quilt = readQuilt(parameters);
-  VIEWLOOM_RETURN_IF_ERROR(quilt.status());
-  display.kind = *std::move(quilt);
+  if (kind == AskedKind::kIntegral) {
+    display.kind = IntegralSpec{.preset = parameters.at("preset")};
+  } else {
+    absl::StatusOr<QuiltSpec> quilt = readQuilt(parameters);
+    VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+    display.kind = *std::move(quilt);
+  }
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "focus_follow_s", display.focus_following_s));
   VIEWLOOM_RETURN_IF_ERROR(readLens(parameters, display));
   VIEWLOOM_RETURN_IF_ERROR(readEffort(parameters, display));
@@ -224,15 +258,15 @@ absl::StatusOr<DisplaySpec> readDisplay(const QueryParameters& parameters, bool 
 
 absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
                                                const StreamDirectory& streams) {
-  const bool is_rgbd = asksForRgbd(parameters);
-  const std::span<const ParameterField> all = is_rgbd ? rgbdParameters() : kQuiltParameters;
+  const absl::StatusOr<AskedKind> kind = askedKind(parameters);
+  VIEWLOOM_RETURN_IF_ERROR(kind.status());
+  const std::span<const ParameterField> all = parametersOf(*kind);
   VIEWLOOM_RETURN_IF_ERROR(checkKnown(parameters, all));
-  VIEWLOOM_RETURN_IF_ERROR(checkPresetName(parameters));
-  const absl::StatusOr<DisplaySpec> display = readDisplay(parameters, is_rgbd);
+  const absl::StatusOr<DisplaySpec> display = readDisplay(parameters, *kind);
   VIEWLOOM_RETURN_IF_ERROR(display.status());
   absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(*display);
   VIEWLOOM_RETURN_IF_ERROR(namedByParameter(completed.status(), all));
-  const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters, is_rgbd);
+  const absl::StatusOr<EncodingSpec> encoding = readEncoding(parameters, *kind == AskedKind::kRgbd);
   VIEWLOOM_RETURN_IF_ERROR(namedByParameter(encoding.status(), all));
   absl::StatusOr<std::string> stream = readStream(parameters, streams);
   VIEWLOOM_RETURN_IF_ERROR(stream.status());
@@ -240,11 +274,7 @@ absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters
 }
 
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display) {
-  if (!std::holds_alternative<QuiltSpec>(display.kind)) {
-    return invalidField("preset",
-                        "came for colour with depth, and addresses with a suffix are of quilts; "
-                        "accepted is the preset of a quilt, or /ws");
-  }
+  if (!std::holds_alternative<QuiltSpec>(display.kind)) return std::string();
   // The suffix does not depend on the stream: any camera serves.
   const StreamDefaults any_stream{.source_intrinsics = {}, .source_size_px = {1, 1}};
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(display, any_stream);

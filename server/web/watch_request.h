@@ -25,7 +25,7 @@ struct WatchRequest {
 absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
                                                const StreamDirectory& streams);
 
-// "_qs8x6a0.75": what the name of a still must end with. INVALID_ARGUMENT for what is no quilt.
+// "_qs8x6a0.75", with which the name of a quilt's still ends. "" for other displays.
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display);
 
 }  // namespace viewloom

@@ -48,12 +48,6 @@ const std::vector<BadDisplay> kRgbds = {
     {"a quilt's preset",
      [](auto& o) { rgbd(o).set_preset("portrait"); },
      {grpc::StatusCode::NOT_FOUND, kRgbd + "preset"}},
-    {"a preset without px",
-     [](auto& o) {
-       rgbd(o).set_preset("wowvx");
-       rgbd(o).clear_view_size();
-     },
-     {kInvalid, kRgbd + "view_size.width"}},
     {"7 bits", [](auto& o) { rgbd(o).set_depth_bits(7); }, {kInvalid, kRgbd + "depth_bits"}},
     {"near NaN", [](auto& o) { rgbd(o).set_near_m(kNan); }, {kInvalid, kRgbd + "near_m"}},
     {"far behind", [](auto& o) { rgbd(o).set_far_m(-3); }, {kInvalid, kRgbd + "far_m"}},

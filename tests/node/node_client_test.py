@@ -108,7 +108,7 @@ class NodeClient(unittest.TestCase):
         done, pictures = self.watch("--preset", "no_such")
         self.assertEqual((done.returncode, done.stdout, pictures), (1, "", {}))
         self.assertRegex(done.stderr,
-                         r"\ANOT_FOUND: open\.display\.quilt\.preset: .*portrait.*\n\Z")
+                         r"\ANOT_FOUND: open\.display\.preset: .*portrait.*\n\Z")
 
     def test_a_stream_or_a_server_that_is_not_there_is_one_line_with_a_remedy(self):
         done, pictures = self.watch("--stream", "nothere")

@@ -162,8 +162,9 @@ class Wire(unittest.TestCase):
 
     def test_displays_come_as_names_mappings_and_messages(self):
         message = display_pb2.Display(quilt={"preset": "portrait"})
-        for display in ("portrait", {"quilt": {"preset": "portrait"}}, message):
+        for display in ({"quilt": {"preset": "portrait"}}, message):
             self.assertEqual(display_from(display), message)
+        self.assertEqual(display_from("portrait"), display_pb2.Display(preset="portrait"))
 
     def test_depth_in_other_units_says_so(self):
         planes = planes_of(viewloom.Source(

@@ -203,7 +203,7 @@ class Watching(unittest.TestCase):
             self.refused(lambda: self.server.still("elsewhere", "portrait"), "NOT_FOUND",
                          "open.stream", "scene")
             self.refused(lambda: self.server.still("scene", "no_such"), "NOT_FOUND",
-                         "open.display.quilt.preset", "portrait")
+                         "open.display.preset", "portrait")
             self.refused(lambda: self.server.publish("scene"), "ALREADY_EXISTS", "settings.stream",
                          "scene")
             self.refused(lambda: self.server.publish("no spaces"), "INVALID_ARGUMENT",

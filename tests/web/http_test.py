@@ -167,6 +167,8 @@ class Refusals(unittest.TestCase):
                              ("/still/paintd/portrait", "painted"),
                              ("/still/painted/portait.json", "portrait"),
                              ("/stream/painted/portrat", "portrait"),
+                             ("/still/painted/near_eye_213", "near_eye_2013"),
+                             ("/ws?stream=painted&rgbd=two-layers&preset=wowx", "wowvx"),
                              ("/api/stream", "/api/streams"), ("/metric", "/metrics")):
             with self.subTest(target):
                 message = fetch(self.port, target).json()["error"]["message"]

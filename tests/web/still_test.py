@@ -55,6 +55,18 @@ class Stills(unittest.TestCase):
         wrong = fetch(self.port, "/still/painted_qs5x9a1.6.jpg?preset=portrait")
         self.assertEqual(wrong.headers["location"], reply.headers["location"])
 
+    def test_a_display_that_is_no_quilt_is_found_by_its_name(self):
+        size = "width=64&height=36"
+        still = fetch(self.port, f"/still/painted/wowvx?{size}")
+        self.assertEqual(still.status, 200, still.body)
+        self.assertEqual(still.headers["content-disposition"],
+                         'inline; filename="painted_wowvx.jpg"')
+        layout = fetch(self.port, f"/still/painted/wowvx.json?{size}").json()
+        self.assertEqual(layout["size"], {"width": 128, "height": 36})
+        suffix = fetch(self.port, f"/still/painted_qs8x6a0.75.jpg?preset=wowvx&{size}")
+        self.assertEqual((suffix.status, suffix.headers["location"]),
+                         (302, "/still/painted/wowvx.jpg?height=36&width=64"))
+
     def test_names_the_file_that_a_still_is_to_be_saved_as(self):
         size = "width=320&height=480"
         for target, name in ((f"/still/painted/portrait?{size}", "painted_qs8x6a0.75.jpg"),

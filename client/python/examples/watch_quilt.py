@@ -55,7 +55,7 @@ def main():
     parser.add_argument("--out", default="quilt", help="how the names of the files begin")
     options = parser.parse_args()
 
-    display = display_pb2.Display(quilt=display_pb2.QuiltDisplay(preset=options.preset))
+    display = display_pb2.Display(preset=options.preset)
     print(f"waiting for a frame of {options.stream}", file=sys.stderr)
     try:
         layout, header, jpeg = receive_quilt(options.server, options.stream, display)

@@ -23,7 +23,7 @@ _CHROMAS = {420: atlas_pb2.CHROMA_SUBSAMPLING_420, 444: atlas_pb2.CHROMA_SUBSAMP
 def display_from(display: DisplayLike) -> display_pb2.Display:
     """A Display; a mapping of its fields, {"quilt": {"columns": 8, ...}}; or a preset's name."""
     if isinstance(display, str):
-        return display_pb2.Display(quilt=display_pb2.QuiltDisplay(preset=display))
+        return display_pb2.Display(preset=display)
     return message_from(display, display_pb2.Display(), "display",
                          "a preset's name, a mapping or a Display")
 

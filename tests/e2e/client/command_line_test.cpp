@@ -119,6 +119,14 @@ TEST_F(CommandsWithServer, namesTheNearestStreamAndPreset) {
   EXPECT_THAT(answerTo("watch ss --no-wait --count 1").text, HasSubstr("did you mean \"s\"?"));
   EXPECT_THAT(answerTo("watch s --preset potrait --count 1").text,
               HasSubstr("did you mean \"portrait\""));
+  EXPECT_THAT(answerTo("watch s --preset wovwx --count 1").text,
+              HasSubstr("--preset: there is no \"wovwx\"; "));
+  EXPECT_THAT(answerTo("watch s --preset wovwx --count 1").text,
+              HasSubstr("did you mean \"wowvx\""));
+  EXPECT_THAT(answerTo("watch s --rgbd 64x48 --preset wovwx --count 1").text,
+              HasSubstr("did you mean \"wowvx\""));
+  EXPECT_THAT(answerTo("watch s --cone 40 --preset near_eye --count 1").text,
+              HasSubstr("\"near_eye_2013\" is a display of another kind"));
 }
 
 TEST_F(CommandsWithServer, saysWhatItWaitsForAndWhatThereIs) {

@@ -99,11 +99,27 @@ TEST_F(WatchRequests, areColorWithDepthByItsPresetOrByName) {
   EXPECT_EQ(rgbd.near_m, 1);
   EXPECT_EQ(rgbd.far_m, 9);
   EXPECT_EQ(named->encoding.chroma, Chroma::k420);
-  EXPECT_EQ(fieldOf(quiltSuffix(named->display).status()), "preset");
+  EXPECT_EQ(*quiltSuffix(named->display), "");
+}
+
+TEST_F(WatchRequests, openEveryKindByTheNameOfADevice) {
+  const auto depth = parse({{"preset", "wowvx"}});
+  ASSERT_TRUE(depth.ok()) << depth.status();
+  EXPECT_EQ(std::get<RgbdSpec>(depth->display.kind).view_size_px, (SizePx{960, 540}));
+  const auto lenses = parse({{"preset", "near_eye_2013"}, {"reflections", "2"}});
+  ASSERT_TRUE(lenses.ok()) << lenses.status();
+  EXPECT_EQ(std::get<IntegralSpec>(lenses->display.kind).panel_px, (SizePx{1280, 720}));
+  EXPECT_EQ(fieldOf(parse({{"preset", "near_eye_2013"}, {"columns", "4"}}).status()), "columns");
+  const auto unknown = parse({{"preset", "near_eye"}}).status();
+  EXPECT_EQ(fieldOf(unknown), "preset");
+  EXPECT_NE(unknown.message().find("did you mean \"near_eye_2013\""), std::string::npos);
+  const auto other =
+      parse({{"rgbd", "two-layers"}, {"preset", "portrait"}, {"width", "9"}, {"height", "9"}});
+  EXPECT_EQ(fieldOf(other.status()), "preset");
+  EXPECT_NE(other.status().message().find("is a display of another kind"), std::string::npos);
 }
 
 TEST_F(WatchRequests, nameTheParameterOfColorWithDepthAtFault) {
-  EXPECT_EQ(fieldOf(parse({{"preset", "wowvx"}}).status()), "width");
   EXPECT_EQ(fieldOf(parse({{"rgbd", "both"}}).status()), "rgbd");
   const QueryParameters whole{{"rgbd", "two-layers"}, {"width", "64"}, {"height", "48"}};
   for (const auto& [name, value] : QueryParameters{{"depth_side", "left"},
