@@ -47,8 +47,9 @@ function displayFile(parameters) {
   }});
 }
 
-// parameters: URLSearchParams of /ws; isRgbd: of colour with depth
-function watchCommand(parameters, isRgbd) {
+// parameters: URLSearchParams of /ws; kind: 'quilt', 'integral' or 'rgbd'
+function watchCommand(parameters, kind) {
+  const isRgbd = kind === 'rgbd';
   const words = ['viewloom'];
   if (!kLoopback.includes(location.hostname)) {
     words.push('--server', `${location.hostname}:${kGrpcPort}`);
@@ -129,12 +130,14 @@ export class Commands {
     }
   }
 
-  // parameters: URLSearchParams of /ws
-  show(parameters, isQuilt) {
-    byId('still-elsewhere').hidden = !isQuilt;
+  // parameters: URLSearchParams of /ws; kind: 'quilt', 'integral' or 'rgbd'
+  show(parameters, kind) {
+    // The address of a still names a preset, or says how the views of a quilt lie.
+    const hasStill = kind === 'quilt' || parameters.has('preset');
+    byId('still-elsewhere').hidden = !hasStill;
     const texts = {
-      watch: watchCommand(parameters, !isQuilt),
-      still: isQuilt ? stillCommand(parameters) : '',
+      watch: watchCommand(parameters, kind),
+      still: hasStill ? stillCommand(parameters) : '',
       socket: socketAddress(parameters),
     };
     for (const [name, text] of Object.entries(texts)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which display is watched: a preset, a quilt of one's own, or colour with depth; which of its
-// views are, and in how much detail.
+// Which display is watched: a preset of any kind, a quilt of one's own, or colour with depth; which
+// of its views are, and in how much detail.
 import {keepInAddress, pageParameters, watchedParameters} from './address.js';
 import {eyeSteps, kQuiltSteps} from './detail_steps.js';
 import {RgbdChoice} from './rgbd_choice.js';
@@ -73,14 +73,13 @@ export class DisplayChoice {
     this.#showFields();
   }
 
-  // Whether it is no quilt, but seen whole: colour with depth, or elemental images.
-  get isRgbd() {
-    return this.rgbd.isForm(byId('preset').value) ||
-        ['rgbd', 'integral'].includes(this.#preset()?.kind);
+  // 'quilt', 'integral' for elemental images, or 'rgbd' for colour with depth.
+  get kind() {
+    return this.rgbd.isForm(byId('preset').value) ? 'rgbd' : this.#preset()?.kind ?? 'quilt';
   }
 
-  // Its device says everything else of it, also how large it is.
-  get #isLenses() { return this.#preset()?.kind === 'integral'; }
+  // Displays of other kinds are seen whole.
+  get isQuilt() { return this.kind === 'quilt'; }
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
@@ -92,7 +91,7 @@ export class DisplayChoice {
     this.#offer(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
     const views = {cone_begin: null, cone_end: null, depth: pageParameters().get('depth')};
     for (const name of kQuiltFields) views[name] = pageParameters().get(name);
-    const isMiddle = this.seen === 'middle' && !this.isRgbd;
+    const isMiddle = this.seen === 'middle' && this.isQuilt;
     for (const [side, count] of [['width', 'columns'], ['height', 'rows']]) {
       const full_px = this.#full(side);
       const tiles = isMiddle ? this.#value(count) : 1;
@@ -130,7 +129,7 @@ export class DisplayChoice {
   // Width of a view in full detail, px; 0 = not known.
   get fullWidth_px() {
     const around = this.#aroundEye();
-    const columns = this.isRgbd ? 1 : this.#value('columns');
+    const columns = this.isQuilt ? this.#value('columns') : 1;
     return around ? around.width_px : columns && Math.floor(this.#full('width') / columns);
   }
 
@@ -144,7 +143,7 @@ export class DisplayChoice {
     const aspect = this.#value('aspect') ||
         Math.floor(this.#full('width') / this.#value('columns')) /
         Math.floor(this.#full('height') / this.#value('rows'));
-    if (!(this.seen in kAroundEye) || this.isRgbd || !total || !(aspect > 0)) return null;
+    if (!(this.seen in kAroundEye) || !this.isQuilt || !total || !(aspect > 0)) return null;
     const covered_px = this.frameOf(aspect)[2];
     const width_px = Math.ceil(covered_px / kWidthStep_px) * kWidthStep_px;
     return {total, aspect, width_px: Math.min(kWidthMax_px, Math.max(kWidthStep_px, width_px))};
@@ -192,9 +191,10 @@ export class DisplayChoice {
 
   // A quilt of one's own begins as the preset that was chosen before it.
   #choose(name) {
-    if (this.isRgbd) {
+    if (!this.isQuilt) {
       byId('detail').value = '1';
-      const chosen = this.#isLenses ? {preset: name} : this.rgbd.chosen(name);
+      // Elemental images have the size of their device.
+      const chosen = this.kind === 'integral' ? {preset: name} : this.rgbd.chosen(name);
       this.#keep({...kNone, focus_follow_s: null, ...chosen, detail: '1'});
       return;
     }
@@ -217,7 +217,7 @@ export class DisplayChoice {
   }
 
   #showFields() {
-    this.rgbd.show(this.isRgbd && !this.#isLenses, pageParameters(), this.#preset()?.note);
+    this.rgbd.show(this.kind === 'rgbd', pageParameters(), this.#preset()?.note);
     byId('custom').hidden = byId('preset').value !== '';
     for (const name of kQuiltFields) {
       byId(`custom-${name}`).value = pageParameters().get(name) ?? '';

@@ -34,8 +34,8 @@ const kLook_ms = 250;     // from one look for a picture that stands still to th
 const kResized_ms = 150;  // a size that stays as long is asked for
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
 const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
-// Of colour with depth: there is one view of it, and nothing to weave.
-const kRgbdModes = ['quilt', 'single'];
+// Modes of displays that are no quilts: they have one picture, and nothing to weave.
+const kWholeModes = ['quilt', 'single'];
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
@@ -100,7 +100,7 @@ const decoder = new Decoder(
       lists.show(layout);
       budget.show(atlas.header.depth_budget);
       outside.show(atlas.header.views_outside, layout);
-      commands.show(display.elsewhere(stream.parameters), !display.isRgbd);
+      commands.show(display.elsewhere(stream.parameters), display.kind);
       labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
           display.isAutomatic);
       nameView();
@@ -192,8 +192,8 @@ function seeAsOf(mode) {
 }
 
 function offerModes() {
-  modes.restrict(display.isRgbd ? kRgbdModes : kModes);
-  byId('quilt-name').textContent = display.isRgbd ? 'Whole picture' : 'Quilt';
+  modes.restrict(display.isQuilt ? kModes : kWholeModes);
+  byId('quilt-name').textContent = display.isQuilt ? 'Quilt' : 'Whole picture';
 }
 
 function nameView() {

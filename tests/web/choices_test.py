@@ -69,7 +69,8 @@ class Choices(PageTest):
         self.assertEqual(
             shlex.split(self.browser.evaluate(WATCH)),
             "viewloom watch painted --preset wowvx --screen 2 --rgbd 320x180 --out atlases".split())
-        self.assertTrue(self.browser.evaluate("document.getElementById('still-elsewhere').hidden"))
+        still = self.browser.evaluate("document.getElementById('command-still').value")
+        self.assertRegex(still, r"/still/painted/wowvx\?.*screen_m=2")
 
         self.open(self.browser.evaluate("location.search"))
         self.browser.wait_for(f"{FACTS}.includes('640 × 180')")
@@ -81,6 +82,17 @@ class Choices(PageTest):
         self.assertNotIn("width", self.browser.evaluate("location.search"))
         self.assertEqual(self.browser.messages, [])
 
+    def test_elemental_images_have_the_size_of_their_device(self):
+        self.open(SMALL + "&focus_m=2&mode=look")
+        self.choose("near_eye_2013")
+        self.browser.wait_for(f"{FACTS}.includes('1280 × 720')")
+        self.assertEqual(self.browser.evaluate(OPEN_MODES), ["single", "quilt"])
+        self.assertTrue(self.browser.evaluate("document.getElementById('rgbd').hidden"))
+        self.assertEqual(
+            shlex.split(self.browser.evaluate(WATCH)),
+            "viewloom watch painted --preset near_eye_2013 --out atlases".split())
+        self.assertEqual(self.browser.messages, [])
+
     def test_two_layers_are_four_quadrants(self):
         self.open(SMALL + "&mode=quilt")
         self.choose("rgbd:two-layers")
@@ -88,6 +100,7 @@ class Choices(PageTest):
         self.browser.wait_for(f"{FACTS}.includes('640 × 360')")
         self.assertEqual(self.codes(2, 2), [0, 1, 2, 3])
         self.assertIn("--rgbd-form two-layers", self.browser.evaluate(WATCH))
+        self.assertTrue(self.browser.evaluate("document.getElementById('still-elsewhere').hidden"))
         self.choose("")
         self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
 
