@@ -10,12 +10,14 @@
 #include <optional>
 #include <string>
 
+#include "base/str_cat.h"
 #include "commands/atlas_pictures.h"
 #include "commands/command.h"
 #include "commands/compare_views.h"
 #include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
 #include "commands/shown_frame.h"
+#include "display/named_display.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
 #include "frame/timing_text.h"
@@ -32,6 +34,7 @@ struct RenderArguments {
   std::filesystem::path before;
   std::optional<double> later_s;
   std::filesystem::path display;
+  std::string preset;  // "" = the display is a file
   std::filesystem::path out;
   CompareOptions compare;
 };
@@ -103,12 +106,27 @@ absl::Status inFile(const absl::Status& status, const std::filesystem::path& pat
   return fieldOf(status).empty() ? status : withFieldPrefix(status, path.string());
 }
 
+// The same of the display, which a file or --preset gives.
+absl::Status inDisplay(const absl::Status& status, const RenderArguments& arguments) {
+  if (arguments.preset.empty()) return inFile(status, arguments.display);
+  return inFile(status, strCat("--preset ", arguments.preset));
+}
+
+absl::StatusOr<DisplaySpec> readDisplay(const RenderArguments& arguments) {
+  if (arguments.preset.empty()) return readDisplayFile(arguments.display);
+  const absl::StatusOr<DisplayKind> named = namedDisplay(arguments.preset);
+  if (!named.ok()) {
+    // The field is "preset", which is an option here.
+    return absl::Status(named.status().code(), strCat("--", named.status().message()));
+  }
+  return completeDisplaySpec({.kind = *named});
+}
+
 // Builds what a display with an output rate is shown at another time than the frame's own.
 absl::StatusOr<Timing> buildBetween(const RenderArguments& arguments, const FramePtr& newest,
                                     const DisplaySpec& display, OfflineRenderer& renderer) {
   if (!display.temporal) {
-    return inFile(invalidField("effects.temporal", "is missing, --later needs it"),
-                  arguments.display);
+    return inDisplay(invalidField("effects.temporal", "is missing, --later needs it"), arguments);
   }
   FramesAtHand frames{.newest = newest};
   if (!arguments.before.empty()) {
@@ -126,11 +144,11 @@ absl::StatusOr<Timing> buildBetween(const RenderArguments& arguments, const Fram
 absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::string& device_name) {
   const auto frame = readManifestFrame(arguments.frame);
   if (!frame.ok()) return inFile(frame.status(), arguments.frame);
-  const auto display = readDisplayFile(arguments.display);
-  if (!display.ok()) return inFile(display.status(), arguments.display);
+  const auto display = readDisplay(arguments);
+  if (!display.ok()) return inDisplay(display.status(), arguments);
   if (hasDepthPlane(*display)) {
-    return inFile(invalidField("rgbd.depth_bits", "got 16, pictures of render have 8"),
-                  arguments.display);
+    return inDisplay(invalidField("rgbd.depth_bits", "got 16, pictures of render have 8"),
+                     arguments);
   }
   std::error_code failed;
   std::filesystem::create_directories(arguments.out, failed);
@@ -149,7 +167,7 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
   const TraceOutputs outputs = {
       .mask = true, .linear = !arguments.compare.truth.empty(), .records = true};
   const auto atlas = renderer.render(*display, outputs, showProgress);
-  if (!atlas.ok()) return inFile(atlas.status(), arguments.display);
+  if (!atlas.ok()) return inDisplay(atlas.status(), arguments);
   const auto names = writeAtlasPictures(*atlas, arguments.out);
   if (!names.ok()) return names.status();
 
@@ -199,7 +217,10 @@ void addRenderCommand(CLI::App& app, Command& chosen) {
       ->add_option("--before", arguments->before,
                    "FrameManifest as JSON: the frame before, which tells how the camera moves")
       ->needs(later);
-  command->add_option("--display", arguments->display, "Display as JSON")->required();
+  CLI::Option_group* const display = command->add_option_group("Display");
+  display->add_option("--display", arguments->display, "Display as JSON");
+  display->add_option("--preset", arguments->preset, "A named device, see `viewloom list presets`");
+  display->require_option(1);
   command->add_option("--out", arguments->out, "Folder for the pictures, made if need be")
       ->required();
   CLI::Option* const truth = command->add_option("--compare", compare.truth,

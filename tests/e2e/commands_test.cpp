@@ -117,6 +117,20 @@ TEST_F(RenderTest, refusesBadInputByFileAndField) {
   }
 }
 
+TEST_F(RenderTest, opensADisplayByTheNameOfItsDevice) {
+  const std::string files =
+      strCat("render --frame ", folder_.string(), "/frame.json --out ", folder_.string(), "/out");
+  const FinishedRun run = runViewloomd(files + " --preset near_eye_2013");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_GT(Json::parse(run.output).at("coverage").at("hit"), 0.5);
+  const FinishedRun mistyped = runViewloomd(files + " --preset near_eye_2031");
+  EXPECT_EQ(mistyped.exit_code, 1);
+  EXPECT_THAT(mistyped.errors,
+              AllOf(HasSubstr("viewloomd render: --preset: there is no \"near_eye_2031\""),
+                    HasSubstr("did you mean \"near_eye_2013\"?")));
+  EXPECT_EQ(runViewloomd(files).exit_code, 2) << "no display at all";
+}
+
 TEST_F(RenderTest, refusesATruthOfAnotherSizeAndABorderThatLeavesNothing) {
   write("beyond.json", R"({"views":[{"viewIndex":2,"color":{"file":"color.png"}}]})");
   const std::string prefix = " --compare " + folder_.string() + "/";
