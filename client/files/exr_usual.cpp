@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "base/nearest_name.h"
 #include "files/exr_layer_names.h"
 
 namespace viewloom::files {
@@ -73,12 +74,39 @@ std::string viewOr(const ExrDescription& description, const std::string& view) {
   return view.empty() ? defaultExrView(description) : view;
 }
 
-std::string namesOf(const std::vector<ExrLayer>& layers) {
+// Name of the channel of a layer that was named for its depth; "" = none.
+std::string depthIn(const ExrLayer& layer) {
+  if (layer.order.size() == 1) return layer.channels.begin()->second;
+  for (const std::string& base : layer.order) {
+    if (isDepthWord(base) || isOnlyValue(base)) return layer.channels.at(base);
+  }
+  return "";
+}
+
+std::vector<std::string> depthLayerNames(const std::vector<ExrLayer>& layers) {
+  std::vector<std::string> names;
+  for (const ExrLayer& layer : layers) {
+    if (!layer.path.empty() && !depthIn(layer).empty()) names.push_back(layer.path);
+  }
+  return names;
+}
+
+std::vector<std::string> colorLayerNames(const std::vector<ExrLayer>& layers) {
   std::vector<std::string> names;
   for (const ExrLayer& layer : layers) {
     if (!layer.color().empty()) names.push_back(layer.path.empty() ? "R,G,B" : layer.path);
   }
-  return absl::StrJoin(names, ", ");
+  return names;
+}
+
+// "; did you mean "Depth.Z"?" by `names` and the channels of the file, or nothing.
+std::string suggestion(const ExrDescription& description, std::string_view word,
+                       std::vector<std::string> names) {
+  for (const ExrDescribedPart& part : description.parts) {
+    for (const ExrDescribedChannel& channel : part.channels) names.push_back(channel.name);
+  }
+  const std::string meant = didYouMean(word, names);
+  return meant.empty() ? "" : absl::StrCat("; ", meant);
 }
 
 // The channel's name as the file has it; "" = none.
@@ -161,9 +189,12 @@ absl::StatusOr<std::vector<std::string>> namedExrColor(const ExrDescription& des
                                                        const std::string& wanted) {
   const std::vector<ExrLayer> layers = exrLayersOf(description, viewOr(description, view));
   std::vector<std::string> names;
-  for (const auto word : absl::StrSplit(wanted, ',')) {
-    const std::string name = nameInFile(description, std::string(absl::StripAsciiWhitespace(word)));
+  std::string unknown;  // the first word that is no channel
+  for (const auto given : absl::StrSplit(wanted, ',')) {
+    const std::string word(absl::StripAsciiWhitespace(given));
+    const std::string name = nameInFile(description, word);
     if (!name.empty()) names.push_back(name);
+    if (name.empty() && unknown.empty()) unknown = word;
   }
   const auto asked = 1 + std::count(wanted.begin(), wanted.end(), ',');
   const bool is_list = asked == 3 || asked == 4;
@@ -173,10 +204,13 @@ absl::StatusOr<std::vector<std::string>> namedExrColor(const ExrDescription& des
     if (layer != nullptr && !layer->color().empty()) return layer->color();
     if (names.size() == 1) return names;
   }
+  const std::vector<std::string> layer_names = colorLayerNames(layers);
   return absl::InvalidArgumentError(absl::StrCat(
-      "--color-channels ", wanted, ": accepted are a layer with colour (", namesOf(layers),
+      "--color-channels ", wanted, ": accepted are a layer with colour (",
+      absl::StrJoin(layer_names, ", "),
       "), one channel for grey, or three or four channels as R,G,B,A; the file has ",
-      listExrChannels(description)));
+      listExrChannels(description),
+      suggestion(description, unknown, asked == 1 ? layer_names : std::vector<std::string>{})));
 }
 
 absl::StatusOr<std::vector<std::string>> namedExrDepth(const ExrDescription& description,
@@ -186,25 +220,24 @@ absl::StatusOr<std::vector<std::string>> namedExrDepth(const ExrDescription& des
   if (!name.empty()) return std::vector<std::string>{name};
   const std::vector<ExrLayer> layers = exrLayersOf(description, viewOr(description, view));
   if (const ExrLayer* const layer = findLayer(layers, wanted)) {
-    if (layer->order.size() == 1) return std::vector{layer->channels.begin()->second};
-    for (const std::string& base : layer->order) {
-      if (isDepthWord(base) || isOnlyValue(base)) return std::vector{layer->channels.at(base)};
-    }
+    const std::string depth = depthIn(*layer);
+    if (!depth.empty()) return std::vector<std::string>{depth};
   }
-  return absl::InvalidArgumentError(absl::StrCat("--depth-channel ", wanted,
-                                                 ": accepted is a channel of the file, which has ",
-                                                 listExrChannels(description)));
+  return absl::InvalidArgumentError(absl::StrCat(
+      "--depth-channel ", wanted, ": accepted is a channel of the file, which has ",
+      listExrChannels(description), suggestion(description, wanted, depthLayerNames(layers))));
 }
 
 absl::StatusOr<std::string> exrView(const ExrDescription& description, const std::string& view) {
   const std::string found = viewOr(description, view);
   if (!exrLayersOf(description, found).empty() || view.empty()) return found;
-  return absl::InvalidArgumentError(
-      absl::StrCat("has no view ", view,
-                   description.views.empty()
-                       ? ""
-                       : absl::StrCat("; accepted are ", absl::StrJoin(description.views, ", ")),
-                   "; its channels are ", listExrChannels(description)));
+  const std::string meant = didYouMean(view, description.views);
+  return absl::InvalidArgumentError(absl::StrCat(
+      "has no view ", view,
+      description.views.empty()
+          ? ""
+          : absl::StrCat("; accepted are ", absl::StrJoin(description.views, ", ")),
+      "; its channels are ", listExrChannels(description), meant.empty() ? "" : "; ", meant));
 }
 
 bool hasPositionsAlone(const ExrDescription& description) {
