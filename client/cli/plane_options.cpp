@@ -207,7 +207,7 @@ void addPlaneOptions(CLI::App& app, InputSettings& settings) {
           "How colour is stored: srgb or linear [by the file]")
       ->group("Colour");
   addWord(app, "--primaries", settings.primaries, kPrimaries,
-          "What its primaries are: bt709, p3 or bt2020 [by an EXR or a photo, else bt709]")
+          "What its primaries are: bt709, p3 or bt2020 [by the file, else bt709]")
       ->group("Colour");
   addWord(app, "--alpha", settings.alpha, kAlphas,
           "What alpha says: opaque, premultiplied or straight [by the file]")
