@@ -5,22 +5,14 @@ import socket
 import sys
 import unittest
 
+from painted_case import PaintedCase
 from web_client import Server, Stream, fetch, request_bytes
 
 PROGRAM = sys.argv.pop(1)
 
 
-class Answers(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server(PROGRAM, "--timeout-ms", 3000)
-        cls.port = cls.server.port
-
-    @classmethod
-    def tearDownClass(cls):
-        with cls.server:
-            code = cls.server.stop()
-            assert code == 0, f"the server ended with {code}"
+class Answers(PaintedCase):
+    PROGRAM = PROGRAM
 
     def by_name(self, what):
         return {entry["name"]: entry for entry in fetch(self.port, f"/api/{what}").json()[what]}
@@ -89,20 +81,10 @@ class Answers(unittest.TestCase):
         stream.close()
 
 
-class Refusals(unittest.TestCase):
+class Refusals(PaintedCase):
     """Each request that nobody should send, with the status and the field it is refused for."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server(PROGRAM)
-        cls.port = cls.server.port
-
-    @classmethod
-    def tearDownClass(cls):
-        with cls.server:
-            code = cls.server.stop()
-            assert code == 0, f"the server ended with {code}"
-
+    PROGRAM = PROGRAM
     TARGETS = (
         ("/nowhere", 404, "url"),
         ("/../etc/passwd", 404, "url"),

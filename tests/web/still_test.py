@@ -11,23 +11,15 @@ import unittest
 
 from PIL import Image
 
-from web_client import Server, decode_view, fetch
+from painted_case import PaintedCase
+from web_client import decode_view, fetch
 
 PROGRAM = sys.argv.pop(1)
 SMALL = "columns=4&rows=2&width=320&height=160"
 
 
-class Stills(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server(PROGRAM, "--timeout-ms", 3000)
-        cls.port = cls.server.port
-
-    @classmethod
-    def tearDownClass(cls):
-        with cls.server:
-            code = cls.server.stop()
-            assert code == 0, f"the server ended with {code}"
+class Stills(PaintedCase):
+    PROGRAM = PROGRAM
 
     def test_serves_a_still_whose_url_says_how_its_views_lie(self):
         reply = fetch(self.port, f"/still/painted_qs4x2a1.jpg?{SMALL}")

@@ -6,33 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/client/test_files.h"
-#include "unit/inputs/written_files.h"
+#include "unit/inputs/written_pair.h"
 
 namespace viewloom::test {
 namespace {
 
-using files::TestFolder;
-using inputs::InputKind;
-using inputs::InputSettings;
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class ChosenDepthTest : public ::testing::Test {
- protected:
-  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  void writeColor() const { writePng(file("color.png"), 4, 2, 3, 8, std::vector<uint16_t>(24, 9)); }
-  void writeGrey(uint32_t bits, const std::vector<uint16_t>& codes) const {
-    writePng(file("depth.png"), static_cast<uint32_t>(codes.size()), 1, 1, bits, codes);
-  }
-  inputs::ReadInput readPair(const InputSettings& settings) const {
-    return readInput(settings, {.color = file("color.png"), .depth = file("depth.png")});
-  }
-
-  const TestFolder folder_;
-};
+class ChosenDepthTest : public WrittenPairTest {};
 
 // 1/Z of 0.5 .. 1.5 1/m, or with the same ratio to the distance that is given.
 TEST_F(ChosenDepthTest, choosesDistancesForDepthOfUnknownScale) {

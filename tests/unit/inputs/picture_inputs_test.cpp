@@ -8,23 +8,15 @@
 #include <fstream>
 #include <limits>
 
-#include "unit/client/test_files.h"
-#include "unit/inputs/written_files.h"
+#include "unit/inputs/written_pair.h"
 
 namespace viewloom::test {
 namespace {
 
-using files::TestFolder;
-using inputs::InputKind;
-using inputs::InputSettings;
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class PictureInputsTest : public ::testing::Test {
+class PictureInputsTest : public WrittenPairTest {
  protected:
-  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
   // Green colour and grey depth of 4x4 each: black at the left of the depth, then 85, 170, 255.
   void writeHalves(v1::ImagePart depth_side) const {
     const bool beside = depth_side == v1::IMAGE_PART_LEFT || depth_side == v1::IMAGE_PART_RIGHT;
@@ -41,16 +33,6 @@ class PictureInputsTest : public ::testing::Test {
     }
     writePng(file("rgbd.png"), width, height, 3, 8, rgb);
   }
-
-  void writeColor() const { writePng(file("color.png"), 4, 2, 3, 8, std::vector<uint16_t>(24, 9)); }
-  void writeGrey(uint32_t bits, const std::vector<uint16_t>& codes) const {
-    writePng(file("depth.png"), static_cast<uint32_t>(codes.size()), 1, 1, bits, codes);
-  }
-  inputs::ReadInput readPair(const InputSettings& settings) const {
-    return readInput(settings, {.color = file("color.png"), .depth = file("depth.png")});
-  }
-
-  const TestFolder folder_;
 };
 
 TEST_F(PictureInputsTest, findsTheHalvesInAllFourPlacements) {

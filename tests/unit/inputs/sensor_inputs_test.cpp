@@ -8,25 +8,19 @@
 #include <fstream>
 #include <random>
 
-#include "unit/client/test_files.h"
-#include "unit/inputs/written_files.h"
+#include "unit/inputs/written_pair.h"
 
 namespace viewloom::test {
 namespace {
 
-using files::TestFolder;
-using inputs::InputKind;
-using inputs::InputSettings;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class SensorInputsTest : public ::testing::Test {
+class SensorInputsTest : public WrittenPairTest {
  protected:
-  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
   inputs::InputFiles pair(const std::string& depth) const {
-    writePng(file("color.png"), 4, 2, 3, 8, std::vector<uint16_t>(24, 9));
+    writeColor();
     return {.color = file("color.png"), .depth = file(depth)};
   }
   inputs::ReadInput readCodes(const InputSettings& settings, uint32_t bits,
@@ -40,8 +34,6 @@ class SensorInputsTest : public ::testing::Test {
     writePng(file("depth.png"), static_cast<uint32_t>(rgb.size() / 3), 1, 3, 8, rgb);
     return readInput(settings, pair("depth.png"));
   }
-
-  const TestFolder folder_;
 };
 
 TEST_F(SensorInputsTest, knowsTheUnitsOfDataSetsAndSensors) {
