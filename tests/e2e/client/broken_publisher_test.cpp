@@ -5,102 +5,82 @@
 #include <chrono>
 #include <future>
 
-#include "e2e/client/scripted_server.h"
+#include "e2e/client/publish_scripts.h"
+#include "e2e/client/resetting_proxy.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
 
 namespace viewloom {
 namespace {
-
-constexpr int64_t kLong_ns = 60'000'000'000;  // only a failing test waits so long
-constexpr BackoffOptions kQuick{.first_ns = 1'000'000, .max_ns = 10'000'000, .factor = 2};
-
-// One plane, of one chunk.
-WireFrame smallFrame() {
-  WireFrame frame;
-  frame.header.add_sources()->add_layers()->add_planes()->set_bytes_count(10);
-  frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(10, uint8_t{7}));
-  return frame;
-}
-
-// Reads settings; false when the call is broken.
-bool accept(PublishStream& stream, v1::PublishSettings* settings = nullptr) {
-  v1::PublishFramesRequest request;
-  if (!stream.Read(&request) || !request.has_settings()) return false;
-  if (settings != nullptr) *settings = request.settings();
-  v1::PublishFramesResponse response;
-  response.mutable_accepted();
-  return stream.Write(response);
-}
-
-// The number of the next frame, once its bytes have come; 0 = the call is broken.
-uint64_t readFrame(PublishStream& stream) {
-  uint64_t number = 0;
-  v1::PublishFramesRequest request;
-  while (stream.Read(&request)) {
-    if (request.has_header()) number = request.header().number();
-    if (request.has_chunk()) return number;
-  }
-  return 0;
-}
-
-grpc::Status takeAll(PublishStream& stream, int& received_count) {
-  while (const uint64_t number = readFrame(stream)) {
-    ++received_count;
-    v1::PublishFramesResponse response;
-    response.mutable_report()->set_number(number);
-    response.mutable_report()->set_outcome(v1::FRAME_OUTCOME_TRACED);
-    stream.Write(response);
-  }
-  return grpc::Status::OK;
-}
-
-grpc::Status noWatching(WatchStream&, int) {
-  return {grpc::StatusCode::UNIMPLEMENTED, "not in this test"};
-}
-
-Publisher makePublisher(const ScriptedServer& server) {
-  PublisherOptions options;
-  options.stream = "s";
-  options.backoff = kQuick;
-  return Publisher(makeChannel(server.address()), options, {});
-}
 
 TEST(BrokenPublisher, comesBackAfterWhatAProxyDoesToACall) {
   const grpc::StatusCode codes[] = {grpc::StatusCode::INTERNAL,
                                     grpc::StatusCode::RESOURCE_EXHAUSTED,
                                     grpc::StatusCode::DEADLINE_EXCEEDED};
-  int received_count = 0;
+  std::vector<ReceivedFrame> received;
   const auto serve = [&](PublishStream& stream, int call) {
     if (!accept(stream)) return grpc::Status::OK;
-    if (call > 3) return takeAll(stream, received_count);
+    if (call > 3) return takeAll(stream, received);
     readFrame(stream);
     return grpc::Status(codes[call - 1], "Received RST_STREAM with error code 2");
   };
   ScriptedServer server(serve, noWatching);
   Publisher publisher = makePublisher(server);
-  publisher.offer(smallFrame());
+  publisher.offer(makeFrame(7));
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
-  EXPECT_EQ(received_count, 1);
+  EXPECT_EQ(received.size(), 1U);
   EXPECT_EQ(publisher.counts().reconnects, 3U);
 }
 
+// The frames of HTTP/2 that proxies send when they lose patience.
+TEST(BrokenPublisher, comesBackAfterAResetOfItsStream) {
+  constexpr uint32_t kInternalError = 2, kRefusedStream = 7, kCancel = 8, kEnhanceYourCalm = 11;
+  for (const uint32_t code : {kInternalError, kRefusedStream, kCancel, kEnhanceYourCalm}) {
+    std::vector<ReceivedFrame> received;
+    ResettingProxy* between = nullptr;
+    const auto serve = [&](PublishStream& stream, int call) {
+      if (!accept(stream)) return grpc::Status::OK;
+      if (call > 1) return takeAll(stream, received);
+      v1::PublishFramesRequest request;
+      stream.Read(&request);  // of a frame of several messages
+      between->resetStream(code);
+      while (stream.Read(&request)) {
+      }
+      return grpc::Status::OK;
+    };
+    ScriptedServer server(serve, noWatching);
+    ResettingProxy proxy(server.address());
+    between = &proxy;
+    std::vector<absl::Status> reasons;
+    PublisherCallbacks callbacks;
+    callbacks.on_connection = [&](const ConnectionEvent& event) {
+      if (event.kind == ConnectionEvent::Kind::kRetrying) reasons.push_back(event.reason);
+    };
+    Publisher publisher = makePublisher(proxy.address(), {}, callbacks);
+    publisher.offer(makeFrame(7));
+    EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus()) << code;
+    ASSERT_EQ(received.size(), 1U) << code;
+    EXPECT_EQ(received[0].planes[0].size(), makeFrame(7).planes[0]->size()) << code;
+    EXPECT_EQ(publisher.counts().reconnects, 1U) << code;
+    ASSERT_EQ(reasons.size(), 1U) << code;
+    EXPECT_TRUE(isFromTransport(reasons[0])) << code << ": " << reasons[0];
+  }
+}
+
 TEST(BrokenPublisher, waitsForItsNameWhereTheServerSaysThatItMay) {
-  int received_count = 0;
+  std::vector<ReceivedFrame> received;
   google::rpc::Status details;
   details.add_details()->PackFrom(google::rpc::RetryInfo());
   const grpc::Status taken(grpc::StatusCode::ALREADY_EXISTS, "taken", details.SerializeAsString());
   const auto serve = [&](PublishStream& stream, int call) {
     if (call <= 3) return taken;
-    return accept(stream) ? takeAll(stream, received_count) : grpc::Status::OK;
+    return accept(stream) ? takeAll(stream, received) : grpc::Status::OK;
   };
   ScriptedServer server(serve, noWatching);
   Publisher publisher = makePublisher(server);
-  publisher.offer(smallFrame());
+  publisher.offer(makeFrame(7));
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
-  EXPECT_EQ(received_count, 1);
+  EXPECT_EQ(received.size(), 1U);
 }
 
 TEST(BrokenPublisher, announcesHeartbeatsAndSendsThemWhileNothingElseGoes) {

@@ -123,6 +123,28 @@ TEST_F(ClientWatcher, comesBackForTheRestAndDiscardsWhatWasHalfSent) {
   EXPECT_EQ(opened[1].count(), 2U);
 }
 
+TEST_F(ClientWatcher, callsAgainWhenAServerWithHeartbeatsFallsSilent) {
+  ScriptedServer server(noPublishing, [&](WatchStream& stream, int call) {
+    readOpen(stream);
+    writeLayout(stream);
+    if (call == 1) {
+      v1::StreamAtlasesResponse beat;
+      beat.mutable_heartbeat();
+      stream.Write(beat);
+      v1::StreamAtlasesRequest request;
+      while (stream.Read(&request)) {
+      }
+    }
+    writeAtlas(stream, 1);
+    return grpc::Status::OK;
+  });
+  const auto watcher = watch(server, 1);
+  ASSERT_TRUE(watcher->waitEnded(kLong_ns));
+  EXPECT_EQ(*watcher->ended(), absl::OkStatus());
+  EXPECT_THAT(frames_, ElementsAre(10));
+  EXPECT_EQ(watcher->counts().reconnects, 1U);
+}
+
 TEST_F(ClientWatcher, survivesARestartOfTheServer) {
   std::promise<void> is_watching;
   ScriptedServer server(noPublishing, [&](WatchStream& stream, int call) {
