@@ -15,10 +15,18 @@ namespace viewloom::cli {
 namespace {
 
 // Remedies that fields of a manifest can express.
-const std::set<std::string> kOfManifests{
-    "--depth-meaning",  "--depth-scale", "--depth-offset",        "--depth-near",
-    "--depth-far",      "--depth-min",   "--depth-max",           "--depth-invalid",
-    "--depth-far-zero", "--alpha",       "--depth-invalid-is-far"};
+const std::set<std::string> kOfManifests{"--depth-meaning",
+                                         "--depth-scale",
+                                         "--depth-offset",
+                                         "--depth-near",
+                                         "--depth-far",
+                                         "--depth-min",
+                                         "--depth-max",
+                                         "--depth-invalid",
+                                         "--depth-far-zero",
+                                         "--alpha",
+                                         "--depth-invalid-is-far",
+                                         "--flip"};
 
 // Settings that were given, with the options after them. Nothing when they contradict each other.
 std::optional<inputs::InputSettings> withOptions(inputs::InputSettings settings,
@@ -57,6 +65,7 @@ std::optional<files::LoadedFrame> OptionTrial::readManifest(
     for (v1::LayerFiles& layer : *source.mutable_layers()) {
       v1::DepthFormat& format = *layer.mutable_depth()->mutable_depth();
       format = depthOf(settings, format);
+      if (settings.given.contains("--flip")) layer.mutable_depth()->set_flip(settings.flips_depth);
       if (settings.alpha != v1::ALPHA_MODE_UNSPECIFIED) {
         layer.mutable_color()->set_alpha(settings.alpha);
       }
@@ -81,11 +90,14 @@ std::optional<files::LoadedFrame> OptionTrial::read(const std::string& options) 
 }
 
 std::string OptionTrial::spoken(const std::string& options) const {
-  if (files_.manifest.empty()) return options;
+  if (files_.manifest.empty()) return options == "--flip=false" ? "without --flip" : options;
   const auto settings = withOptions({}, options);
   if (!settings) return options;
   if (settings->alpha != v1::ALPHA_MODE_UNSPECIFIED) {
     return strCat("\"alpha\": \"", v1::AlphaMode_Name(settings->alpha), "\" in \"color\"");
+  }
+  if (settings->given.contains("--flip")) {
+    return strCat("\"flip\": ", settings->flips_depth ? "true" : "false", " in \"depth\"");
   }
   return strCat(json(depthOf(*settings, {})), " in \"depth\"");
 }

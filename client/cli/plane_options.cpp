@@ -170,8 +170,10 @@ void addCameraOptions(CLI::App& app, InputSettings& settings) {
                  "Vertical field of view of the camera, degrees [the file's, else 40]")
       ->check(CLI::Range(0.1, 170.0))
       ->group(group);
-  app.add_option("--focal-px", settings.focal_px,
-                 "Focal length in pixels of the depth, instead of --fov")
+  app.add_option(
+         "--focal-px", settings.focal_px,
+         "Focal length in pixels of the depth, instead of --fov; the shorter side counts of pixels "
+         "that are not square")
       ->check(CLI::PositiveNumber)
       ->excludes("--fov")
       ->group(group);

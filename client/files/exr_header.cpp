@@ -54,7 +54,7 @@ class HeaderReader {
     }
     return refuseFile(path_,
                       "has no deep part that can be found; accepted is a deep scan line or "
-                      "tile part");
+                      "tile part; name a flat picture without --deep");
   }
 
  private:

@@ -177,9 +177,11 @@ v1::Camera settleCamera(const InputSettings& settings, const Interpretation& how
   if (!is_stated || settings.fov_y_deg || settings.focal_px) {
     const double half_rad =
         0.5 * settings.fov_y_deg.value_or(kDefaultFov_deg) * std::numbers::pi / 180;
-    const double focal_px = settings.focal_px.value_or(0.5 * height / std::tan(half_rad));
-    intrinsics.set_focal_x_px(focal_px / how.pixel_aspect);
-    intrinsics.set_focal_y_px(focal_px);
+    const double focal_y_px = settings.focal_px
+                                  ? *settings.focal_px * std::min(1.0, how.pixel_aspect)
+                                  : 0.5 * height / std::tan(half_rad);
+    intrinsics.set_focal_x_px(focal_y_px / how.pixel_aspect);
+    intrinsics.set_focal_y_px(focal_y_px);
   }
   if (!is_stated) {
     intrinsics.set_principal_x_px(0.5 * width);

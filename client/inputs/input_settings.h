@@ -65,7 +65,7 @@ struct InputSettings {
   std::optional<double> no_surface_beyond_m;
   std::optional<double> baseline_m;  // depth is disparity in px of two cameras so far apart
   v1::DepthPacking depth_packing = v1::DEPTH_PACKING_UNSPECIFIED;
-  bool flips_depth = false;     // rows are stored the other way round
+  bool flips_depth = false;  // rows are stored the other way round
   bool flips_color = false;
   double connection_tolerance = 0;  // 1/m; 0 = measured
 
@@ -75,7 +75,7 @@ struct InputSettings {
   v1::ToneMap tone_map = v1::TONE_MAP_UNSPECIFIED;
 
   std::optional<double> fov_y_deg;   // 40 without any word of a camera
-  std::optional<double> focal_px;    // instead of fov_y_deg; vertical, in px of the depth
+  std::optional<double> focal_px;    // instead of fov_y_deg, in shorter sides of the depth's px
   std::vector<double> principal_px;  // none = the middle
   std::optional<double> pixel_aspect;
   bool looks_along_minus_z = false;  // cameras of EXR matrices: else along +z

@@ -102,8 +102,9 @@ void noteNumbers(const v1::Plane& plane, const std::vector<float>& stored, Depth
     if (std::isfinite(number)) samples.largest_stored = std::max(samples.largest_stored, number);
   }
   samples.huge = hugeNumbers(stored);
-  samples.has_scattered_zeros =
-      zeroPattern(stored, samples.width_px, samples.height_px).isScattered();
+  const ZeroPattern zeros = zeroPattern(stored, samples.width_px, samples.height_px);
+  samples.has_scattered_zeros = zeros.isScattered();
+  samples.has_points_alone = zeros.isOfPoints();
   samples.is_stretched = plane.encoding() == v1::PLANE_ENCODING_DEPTH_U16 &&
                          std::all_of(stored.begin(), stored.end(), [](float number) {
                            return static_cast<int>(number) % kStretch == 0;

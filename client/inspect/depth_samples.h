@@ -46,7 +46,8 @@ struct DepthSamples {
   // Whether all numbers are multiples of 257, as of 8 bits that were stretched to 16.
   bool is_stretched = false;
   HugeNumbers huge;
-  bool has_scattered_zeros = false;  // ZeroPattern
+  bool has_scattered_zeros = false;  // ZeroPattern::isScattered
+  bool has_points_alone = false;     // ZeroPattern::isOfPoints
 
   uint64_t sampleCount() const { return uint64_t{width_px} * height_px; }
 };

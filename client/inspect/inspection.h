@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "files/frame_manifest.h"
@@ -24,7 +25,9 @@ struct SourceInspection {
 };
 
 // Errors name the field of the frame. Suspicions come without remedies (inspect/remedies.h).
-absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFrame& frame);
+// CANCELLED soon after a stop is requested.
+absl::StatusOr<std::vector<SourceInspection>> inspectFrame(const files::LoadedFrame& frame,
+                                                           const std::stop_token& stop = {});
 
 // The colour of a layer beside its depth: white near, black far (98th and 2nd percentile of 1/Z,
 // and infinity), magenta where there is no surface.

@@ -14,18 +14,30 @@
 namespace viewloom::inspect {
 namespace {
 
+// Half of the surfaces of a scene lie here, as a rule. Units are chosen by it.
+constexpr double kUsualNear_m = 0.1, kUsualFar_m = 30;
+constexpr double kStreetFar_m = 100;  // what scanners on cars see
+
 struct Candidate {
   std::string options;
-  std::string meaning;  // "if the numbers are millimetres"; "" = the sign says it
-  std::string instead;  // said in place of the options: what to leave out
+  std::string meaning;         // "if the numbers are millimetres"; "" = the sign says it
+  std::string instead;         // said in place of the options: what to leave out
+  double far_m = kUsualFar_m;  // nearer than this lies half of the surfaces, as a rule
 };
 using Candidates = std::vector<Candidate>;
 
 // Suspicions that a remedy may not raise.
-const std::set<std::string> kGrave{"empty", "inside-out", "flat", "scale", "nothing", "bad"};
+const std::set<std::string> kGrave{"empty",   "inside-out", "flat",       "scale",
+                                   "nothing", "bad",        "upside-down"};
 
-// Half of the surfaces of a scene lie here, as a rule. Units are chosen by it.
-constexpr double kUsualNear_m = 0.1, kUsualFar_m = 30;
+// Points of a scanner leave most of the picture empty, and are right so.
+bool isGrave(const Suspicion& suspicion, const LayerInspection& layer) {
+  if (suspicion.kind == "empty" && layer.samples.has_points_alone &&
+      layer.samples.surface_count > 0) {
+    return false;
+  }
+  return kGrave.contains(suspicion.kind);
+}
 
 bool isMetric(const v1::DepthFormat& format) {
   return format.meaning() == v1::DEPTH_MEANING_PLANAR ||
@@ -79,6 +91,14 @@ Candidates swapped(const LayerInspection& layer) {
   return candidates;
 }
 
+// Distances as the KITTI benchmark stores them, also where they were taken for 1/Z.
+Candidate ofScanner(const std::string& more = "") {
+  return {.options = "--input kitti" + more,
+          .meaning = "if the numbers are 256ths of a metre and 0 is nothing",
+          .instead = {},
+          .far_m = kStreetFar_m};
+}
+
 Candidates smaller(const LayerInspection& layer) {
   const double scale = scaleOf(layer.depth.depth());
   Candidates candidates;
@@ -89,9 +109,13 @@ Candidates smaller(const LayerInspection& layer) {
   };
   const bool is_whole = layer.depth.encoding() == v1::PLANE_ENCODING_DEPTH_U16;
   if (is_whole && scale == 1) {
+    if (layer.samples.has_points_alone) candidates.push_back(ofScanner());
     candidates.push_back({.options = "--input sensor",
                           .meaning = "if the numbers are millimetres and 0 is nothing",
                           .instead = {}});
+    if (!layer.samples.has_points_alone && layer.samples.has_scattered_zeros) {
+      candidates.push_back(ofScanner());
+    }
   }
   if (!is_whole) add(0.01, "centimetres");
   add(0.001, "millimetres");
@@ -118,6 +142,10 @@ Candidates otherUnits(const LayerInspection& layer) {
   const bool is_metric = isMetric(layer.depth.depth());
   Candidates candidates;
   if (is_metric) candidates = is_far ? smaller(layer) : larger(layer);
+  const bool is_whole = layer.depth.encoding() == v1::PLANE_ENCODING_DEPTH_U16;
+  if (!is_metric && is_whole && layer.samples.has_points_alone) {
+    candidates.push_back(ofScanner(" --depth-meaning planar"));
+  }
   candidates.push_back({.options = "--input relative",
                         .meaning = "if they have no unit and white is near",
                         .instead = {}});
@@ -160,6 +188,10 @@ Candidates candidatesFor(const std::string& kind, const LayerInspection& layer) 
     const bool is_at_max = samples.at_max_count > samples.at_min_count;
     return invalid(is_at_max ? samples.stored_max : samples.stored_min);
   }
+  if (kind == "upside-down") {
+    return {{.options = "--flip", .meaning = "if depth is stored from below", .instead = {}},
+            {.options = "--flip=false", .meaning = "", .instead = {}}};
+  }
   if (kind == "alpha") return {{.options = "--alpha opaque", .meaning = "", .instead = {}}};
   if (kind != "empty" && kind != "bad") return {};
   Candidates candidates;
@@ -187,22 +219,23 @@ bool helps(const Suspicion& suspicion, const LayerInspection& before,
            const LayerInspection& after) {
   if (has(after.suspicions, suspicion.kind)) return false;
   return std::none_of(after.suspicions.begin(), after.suspicions.end(), [&](const Suspicion& its) {
-    return kGrave.contains(its.kind) && !has(before.suspicions, its.kind);
+    return isGrave(its, after) && !has(before.suspicions, its.kind);
   });
 }
 
 // Whether nothing grave is left, and units put surfaces where scenes have them.
-bool isWhole(const Suspicion& suspicion, const LayerInspection& after) {
+bool isWhole(const Suspicion& suspicion, const LayerInspection& after, double far_m) {
   const bool is_grave = std::any_of(after.suspicions.begin(), after.suspicions.end(),
-                                    [](const Suspicion& its) { return kGrave.contains(its.kind); });
+                                    [&](const Suspicion& its) { return isGrave(its, after); });
   if (is_grave) return false;
   if (suspicion.kind != "scale" && suspicion.kind != "empty") return true;
   const double median_m = 1 / double{after.measures.inv_z_median};
-  return median_m >= kUsualNear_m && median_m <= kUsualFar_m;
+  return median_m >= kUsualNear_m && median_m <= far_m;
 }
 
 std::string resultOf(const Suspicion& suspicion, const LayerInspection& after) {
   if (suspicion.kind == "alpha") return "views then show them";
+  if (suspicion.kind == "upside-down") return "its edges then fall on edges of colour";
   const uint64_t all = after.samples.sampleCount();
   const double none = double(after.samples.invalid_count + after.samples.bad_count);
   const double none_percent = std::round(1000 * none / double(all)) / 10;
@@ -214,9 +247,10 @@ std::string resultOf(const Suspicion& suspicion, const LayerInspection& after) {
 // The layer as it is with the options; nothing where the files cannot be read so.
 std::optional<LayerInspection> readWith(const std::string& options, const LayerPlace& place,
                                         const Rereading& rereading) {
+  if (rereading.stop().stop_requested()) return std::nullopt;
   const std::optional<files::LoadedFrame> frame = rereading.read(options);
   if (!frame) return std::nullopt;
-  auto sources = inspectFrame(*frame);
+  auto sources = inspectFrame(*frame, rereading.stop());
   if (!sources.ok() || place.source >= sources->size()) return std::nullopt;
   std::vector<LayerInspection>& layers = (*sources)[place.source].layers;
   if (place.layer >= layers.size()) return std::nullopt;
@@ -236,7 +270,7 @@ std::string remedyFor(const Suspicion& suspicion, const LayerInspection& layer,
     const std::string remedy =
         strCat("try ", what, candidate.meaning.empty() ? "" : strCat(" (", candidate.meaning, ")"),
                ": ", resultOf(suspicion, *after));
-    if (isWhole(suspicion, *after)) return remedy;
+    if (isWhole(suspicion, *after, candidate.far_m)) return remedy;
     if (second_best.empty()) second_best = remedy;
   }
   return second_best;

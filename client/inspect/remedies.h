@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "files/frame_manifest.h"
@@ -19,6 +20,8 @@ class Rereading {
   virtual std::optional<files::LoadedFrame> read(const std::string& options) const = 0;
   // What to say for the options: themselves, or what has to stand in a manifest.
   virtual std::string spoken(const std::string& options) const = 0;
+  // Nothing more is read once it is requested.
+  virtual std::stop_token stop() const { return {}; }
 };
 
 struct LayerPlace {

@@ -48,10 +48,13 @@ std::vector<float> storedNumbers(const v1::Plane& plane, const std::vector<uint8
   return stored;
 }
 
+bool ZeroPattern::isOfPoints() const {
+  return zero_count > 0 && 2 * lone_count > clear_count;
+}
+
 bool ZeroPattern::isScattered() const {
   if (zero_count == 0) return false;
-  return 2 * lone_count > clear_count ||
-         (2 * enclosed_count > zero_count && hole_count >= kHolesMin);
+  return isOfPoints() || (2 * enclosed_count > zero_count && hole_count >= kHolesMin);
 }
 
 ZeroPattern zeroPattern(std::span<const float> stored, uint32_t width_px, uint32_t height_px) {

@@ -21,8 +21,10 @@ struct ZeroPattern {
   uint64_t enclosed_count = 0;  // zeros with clear numbers on all four sides
   uint64_t hole_count = 0;      // groups of these
 
-  // Most numbers are points between zeros, as of a scanner; or most zeros lie in many small holes
-  // of surfaces, as where two cameras found no match.
+  // Most numbers are points between zeros, as of a scanner.
+  bool isOfPoints() const;
+  // So they are, or most zeros lie in many small holes of surfaces, as where two cameras found no
+  // match.
   bool isScattered() const;
 };
 ZeroPattern zeroPattern(std::span<const float> stored, uint32_t width_px, uint32_t height_px);

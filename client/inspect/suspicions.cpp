@@ -180,7 +180,11 @@ class Rules {
     }
     const uint64_t none = samples_.invalid_count + samples_.bad_count;
     if (2 * none > all) {
-      say("empty", strCat(percent(none, all), " % of samples are no surface"));
+      say("empty", strCat(percent(none, all), " % of samples are no surface",
+                          samples_.has_points_alone
+                              ? ", scattered over the picture, as where a scanner measured "
+                                "nothing: views have holes there; fill depth in before publishing"
+                              : ""));
     }
     if (100 * samples_.bad_count > all) {
       say("bad",

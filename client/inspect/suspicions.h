@@ -12,7 +12,7 @@ namespace viewloom::inspect {
 
 struct Suspicion {
   // "empty", "inside-out", "flat", "clipped", "bits", "scattered", "quantised", "noisy", "scale",
-  // "nothing", "bad", "alpha", "shape"
+  // "nothing", "bad", "alpha", "shape", "upside-down"
   std::string kind;
   std::string sentence;  // what was seen
   std::string remedy;    // what was tried on the data and helps; "" = nothing is known

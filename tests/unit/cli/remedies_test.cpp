@@ -6,102 +6,21 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "cli/file_frames.h"
-#include "cli/option_trial.h"
-#include "cli/plane_options.h"
-#include "inspect/inspection.h"
-#include "unit/client/test_files.h"
-#include "unit/inputs/written_files.h"
+#include "unit/cli/wrong_files.h"
 
 namespace viewloom::cli {
 namespace {
 
 using inspect::LayerInspection;
+using test::isNothing;
+using test::kInf;
+using test::roomAt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int kWidth = 96, kHeight = 64;
-constexpr float kInf = std::numeric_limits<float>::infinity();
-
-// A wall at 4 m behind a board at 1.5 m and another at 2.5 m, on a level floor.
-float depthAt(int x, int y) {
-  if (x >= 15 && x < 40 && y >= 8 && y < 30) return 1.5F;
-  if (x >= 60 && x < 75 && y >= 25 && y < 45) return 2.5F;
-  return y < 44 ? 4 : 1 / (0.25F + 0.025F * float(y - 43));
-}
-bool isNothing(int x, int y) {
-  return y < 5 && x > 70;
-}
-
-class RemediesTest : public ::testing::Test {
- protected:
-  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  FrameFiles exr(const std::function<float(int x, int y)>& z, float alpha = 1) const {
-    const auto grey = [](int x, int y) { return 0.2F + 0.001F * float(x + y); };
-    test::writeExr(file("scene.exr"), kWidth, kHeight,
-                   {{"R", Imf::HALF, grey},
-                    {"G", Imf::HALF, grey},
-                    {"B", Imf::HALF, grey},
-                    {"A", Imf::HALF, [alpha](int, int) { return alpha; }},
-                    {"Z", Imf::FLOAT, z}});
-    return {.manifest = {}, .deep = {}, .input = {.color = file("scene.exr")}};
-  }
-
-  FrameFiles pair(uint32_t bits, const std::function<double(int x, int y)>& code) const {
-    std::vector<uint16_t> codes;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) codes.push_back(uint16_t(std::lround(code(x, y))));
-    }
-    test::writePng(file("color.png"), kWidth, kHeight, 3, 8,
-                   std::vector<uint16_t>(3 * kWidth * kHeight, 90));
-    test::writePng(file("depth.png"), kWidth, kHeight, 1, bits, codes);
-    return {.manifest = {},
-            .deep = {},
-            .input = {.color = file("color.png"), .depth = file("depth.png")}};
-  }
-
-  static LoaderOptions withOptions(const std::string& options) {
-    LoaderOptions loader;
-    CLI::App app;
-    addPlaneOptions(app, loader.input);
-    if (!options.empty()) app.parse(options);
-    return loader;
-  }
-
-  // Its first layer, remedies filled in.
-  static LayerInspection inspected(const FrameFiles& files, const std::string& options = "") {
-    const LoaderOptions loader = withOptions(options);
-    const auto loaded = FrameLoader(loader).load(files);
-    EXPECT_TRUE(loaded.ok()) << loaded.status();
-    if (!loaded.ok()) return {};
-    auto sources = inspect::inspectFrame(loaded->frame);
-    EXPECT_TRUE(sources.ok()) << sources.status();
-    if (!sources.ok()) return {};
-    tryRemedies(OptionTrial(files, loader), *sources);
-    return std::move(sources->front().layers.front());
-  }
-
-  // The options in "... try OPTIONS (...): ..." of the suspicion.
-  static std::string remedyOf(const LayerInspection& layer, const std::string& kind) {
-    for (const inspect::Suspicion& suspicion : layer.suspicions) {
-      if (suspicion.kind != kind) continue;
-      const std::string& remedy = suspicion.remedy;
-      if (!remedy.starts_with("try ")) return remedy;
-      return remedy.substr(4, std::min(remedy.find(" ("), remedy.find(": ")) - 4);
-    }
-    return "not suspected";
-  }
-
-  static double rangeError(const LayerInspection& layer, double near_m, double far_m) {
-    return std::abs(1 / double{layer.measures.inv_z_max} - near_m) / near_m +
-           std::abs(1 / double{layer.measures.inv_z_min} - far_m) / far_m;
-  }
-
-  const files::TestFolder folder_;
-};
+class RemediesTest : public test::WrongFilesTest {};
 
 struct Wrong {
   const char* name;
@@ -112,32 +31,32 @@ struct Wrong {
 
 TEST_F(RemediesTest, makeTheSceneOfWrongExrFiles) {
   const std::vector<Wrong> table{
-      {"negative Z", [](int x, int y) { return -depthAt(x, y); }, "empty", "--depth-scale -1"},
-      {"negative centimetres", [](int x, int y) { return -100 * depthAt(x, y); }, "empty",
+      {"negative Z", [](int x, int y) { return -roomAt(x, y); }, "empty", "--depth-scale -1"},
+      {"negative centimetres", [](int x, int y) { return -100 * roomAt(x, y); }, "empty",
        "--depth-scale -0.01"},
-      {"negative millimetres", [](int x, int y) { return -1000 * depthAt(x, y); }, "empty",
+      {"negative millimetres", [](int x, int y) { return -1000 * roomAt(x, y); }, "empty",
        "--depth-scale -0.001"},
-      {"1/Z", [](int x, int y) { return 1 / depthAt(x, y); }, "inside-out",
+      {"1/Z", [](int x, int y) { return 1 / roomAt(x, y); }, "inside-out",
        "--depth-meaning disparity"},
-      {"1/Z without some", [](int x, int y) { return isNothing(x, y) ? 0 : 1 / depthAt(x, y); },
+      {"1/Z without some", [](int x, int y) { return isNothing(x, y) ? 0 : 1 / roomAt(x, y); },
        "inside-out", "--depth-meaning disparity"},
-      {"centimetres", [](int x, int y) { return 100 * depthAt(x, y); }, "scale",
+      {"centimetres", [](int x, int y) { return 100 * roomAt(x, y); }, "scale",
        "--depth-scale 0.01"},
-      {"millimetres", [](int x, int y) { return 1000 * depthAt(x, y); }, "scale",
+      {"millimetres", [](int x, int y) { return 1000 * roomAt(x, y); }, "scale",
        "--depth-scale 0.001"},
-      {"kilometres", [](int x, int y) { return 0.001F * depthAt(x, y); }, "scale",
+      {"kilometres", [](int x, int y) { return 0.001F * roomAt(x, y); }, "scale",
        "--depth-scale 1000"},
-      {"Arnold's nothing", [](int x, int y) { return isNothing(x, y) ? 1e30F : depthAt(x, y); },
+      {"Arnold's nothing", [](int x, int y) { return isNothing(x, y) ? 1e30F : roomAt(x, y); },
        "nothing", "--depth-invalid 1e+30"},
-      {"another's nothing", [](int x, int y) { return isNothing(x, y) ? 1e9F : depthAt(x, y); },
+      {"another's nothing", [](int x, int y) { return isNothing(x, y) ? 1e9F : roomAt(x, y); },
        "nothing", "--depth-invalid 1e+09"},
       {"filtered nothing",
        [](int x, int y) {
          return isNothing(x, y) ? (x == 71 ? 3e29F : 1e30F) * (1 + 0.001F * float(y))
-                                : depthAt(x, y);
+                                : roomAt(x, y);
        },
        "nothing", "--no-surface-beyond 1e+06"},
-      {"-inf", [](int x, int y) { return isNothing(x, y) ? -kInf : depthAt(x, y); }, "bad",
+      {"-inf", [](int x, int y) { return isNothing(x, y) ? -kInf : roomAt(x, y); }, "bad",
        "--depth-invalid=-inf --depth-invalid-is-far"},
   };
   for (const Wrong& wrong : table) {
@@ -161,16 +80,16 @@ TEST_F(RemediesTest, findNoneWhereNothingCanBeDone) {
 
 TEST_F(RemediesTest, makeColourOpaque) {
   for (const float alpha : {0.0F, 0.004F}) {
-    const FrameFiles files = exr(depthAt, alpha);
+    const FrameFiles files = exr(roomAt, alpha);
     EXPECT_EQ(remedyOf(inspected(files), "alpha"), "--alpha opaque") << alpha;
     EXPECT_THAT(inspected(files, "--alpha opaque").suspicions, IsEmpty()) << alpha;
   }
-  EXPECT_THAT(inspected(exr(depthAt)).suspicions, IsEmpty());
+  EXPECT_THAT(inspected(exr(roomAt)).suspicions, IsEmpty());
 }
 
 TEST_F(RemediesTest, findTheUnitOfSensors) {
   const FrameFiles files =
-      pair(16, [](int x, int y) { return isNothing(x, y) ? 0.0 : 1000.0 * double{depthAt(x, y)}; });
+      pair(16, [](int x, int y) { return isNothing(x, y) ? 0.0 : 1000.0 * double{roomAt(x, y)}; });
   EXPECT_EQ(remedyOf(inspected(files), "scale"), "--input sensor");
   EXPECT_THAT(inspected(files, "--input sensor").suspicions, IsEmpty());
 }
@@ -180,7 +99,7 @@ TEST_F(RemediesTest, findTheCodeOfWhite) {
   const auto codes = [](double last) {
     return [last](int x, int y) {
       // One px alone is white.
-      return x == 50 && y == 63 ? last : 0.99 * last * (1 / double{depthAt(x, y)} - 0.25) / 0.5;
+      return x == 50 && y == 63 ? last : 0.99 * last * (1 / double{roomAt(x, y)} - 0.25) / 0.5;
     };
   };
   const FrameFiles photoshop = pair(16, codes(32768));
@@ -197,7 +116,7 @@ TEST_F(RemediesTest, findTheCodeOfWhite) {
 TEST_F(RemediesTest, turnBlackAndWhite) {
   // Black is near.
   const FrameFiles files =
-      pair(16, [](int x, int y) { return 60000 - 80000 * (1 / double{depthAt(x, y)} - 0.25); });
+      pair(16, [](int x, int y) { return 60000 - 80000 * (1 / double{roomAt(x, y)} - 0.25); });
   const std::string spread = "--input relative --depth-near 0.5 --depth-far 4";
   EXPECT_EQ(remedyOf(inspected(files, spread), "inside-out"), "--black-near");
   EXPECT_THAT(inspected(files, "--input relative --black-near").suspicions, IsEmpty());
@@ -205,13 +124,13 @@ TEST_F(RemediesTest, turnBlackAndWhite) {
 
 TEST_F(RemediesTest, swapPlanesOfReversedDepth) {
   // Reversed depth between 1 and 5 m, which is read as forward.
-  const FrameFiles files = exr([](int x, int y) { return (1 / depthAt(x, y) - 0.2F) / 0.8F; });
+  const FrameFiles files = exr([](int x, int y) { return (1 / roomAt(x, y) - 0.2F) / 0.8F; });
   const std::string wrong = "--depth-meaning window --depth-near 1 --depth-far 5";
   EXPECT_EQ(remedyOf(inspected(files, wrong), "inside-out"), "--depth-near 5 --depth-far 1");
 }
 
 TEST_F(RemediesTest, speakAsAManifest) {
-  exr([](int x, int y) { return -depthAt(x, y); });
+  exr([](int x, int y) { return -roomAt(x, y); });
   folder_.write("frame.json", R"({"sources": [{"layers": [{"color": {"file": "scene.exr"},
       "depth": {"file": "scene.exr", "depth": {"meaning": "DEPTH_MEANING_PLANAR"}}}]}]})");
   const LayerInspection layer =
@@ -230,20 +149,20 @@ std::vector<std::string> notesOf(FrameFeed& feed) {
 }
 
 TEST_F(RemediesTest, areToldOnceByAFeedOfFiles) {
-  const FrameFiles files = exr([](int x, int y) { return -depthAt(x, y); });
+  const FrameFiles files = exr([](int x, int y) { return -roomAt(x, y); });
   FileFrames wrong({.is_looping = true}, {files, files});
   const std::vector<std::string> notes = notesOf(wrong);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_THAT(notes[0], HasSubstr("scene.exr: warning: empty: no sample is a surface: 100 % are "
                                   "negative; try --depth-scale -1"));
-  const FrameFiles right = exr(depthAt);
+  const FrameFiles right = exr(roomAt);
   FileFrames clean({.is_looping = true}, {right, right});
   EXPECT_THAT(notesOf(clean), IsEmpty());
 }
 
 // What an option does nothing for is refused with the kinds that take it.
 TEST_F(RemediesTest, comeWithNoOptionInVain) {
-  const FrameFiles files = pair(16, [](int x, int y) { return 1000 * double{depthAt(x, y)}; });
+  const FrameFiles files = pair(16, [](int x, int y) { return 1000 * double{roomAt(x, y)}; });
   const std::vector<std::pair<std::string, std::string>> refused{
       {"--input sensor --factor 30",
        "--factor is given, which --input sensor does not take here; "
@@ -264,7 +183,7 @@ TEST_F(RemediesTest, comeWithNoOptionInVain) {
     EXPECT_FALSE(loaded.ok()) << options;
     EXPECT_THAT(std::string(loaded.status().message()), HasSubstr(message)) << options;
   }
-  const FrameFiles exr_file = exr(depthAt);
+  const FrameFiles exr_file = exr(roomAt);
   EXPECT_TRUE(FrameLoader(withOptions("--camera-forward=-z --tone-map agx")).load(exr_file).ok());
 }
 

@@ -122,6 +122,11 @@ TEST_F(ExrCameraTest, hasTheShapeOfItsPx) {
   const v1::Intrinsics found = camera({.focal_px = 20}).intrinsics();
   EXPECT_EQ(found.focal_x_px(), 10);
   EXPECT_EQ(found.focal_y_px(), 20);
+  // Every second row was left out: the columns have kept their focal length.
+  write([](Imf::Header& header) { header.pixelAspectRatio() = 0.5F; });
+  const v1::Intrinsics halved = camera({.focal_px = 20}).intrinsics();
+  EXPECT_EQ(halved.focal_x_px(), 20);
+  EXPECT_EQ(halved.focal_y_px(), 10);
 }
 
 class ExrPrimariesTest : public ExrCameraTest {
