@@ -6,6 +6,7 @@
 #include <future>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,14 @@ namespace viewloom::cli {
 class FirstLook {
  public:
   explicit FirstLook(const LoaderOptions& options) : options_(options) {}
+  ~FirstLook() { stop_.request_stop(); }
+  FirstLook(const FirstLook&) = delete;
+  FirstLook& operator=(const FirstLook&) = delete;
 
   void offer(const FrameFiles& files, const files::LoadedFrame& frame);
   // Adds what has been found since the last call.
   void takeWarnings(std::vector<std::string>& notes);
-  // The same, once the look that goes on has ended.
+  // The same, once the look that goes on has ended: at Ctrl-C it is broken off.
   void finish(std::vector<std::string>& notes);
 
  private:
@@ -32,11 +36,12 @@ class FirstLook {
     std::string text;
   };
   static std::vector<Warning> look(const FrameFiles& files, const files::LoadedFrame& frame,
-                                   const LoaderOptions& options);
+                                   const LoaderOptions& options, const std::stop_token& stop);
 
   const LoaderOptions options_;
   std::optional<std::chrono::steady_clock::time_point> looked_at_;
   std::set<std::string> said_;
+  std::stop_source stop_;
   std::future<std::vector<Warning>> looking_;  // last: it ends before the rest goes
 };
 

@@ -22,6 +22,11 @@ void catchInterrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void leaveInterrupts() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
 bool isInterrupted() {
   return interrupted != 0;
 }

@@ -8,4 +8,7 @@ namespace viewloom::cli {
 void catchInterrupts();
 bool isInterrupted();
 
+// The first signal ends the process again: for commands that only read and print.
+void leaveInterrupts();
+
 }  // namespace viewloom::cli

@@ -10,6 +10,7 @@
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
+#include "cli/interrupt.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
 #include "lib/catalog.h"
@@ -145,6 +146,7 @@ RunCommand addListCommand(CLI::App& app) {
   }
   app.add_flag("--json", options->as_json, "The server's answers as JSON");
   return [options](const CommonOptions& common) -> int {
+    leaveInterrupts();  // a server that hangs keeps nobody waiting
     if (std::ranges::find(kLists, options->what) == kLists.end()) {
       std::fprintf(stderr, "viewloom list: %s\n", unknownList(options->what).c_str());
       return kExitUsage;

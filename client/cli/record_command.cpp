@@ -21,7 +21,8 @@ namespace viewloom::cli {
 namespace {
 
 constexpr int64_t kTick_ns = 50'000'000;
-constexpr int64_t kFinish_ns = 5'000'000'000;  // for the rest of an atlas that has begun
+constexpr int64_t kFinish_ns = 5'000'000'000;     // for the rest of an atlas that has begun
+constexpr int64_t kInterrupted_ns = 800'000'000;  // the same after Ctrl-C
 
 struct RecordOptions {
   std::string stream = "demo";
@@ -105,8 +106,11 @@ class RecordRun {
 
   // What has begun is worth waiting for; then the call is broken off.
   void finishAtlas() {
-    const int64_t until_ns = clock_.nowNs() + kFinish_ns;
-    while (isWithinAtlas() && clock_.nowNs() < until_ns && !watcher_->waitEnded(kTick_ns)) {
+    const int64_t begun_ns = clock_.nowNs();
+    const auto isOver = [&] {
+      return clock_.nowNs() - begun_ns >= (isInterrupted() ? kInterrupted_ns : kFinish_ns);
+    };
+    while (isWithinAtlas() && !isOver() && !watcher_->waitEnded(kTick_ns)) {
     }
     watcher_->stop();
     while (!watcher_->waitEnded(kTick_ns)) {

@@ -55,8 +55,8 @@ bool StreamWait::waitUntilMissing(const std::stop_token& stop) {
   return changed_.wait(lock, stop, [&] { return !is_here_; });
 }
 
-std::optional<std::vector<std::string>> StreamWait::listNames() const {
-  const auto streams = Catalog(makeChannel(common_.server)).listStreams();
+std::optional<std::vector<std::string>> StreamWait::listNames(const std::stop_token& stop) const {
+  const auto streams = Catalog(makeChannel(common_.server)).listStreams(stop);
   if (!streams.ok()) return std::nullopt;
   std::vector<std::string> names;
   for (const v1::StreamEntry& entry : streams->streams()) names.push_back(printable(entry.name()));
@@ -72,7 +72,7 @@ void StreamWait::run(const std::stop_token& stop) {
     if (stop.stop_requested()) return;
     lock.unlock();
     pause = kInterval;
-    const std::optional<std::vector<std::string>> names = listNames();
+    const std::optional<std::vector<std::string>> names = listNames(stop);
     lock.lock();
     if (stop.stop_requested() || !names) continue;
     is_here_ = std::ranges::find(*names, stream_) != names->end();

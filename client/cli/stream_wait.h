@@ -31,7 +31,7 @@ class StreamWait {
   // False when it has been stopped.
   bool waitUntilMissing(const std::stop_token& stop);
   // The streams that are there; nothing when the server does not answer, which is told elsewhere.
-  std::optional<std::vector<std::string>> listNames() const;
+  std::optional<std::vector<std::string>> listNames(const std::stop_token& stop) const;
 
   StatusLine& line_;
   const CommonOptions common_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "lib/channel.h"
 
 namespace viewloom {
@@ -11,15 +12,21 @@ namespace {
 
 using Stub = v1::CatalogService::Stub;
 
+constexpr std::chrono::seconds kPatience{5};
+
 template <typename Request, typename Response>
 absl::StatusOr<Response> call(Stub& stub,
                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
                                                            Response*),
-                              const Request& request = {}) {
+                              const Request& request = {}, const std::stop_token& stop = {}) {
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(5));
+  const std::stop_callback break_off(stop, [&context] { context.TryCancel(); });
+  context.set_deadline(std::chrono::system_clock::now() + kPatience);
   Response response;
   const grpc::Status status = (stub.*method)(&context, request, &response);
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
+    return absl::DeadlineExceededError(absl::StrCat("no answer within ", kPatience.count(), " s"));
+  }
   if (!status.ok()) return statusFromGrpc(status);
   return response;
 }
@@ -29,8 +36,8 @@ absl::StatusOr<Response> call(Stub& stub,
 Catalog::Catalog(std::shared_ptr<grpc::Channel> channel)
     : stub_(v1::CatalogService::NewStub(std::move(channel))) {}
 
-absl::StatusOr<v1::ListStreamsResponse> Catalog::listStreams() const {
-  return call(*stub_, &Stub::ListStreams);
+absl::StatusOr<v1::ListStreamsResponse> Catalog::listStreams(const std::stop_token& stop) const {
+  return call(*stub_, &Stub::ListStreams, {}, stop);
 }
 
 absl::StatusOr<v1::ListDisplaysResponse> Catalog::listDisplays() const {

@@ -5,6 +5,7 @@
 #include <grpcpp/channel.h>
 
 #include <memory>
+#include <stop_token>
 
 #include "base/status.h"
 #include "viewloom/v1/catalog_service.grpc.pb.h"
@@ -17,7 +18,8 @@ class Catalog {
  public:
   explicit Catalog(std::shared_ptr<grpc::Channel> channel);
 
-  absl::StatusOr<v1::ListStreamsResponse> listStreams() const;
+  // CANCELLED once a stop is requested.
+  absl::StatusOr<v1::ListStreamsResponse> listStreams(const std::stop_token& stop = {}) const;
   absl::StatusOr<v1::ListDisplaysResponse> listDisplays() const;
   absl::StatusOr<v1::ListPresetsResponse> listPresets() const;
   absl::StatusOr<v1::GetServerInfoResponse> getServerInfo() const;

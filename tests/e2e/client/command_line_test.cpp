@@ -2,15 +2,13 @@
 // What `viewloom` answers to slips on its command line, and what its commands say with a server.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
 
+#include "e2e/client/command_answer.h"
 #include "e2e/client/with_viewloomd.h"
 
 namespace viewloom::test {
@@ -18,23 +16,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-struct Answer {
-  int exit_code = -1;
-  std::string text;  // of both outputs
-};
-
-Answer answerTo(const std::string& command) {
-  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
-  Answer answer;
-  std::array<char, 4096> bytes{};
-  while (const size_t size = fread(bytes.data(), 1, bytes.size(), pipe)) {
-    answer.text.append(bytes.data(), size);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
-  return answer;
-}
 
 Answer runViewloom(const std::string& arguments) {
   return answerTo(std::string(VIEWLOOM) + " " + arguments);
