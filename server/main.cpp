@@ -11,6 +11,7 @@
 #include "commands/serve.h"
 #include "config/read_config.h"
 #include "config/settings.h"
+#include "gpu/device_error.h"
 #include "usage/parse_command_line.h"
 
 namespace {
@@ -29,7 +30,7 @@ void addSettings(CLI::App& app, viewloom::ConfigSources& sources) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("One colour+depth frame in, a woven field of views out.", "viewloomd");
+  CLI::App app("Computes the views of light-field displays from pictures with depth.", "viewloomd");
   app.set_version_flag("--version", VIEWLOOM_VERSION);
   app.require_subcommand(0, 1);
   viewloom::ConfigSources sources{.file = {}, .environment = viewloom::processEnvironment()};
@@ -39,9 +40,8 @@ int run(int argc, char** argv) {
   viewloom::addRenderCommand(app, command);
   viewloom::addBenchCommand(app, command);
   viewloom::addDoctorCommand(app, command);
-  if (const std::optional<int> code = viewloom::usage::parseCommandLine(app, argc, argv)) {
-    return *code;
-  }
+  const std::optional<int> code = viewloom::usage::parseCommandLine(app, argc, argv);
+  if (code) return *code;
   const viewloom::Config config = viewloom::readConfig(sources);
   viewloom::setLogLevel(viewloom::logLevelOf(config.log.level));
   return command(config);
@@ -53,7 +53,8 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "viewloomd: %s\n", viewloom::printable(error.what(), true).c_str());
+    std::fprintf(stderr, "viewloomd: %s\n",
+                 viewloom::printable(viewloom::deviceErrorText(error), true).c_str());
     return viewloom::usage::kExitUsage;
   }
 }

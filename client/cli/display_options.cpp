@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/display_options.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "cli/size_option.h"
 #include "display/named_display.h"
 #include "files/file_bytes.h"
+#include "files/json_message.h"
 
 namespace viewloom::cli {
 namespace {
@@ -21,14 +20,8 @@ constexpr uint64_t kCalibrationBytesMax = uint64_t{64} << 10;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
-  const absl::StatusOr<std::vector<uint8_t>> bytes = files::readFileBytes(file, kDisplayBytesMax);
-  if (!bytes.ok()) return bytes.status();
   v1::Display display;
-  const auto parsed = google::protobuf::util::JsonStringToMessage(
-      std::string(bytes->begin(), bytes->end()), &display);
-  if (!parsed.ok()) {
-    return files::refuseFile(file, "is no Display in JSON: " + std::string(parsed.message()));
-  }
+  VIEWLOOM_RETURN_IF_ERROR(files::readJsonMessage(file, kDisplayBytesMax, "a display", display));
   return display;
 }
 

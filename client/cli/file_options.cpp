@@ -25,7 +25,7 @@ void addFileOptions(CLI::App& app, FileFeedOptions& options) {
                  "View of multi-view EXR files, as right or left [the file's default]")
       ->group(group);
   app.add_option("--manifest", options.manifests,
-                 "FrameManifest JSON files, one a frame: layers, cameras, everything")
+                 "Manifests (JSON), one a frame: layers, cameras, everything")
       ->group(group);
 }
 

@@ -122,7 +122,7 @@ int inspectAll(const InspectOptions& options, const std::vector<FrameFiles>& fra
       std::fputs(reportText(*inspected).c_str(), stdout);
     }
   }
-  if (options.as_json) std::printf("%s\n", reports.dump(2).c_str());
+  if (options.as_json) std::printf("%s\n", jsonText(reports).c_str());
   return exit_code;
 }
 

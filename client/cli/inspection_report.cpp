@@ -2,12 +2,13 @@
 #include "cli/inspection_report.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "cli/file_frames.h"
+#include "cli/plane_text.h"
 #include "cli/status_line.h"
 #include "files/container.h"
 #include "files/exr_description.h"
@@ -19,57 +20,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string sizeText(const v1::SizePx& size) {
-  return strCat(size.width(), "x", size.height());
-}
-
-// The rest of an enum's name, in small letters: "PLANE_ENCODING_DEPTH_F32" gives "depth_f32".
-std::string wordOf(const std::string& name, const std::string& prefix) {
-  std::string word = name.substr(std::min(prefix.size(), name.size()));
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return word;
-}
-
-std::string encodingOf(const v1::Plane& plane) {
-  return wordOf(v1::PlaneEncoding_Name(plane.encoding()), "PLANE_ENCODING_");
-}
-std::string transferOf(const v1::Plane& plane) {
-  return wordOf(v1::ColorTransfer_Name(plane.transfer()), "COLOR_TRANSFER_");
-}
-std::string primariesOf(const v1::Plane& plane) {
-  return wordOf(v1::ColorPrimaries_Name(plane.primaries()), "COLOR_PRIMARIES_");
-}
-std::string alphaOf(const v1::Plane& plane) {
-  return wordOf(v1::AlphaMode_Name(plane.alpha()), "ALPHA_MODE_");
-}
-std::string meaningOf(const v1::Plane& plane) {
-  return wordOf(v1::DepthMeaning_Name(plane.depth().meaning()), "DEPTH_MEANING_");
-}
-
-double scaleOf(const v1::DepthFormat& format) {
-  return format.scale() == 0 ? 1 : format.scale();
-}
-
-// As "metres along the view axis = sample x 0.001 + 0; 0 is no surface".
-std::string depthText(const v1::Plane& plane) {
-  const v1::DepthFormat& format = plane.depth();
-  std::string text;
-  if (format.meaning() == v1::DEPTH_MEANING_WINDOW) {
-    text = strCat("window depth ", format.min_depth(), "..",
-                  format.max_depth() == 0 ? 1 : format.max_depth(), ", near ", format.near_z_m(),
-                  " m, far ", format.far_z_m(), " m",
-                  format.near_z_m() > format.far_z_m() ? ", reversed" : "");
-  } else {
-    const char* const what = format.meaning() == v1::DEPTH_MEANING_DISPARITY ? "1/Z in 1/m"
-                             : format.meaning() == v1::DEPTH_MEANING_RAY_DISTANCE
-                                 ? "metres from the eye"
-                                 : "metres along the view axis";
-    text = strCat(what, " = sample x ", scaleOf(format), " + ", format.offset());
-  }
-  if (!format.has_invalid_value()) return text;
-  return strCat(text, "; ", format.invalid_value(),
-                format.invalid_is_far() ? " is infinitely far" : " is no surface");
+std::string partText(const std::string& exr_type) {
+  const std::string prefix = exr_type.starts_with("deep") ? "deep " : "";
+  return prefix + (exr_type.starts_with("tile") || exr_type == "deeptile" ? "tiles" : "scan lines");
 }
 
 // Of an image around the axis.
@@ -95,16 +48,17 @@ std::string percentText(uint64_t count, uint64_t of) {
 }
 
 void addLine(std::string& text, const std::string& what, const std::string& line) {
-  text += "  " + what + std::string(what.size() < 10 ? 10 - what.size() : 1, ' ') + line + "\n";
+  const std::string gap(what.size() < 10 ? 10 - what.size() : 1, ' ');
+  text += "  " + what + gap + printable(line) + "\n";
 }
 
 void addLayer(std::string& text, const inspect::LayerInspection& layer) {
   addLine(text, "colour",
-          strCat(sizeText(layer.color.size()), " px, ", encodingOf(layer.color), ", ",
+          strCat(sizeText(layer.color.size()), " px, ", sampleText(layer.color), ", ",
                  transferOf(layer.color), ", ", primariesOf(layer.color), ", alpha ",
                  alphaOf(layer.color)));
   addLine(text, "depth",
-          strCat(sizeText(layer.depth.size()), " px, ", encodingOf(layer.depth), ": ",
+          strCat(sizeText(layer.depth.size()), " px, ", sampleText(layer.depth), ": ",
                  depthText(layer.depth)));
   const inspect::DepthSamples& samples = layer.samples;
   const inspect::DepthMeasures& measures = layer.measures;
@@ -209,7 +163,7 @@ absl::StatusOr<std::string> describePhoto(const std::string& file) {
 
 absl::StatusOr<std::string> describeFormat(const std::string& file) {
   if (photos::isPhoto(file)) return describePhoto(file);
-  if (files::hasExtension(file, ".json")) return "FrameManifest";
+  if (files::hasExtension(file, ".json")) return "manifest (JSON)";
   if (!files::isExr(file)) {
     VIEWLOOM_RETURN_IF_ERROR(files::checkPictureFile(file));
     return files::nameOf(files::containerOf(file));
@@ -219,7 +173,7 @@ absl::StatusOr<std::string> describeFormat(const std::string& file) {
   const size_t part_count = description->parts.size();
   std::string text = strCat("OpenEXR, ", part_count, part_count == 1 ? " part" : " parts");
   for (const files::ExrDescribedPart& part : description->parts) {
-    text = strCat(text, "; ", part.name.empty() ? "" : part.name + ": ", part.type, " ",
+    text = strCat(text, "; ", part.name.empty() ? "" : part.name + ": ", partText(part.type), " ",
                   part.width_px, "x", part.height_px, " px:");
     for (const files::ExrDescribedChannel& channel : part.channels) {
       text = strCat(text, " ", channel.name, " (", channel.type, ")");
@@ -234,7 +188,7 @@ std::string warningText(const inspect::Suspicion& suspicion) {
 }
 
 std::string reportText(const InspectedFile& inspected) {
-  std::string text = inspected.file + "\n";
+  std::string text = printable(inspected.file) + "\n";
   addLine(text, "file", inspected.format);
   const bool has_kind = inspected.loaded.how && inspected.loaded.frame.deep.empty();
   addLine(text, "read as", kindOf(inspected) + (has_kind ? " (--input)" : ""));
@@ -276,6 +230,10 @@ Json reportJson(const InspectedFile& inspected) {
   }
   if (inspected.need) json["display"] = needJson(*inspected.need);
   return json;
+}
+
+std::string jsonText(const Json& json) {
+  return json.dump(2, ' ', true, Json::error_handler_t::replace);
 }
 
 }  // namespace viewloom::cli

@@ -29,9 +29,11 @@ absl::StatusOr<std::string> describeFormat(const std::string& file);
 // "kind: what was seen; the remedy".
 std::string warningText(const inspect::Suspicion& suspicion);
 
-// Several lines, each ended.
+// Several lines, each ended. What names in files hold beside text is shown as codes.
 std::string reportText(const InspectedFile& inspected);
 
 nlohmann::json reportJson(const InspectedFile& inspected);
+// In ASCII, whatever bytes the names in it hold.
+std::string jsonText(const nlohmann::json& json);
 
 }  // namespace viewloom::cli

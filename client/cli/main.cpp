@@ -2,6 +2,7 @@
 // The `viewloom` command.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -45,6 +46,8 @@ int run(int argc, char** argv) {
 }  // namespace viewloom::cli
 
 int main(int argc, char** argv) {
+  // gRPC's log is for its developers: what matters to users comes as an error.
+  setenv("GRPC_VERBOSITY", "NONE", 0);
   try {
     return viewloom::cli::run(argc, argv);
   } catch (const std::exception& error) {

@@ -192,7 +192,7 @@ void addCameraOptions(CLI::App& app, InputSettings& settings) {
          "--projection", project,
          "flat, or equirect: a panorama of all directions, depth along the ray, which is sent as a "
          "cube map [by an EXR's envmap, else flat]")
-      ->check(CLI::IsMember(kProjections))
+      ->check(usage::oneOf(kProjections))
       ->group(group);
   addWord(app, "--camera-forward", settings.looks_along_minus_z, kForwards,
           "Which way the camera of an EXR's worldToCamera looks [+z]")

@@ -82,14 +82,14 @@ std::string explain(const absl::Status& status, const CommonOptions& common) {
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
       if (!isFromTransport(status)) return strCat("the server at ", common.server, ": ", message);
-      return strCat("no server at ", common.server, " (", message,
+      return strCat("no server at ", common.server, " (", connectionProblem(status),
                     "); start one with `viewloomd serve` or name another with --server HOST:PORT");
     case absl::StatusCode::kAlreadyExists:
       return strCat(happening(message),
                     retryDelayNs(status) ? "; waiting until it ends (another name: --stream NAME)"
                                          : "; choose another name with --stream, or end it");
     case absl::StatusCode::kAborted:
-      return strCat("another publisher took the stream over (", message, ")");
+      return "another publisher with this --session took the stream over";
     case absl::StatusCode::kDeadlineExceeded:
       return strCat("the server at ", common.server, " did not answer in time (", message, ")");
     default:

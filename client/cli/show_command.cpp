@@ -172,7 +172,7 @@ RunCommand addShowCommand(CLI::App& app) {
   app.add_option(
          "--mode", options->mode,
          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
-         "two side by side; quilt [on a calibrated panel weave where the server traces on a CPU, "
+         "two side by side; quilt [on a calibrated panel weave where the server renders on a CPU, "
          "else native; without one pair of a stereo display, else view]")
       ->check(usage::oneOf({"native", "weave", "view", "pair", "quilt"}));
   auto* calibration = app.add_option("--calibration", options->calibration_file,

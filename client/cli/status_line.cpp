@@ -32,7 +32,7 @@ void StatusLine::show(const std::string& status) {
 
 void StatusLine::say(const std::string& line) {
   std::lock_guard lock(mutex_);
-  write((line_is_open_ ? "\r\033[K" : "") + printable(line, true) + "\n");
+  write((line_is_open_ ? "\r\033[K" : "") + printable(line) + "\n");
   line_is_open_ = false;
 }
 

@@ -80,6 +80,8 @@ std::string inUserWords(const std::string& message) {
   if (colon == std::string::npos) return message;
   const std::string_view path = std::string_view(message).substr(0, colon);
   if (!isPath(path)) return message;
+  // The file's name follows.
+  if (path == "deep") return message.substr(colon + 2);
   for (const auto& [end, option] : kOptions) {
     const size_t before = path.size() - std::min(path.size(), end.size());
     if (path.ends_with(end) && (before == 0 || path[before - 1] == '.')) {

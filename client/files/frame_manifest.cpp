@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/frame_manifest.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
+#include "files/json_message.h"
 #include "files/plane_file.h"
 #include "files/surface_file.h"
 
@@ -20,16 +19,9 @@ constexpr int kLayersMax = 4;
 constexpr int kSourcesMax = 8;
 
 template <typename Message>
-absl::StatusOr<Message> readJson(const std::filesystem::path& path) {
-  absl::StatusOr<std::vector<uint8_t>> bytes = readFileBytes(path, kManifestBytesMax);
-  if (!bytes.ok()) return bytes.status();
+absl::StatusOr<Message> readJson(const std::filesystem::path& path, const std::string& what) {
   Message message;
-  const auto parsed = google::protobuf::util::JsonStringToMessage(
-      std::string(bytes->begin(), bytes->end()), &message);
-  if (!parsed.ok()) {
-    return refuseFile(path.string(), absl::StrCat("is no ", message.GetDescriptor()->name(),
-                                                  " in JSON: ", std::string(parsed.message())));
-  }
+  VIEWLOOM_RETURN_IF_ERROR(readJsonMessage(path, kManifestBytesMax, what, message));
   return message;
 }
 
@@ -133,11 +125,11 @@ absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::pat
 }  // namespace
 
 absl::StatusOr<v1::FrameManifest> readFrameManifest(const std::filesystem::path& path) {
-  return readJson<v1::FrameManifest>(path);
+  return readJson<v1::FrameManifest>(path, "a frame");
 }
 
 absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path& path) {
-  return readJson<v1::TruthManifest>(path);
+  return readJson<v1::TruthManifest>(path, "true views");
 }
 
 absl::StatusOr<LoadedFrame> loadFrame(const v1::FrameManifest& manifest,

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "lib/channel.h"
@@ -52,7 +54,34 @@ constexpr std::array kCauses = {
           "publish fewer or smaller frames, or raise the limit"},
 };
 
+// Signs in gRPC's words, and what they mean.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kConnections{{
+    {"DNS resolution failed", "there is no host of that name"},
+    {"Domain name not found", "there is no host of that name"},
+    {"http1.x", "what answers there is no gRPC server, perhaps a page"},
+    {"watchdog timeout", "it has stopped answering"},
+    {"GOAWAY", "it has ended the connection"},
+    {"Socket closed", "it has closed the connection"},
+}};
+
 }  // namespace
+
+std::string connectionProblem(const absl::Status& status) {
+  for (const auto& [sign, meaning] : kConnections) {
+    if (absl::StrContains(status.message(), {sign.data(), sign.size()})) {
+      return std::string(meaning);
+    }
+  }
+  const std::string message(status.message());
+  // "failed to connect to all addresses; last error: UNKNOWN: ipv4:...: Connection refused".
+  const size_t last = message.rfind(": ");
+  if (message.find("ailed to connect") == std::string::npos || last == std::string::npos) {
+    return message;
+  }
+  std::string cause = message.substr(last + 2);
+  if (!cause.empty()) cause[0] = absl::ascii_tolower(static_cast<unsigned char>(cause[0]));
+  return cause;
+}
 
 std::string explainBrokenCall(const absl::Status& status) {
   if (!isFromTransport(status)) return "";

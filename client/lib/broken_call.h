@@ -12,4 +12,8 @@ namespace viewloom {
 // and for a server that cannot be reached.
 std::string explainBrokenCall(const absl::Status& status);
 
+// Why no connection to a server comes about, or why it broke: "connection refused". gRPC's own
+// message where that is all there is.
+std::string connectionProblem(const absl::Status& status);
+
 }  // namespace viewloom

@@ -3,7 +3,7 @@
 //   node publish_frame.js --stream demo
 import {once} from 'node:events';
 
-import {connect, run} from './viewloom.js';
+import {connect, printable, run} from './viewloom.js';
 
 const kSize_px = {width: 320, height: 180};
 const kHalfHeight_rad = 0.3;
@@ -65,7 +65,8 @@ run({}, async (options) => {
   const writing = writeFrame(call);
   for await (const {message, report} of call) {
     if (message === 'report') {
-      console.log(`frame ${report.number}: ${report.outcome} ${report.reason}`.trimEnd());
+      console.log(
+          printable(`frame ${report.number}: ${report.outcome} ${report.reason}`.trimEnd()));
     }
   }
   await writing;

@@ -38,6 +38,12 @@ export function connect(kind, {server, protos}) {
   return new Service(server, grpc.credentials.createInsecure());
 }
 
+// Text of a server or a file, without what would drive a terminal.
+export function printable(text) {
+  return text.replace(/[\p{Cc}\p{Cf}]/gu, (character) =>
+    character === '\n' ? character : `\\u{${character.codePointAt(0).toString(16)}}`);
+}
+
 // The name of a call's status and its message, which begins with the field; of a server that is not
 // there, where it was looked for and what to do.
 function errorText({code, details}, server) {
@@ -57,7 +63,8 @@ export async function run(moreOptions, main) {
     server = options.server;
     await main(options);
   } catch (error) {
-    console.error(error.details === undefined ? error.message : errorText(error, server));
+    console.error(
+        printable(error.details === undefined ? error.message : errorText(error, server)));
     process.exitCode = 1;
   }
 }

@@ -12,12 +12,12 @@ namespace viewloom::show {
 SuitedMode suitedMode(const absl::StatusOr<v1::GetServerInfoResponse>& info) {
   if (!info.ok()) {
     return {ShowMode::kNative,
-            strCat("mode native: the server interlaces; it does not say what it traces on (",
+            strCat("mode native: the server interlaces; it does not say what it renders on (",
                    std::string(info.status().message()), ")")};
   }
   if (info->traces_on_cpu()) {
     return {ShowMode::kWeave,
-            strCat("mode weave: the server traces on a CPU (", info->device(),
+            strCat("mode weave: the server renders on a CPU (", info->device(),
                    "), where quilts cost less, and they are woven here; --mode native has it "
                    "interlace instead")};
   }

@@ -7,6 +7,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "base/printable.h"
+
 namespace viewloom {
 namespace {
 
@@ -46,7 +48,7 @@ bool isLogged(LogLevel level) {
 }
 
 void writeLog(LogLevel level, const std::string& line) {
-  logger().log(spdlogLevel(level), spdlog::string_view_t(line));
+  logger().log(spdlogLevel(level), spdlog::string_view_t(printable(line)));
 }
 
 }  // namespace viewloom

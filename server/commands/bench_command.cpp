@@ -152,7 +152,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
   if (!loopback.ok()) throw std::runtime_error(std::string(loopback.status().message()));
   json["loopback"] = loopbackJson(*loopback);
   json["memory"] = memoryJson(stages, config);
-  std::cout << json.dump(2) << "\n";
+  std::cout << json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << "\n";
   return 0;
 }
 

@@ -12,6 +12,7 @@
 #include "commands/listen_probe.h"
 #include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
+#include "gpu/device_error.h"
 
 namespace viewloom {
 namespace {
@@ -91,7 +92,7 @@ std::vector<Finding> checkDevices(const Config& config) {
     const Device chosen({.select = config.device, .validation = config.validation});
     findings.push_back(judgeChosen(chosen.info()));
   } catch (const std::exception& error) {
-    findings.push_back({Verdict::kProblem, "device", error.what(),
+    findings.push_back({Verdict::kProblem, "device", deviceErrorText(error),
                         "name a device of the list above with --device, or none"});
   }
   return findings;
@@ -111,9 +112,10 @@ std::vector<Finding> checkTrace(const Config& config) try {
   if (coverage.rayCount() != uint64_t{128} * 96 || coverage.hit == 0) {
     throw std::runtime_error("rays of a small scene got lost");
   }
-  return {{Verdict::kFine, "trace", "a small scene was built and traced", ""}};
+  return {{Verdict::kFine, "picture", "a small scene was rendered", ""}};
 } catch (const std::exception& error) {
-  return {{Verdict::kProblem, "trace", strCat("a small scene could not be traced: ", error.what()),
+  return {{Verdict::kProblem, "picture",
+           strCat("a small scene could not be rendered: ", deviceErrorText(error)),
            "update the device's driver, or name another device with --device"}};
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "base/printable.h"
 #include "commands/command.h"
 #include "commands/doctor_checks.h"
 
@@ -27,9 +28,11 @@ int doctor(const Config& config) {
   bool has_problem = false;
   const auto tell = [&](const std::vector<Finding>& findings) {
     for (const Finding& finding : findings) {
-      std::cout << wordOf(finding.verdict) << finding.subject << "  " << finding.what << "\n";
-      if (!finding.remedy.empty()) std::cout << "        -> " << finding.remedy << "\n";
+      std::cout << wordOf(finding.verdict) << printable(finding.subject) << "  "
+                << printable(finding.what, true) << "\n";
       has_problem |= finding.verdict == Verdict::kProblem;
+      if (finding.remedy.empty()) continue;
+      std::cout << "        -> " << printable(finding.remedy) << "\n";
     }
   };
   tell(checkHost());

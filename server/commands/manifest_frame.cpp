@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/manifest_frame.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,8 +10,8 @@
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "decode/frame_decoder.h"
-#include "files/file_bytes.h"
 #include "files/frame_manifest.h"
+#include "files/json_message.h"
 #include "rpc/display_from_proto.h"
 #include "rpc/frame_from_proto.h"
 #include "synthetic/synthetic_wire_frame.h"
@@ -62,15 +60,9 @@ FramePtr makeSyntheticFrame(const SyntheticOptions& options) {
 }
 
 absl::StatusOr<DisplaySpec> readDisplayFile(const std::filesystem::path& path) {
-  const auto bytes = files::readFileBytes(path, kDisplayFileBytesMax);
-  if (!bytes.ok()) return bytes.status();
   v1::Display display;
-  const auto parsed = google::protobuf::util::JsonStringToMessage(
-      std::string(bytes->begin(), bytes->end()), &display);
-  if (!parsed.ok()) {
-    return files::refuseFile(path.string(),
-                             strCat("is no Display in JSON: ", std::string(parsed.message())));
-  }
+  VIEWLOOM_RETURN_IF_ERROR(
+      files::readJsonMessage(path, kDisplayFileBytesMax, "a display", display));
   return displayFromProto(display);
 }
 

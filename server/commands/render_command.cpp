@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "commands/atlas_pictures.h"
 #include "commands/command.h"
@@ -21,6 +22,7 @@
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
 #include "frame/timing_text.h"
+#include "usage/one_of.h"
 
 namespace viewloom {
 namespace {
@@ -28,6 +30,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kExitRefused = 1;
+const std::map<std::string, ScoreTransfer> kTransfers{{"srgb", ScoreTransfer::kSrgb},
+                                                      {"gamma2.2", ScoreTransfer::kGamma22}};
 
 struct RenderArguments {
   std::filesystem::path frame;
@@ -42,7 +46,7 @@ struct RenderArguments {
 // For a person who waits, not for a log.
 void showProgress(uint32_t done_rows, uint32_t row_count) {
   if (isatty(STDERR_FILENO) == 0) return;
-  std::cerr << "\rtraced " << done_rows << " of " << row_count << " rows"
+  std::cerr << "\rrendered " << done_rows << " of " << row_count << " rows"
             << (done_rows == row_count ? "\n" : "") << std::flush;
 }
 
@@ -193,10 +197,13 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
 int render(const RenderArguments& arguments, const Config& config) {
   const absl::StatusOr<Json> json = makeReport(arguments, config.device);
   if (!json.ok()) {
-    std::cerr << "viewloomd render: " << std::string(json.status().message()) << "\n";
+    std::cerr << "viewloomd render: "
+              << printable({json.status().message().data(), json.status().message().size()}, true)
+              << "\n";
     return kExitRefused;
   }
-  std::cout << json->dump(2) << "\n";
+  // Names of files may hold any bytes.
+  std::cout << json->dump(2, ' ', true, Json::error_handler_t::replace) << "\n";
   return 0;
 }
 
@@ -208,28 +215,29 @@ void addRenderCommand(CLI::App& app, Command& chosen) {
   CLI::App* const command = app.add_subcommand(
       "render", "Renders a frame from files to picture files; prints a report as JSON");
   command->fallthrough();
-  command->add_option("--frame", arguments->frame, "FrameManifest as JSON")->required();
+  command->add_option("--frame", arguments->frame, "Manifest of the frame, JSON")->required();
   CLI::Option* const later =
       command->add_option("--later", arguments->later_s,
                           "Seconds from --frame to what a display with effects.temporal is shown: "
                           "0 or more to predict, 0 or less to interpolate");
   command
       ->add_option("--before", arguments->before,
-                   "FrameManifest as JSON: the frame before, which tells how the camera moves")
+                   "Manifest of the frame before, JSON, which tells how the camera moves")
       ->needs(later);
   CLI::Option_group* const display = command->add_option_group("Display");
-  display->add_option("--display", arguments->display, "Display as JSON");
+  display->add_option("--display", arguments->display, "Description of the display, JSON");
   display->add_option("--preset", arguments->preset, "A named device, see `viewloom list presets`");
   display->require_option(1);
   command->add_option("--out", arguments->out, "Folder for the pictures, made if need be")
       ->required();
-  CLI::Option* const truth = command->add_option("--compare", compare.truth,
-                                                 "TruthManifest as JSON: scores views against it");
+  CLI::Option* const truth = command->add_option(
+      "--compare", compare.truth, "Manifest of true views, JSON: scores views against it");
   command
-      ->add_option("--transfer", compare.transfer,
-                   "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ScoreTransfer>{
-          {"srgb", ScoreTransfer::kSrgb}, {"gamma2.2", ScoreTransfer::kGamma22}}))
+      ->add_option_function<std::string>(
+          "--transfer",
+          [&compare](const std::string& word) { compare.transfer = kTransfers.at(word); },
+          "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
+      ->check(usage::oneOf(kTransfers))
       ->needs(truth);
   command->add_option("--border", compare.border_px, "px left out on every side of a scored view")
       ->needs(truth);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "base/log.h"
 #include "commands/command.h"
 #include "commands/reachable_addresses.h"
+#include "gpu/device_error.h"
 #include "service.h"
 
 namespace viewloom {
@@ -62,12 +64,14 @@ void sayReach(const std::string& grpc_address, const std::string& http_url) {
 }  // namespace
 
 int serve(const Config& config) {
+  // gRPC's log is for its developers: what matters to users comes as an error.
+  setenv("GRPC_VERBOSITY", "NONE", 0);
   const sigset_t stop_signals = blockStopSignals();
   const SteadyClock clock;
   std::atomic<bool> has_failed = false;
   Service service(config, clock, [&](const std::exception& error) {
     has_failed = true;
-    log(LogLevel::kError, "the server cannot go on: ", error.what());
+    log(LogLevel::kError, "the server cannot go on: ", deviceErrorText(error));
     kill(getpid(), SIGTERM);  // wakes the wait below
   });
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
@@ -77,7 +81,7 @@ int serve(const Config& config) {
 
   int signal = 0;
   sigwait(&stop_signals, &signal);
-  log(LogLevel::kInfo, "draining");
+  log(LogLevel::kInfo, "stopping: publishers and displays are told, and open calls end");
   service.drain();
   return has_failed ? kExitFailed : 0;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "gpu/device_error.h"
 
 namespace viewloom {
 
@@ -24,7 +25,8 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
   try {
     last.structure = build(*structure, carried_ns, guesses, last.retimer);
   } catch (const vk::OutOfDeviceMemoryError& error) {
-    log(LogLevel::kWarning, "stream ", structure->stream, ", between frames: ", error.what());
+    log(LogLevel::kWarning, "stream ", structure->stream,
+        ": shown without pictures between its frames: ", deviceErrorText(error));
     return structure;
   }
   last.serial = structure->serial;

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/str_cat.h"
 #include "frame/same_content.h"
+#include "gpu/device_error.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/tracked_frame.h"
 
@@ -79,8 +80,9 @@ bool StructureLoop::serve(PipelineStream& stream) {
   try {
     slot = takeSlot(stream, *stream.next->frame);
   } catch (const vk::OutOfDeviceMemoryError& error) {
-    log(LogLevel::kWarning, "stream ", stream.name, ": ", error.what());
-    stream.next->ticket->noteRefused(strCat("the device has no room for it: ", error.what()));
+    const std::string problem = deviceErrorText(error);
+    log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", problem);
+    stream.next->ticket->noteRefused(problem);
     stream.next.reset();
     return true;
   }

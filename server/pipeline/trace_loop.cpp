@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "base/str_cat.h"
+#include "gpu/device_error.h"
 #include "pipeline/job_aim.h"
 
 namespace viewloom {
@@ -217,7 +218,7 @@ absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture, co
     }
   } catch (const vk::OutOfDeviceMemoryError& error) {
     return absl::ResourceExhaustedError(
-        strCat("the device has no room to walk frames of this stream: ", error.what()));
+        strCat("this display cannot be served: ", deviceErrorText(error)));
   }
   newest.stream_is_walked->store(true);
   return TraceMethod::kWalk;

@@ -131,6 +131,12 @@ TEST_F(RenderTest, opensADisplayByTheNameOfItsDevice) {
   EXPECT_EQ(runViewloomd(files).exit_code, 2) << "no display at all";
 }
 
+TEST_F(RenderTest, printsNoControlCharactersOfNames) {
+  const FinishedRun run = render("\x1b[31mred.json", "display.json", "");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, HasSubstr("\\x1b[31mred.json: no such file"));
+}
+
 TEST_F(RenderTest, refusesATruthOfAnotherSizeAndABorderThatLeavesNothing) {
   write("beyond.json", R"({"views":[{"viewIndex":2,"color":{"file":"color.png"}}]})");
   const std::string prefix = " --compare " + folder_.string() + "/";
@@ -163,7 +169,7 @@ TEST(Doctor, saysWhichPortIsTakenAndWhatToDo) {
   const FinishedRun free =
       runViewloomd("doctor --grpc.address " + taken + " --http.address 127.0.0.1:0");
   EXPECT_EQ(free.exit_code, 0) << free.output;
-  EXPECT_THAT(free.output, HasSubstr("a small scene was built and traced"));
+  EXPECT_THAT(free.output, HasSubstr("a small scene was rendered"));
 }
 
 TEST(Doctor, namesADeviceThatDoesNotExist) {

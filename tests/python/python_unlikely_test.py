@@ -4,6 +4,7 @@
 import unittest
 import warnings
 
+import grpc
 import numpy as np
 from PIL import Image
 
@@ -157,6 +158,12 @@ class Warned(unittest.TestCase):
 
 
 class Printed(unittest.TestCase):
+    def test_an_error_drives_no_terminal(self):
+        error = viewloom.ViewloomError(grpc.StatusCode.NOT_FOUND, "a",
+                                       "is \x1b[2J\u202ebad\x9b, no")
+        self.assertEqual(str(error), "NOT_FOUND: a: is \\x1b[2J\\u202ebad\\x9b, no")
+        self.assertEqual(error.message, "is \x1b[2J\u202ebad\x9b, no")
+
     def test_a_source_is_one_line(self):
         text = repr(viewloom.Source([COLOR, COLOR], [DEPTH, DEPTH], fov_y_rad=1.0, pose=np.eye(4)))
         self.assertEqual(text, "viewloom.Source(color=[uint8[12][16][3], uint8[12][16][3]], "

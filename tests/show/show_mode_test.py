@@ -43,7 +43,7 @@ class SuitedMode(ShowTest):
         server = self.start_server(self.answer, traces_on_cpu=True)
         show = self.show_on(server)
         self.expect_woven(server)
-        self.assertIn("mode weave: the server traces on a CPU (a device of the test)", show.said())
+        self.assertIn("mode weave: the server renders on a CPU (a device of the test)", show.said())
         self.assertTrue(server.displays.empty())
 
     def test_a_server_on_a_gpu_interlaces(self):
@@ -56,13 +56,13 @@ class SuitedMode(ShowTest):
         server = self.start_server(self.answer)
         show = self.show_on(server)
         self.expect_native(server)
-        self.assertIn("does not say what it traces on", show.said())
+        self.assertIn("does not say what it renders on", show.said())
 
     def test_what_is_said_is_done(self):
         server = self.start_server(self.answer, traces_on_cpu=True)
         show = self.show_on(server, "--mode", "native")
         self.expect_native(server)
-        self.assertNotIn("traces on a CPU", show.said())
+        self.assertNotIn("renders on a CPU", show.said())
 
     def test_a_server_that_comes_later_is_asked_then(self):
         gone = self.start_server(self.answer, traces_on_cpu=True)

@@ -7,12 +7,14 @@ import build_rules
 import layering
 import proto_rules
 import text_rules
+import user_texts
 from tree import Tree
 
 
 def main():
     tree = Tree.of_repository(sys.argv[1])
-    findings = sorted(finding for rules in (build_rules, layering, proto_rules, text_rules)
+    findings = sorted(finding for rules in (build_rules, layering, proto_rules, text_rules,
+                                              user_texts)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)

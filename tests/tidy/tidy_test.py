@@ -7,6 +7,7 @@ import build_rules
 import layering
 import proto_rules
 import text_rules
+import user_texts
 from tree import Tree
 
 LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
@@ -70,6 +71,25 @@ class Layers(unittest.TestCase):
     def test_a_shader_library_knows_no_entry_point(self):
         self.assertEqual(self.broken("shaders/lib/a.glsl", '"trace/walk.h"',
                                      shaders__trace__walk=1), ["layers"])
+
+
+class UserTexts(unittest.TestCase):
+    def broken(self, path, text):
+        return [rule for _, rule in rules_broken(user_texts.check, {path: text})]
+
+    def test_words_of_developers_are_found_in_what_users_read(self):
+        for path, text in (("client/cli/a.cpp", 'line.say("the slot is full");\n'),
+                           ("server/commands/a.cpp", 'std::cerr << "a scene was traced";\n'),
+                           ("server/rpc/a.cpp",
+                            'log(LogLevel::kInfo, name,\n    " is draining");\n')):
+            self.assertEqual(self.broken(path, text), ["user text"], text)
+
+    def test_names_and_texts_for_developers_are_free(self):
+        for path, text in (("client/cli/a.cpp", 'json["trace"] = 1;\n'),
+                           ("client/cli/a.cpp", '// "traced here"\n'),
+                           ("server/rpc/a.cpp", 'log(LogLevel::kInfo, name);\nx("a slot");\n'),
+                           ("server/trace/a.cpp", 'pass("trace the views");\n')):
+            self.assertEqual(self.broken(path, text), [], text)
 
 
 class Text(unittest.TestCase):

@@ -11,20 +11,26 @@ from google.rpc import error_details_pb2, status_pb2
 _DETAILS_KEY = "grpc-status-details-bin"
 
 
+def _printable(text: str) -> str:
+    """The text of whoever it is, without what would drive a terminal."""
+    return "".join(character if character.isprintable() or character == "\n"
+                   else character.encode("unicode_escape").decode() for character in text)
+
+
 class ViewloomError(Exception):
     """A call or a frame that was refused, or a connection that broke.
 
     status:  grpc.StatusCode, the same for refusals made here and by the server.
     field:   the path of what was wrong, "open.display.quilt.columns"; "" when it is no field.
-    message: what came, what is accepted.
+    message: what came, what is accepted: as it came, while str() shows control characters as codes.
     is_from_server: the server said so itself; else a proxy, the connection or this package did.
     retry_delay_s:  after how long the server says to ask again; None = it says nothing.
     """
 
     def __init__(self, status: Any, field: str, message: str, *, is_from_server: bool = False,
                  retry_delay_s: Optional[float] = None) -> None:
-        super().__init__(f"{status.name}: {message}" if not field
-                         else f"{status.name}: {field}: {message}")
+        super().__init__(_printable(f"{status.name}: {message}" if not field
+                                    else f"{status.name}: {field}: {message}"))
         self.status = status
         self.field = field
         self.message = message

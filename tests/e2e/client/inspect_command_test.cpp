@@ -65,7 +65,7 @@ TEST_F(InspectCommand, saysWhatAFileIsAndHowItIsRead) {
   writeBlender("render.exr");
   const Finished run = inspect(file("render.exr"));
   EXPECT_EQ(run.exit_code, 0) << run.errors;
-  EXPECT_THAT(run.output, HasSubstr("scanlineimage 8x4 px: ViewLayer.Combined.A (half)"));
+  EXPECT_THAT(run.output, HasSubstr("scan lines 8x4 px: ViewLayer.Combined.A (half)"));
   EXPECT_THAT(run.output, HasSubstr("read as   blender"));
   EXPECT_THAT(run.output, HasSubstr("metres along the view axis = sample x 1 + 0; 1e+10 is "
                                     "infinitely far"));
@@ -181,7 +181,7 @@ TEST_F(InspectCommand, knowsPortraitPhotos) {
   EXPECT_THAT(run.output, HasSubstr("focal length 26 mm of Exif"));
   // Twice atan(18 / 26); codes up to 255 of 0.005 each.
   EXPECT_THAT(run.output, HasSubstr("69.4 x 54.9 degrees"));
-  EXPECT_THAT(run.output, HasSubstr("rgb8, srgb, display_p3, alpha opaque"));
+  EXPECT_THAT(run.output, HasSubstr("RGB of 8 bits, srgb, display_p3, alpha opaque"));
   EXPECT_THAT(run.output, HasSubstr("1/Z in 1/m = sample x 0.005 + 0.25"));
   EXPECT_THAT(run.output, testing::Not(HasSubstr("assumed")));
   photo.has_second = false;

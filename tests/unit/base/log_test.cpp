@@ -20,6 +20,14 @@ TEST(Log, writesLinesFromItsLevelUpwards) {
   setLogLevel(LogLevel::kInfo);
 }
 
+// Names of streams and of devices come from elsewhere.
+TEST(Log, writesNoControlCharacters) {
+  testing::internal::CaptureStderr();
+  log(LogLevel::kInfo, "stream \033[2Ja\nb");
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("info stream \\x1b[2Ja\\x0ab\n"));
+}
+
 TEST(Log, knowsItsLevelsByName) {
   EXPECT_EQ(logLevelOf("trace"), LogLevel::kTrace);
   EXPECT_EQ(logLevelOf("off"), LogLevel::kOff);

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/user_words.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <regex>
+
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/report_error.h"
+#include "lib/channel.h"
+#include "unit/client/test_files.h"
 
 namespace viewloom::cli {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(UserWords, nameTheOptionOfAField) {
   EXPECT_EQ(inUserWords("display.quilt.preset: there is no \"x\""), "--preset: there is no \"x\"");
@@ -17,11 +29,55 @@ TEST(UserWords, nameTheLayerOfAFrame) {
   EXPECT_EQ(inUserWords("sources[0]: no layers"), "the frame: no layers");
 }
 
+TEST(UserWords, nameADeepFileByItsName) {
+  EXPECT_EQ(inUserWords("deep: a.exr: has no deep part"), "a.exr: has no deep part");
+}
+
 TEST(UserWords, leaveOtherMessagesAlone) {
   for (const char* text : {"no field", "a b: c", "stream: there is none", ": x", "sources[: x",
                            "sources[99999999999999999999].a: x"}) {
     EXPECT_EQ(inUserWords(text), text);
   }
+}
+
+TEST(UserWords, standInTheHelpOfEveryCommand) {
+  const std::regex of_developers(
+      "\\b(trac(e|es|ed|ing)|drain(s|ed|ing)?|slots?|structs?|enums?|ENUM|payload|protobuf|"
+      "FrameManifest|TruthManifest|DEPTH_MEANING_\\w+|PLANE_ENCODING_\\w+|null|boolean)\\b");
+  CLI::App app;
+  for (const auto& [command, run] : addCommands(app)) {
+    const std::string help = command->help();
+    std::smatch word;
+    EXPECT_FALSE(std::regex_search(help, word, of_developers))
+        << command->get_name() << ": " << word.str();
+  }
+}
+
+TEST(UserWords, sayWhyNoServerAnswers) {
+  const CommonOptions common{.server = "host:5"};
+  const auto said = [&](const char* message) {
+    return explain(statusFromGrpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, message)), common);
+  };
+  EXPECT_THAT(
+      said("failed to connect to all addresses; last error: UNKNOWN: ipv4:1.2.3.4:5: Failed "
+           "to connect to remote host: Connection refused"),
+      StartsWith("no server at host:5 (connection refused); start one with"));
+  EXPECT_THAT(
+      said("DNS resolution failed for host:5: C-ares status is not ARES_SUCCESS qtype=AAAA: "
+           "Domain name not found"),
+      StartsWith("no server at host:5 (there is no host of that name); "));
+  EXPECT_THAT(said("Socket closed"), HasSubstr("(it has closed the connection)"));
+  EXPECT_THAT(said("keepalive watchdog timeout"), HasSubstr("(it has stopped answering)"));
+}
+
+TEST(UserWords, sayInOneLineWhatIsWrongWithAFile) {
+  const files::TestFolder folder;
+  folder.write("display.json", "root:x:0\nroot:y:1\n");
+  const std::string path = (folder.path() / "display.json").string();
+  DisplayOptions options;
+  options.file = path;
+  EXPECT_EQ(std::string(makeDisplay(options).status().message()),
+            path + ": does not describe a display in JSON: Unexpected token at \"root:x:0\"");
 }
 
 }  // namespace

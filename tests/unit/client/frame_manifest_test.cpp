@@ -106,8 +106,8 @@ TEST_F(FrameManifestTest, numbersAFrameWithoutANumberOne) {
 }
 
 TEST_F(FrameManifestTest, refusesUnknownKeysAndBrokenJson) {
-  EXPECT_THAT(refusal(R"({"sorces": []})"), HasSubstr("is no FrameManifest in JSON"));
-  EXPECT_THAT(refusal("{"), HasSubstr("is no FrameManifest in JSON"));
+  EXPECT_THAT(refusal(R"({"sorces": []})"), HasSubstr("does not describe a frame in JSON"));
+  EXPECT_THAT(refusal("{"), HasSubstr("does not describe a frame in JSON"));
 }
 
 TEST_F(FrameManifestTest, namesTheFieldAndTheFileAtFault) {
