@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -195,6 +196,8 @@ absl::StatusOr<Json> makeReport(const RenderArguments& arguments, const std::str
 }
 
 int render(const RenderArguments& arguments, const Config& config) {
+  // A file that reaches the largest size allowed is a failed write, not the end of the command.
+  std::signal(SIGXFSZ, SIG_IGN);
   const absl::StatusOr<Json> json = makeReport(arguments, config.device);
   if (!json.ok()) {
     std::cerr << "viewloomd render: "

@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
 #include "e2e/render_folder.h"
@@ -129,6 +130,19 @@ TEST_F(RenderTest, opensADisplayByTheNameOfItsDevice) {
               AllOf(HasSubstr("viewloomd render: --preset: there is no \"near_eye_2031\""),
                     HasSubstr("did you mean \"near_eye_2013\"?")));
   EXPECT_EQ(runViewloomd(files).exit_code, 2) << "no display at all";
+}
+
+// Files of half a kilobyte stand for a disk that is full.
+TEST_F(RenderTest, leavesNoHalfOfAPictureWhereTheDiskIsFull) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{.rlim_cur = 512, .rlim_max = before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const FinishedRun run = render("frame.json", "display.json", "");
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(run.exit_code, 1) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("cannot be written: it reached the largest size allowed\n"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
 }
 
 TEST_F(RenderTest, printsNoControlCharactersOfNames) {

@@ -5,6 +5,7 @@ import io
 import os
 import pathlib
 import re
+import resource
 import tempfile
 import unittest
 
@@ -52,6 +53,20 @@ class Saving(unittest.TestCase):
         file = self.folder / "quilt.JPG"
         self.assertEqual(atlas().save(file), file)
         self.assertEqual(file.read_bytes(), jpeg_bytes())
+
+    def test_a_full_disk_leaves_what_was_there(self):
+        """Files that may hold a hundred bytes stand for a disk that is full."""
+        file = self.folder / "quilt.jpg"
+        file.write_bytes(b"before")
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+        with self.assertRaises(OSError) as raised:
+            atlas().save(file)
+        self.assertIn(f"cannot be written: it reached the largest size allowed: '{file}'",
+                      str(raised.exception))
+        self.assertEqual(self.names(), ["quilt.jpg"])
+        self.assertEqual(file.read_bytes(), b"before")
 
     def test_a_png_has_every_pixel(self):
         for shown in (atlas(), raw_atlas()):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import pathlib
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 PathLike = Union[str, "os.PathLike[str]"]
 _JPEG_ENDINGS = (".jpg", ".jpeg")
+_REASONS = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk is full",
+            errno.EFBIG: "it reached the largest size allowed"}
 # What a server may add to the name of a file, and what a stream may be called.
 _SUFFIX = re.compile(r"_qs\d{1,3}x\d{1,3}a\d{1,4}(\.\d{1,8})?")
 _STREAM = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]{0,63}")
@@ -79,6 +82,10 @@ def save(atlas: Atlas, path: PathLike) -> pathlib.Path:
             os.fchmod(out.fileno(), 0o666 & ~umask)
             out.write(content)
         os.replace(partial, file)
+    except OSError as error:
+        os.unlink(partial)
+        reason = _REASONS.get(error.errno, error.strerror)
+        raise OSError(error.errno, f"cannot be written: {reason}", str(file)) from None
     except BaseException:
         os.unlink(partial)
         raise
