@@ -123,23 +123,26 @@ class Rules {
   }
 
   void suspectStepsAndNoise() {
-    const float near = measures_.inv_z_near;
-    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, near) &&
+    // The sky is what is furthest where as much as a percentile shows it.
+    const bool shows_sky =
+        float(samples_.sky_count) > abi::kFarQuantile * float(samples_.surface_count);
+    const float range = measures_.inv_z_near - (shows_sky ? 0 : measures_.inv_z_far);
+    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, range) &&
                             measures_.bent_count >= kSteppedCount &&
                             measures_.bent_share >= kSteppedShare;
-    if (is_stepped && abi::kShownSteps * measures_.step > near) {
+    if (is_stepped && abi::kShownSteps * measures_.step > range) {
       say("quantised",
-          strCat("depth has about ", std::round(near / measures_.step),
-                 " steps from infinity to near; on a wide display one is ",
-                 std::round(10 * abi::kWideSpan_px * measures_.step / near) / 10,
+          strCat("depth has about ", std::round(range / measures_.step),
+                 " steps from far to near; on a wide display one is ",
+                 std::round(10 * abi::kWideSpan_px * measures_.step / range) / 10,
                  " px, which shows as terraces where smoothing does not reach: write depth of 16 "
                  "bits or floats, in inverse depth, with near and far close about the scene"));
     }
     const bool is_noisy = measures_.noise_sigma > abi::kStepsOfNoise * measures_.step &&
-                          abi::kShownSigmas * measures_.noise_sigma > near;
+                          abi::isNoiseShown(measures_.noise_sigma, range, samples_.width_px);
     if (is_noisy) {
       say("noisy", strCat("noise of depth is ", measures_.noise_sigma, " 1/m, ",
-                          std::round(abi::kWideSpan_px * measures_.noise_sigma / near),
+                          std::round(abi::kWideSpan_px * measures_.noise_sigma / range),
                           " px on a wide display: filter it before publishing"));
     }
   }

@@ -24,9 +24,9 @@ struct PatternOptions {
   DisplayViews views;          // what it is drawn for
 };
 
-// Where displays that leave their focal plane to the stream put it: percentiles of depth come from
-// bins of 1/Z, 32 an octave. This is the middle of one in the middle of the octave 1..2 1/m, so
-// that what lies evenly around it within the octave has it for its mean, exactly.
+// Where displays that leave their focal plane to the stream put it, within 5e-4: the mean of two
+// percentiles of 1/Z. Bins of it begin 32 times an octave. This is the middle of one, so what lies
+// evenly around it has it for its mean.
 inline constexpr double kFocalPlane_inv_m = 1.5 + 1.0 / 64;
 // So much of it surfaces may lie before and behind the plane, to stay in the octave.
 inline constexpr double kDepthShareMax = 0.31;

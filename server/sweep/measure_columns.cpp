@@ -112,7 +112,7 @@ void RangeHistogram::add(const RangeHistogram& other) {
 }
 
 MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHistogram& range,
-                              const ColumnCounts& counts, float given_kappa) {
+                              const ColumnCounts& counts, uint32_t width_px, float given_kappa) {
   const auto quantile = [&](float share) { return depthQuantile(histograms, range, share); };
   const float inv_z_near = quantile(abi::kNearQuantile);
   const float inv_z_far = quantile(abi::kFarQuantile);
@@ -122,23 +122,24 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHis
   const float surface_sigma = surfaceSigma(histograms);
   const Smoothing smoothing = {
       .reach = abi::smoothingReach(step, noiseQuantile(histograms.noise, 1, 0, 0.5F), surface_sigma,
-                                   inv_z_range),
+                                   inv_z_range, width_px),
       .first_pass = abi::firstSmoothingPass(step, surface_sigma)};
   const bool is_noisy = smoothing.reach > 0 && smoothing.first_pass > 0;
   const float sigma = std::max(noiseQuantile(histograms.noise, 0, 0, 0.5F) / abi::kMedianPerSigma,
                                is_noisy ? surface_sigma : 0);
   const bool is_given = given_kappa > 0;
   const float base = abi::baseOfSteps(inv_z_near, inv_z_far);
-  const float least =
+  const float measured_kappa =
       std::max({abi::leastStep(abi::kKappaRelative, inv_z_range), abi::kRoundingShare * inv_z_near,
                 abi::kKappaSteps * step, abi::kKappaSigmas * sigma});
-  const SurfaceSteps steps = {.kappa = {.least = is_given ? given_kappa : least,
-                                        .share = is_given ? 0 : abi::kKappaRelative,
-                                        .from = base},
-                              .deep = {.least = abi::leastStep(abi::kDeepStep, inv_z_range),
-                                       .share = abi::kDeepStep,
-                                       .from = base},
-                              .inv_z_range = inv_z_range};
+  const float kappa = is_given ? given_kappa : measured_kappa;
+  const SurfaceSteps steps = {
+      .kappa = {.least = kappa, .share = is_given ? 0 : abi::kKappaRelative, .from = base},
+      // What is one surface is not two things.
+      .deep = {.least = std::max(abi::leastStep(abi::kDeepStep, inv_z_range), kappa),
+               .share = abi::kDeepStep,
+               .from = base},
+      .inv_z_range = inv_z_range};
   const bool has_surface = counts.inv_z_min <= counts.inv_z_max;
   return {.stats = {.depth_step = step,
                     .noise_sigma = sigma,

@@ -41,8 +41,9 @@ struct MeasuredColumns {
   Smoothing smoothing;
 };
 
-// `given_kappa`: the publisher's connection tolerance, 1/m; 0 = measured.
+// `width_px`: of the source. `given_kappa`: the publisher's connection tolerance, 1/m; 0 =
+// measured.
 MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHistogram& range,
-                              const ColumnCounts& counts, float given_kappa);
+                              const ColumnCounts& counts, uint32_t width_px, float given_kappa);
 
 }  // namespace viewloom

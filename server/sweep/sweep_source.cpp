@@ -48,7 +48,7 @@ void SweepSource::prepare(FramePtr frame, WorkerPool& workers) {
   const ColumnHistograms histograms = measured(ColumnHistograms{}, workers);
   const RangeHistogram range = measured(RangeHistogram{settleRange(histograms)}, workers);
   const float given_kappa = float(frame_->format.sources.front().connection_tolerance);
-  measured_ = settleColumns(histograms, range, counts[0], given_kappa);
+  measured_ = settleColumns(histograms, range, counts[0], size_px.width, given_kappa);
   if (measured_.smoothing.reach > 0) smooth(workers);
 }
 

@@ -33,12 +33,12 @@ VIEWLOOM_ABI_CONST float kFarQuantile = 0.02f;
 VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 
 // What is coarse is smoothed (shaders/README.md, Coarse depth).
-// px of disparity between the far and the near percentile from the outermost eye of a wide cone.
+// px of disparity between the far and the near percentile from the outermost eye of a wide cone. In
+// a small source it is no more than this share of the width.
 VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;
+VIEWLOOM_ABI_CONST float kWideSpanShare = 0.25f;
 // Half a step shows when it moves a px by more than the default tolerance of 0.25 px.
 VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
-// Noise shows when its sigma moves a px by more than one.
-VIEWLOOM_ABI_CONST float kShownSigmas = kWideSpan_px;
 // Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other
 // step, too.
 VIEWLOOM_ABI_CONST float kFewestSteps = 16.0f;
@@ -112,14 +112,23 @@ VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float 
   return step > 0.0f && step_median <= kStepsMedian * step;
 }
 
-// How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped.
+// Noise shows when its sigma moves a px by more than one. Where a picture is small, even smooth
+// surfaces bend by much of the range from px to px, and no eye is that far away.
+VIEWLOOM_ABI_FUNCTION bool isNoiseShown(float noise_sigma, float inv_z_range, uint width_px) {
+  const float in_proportion_px = kWideSpanShare * float(width_px);
+  const float span_px = in_proportion_px < kWideSpan_px ? in_proportion_px : kWideSpan_px;
+  return span_px * noise_sigma > inv_z_range;
+}
+
+// How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped, and the
+// width of the source.
 VIEWLOOM_ABI_FUNCTION float smoothingReach(float depth_step, float step_median, float noise_sigma,
-                                           float inv_z_range) {
+                                           float inv_z_range, uint width_px) {
   const bool is_stepped = isStepped(depth_step, step_median, inv_z_range);
   if (is_stepped) return kShownSteps * depth_step > inv_z_range ? 0.5f * depth_step : 0.0f;
   const bool is_noisy = noise_sigma > kStepsOfNoise * depth_step &&
                         kFewestSteps * noise_sigma <= inv_z_range &&
-                        kShownSigmas * noise_sigma > inv_z_range;
+                        isNoiseShown(noise_sigma, inv_z_range, width_px);
   return is_noisy ? 2.0f * noise_sigma : 0.0f;
 }
 

@@ -48,7 +48,8 @@ float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_range)
   const float sky_count =
       min(float(measured.value.depth_histogram[0]), float(measured.value.noise_histogram[0]));
   const float noise_sigma = noiseQuantile(measured, 0u, sky_count, 0.5) / kMedianPerSigma;
-  const float reach = smoothingReach(depth_step, step_median, noise_sigma, inv_z_range);
+  const float reach =
+      smoothingReach(depth_step, step_median, noise_sigma, inv_z_range, push.width_px);
   const uint first_pass = firstSmoothingPass(depth_step, noise_sigma);
   const uint blocks_x = (push.width_px + uint(kBlockPx) - 1u) / uint(kBlockPx);
   const uvec3 groups = uvec3((blocks_x + kNodeGroupSize - 1u) / kNodeGroupSize,
@@ -78,7 +79,9 @@ void main() {
       given > 0.0 ? given
                   : max(least, max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma));
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  measured.value.head.deep_abs = leastStep(kDeepStep, inv_z_range);
+  // What is one surface is not two things.
+  measured.value.head.deep_abs =
+      max(leastStep(kDeepStep, inv_z_range), measured.value.head.kappa_abs);
   measured.value.head.inv_z_base =
       hasFault(kFaultStepsFromInfinity) ? 0.0 : baseOfSteps(inv_z_near, inv_z_far);
   measured.value.head.inv_z_far = inv_z_far;

@@ -26,13 +26,14 @@ struct Layer {
   std::function<double(uint32_t)> sample;
 };
 
-// From near to far, so that layers of one column keep their order.
+// From near to far, so that layers of one column keep their order. Millimetres are scattered: on a
+// slope of few of them they would be coarse depth, which is smoothed.
 const Layer kPlanarF32{PlaneEncoding::kDepthF32,
                        {.meaning = DepthMeaning::kPlanar, .invalid_value = -1.0},
                        [](uint32_t i) { return i % 7 == 3 ? -1.0 : 1 + 0.01 * i; }};
 const Layer kRayU16{PlaneEncoding::kDepthU16,
                     {.meaning = DepthMeaning::kRayDistance, .scale = 0.001},
-                    [](uint32_t i) { return i % 5 == 0 ? 0.0 : 3000 + i; }};
+                    [](uint32_t i) { return i % 5 == 0 ? 0.0 : 3000 + i * 7919 % 1999; }};
 const Layer kDisparityF16{PlaneEncoding::kDepthF16,
                           {.meaning = DepthMeaning::kDisparity},
                           [](uint32_t i) { return i % 11 == 4 ? -0.5 : 0.1 + i / 1024.0; }};

@@ -35,14 +35,14 @@ RenderedAtlas PatternViews::render(DisplaySpec spec) {
 }
 
 RenderedAtlas PatternViews::renderQuilt(uint32_t columns, uint32_t rows, SizePx tile_px,
-                                        double aspect) {
+                                        double aspect, double focal_distance_m) {
   DisplaySpec spec;
   spec.kind = QuiltSpec{.preset = "",
                         .columns = columns,
                         .rows = rows,
                         .size_px = {columns * tile_px.width, rows * tile_px.height},
                         .aspect = aspect};
-  return render(spec);
+  return render(focal_distance_m > 0 ? withFocalDistance(spec, focal_distance_m).value() : spec);
 }
 
 RenderedAtlas PatternViews::renderEyes(const patterns::Pattern& pattern,

@@ -37,7 +37,8 @@ class PatternViews : public GpuTest {
   void build(patterns::Pattern pattern);
   RenderedAtlas render(DisplaySpec spec);
   // With the focal plane that it has by default.
-  RenderedAtlas renderQuilt(uint32_t columns, uint32_t rows, SizePx tile_px, double aspect);
+  RenderedAtlas renderQuilt(uint32_t columns, uint32_t rows, SizePx tile_px, double aspect,
+                            double focal_distance_m = 0);
   // As large as the source, of eyes at these tangents of the focal distance, each of which frames
   // what the source sees of the focal plane; one below the other.
   RenderedAtlas renderEyes(const patterns::Pattern& pattern, const std::vector<double>& tangents);

@@ -21,18 +21,18 @@ float minmod(float a, float b) {
 
 }  // namespace
 
-float ShownRange::deepStep(float nearer) const {
-  constexpr float kShare = 0.15F;
-  const float least = kShare * (1.0F / 3.0F) * (near - far);
-  return std::max(least, kShare * (nearer - base()));
-}
-
 float ConnectionTolerance::at(float nearer) const {
   return std::max(absolute, relative * (nearer - range.base()));
 }
 
 double ConnectionTolerance::at(double nearer) const {
   return std::max(double{absolute}, double{relative} * (nearer - double{range.base()}));
+}
+
+float ConnectionTolerance::deepStep(float nearer) const {
+  constexpr float kShare = 0.15F;
+  const float least = kShare * (1.0F / 3.0F) * (range.near - range.far);
+  return std::max({absolute, least, kShare * (nearer - range.base())});
 }
 
 InvZPlanes makePlanes(int width, int height, int layer_count) {
@@ -189,7 +189,7 @@ bool OracleSource::isSilhouette(const FacetAt& at, const FacetAt& towards) const
 bool OracleSource::deepBehind(const FacetAt& far, const FacetAt& near) const {
   if (!exists(far) || !exists(near) || !isSilhouette(far, near)) return false;
   const float near_inv_z = invZAtEdge(near, far);
-  return near_inv_z - kappa_.range.deepStep(near_inv_z) > invZAtEdge(far, near);
+  return near_inv_z - kappa_.deepStep(near_inv_z) > invZAtEdge(far, near);
 }
 
 bool OracleSource::knownBehind(const FacetAt& far, const FacetAt& near) const {
@@ -213,7 +213,7 @@ bool OracleSource::reachesAsFar(double far_inv_z, glm::dvec2 passed_px, glm::dve
   for (int layer = 0; layer < layerCount(); ++layer) {
     const FacetAt at{layer, int(mirrored.x), int(mirrored.y)};
     if (!exists(at)) continue;
-    const double deep_step = kappa_.range.deepStep(float(far_inv_z));
+    const double deep_step = kappa_.deepStep(float(far_inv_z));
     if (std::abs(double{facet(at).inv_z} - far_inv_z) <= deep_step) return true;
   }
   return false;

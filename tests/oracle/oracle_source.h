@@ -50,9 +50,6 @@ struct ShownRange {
   float far = 0;
 
   float base() const { return far - (1.0F / 3.0F) * (near - far); }
-  // Surfaces that are further apart are two things: 15 % of the nearer one's distance from the
-  // base.
-  float deepStep(float nearer) const;
 };
 
 // kappa(a, b) = max(absolute, relative * (max(a, b) - the base of the range)), 1/m.
@@ -64,6 +61,9 @@ struct ConnectionTolerance {
   // In binary32, as the structure decides, and as is measured afterwards.
   float at(float nearer) const;
   double at(double nearer) const;
+  // Surfaces that are further apart are two things: 15 % of the nearer one's distance from the
+  // base, but no less than `absolute`.
+  float deepStep(float nearer) const;
 };
 
 // Names a facet: a layer of a column. layer -1 names none.

@@ -38,7 +38,7 @@ SourceStats serverStats(const DepthPlane& made, PlaneEncoding encoding, double s
   for (uint32_t row = 0; 4 * row < kHeight; ++row) histograms.addBlockRow(columns, row);
   RangeHistogram range{settleRange(histograms)};
   for (uint32_t row = 0; 4 * row < kHeight; ++row) range.addBlockRow(columns, row);
-  return settleColumns(histograms, range, counts, 0).stats;
+  return settleColumns(histograms, range, counts, kWidth, 0).stats;
 }
 
 void expectTheSame(const DepthPlane& made, PlaneEncoding encoding, double scale) {
