@@ -10,9 +10,10 @@
 namespace viewloom {
 namespace {
 
-// By this share of a deep step a guess stands behind what it was guessed from: by more than what is
-// within a surface, or a few of the depth's own steps, but not as another thing.
-constexpr float kGivesWayShare = 2.0F / 3;
+// By this share of its 1/Z a guess stands behind what it was guessed from. Surfaces are one within
+// 2 %, or within a few of the depth's own steps, which should not be what this adds; a deep step
+// (abi::kDeepStep) begins at 15 %.
+constexpr float kGivesWayShare = 0.1F;
 
 // Texels where there is something, zeros elsewhere; `from` may be null.
 template <typename Texel>
@@ -163,8 +164,7 @@ void FreshLayer::fillRow(uint32_t y, Guesses guesses) const {
   const uint32_t row = y * width;
   float* const inv_z = to_.inv_z + row;
   const float* const held = surfaces_.heldRow(0, y);
-  const StepRule& deep = surfaces_.steps().deep;
-  const float share = guesses == Guesses::kGiveWay ? kGivesWayShare : 0;
+  const float share = guesses == Guesses::kGiveWay ? 1 - kGivesWayShare : 1;
   for (uint32_t x = columns.first; x < columns.end; ++x) {
     if (inv_z[x] >= 0) continue;
     uint32_t begin = x, end = x;
@@ -176,7 +176,7 @@ void FreshLayer::fillRow(uint32_t y, Guesses guesses) const {
     const uint32_t from = takes_left ? begin - 1 : end;
     for (; x < end; ++x) {
       if (held[x] < 0) continue;
-      inv_z[x] = std::max(inv_z[from] - share * deep.at(inv_z[from]), 0.0F);
+      inv_z[x] = share * inv_z[from];
       copyPx(row + from, row + x);
     }
   }

@@ -24,10 +24,13 @@ constexpr double kExactTolerance_px = 0.01;
 // A column of a Portrait's eyes, turned a little: such views are walked.
 const Pose kEye{.position_m = {0.15, 0.02, 0},
                 .orientation = glm::angleAxis(0.03, glm::dvec3(0, 1, 0))};
+// From there half of a connection tolerance, which no plane is off by more, is some tenths of a px.
+const Pose kFarEye{.position_m = {0.6, 0.02, 0},
+                   .orientation = glm::angleAxis(0.12, glm::dvec3(0, 1, 0))};
 
-DisplaySpec viewOf(Quality quality, double tolerance_px = 0) {
+DisplaySpec viewOf(Quality quality, double tolerance_px = 0, const Pose& eye = kEye) {
   const Intrinsics lens = intrinsicsFromFov(fovOf(kSource_px, kFocal_px), kView_px);
-  return {.kind = CamerasSpec{.cameras = {{kEye, lens}}, .tile_size_px = kView_px, .columns = 1},
+  return {.kind = CamerasSpec{.cameras = {{eye, lens}}, .tile_size_px = kView_px, .columns = 1},
           .tolerance_px = tolerance_px,
           .quality = quality};
 }
@@ -133,10 +136,10 @@ class PipelineQualityTest : public PipelineFixture {
 
 TEST_F(PipelineQualityTest, givesEachDisplayItsOwn) {
   Server server(device());
-  const Viewer draft = watchRaw(server, *completeDisplaySpec(viewOf(Quality::kDraft)));
-  const Viewer best = watchRaw(server, *completeDisplaySpec(viewOf(Quality::kBest)));
+  const Viewer draft = watchRaw(server, *completeDisplaySpec(viewOf(Quality::kDraft, 0, kFarEye)));
+  const Viewer best = watchRaw(server, *completeDisplaySpec(viewOf(Quality::kBest, 0, kFarEye)));
   const Viewer exact =
-      watchRaw(server, *completeDisplaySpec(viewOf(Quality::kBest, kExactTolerance_px)));
+      watchRaw(server, *completeDisplaySpec(viewOf(Quality::kBest, kExactTolerance_px, kFarEye)));
   server.offer(HeadTruth(truth::clutteredRoom(), kSource_px, kFocal_px, 2).frame());
   const std::vector<uint8_t> truth = colorOf(exact);
   ASSERT_THAT(truth, SizeIs(3 * kView_px.area()));

@@ -184,7 +184,8 @@ class StreamSessions(unittest.TestCase):
             client.wait_for("connected to", start)
         took_s = time.monotonic() - begun
         print(f"all were back {took_s:.2f} s after the server")
-        self.assertLess(took_s, 5)
+        # 2 s on a machine that does nothing else; an outage is what this tells apart.
+        self.assertLess(took_s, 15)
         self.wait_for_frames(1)
 
 
