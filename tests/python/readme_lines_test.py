@@ -24,8 +24,8 @@ PACKAGE_FOLDER = "build/release/client/python"
 
 def block(holds, language=""):
     """The block of the README with these words."""
-    blocks = re.findall(rf"^```{language}\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
-    return next(text for text in blocks if holds in text)
+    blocks = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+    return next(text for of, text in blocks if of == language and holds in text)
 
 
 class ReadmeLines(unittest.TestCase):
@@ -71,7 +71,7 @@ class ReadmeLines(unittest.TestCase):
         folder = self.clone / re.search(r"cd (\S+) &&", lines)[1]
         self.assertIn("npm ci", lines)
         self.assertTrue((folder / "package-lock.json").is_file())
-        script, words = re.search(r"node (\S+) (.*)", lines).groups()
+        script, words = re.search(r"^node (\S+) (.*)", lines, re.MULTILINE).groups()
         code = (folder / script).read_text(encoding="utf-8") + (folder / "viewloom.js").read_text(
             encoding="utf-8")
         for option in re.findall(r"--(\w+)", words):
