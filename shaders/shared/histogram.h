@@ -36,7 +36,7 @@ VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 // px of disparity between the far and the near percentile from the outermost eye of a wide cone. In
 // a small source it is no more than this share of the width.
 VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;
-VIEWLOOM_ABI_CONST float kWideSpanShare = 0.25f;
+VIEWLOOM_ABI_CONST float kWideSpanShare = 0.5f;
 // Half a step shows when it moves a px by more than the default tolerance of 0.25 px.
 VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
 // Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other

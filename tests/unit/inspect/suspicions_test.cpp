@@ -165,7 +165,7 @@ TEST(Suspicions, seeSlopesRoundedToEightBits) {
 }
 
 TEST(Suspicions, seeNoise) {
-  DepthPlane made = codes(1000, 300);  // 30 cm
+  DepthPlane made = codes(1000, 200);  // 20 cm
   made.plane.mutable_depth()->set_scale(0.001);
   EXPECT_THAT(kindsOf(made, 65535), Contains("noisy"));
 }
