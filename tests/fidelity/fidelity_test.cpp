@@ -35,8 +35,9 @@ class FidelityTest : public DeviceNeededTest {
     }
   }
 
+  static const Json& viewsOf(const std::string& set) { return reports().at(set).at("views"); }
   static const Json& view(const char* set, const char* name) {
-    const Json& views = reports().at(set).at("views");
+    const Json& views = viewsOf(set);
     return *std::find_if(views.begin(), views.end(),
                          [&](const Json& each) { return each.at("view") == name; });
   }
@@ -104,7 +105,7 @@ TEST_F(FidelityTest, doesNotDependOnWhereInfinityLies) {
   constexpr double kChange_max_db = 0.1;
   for (const char* shift : {"-0.04", "0.2", "10"}) {
     const std::string shifted = std::string("antinous, 1/Z + ") + shift;
-    for (const Json& each : reports().at(shifted).at("views")) {
+    for (const Json& each : viewsOf(shifted)) {
       const auto name = each.at("view").get<std::string>();
       for (const char* pixel_class : {"covered", "all", "hidden"}) {
         EXPECT_NEAR(score(shifted.c_str(), name.c_str(), "viewloom", pixel_class),
