@@ -280,18 +280,18 @@ setInterval(() => {
 }, kLook_ms);
 
 // Nobody looks: the display need not be traced.
+function rest() {
+  stream.close();
+  patience.end();
+  setState('hidden');
+}
 document.addEventListener('visibilitychange', () => {
   clearTimeout(hiddenTimer);
   autoDetail.restart();
-  if (document.hidden) {
-    hiddenTimer = setTimeout(() => {
-      stream.close();
-      patience.end();
-      setState('hidden');
-    }, kHiddenGrace_ms);
-  } else if (root.dataset.state === 'hidden' && watching) {
-    watch(watching);
-  }
+  if (document.hidden) hiddenTimer = setTimeout(rest, kHiddenGrace_ms);
+  else if (root.dataset.state === 'hidden' && watching) watch(watching);
 });
+// Browsers keep a page that was left, with its connection but no timers, for when one goes back.
+addEventListener('pagehide', rest);
 
 start();
