@@ -49,8 +49,9 @@ class PageTest(unittest.TestCase):
         return left, top, width, height
 
     def shown_picture(self):
-        left, top, width, height = self.canvas()
-        edge = 4  # where the focus ring is
+        scale = self.browser.evaluate("devicePixelRatio")  # screenshots are in px of the device
+        left, top, width, height = (scale * side for side in self.canvas())
+        edge = 4 * scale  # where the focus ring is
         shot = self.browser.screenshot().crop(
             (left + edge, top + edge, left + width - edge, top + height - edge))
         return shot.crop(picture_box(shot))
