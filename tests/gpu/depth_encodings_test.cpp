@@ -33,7 +33,7 @@ const Layer kPlanarF32{PlaneEncoding::kDepthF32,
                        [](uint32_t i) { return i % 7 == 3 ? -1.0 : 1 + 0.01 * i; }};
 const Layer kRayU16{PlaneEncoding::kDepthU16,
                     {.meaning = DepthMeaning::kRayDistance, .scale = 0.001},
-                    [](uint32_t i) { return i % 5 == 0 ? 0.0 : 3000 + i * 7919 % 1999; }};
+                    [](uint32_t i) { return i % 5 == 0 ? 0.0 : 3000 + i * i * i * 31 % 1999; }};
 const Layer kDisparityF16{PlaneEncoding::kDepthF16,
                           {.meaning = DepthMeaning::kDisparity},
                           [](uint32_t i) { return i % 11 == 4 ? -0.5 : 0.1 + i / 1024.0; }};
