@@ -41,7 +41,7 @@ VIEWLOOM_ABI_CONST float kWideSpanShare = 0.5f;
 VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
 // Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other
 // step, too.
-VIEWLOOM_ABI_CONST float kFewestSteps = 16.0f;
+VIEWLOOM_ABI_CONST float kFewestSteps = 32.0f;
 // Second differences of a surface that is rounded to steps are one or two steps, or 0: the median
 // of those that are not 0 lies no higher than that, by a bin.
 VIEWLOOM_ABI_CONST float kStepsMedian = 2.2f;
