@@ -36,10 +36,6 @@ struct Differences {
   std::vector<float> all;  // |second differences|, of surfaces nearer than infinity
   std::vector<float> not_zero;
   uint64_t changing_count = 0;  // where depth is not the same in all three px
-
-  float bentShare() const {
-    return changing_count == 0 ? 0 : float(not_zero.size()) / float(changing_count);
-  }
 };
 
 // As shaders/structure/measure_depth.comp takes them.
@@ -58,10 +54,10 @@ Differences secondDifferences(const DepthSamples& samples) {
       const float after = columns.at(x + along_x, y + along_y);
       if (!(std::min({before, here, after}) >= 0) || here == 0) continue;
       const float difference = std::abs((after - here) - (here - before));
-      const float rounding = here * abi::kRoundingShare;
-      const bool is_none = difference <= rounding;
-      const float change = std::max(std::abs(after - here), std::abs(here - before));
-      if (change > rounding) ++differences.changing_count;
+      const bool is_none = abi::isLevel(difference, here);
+      if (!abi::isLevel(after - here, here) || !abi::isLevel(here - before, here)) {
+        ++differences.changing_count;
+      }
       differences.all.push_back(is_none ? 0 : difference);
       if (!is_none) differences.not_zero.push_back(difference);
     }
@@ -85,7 +81,7 @@ DepthMeasures measureDepth(const DepthSamples& samples) {
           .step = quantile(differences.not_zero, abi::kStepQuantile),
           .noise_sigma = quantile(differences.all, 0.5F) / abi::kMedianPerSigma,
           .difference_median = quantile(differences.not_zero, 0.5F),
-          .bent_share = differences.bentShare(),
+          .changing_count = differences.changing_count,
           .bent_count = differences.not_zero.size()};
 }
 

@@ -22,10 +22,8 @@ struct DepthMeasures {
   float noise_sigma = 0;
   // How far neighbours are from one surface, where they are not equal: the median, 1/m.
   float difference_median = 0;
-  // Of the places where depth changes from px to px, the share that is bent there: steps bend all
-  // along a slope, exact surfaces only where they meet.
-  float bent_share = 0;
-  uint64_t bent_count = 0;
+  uint64_t changing_count = 0;  // places where depth is not the same in all three px
+  uint64_t bent_count = 0;      // those whose second difference is not 0
 };
 
 DepthMeasures measureDepth(const DepthSamples& samples);

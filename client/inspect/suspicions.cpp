@@ -15,9 +15,6 @@ namespace {
 constexpr double kHalfMax = 65504;  // of binary16
 constexpr double kFarClip_m = 100;  // far planes of renderers lie here or further away
 constexpr double kFarMedian_m = 200, kNearMedian_m = 0.02;
-// Of slopes, the share that has to bend for them to have steps: surfaces that are merely cut into
-// rows bend at their rims alone.
-constexpr double kSteppedShare = 0.2;
 constexpr uint64_t kSteppedCount = 32;  // fewer places are too few to judge by
 
 double percent(uint64_t count, uint64_t of) {
@@ -127,14 +124,14 @@ class Rules {
     const bool shows_sky =
         float(samples_.sky_count) > abi::kFarQuantile * float(samples_.surface_count);
     const float range = measures_.inv_z_near - (shows_sky ? 0 : measures_.inv_z_far);
-    const bool is_stepped = abi::isStepped(measures_.step, measures_.difference_median, range) &&
-                            measures_.bent_count >= kSteppedCount &&
-                            measures_.bent_share >= kSteppedShare;
-    if (is_stepped && abi::kShownSteps * measures_.step > range) {
+    const float step = abi::stepOfDepth(measures_.step, float(measures_.bent_count),
+                                        float(measures_.changing_count), range);
+    if (abi::isStepped(step, measures_.difference_median) &&
+        measures_.bent_count >= kSteppedCount && abi::kShownSteps * step > range) {
       say("quantised",
-          strCat("depth has about ", std::round(range / measures_.step),
+          strCat("depth has about ", std::round(range / step),
                  " steps from far to near; on a wide display one is ",
-                 std::round(10 * abi::kWideSpan_px * measures_.step / range) / 10,
+                 std::round(10 * abi::kWideSpan_px * step / range) / 10,
                  " px, which shows as terraces where smoothing does not reach: write depth of 16 "
                  "bits or floats, in inverse depth, with near and far close about the scene"));
     }

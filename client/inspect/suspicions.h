@@ -37,7 +37,7 @@ struct DepthFacts {
 //               to 16. Of metres only where their unit is unlikely
 //   scattered   0 is infinitely far by the format, but lies scattered over the picture
 //   quantised   half a step moves things by more than 0.25 px on a wide display, and slopes have
-//               steps; fewer than 32 steps are none, but surfaces that end before others
+//               steps; fewer than 16 steps are none, but surfaces that end before others
 //   noisy       the noise does so by more than a px
 //   scale       the median lies beyond 200 m or nearer than 2 cm
 //   nothing     numbers of 1e9 and more, unless they are said to be no surface or far

@@ -71,13 +71,16 @@ void ColumnHistograms::addBlockRow(const DepthColumns& columns, uint32_t block_r
     ++depth[abi::depthBin(inv_z)];
     if (std::min(before, after) < 0) continue;
     const float difference = std::abs((after - inv_z) - (inv_z - before));
-    ++noise[abi::noiseBin(difference <= inv_z * abi::kRoundingShare ? 0 : difference)];
+    ++noise[abi::noiseBin(abi::isLevel(difference, inv_z) ? 0 : difference)];
+    const bool is_level = abi::isLevel(after - inv_z, inv_z) && abi::isLevel(inv_z - before, inv_z);
+    changing_count += is_level ? 0 : 1;
   }
 }
 
 void ColumnHistograms::add(const ColumnHistograms& other) {
   addTo(depth, other.depth);
   addTo(noise, other.noise);
+  changing_count += other.changing_count;
 }
 
 abi::RangeBounds settleRange(const ColumnHistograms& histograms) {
@@ -117,8 +120,11 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHis
   const float inv_z_near = quantile(abi::kNearQuantile);
   const float inv_z_far = quantile(abi::kFarQuantile);
   const float inv_z_range = inv_z_near - inv_z_far;
+  const auto bent_count =
+      std::accumulate(histograms.noise.begin() + 1, histograms.noise.end(), uint32_t{0});
   const float step =
-      abi::stepOfDepth(noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile), inv_z_range);
+      abi::stepOfDepth(noiseQuantile(histograms.noise, 1, 0, abi::kStepQuantile), float(bent_count),
+                       float(histograms.changing_count), inv_z_range);
   const float surface_sigma = surfaceSigma(histograms);
   const Smoothing smoothing = {
       .reach = abi::smoothingReach(step, noiseQuantile(histograms.noise, 1, 0, 0.5F), surface_sigma,

@@ -16,6 +16,8 @@ namespace viewloom {
 struct ColumnHistograms {
   std::array<uint32_t, abi::kDepthHistogramBinCount> depth{};
   std::array<uint32_t, abi::kNoiseHistogramBinCount> noise{};  // |second differences|
+  // Places where depth is not the same in all three px.
+  uint32_t changing_count = 0;
 
   // Needs rows 4 block_row + 1 .. 4 block_row + 3 prepared, of those in the image.
   void addBlockRow(const DepthColumns& columns, uint32_t block_row);

@@ -41,7 +41,11 @@ VIEWLOOM_ABI_CONST float kWideSpanShare = 0.5f;
 VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
 // Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other
 // step, too.
-VIEWLOOM_ABI_CONST float kFewestSteps = 32.0f;
+VIEWLOOM_ABI_CONST float kFewestSteps = 16.0f;
+// Of places where depth changes from px to px, the share that has to bend: rounded slopes do almost
+// everywhere where they are gentle and half of the time where they are steep, exact ones at their
+// creases and ends alone.
+VIEWLOOM_ABI_CONST float kBentShare = 0.2f;
 // Second differences of a surface that is rounded to steps are one or two steps, or 0: the median
 // of those that are not 0 lies no higher than that, by a bin.
 VIEWLOOM_ABI_CONST float kStepsMedian = 2.2f;
@@ -100,16 +104,25 @@ VIEWLOOM_ABI_FUNCTION float leastStep(float share, float inv_z_range) {
   return share * kBaseMargin * inv_z_range;
 }
 
-// The step that depth may be rounded to; 0 where it is too large for one.
-VIEWLOOM_ABI_FUNCTION float stepOfDepth(float least_difference, float inv_z_range) {
-  return kFewestSteps * least_difference <= inv_z_range ? least_difference : 0.0f;
+// Whether a difference of depths is no more than what a float rounds off.
+VIEWLOOM_ABI_FUNCTION bool isLevel(float difference, float inv_z) {
+  const float rounded = inv_z * kRoundingShare;
+  return -rounded <= difference && difference <= rounded;
+}
+
+// The step that depth may be rounded to; 0 where it is too large for one, or where too few of the
+// places where depth changes are bent.
+VIEWLOOM_ABI_FUNCTION float stepOfDepth(float least_difference, float bent_count,
+                                        float changing_count, float inv_z_range) {
+  const bool is_step =
+      kFewestSteps * least_difference <= inv_z_range && bent_count >= kBentShare * changing_count;
+  return is_step ? least_difference : 0.0f;
 }
 
 // Whether depth is rounded to steps; not where exact surfaces merely end before others.
-// `step_median`: of differences that are not 0.
-VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median, float inv_z_range) {
-  const float step = stepOfDepth(depth_step, inv_z_range);
-  return step > 0.0f && step_median <= kStepsMedian * step;
+// `depth_step`: as of stepOfDepth; `step_median`: of differences that are not 0.
+VIEWLOOM_ABI_FUNCTION bool isStepped(float depth_step, float step_median) {
+  return depth_step > 0.0f && step_median <= kStepsMedian * depth_step;
 }
 
 // Noise shows when its sigma moves a px by more than one. Where a picture is small, even smooth
@@ -120,12 +133,12 @@ VIEWLOOM_ABI_FUNCTION bool isNoiseShown(float noise_sigma, float inv_z_range, ui
   return span_px * noise_sigma > inv_z_range;
 }
 
-// How far smoothing may move a sample, 1/m; 0 = it does not. Arguments as of isStepped, and the
-// width of the source.
+// How far smoothing may move a sample, 1/m; 0 = it does not. `depth_step` as of stepOfDepth,
+// `width_px` of the source.
 VIEWLOOM_ABI_FUNCTION float smoothingReach(float depth_step, float step_median, float noise_sigma,
                                            float inv_z_range, uint width_px) {
-  const bool is_stepped = isStepped(depth_step, step_median, inv_z_range);
-  if (is_stepped) return kShownSteps * depth_step > inv_z_range ? 0.5f * depth_step : 0.0f;
+  if (isStepped(depth_step, step_median))
+    return kShownSteps * depth_step > inv_z_range ? 0.5f * depth_step : 0.0f;
   const bool is_noisy = noise_sigma > kStepsOfNoise * depth_step &&
                         kFewestSteps * noise_sigma <= inv_z_range &&
                         isNoiseShown(noise_sigma, inv_z_range, width_px);

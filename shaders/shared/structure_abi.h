@@ -224,6 +224,7 @@ struct Measured {
   uint depth_histogram[kDepthHistogramBinCount];  // of inv_z, layer 0
   uint noise_histogram[kNoiseHistogramBinCount];  // of second differences of inv_z, layer 0
   uint range_histogram[kRangeHistogramBinCount];  // of inv_z between both percentiles, layer 0
+  uint changing_count;  // where inv_z is not the same in all three px, layer 0
 };
 
 // What a colour plane holds on the device.

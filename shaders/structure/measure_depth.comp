@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histograms of layer 0: of inv_z, and of its second differences. One px of every 4x4 block is
-// enough, and which one is fixed: the result depends on nothing but the frame.
+// Histograms of layer 0: of inv_z, and of its second differences; and at how many places it
+// changes. One px of every 4x4 block is enough, and which one is fixed: the result depends on
+// nothing but the frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -44,6 +45,7 @@ void main() {
   const int first_x = int(gl_GlobalInvocationID.x) * kMeasuredBlocks;
   Tally depths = Tally(0u, 0u);
   Tally noise = Tally(0u, 0u);
+  uint changing_count = 0u;
   int block = 0;
   do {
     const int block_x = first_x + block;
@@ -62,7 +64,9 @@ void main() {
     }
     if (is_in_image && min(inv_z, min(before, after)) >= 0.0) {
       const float difference = abs((after - inv_z) - (inv_z - before));
-      const uint bin = noiseBin(difference <= inv_z * kRoundingShare ? 0.0 : difference);
+      const uint bin = noiseBin(isLevel(difference, inv_z) ? 0.0 : difference);
+      const bool is_level = isLevel(after - inv_z, inv_z) && isLevel(inv_z - before, inv_z);
+      changing_count += is_level ? 0u : 1u;
       if (bin != noise.bin) addToNoise(measured, noise);
       noise = withSample(noise, bin);
     }
@@ -70,4 +74,5 @@ void main() {
   } while (block < kMeasuredBlocks);
   addToDepths(measured, depths);
   addToNoise(measured, noise);
+  if (changing_count > 0u) atomicAdd(measured.value.changing_count, changing_count);
 }

@@ -41,6 +41,14 @@ float noiseQuantile(MeasuredRef measured, uint first, float zero_count, float sh
   return 0.0;
 }
 
+float bentCount(MeasuredRef measured) {
+  uint count = 0u;
+  for (uint bin = 1u; bin < kNoiseHistogramBinCount; ++bin) {
+    count += measured.value.noise_histogram[bin];
+  }
+  return float(count);
+}
+
 // Smoothing, where depth is so coarse that it shows.
 float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_range) {
   const float step_median = noiseQuantile(measured, 1u, 0.0, 0.5);
@@ -67,8 +75,10 @@ void main() {
   const float inv_z_near = depthQuantile(measured, kNearQuantile);
   const float inv_z_far = depthQuantile(measured, kFarQuantile);
   const float inv_z_range = inv_z_near - inv_z_far;
-  const float depth_step =
-      stepOfDepth(noiseQuantile(measured, 1u, 0.0, kStepQuantile), inv_z_range);
+  const float depth_step = stepOfDepth(noiseQuantile(measured, 1u, 0.0, kStepQuantile),
+                                       bentCount(measured),
+                                       float(measured.value.changing_count),
+                                       inv_z_range);
   const float noise_sigma = max(noiseQuantile(measured, 0u, 0.0, 0.5) / kMedianPerSigma,
                                 settleSmoothing(measured, depth_step, inv_z_range));
   const float given = push.given_kappa;

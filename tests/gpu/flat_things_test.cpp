@@ -33,6 +33,23 @@ TEST_F(FlatThings, areNotJoinedByWhatLiesBetweenThem) {
   }
 }
 
+// A level surface goes on as a slope: the bend between them is the same everywhere, as a step is.
+TEST_F(FlatThings, doNotStepWhereTheyMeetInACrease) {
+  constexpr int kCreaseRow = 98;  // one that is looked at
+  constexpr double kSlope = 0.005;
+  oracle::Scene scene = oracle::planeScene({0, 0, 0.5}, 256, 192);
+  scene.kappa = {};
+  for (int row = kCreaseRow; row < 192; ++row) {
+    const float inv_z = float(0.5 + kSlope * (row - kCreaseRow));
+    for (int column = 0; column < 256; ++column) scene.planes.at(0, column, row) = inv_z;
+  }
+  const FramePtr frame = frameOf(scene);
+  const std::unique_ptr<StructureSlot> slot = walk_.build(*frame);
+  source_.prepare(frame, workers_);
+  EXPECT_EQ(slot->stats().depth_step, 0);
+  EXPECT_EQ(source_.measured().stats.depth_step, 0);
+}
+
 TEST_F(FlatThings, joinWhereDepthIsRounded) {
   constexpr double kStep = 1.0 / 256;
   oracle::Scene scene = oracle::planeScene({kStep / 3, 0, 0.5}, 64, 48);
