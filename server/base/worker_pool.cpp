@@ -3,13 +3,18 @@
 
 #include <algorithm>
 
+#include "base/thread_name.h"
+
 namespace viewloom {
 
 WorkerPool::WorkerPool(uint32_t worker_count) {
   const uint32_t wanted =
       worker_count > 0 ? worker_count : std::max(1U, std::thread::hardware_concurrency());
   for (uint32_t worker = 1; worker < wanted; ++worker) {
-    threads_.emplace_back([this, worker](const std::stop_token& stop) { run(stop, worker); });
+    threads_.emplace_back([this, worker](const std::stop_token& stop) {
+      nameThread("worker");
+      run(stop, worker);
+    });
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/latest_mailbox.h"
+#include "base/thread_name.h"
 #include "decode/frame_decoder.h"
 
 namespace viewloom {
@@ -126,6 +127,7 @@ FrameIntake::FrameIntake(FrameSink& sink, const Clock& clock, BytePool& pool,
   for (uint32_t i = 0; i < options.thread_count; ++i) {
     state_->threads.emplace_back(
         [state = state_.get(), decoder = std::make_unique<PlaneDecoder>(pool)] {
+          nameThread("decode");
           state->decodeUntilClosed(*decoder);
         });
   }

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/thread_name.h"
+
 namespace viewloom {
 namespace {
 
@@ -57,6 +59,7 @@ EncodePool::EncodePool(const PipelineLinks& links, const Timeline& timeline,
       tasks_(queued_count_max) {
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
+      nameThread("encode");
       computeInBatches();
       try {
         run();

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/thread_name.h"
+
 namespace viewloom {
 
 GpuLoop::GpuLoop(const PipelineLinks& links, Timeline& timeline, const StructureBuilder& builder,
@@ -15,6 +17,7 @@ GpuLoop::GpuLoop(const PipelineLinks& links, Timeline& timeline, const Structure
       traces_(traces),
       wake_up_(wake_up),
       thread_([this](const std::stop_token& stop) {
+        nameThread("gpu");
         try {
           run(stop);
         } catch (const std::exception& error) {

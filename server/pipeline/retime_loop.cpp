@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/thread_name.h"
+
 namespace viewloom {
 namespace {
 
@@ -48,7 +50,12 @@ bool RetimeLoop::offer(AtlasJob job, const ActiveDisplayPtr& display) {
       replaced = std::exchange(*older, {std::move(job), display});
       metrics_.output_ticks_skipped.add();
     }
-    if (threads_.size() < streams_.size()) threads_.emplace_back([this] { run(); });
+    if (threads_.size() < streams_.size()) {
+      threads_.emplace_back([this] {
+        nameThread("retime");
+        run();
+      });
+    }
   }
   changed_.notify_one();
   return true;

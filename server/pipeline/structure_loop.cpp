@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "base/str_cat.h"
+#include "base/thread_name.h"
 #include "frame/same_content.h"
 #include "gpu/device_error.h"
 #include "pipeline/stream_retimer.h"
@@ -44,6 +45,7 @@ StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams,
       wake_up_(wake_up),
       on_resident_(std::move(on_resident)),
       thread_([this](const std::stop_token& stop) {
+        nameThread("build");
         try {
           run(stop);
         } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/thread_name.h"
 #include "temporal/display_instant.h"
 #include "trace/display_sources.h"
 
@@ -21,6 +22,7 @@ bool asksBoth(const DisplaySpec& spec, const StreamInstant& newest) {
 
 TickLoop::TickLoop(const PipelineLinks& links, OfferTick offer_tick)
     : links_(links), offer_tick_(std::move(offer_tick)), thread_([this](const auto& stop) {
+        nameThread("ticks");
         try {
           run(stop);
         } catch (const std::exception& error) {

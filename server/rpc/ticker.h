@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/thread_name.h"
+
 namespace viewloom {
 
 // Thread-safety: the function is called on a thread of the ticker's own, until its destructor.
@@ -16,6 +18,7 @@ class Ticker {
  public:
   Ticker(std::chrono::milliseconds interval, std::function<void()> on_tick)
       : thread_([interval, on_tick = std::move(on_tick)](const std::stop_token& stop) {
+          nameThread("rpc ticker");
           std::mutex mutex;
           std::condition_variable_any never;
           std::unique_lock lock(mutex);

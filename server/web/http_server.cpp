@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "base/thread_name.h"
 #include "web/connection.h"
 
 namespace viewloom {
@@ -110,7 +111,10 @@ HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
   State& state = *state_;
   net::co_spawn(state.acceptor.get_executor(), state.accept(), net::detached);
   for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {
-    state.threads.emplace_back([&state] { state.io.run(); });
+    state.threads.emplace_back([&state] {
+      nameThread("http");
+      state.io.run();
+    });
   }
 }
 

@@ -4,8 +4,12 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -131,6 +135,18 @@ TEST_F(ServiceStreamTest, countsAFrameThatANewerOneReplacedOnce) {
   ASSERT_TRUE(catalog->ListStreams(&context, {}, &streams).ok());
   ASSERT_EQ(streams.streams_size(), 1);
   EXPECT_EQ(streams.streams(0).replaced_count(), publisher.counts().replaced_there);
+}
+
+TEST_F(ServiceStreamTest, namesItsThreadsAfterTheirStages) {
+  std::set<std::string> names;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream comm(task.path() / "comm");
+    std::string name;
+    std::getline(comm, name);
+    names.insert(name);
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"rpc", "rpc ticker", "http", "decode", "build", "gpu",
+                                            "ticks", "encode", "worker"}));
 }
 
 }  // namespace
