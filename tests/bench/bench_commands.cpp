@@ -20,6 +20,7 @@
 #include "bench/cpu/cpu_rivals.h"
 #include "bench/display_bench.h"
 #include "bench/gpu/gpu_rivals.h"
+#include "bench/ingest_bench.h"
 #include "bench/knob.h"
 #include "bench/load_list.h"
 #include "bench/markdown.h"
@@ -163,6 +164,7 @@ int runBench(int argc, char** argv) {
   addCommand(app, "build", "Build structures alone", Work::kBuild);
   addDisplaysCommand(app);
   addUplinkCommand(app);
+  addIngestCommand(app);
   addStereoCommand(app);
   addKnobCommand(app);
   addMirrorsCommand(app);

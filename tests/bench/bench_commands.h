@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of viewloom-bench: `trace`, `build`, `displays`, `uplink`, `stereo`, `knob`,
-// `mirrors`, `retime`, `ticks`, `quality` and `pictures`.
+// The commands of viewloom-bench: `trace`, `build`, `displays`, `uplink`, `ingest`, `stereo`,
+// `knob`, `mirrors`, `retime`, `ticks`, `quality` and `pictures`.
 #pragma once
 
 namespace viewloom::bench {

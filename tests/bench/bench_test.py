@@ -198,6 +198,14 @@ class BenchTest(unittest.TestCase):
         self.assertGreater(predicted["step"], 0)
         self.assertEqual(predicted["step"], u16_zstd["step"])
 
+    def test_ingest(self):
+        report = run("ingest", "--json", "--rounds", "1", "--frames", "2", "--miniature", "8")
+        self.assertEqual(report["frame_bytes"], 7 * 480 * 270)
+        self.assertEqual([way["name"] for way in report["ways"]],
+                         ["memcpy", "bare gRPC", "viewloom"])
+        self.assertTrue(all(way["gb_per_s"] > 0 for way in report["ways"]))
+        self.assertTrue(all(way["server_ms"] > 0 for way in report["ways"][1:]))
+
     def test_a_load_that_does_not_exist(self):
         finished = subprocess.run([PROGRAM, "trace", "--only", "no such load"],
                                   capture_output=True, text=True, check=False)

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// `viewloom-bench ingest`: what it costs to get a frame into a server, beside gRPC alone and beside
+// a copy of its bytes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace viewloom::bench {
+
+void addIngestCommand(CLI::App& app);
+
+}  // namespace viewloom::bench
