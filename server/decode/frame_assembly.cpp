@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "decode/frame_assembly.h"
 
+#include <cstring>
 #include <utility>
 
 #include "base/check.h"
@@ -26,8 +27,9 @@ FrameAssembly::FrameAssembly(FrameFormat format, BytePool& pool)
   planes_.reserve(plane_bytes_.size());
 }
 
-absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes,
-                                     std::string_view data) {
+absl::StatusOr<std::span<uint8_t>> FrameAssembly::beginChunk(uint32_t plane_index,
+                                                             uint64_t offset_bytes,
+                                                             uint64_t size_bytes) {
   if (complete()) {
     return invalidField("chunk.plane_index",
                         strCat("is ", plane_index, " after the last byte of frame ", format_.number,
@@ -38,34 +40,48 @@ absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes
                                                     current_plane_, " of ", plane_bytes_.size()));
   }
   const uint64_t declared_bytes = plane_bytes_[current_plane_];
-  const uint64_t collected_bytes = filling_ ? filling_->size() : 0;
-  if (offset_bytes != collected_bytes) {
+  if (offset_bytes != collected_bytes_) {
     return invalidField("chunk.offset_bytes",
-                        strCat("is ", offset_bytes, ", must be ", collected_bytes));
+                        strCat("is ", offset_bytes, ", must be ", collected_bytes_));
   }
-  if (data.empty() || data.size() > kChunkBytesMax) {
+  if (size_bytes == 0 || size_bytes > kChunkBytesMax) {
     return invalidField("chunk.data",
-                        strCat("has ", data.size(), " bytes, must have 1..", kChunkBytesMax));
+                        strCat("has ", size_bytes, " bytes, must have 1..", kChunkBytesMax));
   }
-  if (data.size() > declared_bytes - collected_bytes) {
-    return invalidField("chunk.data",
-                        strCat("has ", data.size(), " bytes, the plane of ", declared_bytes,
-                               " lacks ", declared_bytes - collected_bytes));
+  if (size_bytes > declared_bytes - collected_bytes_) {
+    return invalidField(
+        "chunk.data", strCat("has ", size_bytes, " bytes, the plane of ", declared_bytes, " lacks ",
+                             declared_bytes - collected_bytes_));
   }
   if (!filling_) filling_ = pool_.take(declared_bytes);
-  filling_->insert(filling_->end(), data.begin(), data.end());
-  if (filling_->size() == declared_bytes) {
-    planes_.push_back(std::exchange(filling_, nullptr));
-    ++current_plane_;
-  }
+  begun_bytes_ = size_bytes;
+  filling_->resize(collected_bytes_ + size_bytes);
+  return std::span<uint8_t>(*filling_).subspan(collected_bytes_, size_bytes);
+}
+
+void FrameAssembly::endChunk() {
+  VIEWLOOM_CHECK(begun_bytes_ > 0);
+  collected_bytes_ += std::exchange(begun_bytes_, 0);
+  if (collected_bytes_ < plane_bytes_[current_plane_]) return;
+  collected_bytes_ = 0;
+  planes_.push_back(std::exchange(filling_, nullptr));
+  ++current_plane_;
+}
+
+absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes,
+                                     std::string_view data) {
+  const auto place = beginChunk(plane_index, offset_bytes, data.size());
+  if (!place.ok()) return place.status();
+  std::memcpy(place->data(), data.data(), data.size());
+  endChunk();
   return absl::OkStatus();
 }
 
 absl::Status FrameAssembly::requireComplete() const {
   if (complete()) return absl::OkStatus();
-  return invalidField("header", strCat("comes before the end of frame ", format_.number, ": plane ",
-                                       current_plane_, " has ", filling_ ? filling_->size() : 0,
-                                       " of ", plane_bytes_[current_plane_], " bytes"));
+  return invalidField(
+      "header", strCat("comes before the end of frame ", format_.number, ": plane ", current_plane_,
+                       " has ", collected_bytes_, " of ", plane_bytes_[current_plane_], " bytes"));
 }
 
 CollectedFrame FrameAssembly::take() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -31,8 +32,13 @@ class FrameAssembly {
   // comes.
   FrameAssembly(FrameFormat format, BytePool& pool);
 
-  // The next piece. Errors are INVALID_ARGUMENT and name chunk.plane_index, chunk.offset_bytes or
+  // Where the next piece is to be written, whole, before endChunk(); nothing else may be called in
+  // between. Errors are INVALID_ARGUMENT and name chunk.plane_index, chunk.offset_bytes or
   // chunk.data; the assembly is of no use afterwards.
+  absl::StatusOr<std::span<uint8_t>> beginChunk(uint32_t plane_index, uint64_t offset_bytes,
+                                                uint64_t size_bytes);
+  void endChunk();
+  // The same of a piece at hand.
   absl::Status addChunk(uint32_t plane_index, uint64_t offset_bytes, std::string_view data);
 
   bool complete() const { return current_plane_ == plane_bytes_.size(); }
@@ -49,6 +55,8 @@ class FrameAssembly {
   std::vector<uint64_t> plane_bytes_;  // declared, in wire order
   std::vector<SharedBytes> planes_;    // whole ones
   BytePool::Buffer filling_;           // of the current plane; null before its first chunk
+  uint64_t collected_bytes_ = 0;       // of it
+  uint64_t begun_bytes_ = 0;           // between beginChunk and endChunk
   size_t current_plane_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "rpc/frame_from_proto.h"
 #include "rpc/limits_to_proto.h"
+#include "rpc/read_chunk.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/stream_name.h"
 #include "rpc/wire_message.h"
@@ -34,15 +35,14 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
     std::lock_guard lock(mutex_);
     heard_.restart();
   }
-  // Chunks are merged into the memory of the chunk before; anything else gets a message of its own.
-  v1::PublishFramesRequest other_request;
-  const bool is_chunk = firstFieldNumber(bytes) == v1::PublishFramesRequest::kChunkFieldNumber;
-  if (is_chunk) {
-    chunk_request_.mutable_chunk()->Clear();
-    chunk_request_.DiscardUnknownFields();
+  if (assembly_.has_value()) {
+    const auto taken_bytes = readChunk(bytes, *assembly_);
+    if (taken_bytes.has_value()) {
+      return taken_bytes->ok() ? noteChunk(**taken_bytes) : taken_bytes->status();
+    }
   }
-  v1::PublishFramesRequest& request = is_chunk ? chunk_request_ : other_request;
-  VIEWLOOM_RETURN_IF_ERROR(mergeMessage(bytes, request));
+  v1::PublishFramesRequest request;
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
   switch (request.message_case()) {
     case v1::PublishFramesRequest::kSettings:
       return handleSettings(request.settings());
@@ -113,12 +113,16 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
 
 absl::Status PublishCall::handleChunk(const v1::FrameChunk& chunk) {
   if (!assembly_.has_value()) return invalidField("chunk", "came before a header");
+  VIEWLOOM_RETURN_IF_ERROR(
+      assembly_->addChunk(chunk.plane_index(), chunk.offset_bytes(), chunk.data()));
+  return noteChunk(chunk.data().size());
+}
+
+absl::Status PublishCall::noteChunk(uint64_t data_bytes) {
   const int64_t now_ns = parts_.clock.nowNs();
   if (times_.first_chunk_ns == 0) times_.first_chunk_ns = now_ns;
   times_.last_chunk_ns = now_ns;
-  VIEWLOOM_RETURN_IF_ERROR(
-      assembly_->addChunk(chunk.plane_index(), chunk.offset_bytes(), chunk.data()));
-  parts_.metrics.received_bytes.add(static_cast<double>(chunk.data().size()));
+  parts_.metrics.received_bytes.add(static_cast<double>(data_bytes));
   if (assembly_->complete()) offerFrame();
   return absl::OkStatus();
 }
@@ -167,7 +171,6 @@ absl::Status PublishCall::handleHalfClose() {
 
 void PublishCall::dropReads() {
   assembly_.reset();
-  chunk_request_.Clear();
 }
 
 void PublishCall::release() {

@@ -41,6 +41,7 @@ class PublishCall final : public BidiCall {
   bool mayFinish() const override { return unreported_count_ == 0; }
 
   absl::Status handleChunk(const v1::FrameChunk& chunk);
+  absl::Status noteChunk(uint64_t data_bytes);
   absl::Status handleSettings(const v1::PublishSettings& settings);
   absl::Status handleHeader(const v1::FrameHeader& header);
   void offerFrame();
@@ -50,7 +51,6 @@ class PublishCall final : public BidiCall {
   const std::string host_;
 
   // Of the reads.
-  v1::PublishFramesRequest chunk_request_;  // keeps the memory of its data from chunk to chunk
   std::optional<FrameAssembly> assembly_;
   FrameTimes times_;
   uint64_t last_number_ = 0;

@@ -39,7 +39,7 @@ class WatchCall::Seat final : public Subscriber {
 absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
   const int64_t received_ns = parts_.clock.nowNs();
   v1::StreamAtlasesRequest request;
-  VIEWLOOM_RETURN_IF_ERROR(mergeMessage(bytes, request));
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
   const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
   if (opens != stream_.empty()) {
     return invalidField(opens ? "open" : "message", "is not open, first, and only first");

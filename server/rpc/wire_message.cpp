@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/wire_message.h"
 
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/wire_format_lite.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include "absl/strings/str_cat.h"
@@ -18,22 +16,15 @@ grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message) 
   return grpc::ByteBuffer(&slice, 1);
 }
 
-absl::Status mergeMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message) {
+absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message) {
   const size_t byte_count = bytes.Length();
   grpc::ProtoBufferReader reader(&bytes);
   if (reader.status().ok() &&
-      message.MergeFromBoundedZeroCopyStream(&reader, static_cast<int>(byte_count))) {
+      message.ParseFromBoundedZeroCopyStream(&reader, static_cast<int>(byte_count))) {
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
       absl::StrCat("got ", byte_count, " bytes that are no ", message.GetTypeName()));
-}
-
-uint32_t firstFieldNumber(grpc::ByteBuffer& bytes) {
-  grpc::ProtoBufferReader reader(&bytes);
-  google::protobuf::io::CodedInputStream input(&reader);
-  return static_cast<uint32_t>(
-      google::protobuf::internal::WireFormatLite::GetTagFieldNumber(input.ReadTag()));
 }
 
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {

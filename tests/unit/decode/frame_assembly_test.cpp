@@ -73,6 +73,21 @@ TEST_F(FrameAssemblyTest, refusesAnyPieceAfterTheLast) {
   EXPECT_EQ(fieldAfter(1, 4, "a"), "chunk.plane_index");
 }
 
+// What a larger frame left behind does not show in a smaller one.
+TEST_F(FrameAssemblyTest, ownsNothingOfTheFrameBefore) {
+  FrameFormat large = twoPlanes();
+  large.sources[0].layers[0].depth.wire_bytes = 9;
+  FrameAssembly before(large, pool_);
+  EXPECT_TRUE(before.addChunk(0, 0, "ABCDEFGHI").ok());
+  EXPECT_TRUE(before.addChunk(1, 0, "JKLM").ok());
+  before.take();
+  EXPECT_TRUE(assembly_.addChunk(0, 0, "abc").ok());
+  EXPECT_TRUE(assembly_.addChunk(0, 3, "def").ok());
+  EXPECT_TRUE(assembly_.addChunk(1, 0, "ghij").ok());
+  const CollectedFrame frame = assembly_.take();
+  EXPECT_EQ(std::string(frame.planes[0]->begin(), frame.planes[0]->end()), "abcdef");
+}
+
 TEST_F(FrameAssemblyTest, tellsWhatIsMissing) {
   EXPECT_TRUE(assembly_.addChunk(0, 0, "ab").ok());
   const absl::Status status = assembly_.requireComplete();

@@ -39,7 +39,7 @@ std::shared_ptr<EncodedAtlas> atlasOfTwoBands() {
 
 v1::StreamAtlasesResponse parsed(grpc::ByteBuffer bytes) {
   v1::StreamAtlasesResponse response;
-  EXPECT_TRUE(mergeMessage(bytes, response).ok());
+  EXPECT_TRUE(parseMessage(bytes, response).ok());
   return response;
 }
 
