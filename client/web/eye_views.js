@@ -11,10 +11,13 @@ export class EyeViews {
   #track = [];     // {time_ms, view}, oldest first
   #asked_ms = null;  // an answer is awaited
   #ahead_ms = kAheadFirst_ms;
+  #still = 0;  // the timer of onStill
 
-  // onMove(): other views are wanted
-  constructor(onMove) {
+  // onMove(): other views are wanted. onStill(): the eye has moved, and no more since: look() where
+  // it is
+  constructor(onMove, onStill) {
     this.onMove = onMove;
+    this.onStill = onStill;
     this.total = 0;   // of the whole display
     this.count = 1;   // asked for at once
     this.first = 0;   // from 0
@@ -37,6 +40,9 @@ export class EyeViews {
     if (isSteady) this.#track = [];
     this.#track.push({time_ms: now_ms, view});
     this.#track = this.#track.filter(({time_ms}) => now_ms - time_ms <= kSpeedWindow_ms);
+    // Nothing else tells that it has come to a stop, and that what lies ahead is not wanted.
+    clearTimeout(this.#still);
+    if (this.#speed() !== 0) this.#still = setTimeout(this.onStill, kSpeedWindow_ms + 1);
     if (this.#asked_ms !== null && now_ms - this.#asked_ms < kAnswer_ms) return;
     this.#asked_ms = null;
     const block = this.#wanted(view);

@@ -56,7 +56,7 @@ const lists = new DisplayLists((parameters) => {
 const budget = new DepthBudget((parameters) => controls.take(parameters));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(ask);
-const eyeViews = new EyeViews(ask);
+const eyeViews = new EyeViews(ask, aim);
 const display = new DisplayChoice(autoDetail, eyeViews, (aspect) => stage.frame(aspect), () => {
   offerModes();
   if (watching) watch(watching);

@@ -34,6 +34,27 @@ JSON.parse = (text) => {
 };"""
 
 
+# An eye that goes fast and stops just before what lies ahead has come; then the first view asked
+# for, and how many.
+STOPPED = """
+(async () => {
+  const {EyeViews} = await import('/eye_views.js');
+  const where = 30;
+  const look = (ms) => views.look(where, ms);
+  const views = new EyeViews(() => {}, () => look(performance.now()));
+  views.spread(48, 5);
+  const begin_ms = performance.now();
+  views.look(10, begin_ms - 100);
+  look(begin_ms);
+  views.noteAsked(begin_ms);
+  views.noteAnswered(begin_ms + 1);
+  look(begin_ms + 1);
+  const ahead = views.first;
+  await new Promise(resolve => setTimeout(resolve, 1000));
+  return [ahead, views.first, views.count];
+})()"""
+
+
 class EyeViewsTest(PageTest):
     def serve(self, *options):
         self.server = Server(PROGRAM, *options)
@@ -93,6 +114,13 @@ class EyeViewsTest(PageTest):
         self.assertLess(changes["sent"], 60)
         self.assertEqual(len(self.browser.evaluate(
             "fetch('/api/displays').then(r => r.json()).then(r => r.displays)")), 1)
+
+    def test_an_eye_that_stops_gets_the_views_around_it(self):
+        self.serve()
+        self.open(PORTRAIT)
+        ahead, first, count = self.browser.evaluate(STOPPED)
+        self.assertGreater(ahead, 30)
+        self.assertIn(30, range(first, first + count))
 
     def test_views_on_a_slow_server_are_never_too_narrow_and_sharp_once_they_stand(self):
         self.serve("--ms-per-megapixel", 1500)
