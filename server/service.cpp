@@ -10,7 +10,6 @@
 #include "absl/strings/str_split.h"
 #include "base/byte_pool.h"
 #include "base/log.h"
-#include "base/thread_name.h"
 #include "decode/frame_intake.h"
 #include "gpu/device.h"
 #include "pipeline/pipeline.h"
@@ -140,8 +139,6 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {
-  // gRPC begins threads without names, which are then named like the one that began them.
-  nameThread("rpc");
   const ServerDescription description{.version = VIEWLOOM_VERSION,
                                       .device = device.info().name,
                                       .driver = device.info().driver,
@@ -162,7 +159,6 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
               description);
   grpc_address = listeningAddress(config.grpc.address, rpc->port());
   open_rpc = &*rpc;
-  nameThread("viewloomd");
 }
 
 void Service::Parts::drain() {

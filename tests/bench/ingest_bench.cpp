@@ -225,9 +225,7 @@ void measureAll(const Arguments& arguments) {
       measureRound(*ways[i].second, arguments, frame_bytes, measured[i]);
     }
   }
-  Json json{{"date", today()},
-            {"frame_bytes", frame_bytes},
-            {"ways", Json::array()}};
+  Json json{{"date", today()}, {"frame_bytes", frame_bytes}, {"ways", Json::array()}};
   for (size_t i = 0; i < ways.size(); ++i) {
     json["ways"].push_back({{"name", ways[i].first},
                             {"gb_per_s", medianOf(measured[i].gb_per_s)},
