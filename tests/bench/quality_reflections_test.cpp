@@ -39,12 +39,12 @@ constexpr double kFewLeast = 0.001;
 constexpr double kAllGainMin_db = 0.5;
 // Of all px where others hold nothing else, below the first source by itself. A coarse cube map
 // takes part in what a finer source shows: seen 0.59. Of the floors the first source alone guesses
-// all but perfectly what its rays pass behind, and others guess, too: seen 4.0 and 2.7, and no less
-// than 42.0 and 46.2.
+// all but perfectly what its rays pass behind, and others guess, too: seen 5.1 and 3.3, and no less
+// than 42.2 and 46.7.
 constexpr double kLossMax_db = 1.5;
-const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 5},
-                                                          {"rough floor", 3.7}};
-const std::map<std::string, double> kGuessedMin_db = {{"mirror floor", 41}, {"rough floor", 45.4}};
+const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 6},
+                                                          {"rough floor", 4}};
+const std::map<std::string, double> kGuessedMin_db = {{"mirror floor", 41.5}, {"rough floor", 46}};
 
 struct Range {
   double least = 0;
