@@ -12,7 +12,7 @@ import unittest
 
 from PIL import Image
 
-from page_test import SMALL, PageTest, keep
+from page_test import LEAST_CONTRAST, PageTest, READABLE, SMALL, keep
 from web_client import Server, WebSocket, decode_code
 
 # What a finger has to hit, and what of it is too small, px.
@@ -254,6 +254,7 @@ class Modes(PageTest):
             self.open()
             self.assertEqual(self.browser.evaluate(
                 "getComputedStyle(document.documentElement).backgroundColor"), ground)
+            self.assertGreaterEqual(self.browser.evaluate(LEAST_CONTRAST), READABLE, scheme)
             keep(self.browser.screenshot(), scheme)
 
 

@@ -28,6 +28,31 @@ def picture_box(image):
     return min(xs), min(ys), max(xs) + 1, max(ys) + 1
 
 
+# Of text, and of all text on the page the least, against the nearest ground that is painted
+# (Web Content Accessibility Guidelines 2, contrast ratio).
+READABLE = 4.5
+LEAST_CONTRAST = """
+(() => {
+  const channels = (color) => color.match(/[\\d.]+/g).map(Number);
+  const linear = (code) => code <= 10 ? code / 3294 : ((code / 255 + 0.055) / 1.055) ** 2.4;
+  const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  const ground = (element) => {
+    const color = channels(getComputedStyle(element).backgroundColor);
+    return (color[3] ?? 1) > 0.9 || !element.parentElement ? color : ground(element.parentElement);
+  };
+  const hasText = (element) => [...element.childNodes].some(
+      (node) => node.nodeType === Node.TEXT_NODE && node.textContent.trim());
+  const contrast = (element) => {
+    const [dark, light] = [channels(getComputedStyle(element).color), ground(element)]
+        .map(luminance).sort((a, b) => a - b);
+    return (light + 0.05) / (dark + 0.05);
+  };
+  const shown = [...document.querySelectorAll('body *')].filter(
+      (element) => hasText(element) && element.checkVisibility() && !element.disabled);
+  return Math.min(...shown.map(contrast));
+})()"""
+
+
 @unittest.skipUnless(os.path.exists(CHROMIUM), f"there is no {CHROMIUM}")
 class PageTest(unittest.TestCase):
     """A browser in front of self.server."""
@@ -218,7 +243,11 @@ class Page(PageTest):
         self.browser.wait_for("document.documentElement.dataset.state === 'no-stream'")
         self.assertIn("viewloom publish --synthetic",
                       self.browser.evaluate("document.getElementById('welcome').innerText"))
-        keep(self.browser.screenshot(), "no-stream")
+        for scheme in ("dark", "light"):
+            self.browser.call("Emulation.setEmulatedMedia",
+                              features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.assertGreaterEqual(self.browser.evaluate(LEAST_CONTRAST), READABLE, scheme)
+            keep(self.browser.screenshot(), f"no-stream-{scheme}")
 
     def test_runs_without_an_error_on_its_console(self):
         self.open()
