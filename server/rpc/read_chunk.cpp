@@ -35,7 +35,7 @@ struct ChunkHead {
 
 // Leaves the input at the first byte of data.
 std::optional<ChunkHead> readHead(CodedInputStream& input, size_t message_bytes) {
-  // What is left of the message is what the length says.
+  // The length has to be that of the rest of the message.
   const auto readLength = [&]() -> std::optional<uint32_t> {
     uint32_t length = 0;
     if (!input.ReadVarint32(&length)) return std::nullopt;

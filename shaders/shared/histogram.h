@@ -42,9 +42,9 @@ VIEWLOOM_ABI_CONST float kShownSteps = kWideSpan_px / (2.0f * 0.25f);
 // Depth of fewer steps in its range, or of more noise, is none: flat things one behind the other
 // step, too.
 VIEWLOOM_ABI_CONST float kFewestSteps = 16.0f;
-// Of places where depth changes from px to px, the share that has to bend: rounded slopes do almost
-// everywhere where they are gentle and half of the time where they are steep, exact ones at their
-// creases and ends alone.
+// Share of the places where depth changes from px to px that have to bend. Gentle slopes that are
+// rounded bend almost everywhere, steep ones at half of their px. Exact slopes bend only at their
+// creases and ends.
 VIEWLOOM_ABI_CONST float kBentShare = 0.2f;
 // Second differences of a surface that is rounded to steps are one or two steps, or 0: the median
 // of those that are not 0 lies no higher than that, by a bin.

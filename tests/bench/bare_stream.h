@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gRPC itself costs: a call of messages that nobody reads into anything.
+// The floor of any gRPC stream: a call whose messages nobody reads into anything.
 #pragma once
 
 #include <cstdint>

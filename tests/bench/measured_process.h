@@ -10,13 +10,13 @@
 
 namespace viewloom::bench {
 
-// Of this process, all threads, so far.
+// CPU time of this process so far, of all its threads.
 double cpuTime_s();
 
 // Forks, so begin it before this process has threads. Thread-safety: none.
 class MeasuredProcess {
  public:
-  // What goes on lives as long as what `begin` returns; `address` is where others find it.
+  // The parts of the work, which live until the process ends, and where others find it.
   struct Running {
     std::shared_ptr<void> parts;
     std::string address;

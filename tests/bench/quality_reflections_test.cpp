@@ -39,7 +39,7 @@ constexpr double kFewLeast = 0.001;
 constexpr double kAllGainMin_db = 0.5;
 // Of all px where others hold nothing else, below the first source by itself. A coarse cube map
 // takes part in what a finer source shows: seen 0.59. Of the floors the first source alone guesses
-// all but perfectly what its rays pass behind, and others guess, too: seen 5.1 and 3.3, and no less
+// all but perfectly what its rays pass behind, and others guess, too: seen 5.1 and 3.2, and no less
 // than 42.2 and 46.7.
 constexpr double kLossMax_db = 1.5;
 const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 6},

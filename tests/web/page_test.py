@@ -28,8 +28,8 @@ def picture_box(image):
     return min(xs), min(ys), max(xs) + 1, max(ys) + 1
 
 
-# Of text, and of all text on the page the least, against the nearest ground that is painted
-# (Web Content Accessibility Guidelines 2, contrast ratio).
+# The contrast ratio of Web Content Accessibility Guidelines 2 that text needs at least, and the
+# least on the page. The ground is that of the nearest element around the text that has one.
 READABLE = 4.5
 LEAST_CONTRAST = """
 (() => {

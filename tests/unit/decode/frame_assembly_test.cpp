@@ -73,7 +73,7 @@ TEST_F(FrameAssemblyTest, refusesAnyPieceAfterTheLast) {
   EXPECT_EQ(fieldAfter(1, 4, "a"), "chunk.plane_index");
 }
 
-// What a larger frame left behind does not show in a smaller one.
+// Bytes that a larger frame left behind do not show in a smaller one.
 TEST_F(FrameAssemblyTest, ownsNothingOfTheFrameBefore) {
   FrameFormat large = twoPlanes();
   large.sources[0].layers[0].depth.wire_bytes = 9;
