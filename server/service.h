@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "config/config.h"
 
 namespace viewloom {

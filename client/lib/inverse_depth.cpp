@@ -7,8 +7,8 @@
 
 #include "frame/cube_map.h"
 #include "frame/decode_depth.h"
-#include "rpc/depth_format_from_proto.h"
-#include "rpc/geometry_from_proto.h"
+#include "messages/depth_format_from_proto.h"
+#include "messages/geometry_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -25,7 +25,7 @@ if(VIEWLOOM_FUZZ)
 endif()
 
 # viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...]): static library viewloom_<folder>.
-# Includes are written from server/ (and from client/ below client).
+# Includes are written from server/core, server/ and client/.
 function(viewloom_add_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK" ${ARGN})
   set(target viewloom_${folder})
@@ -49,10 +49,20 @@ function(viewloom_add_library folder)
       list(REMOVE_ITEM paired ${header})
     endif()
   endforeach()
-  set(roots ${PROJECT_SOURCE_DIR}/server ${PROJECT_SOURCE_DIR}/client)
+  set(roots ${PROJECT_SOURCE_DIR}/server/core ${PROJECT_SOURCE_DIR}/server
+    ${PROJECT_SOURCE_DIR}/client)
+  target_include_directories(${target} ${scope} ${roots})
+  # A file set takes no root within another.
+  foreach(root IN LISTS roots ITEMS ${PROJECT_SOURCE_DIR}/tests)
+    cmake_path(IS_PREFIX root ${CMAKE_CURRENT_SOURCE_DIR} is_root)
+    if(is_root)
+      set(base ${root})
+      break()
+    endif()
+  endforeach()
   target_sources(${target} ${scope}
-    FILE_SET HEADERS BASE_DIRS ${roots} FILES ${paired}
-    FILE_SET lone_headers TYPE HEADERS BASE_DIRS ${roots} FILES ${lone})
+    FILE_SET HEADERS BASE_DIRS ${base} FILES ${paired}
+    FILE_SET lone_headers TYPE HEADERS BASE_DIRS ${base} FILES ${lone})
   set_target_properties(${target} PROPERTIES
     VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY lone_headers)
   target_link_libraries(${target} ${scope} ${ARG_LINK})

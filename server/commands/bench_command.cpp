@@ -17,7 +17,7 @@
 #include "commands/loopback_bench.h"
 #include "commands/manifest_frame.h"
 #include "commands/stage_bench.h"
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom {

@@ -12,7 +12,7 @@
 #include "decode/frame_decoder.h"
 #include "files/frame_manifest.h"
 #include "files/json_message.h"
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 #include "rpc/frame_from_proto.h"
 #include "synthetic/synthetic_wire_frame.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "gpu/device.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"

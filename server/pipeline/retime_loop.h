@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "pipeline/job_queue.h"
 #include "publish/broadcaster.h"
 

@@ -10,7 +10,7 @@
 #include "display/presets.h"
 #include "display/rgbd.h"
 #include "display/source_advice.h"
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/limits_to_proto.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "display/atlas_layout.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"

@@ -2,7 +2,7 @@
 #include "rpc/encoding_from_proto.h"
 
 #include "display/rgbd.h"
-#include "rpc/enum_from_proto.h"
+#include "messages/enum_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -2,7 +2,7 @@
 #include "rpc/eye_poses_from_proto.h"
 
 #include "absl/strings/str_cat.h"
-#include "rpc/geometry_from_proto.h"
+#include "messages/geometry_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "frame/cube_map.h"
-#include "rpc/depth_format_from_proto.h"
-#include "rpc/enum_from_proto.h"
-#include "rpc/geometry_from_proto.h"
+#include "messages/depth_format_from_proto.h"
+#include "messages/enum_from_proto.h"
+#include "messages/geometry_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/byte_pool.h"
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "decode/frame_intake.h"
 #include "frame/limits.h"
 #include "publish/broadcaster.h"

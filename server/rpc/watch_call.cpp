@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "publish/subscriber.h"
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 #include "rpc/encoding_from_proto.h"
 #include "rpc/eye_poses_from_proto.h"
 #include "rpc/stream_name.h"

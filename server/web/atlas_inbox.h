@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "base/latest_mailbox.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "web/http_options.h"

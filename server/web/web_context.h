@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "web/host_policy.h"

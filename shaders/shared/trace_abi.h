@@ -87,7 +87,7 @@ struct EyeAxes {
   float inv_focus;
 };
 
-// Microlenses in front of a panel (server/display/atlas_layout.h); px from its top left.
+// Microlenses in front of a panel (server/core/display/atlas_layout.h); px from its top left.
 struct Microlenses {
   vec2 first_px;  // upper left corner of the first lens
   float pitch_px;

@@ -45,7 +45,7 @@ uint countOf(bvec4 flags) {
   return ones.x + ones.y + ones.z + ones.w;
 }
 
-// inv_z, or kNoSurface; bad samples are counted (server/frame/depth.h, DepthCoefficients).
+// inv_z, or kNoSurface; bad samples are counted (server/core/frame/depth.h, DepthCoefficients).
 vec4 linearise(DepthPlane plane, vec4 depth_sample, vec4 ray_length, bvec4 exists,
                inout uint bad_count) {
   const vec4 value = (depth_sample - plane.origin) * plane.scale + plane.offset;

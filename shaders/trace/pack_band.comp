@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs a traced band as the planes of Y'CbCr that JPEG takes (server/display/color_form.h): less
-// to read back. An invocation takes 8 px of a row, or of the two rows of 4:2:0: whole words of
+// Packs a traced band as the planes of Y'CbCr that JPEG takes (server/core/display/color_form.h):
+// less to read back. An invocation takes 8 px of a row, or of the two rows of 4:2:0: whole words of
 // every plane.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "bench/failed_pipeline.h"
 #include "pipeline/pipeline.h"
 

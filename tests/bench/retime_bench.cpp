@@ -20,7 +20,7 @@
 #include "commands/median.h"
 #include "commands/stage_bench.h"
 #include "retime/frame_retimer.h"
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 
 namespace viewloom::bench {
 namespace {

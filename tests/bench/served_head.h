@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/clock.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "e2e/collecting_subscriber.h"
 #include "frame/frame.h"
 #include "pipeline/pipeline.h"

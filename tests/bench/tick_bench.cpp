@@ -17,7 +17,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "base/metrics.h"
+#include "metrics/metrics.h"
 #include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"

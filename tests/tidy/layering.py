@@ -15,14 +15,18 @@ SHADERS_SHARED = "shaders/shared"
 # Folder: (what of ours it may include beside itself, which third parties). An entry of the first
 # list is a folder or a single header.
 LAYERS = {
-    "server/base": ([], ["absl", "spdlog", "prometheus"]),
-    "server/jpeg": ([], ["jpeg"]),
-    "server/frame": (["base"], ["absl", "glm"]),
-    "server/calibration": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "nlohmann"]),
+    # What server and client share.
+    "server/core/base": ([], ["absl", "spdlog"]),
+    "server/core/jpeg": ([], ["jpeg"]),
+    "server/core/frame": (["base"], ["absl", "glm"]),
+    "server/core/calibration": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "nlohmann"]),
+    "server/core/display": (["base", "frame", "calibration", SHADERS_SHARED],
+                            ["absl", "glm", "nlohmann"]),
+    "server/core/messages": (["base", "frame", "display"], ["absl", "protobuf"]),
+    "server/core/usage": (["base"], ["cli11"]),
+    "server/metrics": (["base"], ["prometheus"]),
     "server/config": (["base"], ["absl", "toml++"]),
     "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
-    "server/display": (["base", "frame", "calibration", SHADERS_SHARED],
-                       ["absl", "glm", "nlohmann"]),
     "server/gpu": (["base"], ["absl", "vulkan"]),
     "server/structure": (["base", "frame", "gpu", SHADERS_SHARED], ["absl", "vulkan", "glm"]),
     "server/trace": (["base", "frame", "calibration", "display", "gpu", "structure",
@@ -40,13 +44,12 @@ LAYERS = {
     "server/scoring": (["base", "frame"], ["absl"]),
     "server/pipeline": (["base", "frame", "config", "decode", "display", "gpu", "structure",
                          "trace", "sweep", "lens", "retime", "temporal", "encode", "publish",
-                         SHADERS_SHARED],
+                         "metrics", SHADERS_SHARED],
                         ["absl", "vulkan", "glm"]),
-    "server/rpc": (["base", "frame", "decode", "display", BAND, "publish"],
+    "server/rpc": (["base", "frame", "decode", "display", "messages", "metrics", BAND, "publish"],
                    ["absl", "grpc", "protobuf"]),
-    "server/web": (["base", "frame", "display", "publish", BAND],
+    "server/web": (["base", "frame", "display", "metrics", "publish", BAND],
                    ["absl", "boost", "nlohmann"]),
-    "client/usage": (["base"], ["cli11"]),
     "client/text": (["base", "frame/size.h"], ["absl", "sdl"]),
     "client/patterns": (["base", "frame", "synthetic", "text"], ["absl", "glm"]),
     "client/synthetic": (["base", "frame", "lib/wire_frame.h"], ["glm", "protobuf"]),
@@ -56,9 +59,9 @@ LAYERS = {
     "client/photos": (["base", "files"], ["absl", "heif", "protobuf"]),
     "client/inputs": (["base", "files", "inspect", "lib/wire_frame.h", "photos"],
                       ["absl", "glm", "nlohmann", "openexr", "protobuf"]),
-    "client/inspect": (["base", "frame", "rpc/depth_format_from_proto.h", "files", SHADERS_SHARED],
+    "client/inspect": (["base", "frame", "messages", "files", SHADERS_SHARED],
                        ["absl", "glm", "protobuf"]),
-    "client/lib": (["base", "frame", "rpc/depth_format_from_proto.h", "rpc/geometry_from_proto.h"],
+    "client/lib": (["base", "frame", "messages"],
                    ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/eyes": (["base"], ["absl", "nlohmann", "protobuf"]),
     "client/recording": (["base", "lib"], ["absl", "protobuf"]),
@@ -66,9 +69,9 @@ LAYERS = {
                      "text"],
                     ["absl", "epoxy", "grpc", "protobuf", "sdl"]),
     "client/bridge": (["base"], ["absl", "boost", "nlohmann"]),
-    "client/cli": (["base", "bridge", "calibration", "display", "rpc/display_from_proto.h",
-                    "rpc/geometry_from_proto.h", "frame", "eyes", "lib", "files", "inputs",
-                    "inspect", "patterns", "photos", "recording", "show", "synthetic", "usage"],
+    "client/cli": (["base", "bridge", "calibration", "display", "messages", "frame", "eyes", "lib",
+                    "files", "inputs", "inspect", "patterns", "photos", "recording", "show",
+                    "synthetic", "usage"],
                    ["absl", "glm", "grpc", "protobuf", "cli11", "jpeg", "nlohmann"]),
     "shaders/shared": ([], ["glm"]),
     "shaders/lib": ([SHADERS_SHARED], []),
@@ -105,7 +108,7 @@ SYSTEM = re.compile(r"[a-z_0-9]+(\.h)?|c?x?xabi\.h|(sys|arpa|netinet|net|linux)/
 EMBEDDED_SHADER = re.compile(r"shaders/[a-z_0-9]+\.h")
 
 INCLUDE = re.compile(r'\s*#\s*include\s+([<"])([^>"]+)[>"]')
-ROOTS = ("server", "client", "shaders", "tests", "")
+ROOTS = ("server/core", "server", "client", "shaders", "tests", "")
 
 
 def owner(path, folders):
@@ -134,7 +137,7 @@ def _allowed_ours(folder, included, allowed):
     if included.startswith(folder + "/"):
         return True
     for entry in allowed:
-        for root in ("server", "client", ""):
+        for root in ("server/core", "server", "client", ""):
             full = os.path.join(root, entry)
             if included == full or included.startswith(full + "/"):
                 return True

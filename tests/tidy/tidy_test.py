@@ -27,16 +27,22 @@ class Layers(unittest.TestCase):
         return [rule for _, rule in rules_broken(layering.check, files)]
 
     def test_an_include_downwards_is_allowed(self):
-        self.assertEqual(self.broken("server/trace/a.cpp", '"base/check.h"', server__base__check=1),
-                         [])
+        self.assertEqual(self.broken("server/trace/a.cpp", '"base/check.h"',
+                                     server__core__base__check=1), [])
 
     def test_an_include_upwards_is_found(self):
-        self.assertEqual(self.broken("server/base/a.h", '"frame/frame.h"', server__frame__frame=1),
-                         ["layers"])
+        self.assertEqual(self.broken("server/core/base/a.h", '"frame/frame.h"',
+                                     server__core__frame__frame=1), ["layers"])
 
     def test_a_relative_path_does_not_hide_an_upward_include(self):
-        self.assertEqual(self.broken("server/base/a.h", '"../frame/frame.h"',
-                                     server__frame__frame=1), ["layers"])
+        self.assertEqual(self.broken("server/core/base/a.h", '"../frame/frame.h"',
+                                     server__core__frame__frame=1), ["layers"])
+
+    def test_the_client_shares_the_core_alone(self):
+        self.assertEqual(self.broken("client/lib/a.cpp", '"frame/frame.h"',
+                                     server__core__frame__frame=1), [])
+        self.assertEqual(self.broken("client/lib/a.cpp", '"rpc/peer.h"', server__rpc__peer=1),
+                         ["layers"])
 
     def test_rpc_never_sees_the_gpu(self):
         self.assertEqual(self.broken("server/rpc/a.cpp", '"gpu/device.h"', server__gpu__device=1),
@@ -54,11 +60,11 @@ class Layers(unittest.TestCase):
         self.assertEqual(self.broken("server/rpc/a.h", "<grpcpp/server.h>"), [])
 
     def test_the_standard_library_is_everybodys(self):
-        self.assertEqual(self.broken("server/base/a.h", "<vector>"), [])
-        self.assertEqual(self.broken("server/base/a.h", "<sys/socket.h>"), [])
+        self.assertEqual(self.broken("server/core/base/a.h", "<vector>"), [])
+        self.assertEqual(self.broken("server/core/base/a.h", "<sys/socket.h>"), [])
 
     def test_a_header_nobody_knows_is_found(self):
-        self.assertEqual(self.broken("server/base/a.h", '"base/gone.h"'), ["layers"])
+        self.assertEqual(self.broken("server/core/base/a.h", '"base/gone.h"'), ["layers"])
 
     def test_the_service_may_include_everything(self):
         self.assertEqual(self.broken("server/service.cpp", '"rpc/server.h"', server__rpc__server=1),

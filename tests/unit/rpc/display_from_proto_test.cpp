@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 
 #include <gtest/gtest.h>
 

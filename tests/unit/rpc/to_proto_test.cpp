@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "rpc/geometry_from_proto.h"
+#include "messages/geometry_from_proto.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"

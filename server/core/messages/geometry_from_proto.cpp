@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/geometry_from_proto.h"
+#include "messages/geometry_from_proto.h"
 
 namespace viewloom {
 

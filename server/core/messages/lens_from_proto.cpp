@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/lens_from_proto.h"
+#include "messages/lens_from_proto.h"
 
-#include "rpc/enum_from_proto.h"
+#include "messages/enum_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/display_from_proto.h"
+#include "messages/display_from_proto.h"
 
 #include <utility>
 
 #include <google/protobuf/repeated_ptr_field.h>
 
 #include "display/named_display.h"
-#include "rpc/enum_from_proto.h"
-#include "rpc/geometry_from_proto.h"
-#include "rpc/lens_from_proto.h"
-#include "rpc/temporal_from_proto.h"
+#include "messages/enum_from_proto.h"
+#include "messages/geometry_from_proto.h"
+#include "messages/lens_from_proto.h"
+#include "messages/temporal_from_proto.h"
 
 namespace viewloom {
 namespace {

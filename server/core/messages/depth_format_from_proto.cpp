@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/depth_format_from_proto.h"
+#include "messages/depth_format_from_proto.h"
 
 #include <optional>
 
-#include "rpc/enum_from_proto.h"
+#include "messages/enum_from_proto.h"
 
 namespace viewloom {
 namespace {

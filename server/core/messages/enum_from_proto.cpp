@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/enum_from_proto.h"
+#include "messages/enum_from_proto.h"
 
 #include <google/protobuf/descriptor.h>
 
