@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -79,7 +79,7 @@ std::string quoted(const std::string& text) {
   for (char& character : shown) {
     if (static_cast<unsigned char>(character) < ' ') character = ' ';
   }
-  return absl::StrCat("\"", shown, text.size() > kQuotedBytesMax ? "...\"" : "\"");
+  return strCat("\"", shown, text.size() > kQuotedBytesMax ? "...\"" : "\"");
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Bridge::~Bridge() {
 }
 
 std::string Bridge::asked(const std::string& endpoint) const {
-  return absl::StrCat("Bridge at ", address_.url(), ", asked for ", endpoint, ", ");
+  return strCat("Bridge at ", address_.url(), ", asked for ", endpoint, ", ");
 }
 
 absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
@@ -103,42 +103,42 @@ absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
   const std::string reason(response.status().message());
   if (absl::IsUnavailable(response.status())) {
     return absl::UnavailableError(
-        absl::StrCat("no Bridge at ", address_.url(), " (", reason,
-                     "); start Looking Glass Bridge on the display's machine, or name another "
-                     "with --bridge http://HOST:PORT"));
+        strCat("no Bridge at ", address_.url(), " (", reason,
+               "); start Looking Glass Bridge on the display's machine, or name another "
+               "with --bridge http://HOST:PORT"));
   }
   if (absl::IsDeadlineExceeded(response.status())) {
     return absl::DeadlineExceededError(
-        absl::StrCat(asked(endpoint), "gave no answer within ", timeout_.count(),
-                     " ms; start Bridge again, or wait longer with --timeout SECONDS"));
+        strCat(asked(endpoint), "gave no answer within ", timeout_.count(),
+               " ms; start Bridge again, or wait longer with --timeout SECONDS"));
   }
   if (!response.ok()) {
     return absl::FailedPreconditionError(
-        absl::StrCat(asked(endpoint), "answered no HTTP (", reason, ")", kNotABridge));
+        strCat(asked(endpoint), "answered no HTTP (", reason, ")", kNotABridge));
   }
   if (response->status != kHttpOk) {
     return absl::FailedPreconditionError(
-        absl::StrCat(asked(endpoint), "answered with HTTP status ", response->status, kNotABridge));
+        strCat(asked(endpoint), "answered with HTTP status ", response->status, kNotABridge));
   }
   if (response->body.empty()) {
     return absl::FailedPreconditionError(
-        absl::StrCat(asked(endpoint),
-                     "answered with an empty body, as to all it does not know; update Looking "
-                     "Glass Bridge"));
+        strCat(asked(endpoint),
+               "answered with an empty body, as to all it does not know; update Looking "
+               "Glass Bridge"));
   }
   const json answer = json::parse(response->body, nullptr, false);
   if (!answer.is_object()) {
-    return absl::FailedPreconditionError(absl::StrCat(asked(endpoint), "answered ",
-                                                      quoted(response->body),
-                                                      " and not the JSON "
-                                                      "of a Bridge",
-                                                      kNotABridge));
+    return absl::FailedPreconditionError(strCat(asked(endpoint), "answered ",
+                                                quoted(response->body),
+                                                " and not the JSON "
+                                                "of a Bridge",
+                                                kNotABridge));
   }
   const json status = member(answer, "status");
   if (!status.is_string() || status.get<std::string>() != "Completion") {
     return absl::FailedPreconditionError(
-        absl::StrCat(asked(endpoint), "ended with status ", quoted(status.dump()),
-                     " instead of Completion; start Bridge again and retry"));
+        strCat(asked(endpoint), "ended with status ", quoted(status.dump()),
+               " instead of Completion; start Bridge again and retry"));
   }
   return member(answer, "payload");
 }
@@ -151,7 +151,7 @@ absl::Status Bridge::enter() {
   const absl::StatusOr<json> token = call("enter_orchestration", {{"name", kOrchestration}});
   VIEWLOOM_RETURN_IF_ERROR(token.status());
   if (!token->is_string() || token->get<std::string>().empty()) {
-    return absl::FailedPreconditionError(absl::StrCat(
+    return absl::FailedPreconditionError(strCat(
         asked("enter_orchestration"), "answered without a token; update Looking Glass Bridge"));
   }
   orchestration_ = token->get<std::string>();
@@ -169,9 +169,9 @@ absl::StatusOr<std::vector<BridgeDisplay>> Bridge::displays() {
   }
   if (!displays.empty()) return displays;
   return absl::FailedPreconditionError(
-      absl::StrCat("Bridge at ", address_.url(),
-                   " has no light-field display; connect its USB and its video cable, and see "
-                   "that Bridge shows it"));
+      strCat("Bridge at ", address_.url(),
+             " has no light-field display; connect its USB and its video cable, and see "
+             "that Bridge shows it"));
 }
 
 absl::Status Bridge::play(const AddressedQuilt& quilt, int display_index) {

@@ -11,7 +11,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -110,8 +110,7 @@ bool HttpAddress::isLoopback() const {
 
 std::string HttpAddress::url() const {
   const bool is_ipv6 = host.find(':') != std::string::npos;
-  return absl::StrCat(std::string(kScheme), is_ipv6 ? "[" : "", host, is_ipv6 ? "]" : "", ":",
-                      port);
+  return strCat(std::string(kScheme), is_ipv6 ? "[" : "", host, is_ipv6 ? "]" : "", ":", port);
 }
 
 absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t default_port,
@@ -122,9 +121,8 @@ absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t def
   if (has_scheme) rest.remove_prefix(kScheme.size());
   if (rest.ends_with('/')) rest.remove_suffix(1);
   if (has_scheme && readAuthority(rest, address)) return address;
-  return absl::InvalidArgumentError(
-      absl::StrCat(std::string(option), ": got \"", std::string(text),
-                   "\"; accepted is http://HOST or http://HOST:PORT"));
+  return absl::InvalidArgumentError(strCat(std::string(option), ": got \"", std::string(text),
+                                           "\"; accepted is http://HOST or http://HOST:PORT"));
 }
 
 absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,

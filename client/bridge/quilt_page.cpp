@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "base/str_cat.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -24,22 +24,22 @@ absl::Status checkName(const std::string& what, const std::string& name) {
            character == '_' || character == '-';
   });
   if (is_plain) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
+  return absl::InvalidArgumentError(strCat(
       what, ": got \"", name, "\"; accepted are letters, digits, dots, hyphens and underscores"));
 }
 
 std::string targetOf(const QuiltQuery& query) {
-  std::string target = absl::StrCat("/still/", query.stream);
+  std::string target = strCat("/still/", query.stream);
   std::string parameters = query.parameters;
   if (query.preset.empty()) {
     absl::StrAppendFormat(&target, "_qs%ux%ua%g.json", query.shape.columns, query.shape.rows,
                           query.shape.aspect);
-    absl::StrAppend(&parameters, parameters.empty() ? "" : "&", "width=", query.shape.width_px,
-                    "&height=", query.shape.height_px);
+    parameters += strCat(parameters.empty() ? "" : "&", "width=", query.shape.width_px,
+                         "&height=", query.shape.height_px);
   } else {
-    absl::StrAppend(&target, "/", query.preset);
+    target += strCat("/", query.preset);
   }
-  return absl::StrCat(target, parameters.empty() ? "" : "?", parameters);
+  return strCat(target, parameters.empty() ? "" : "?", parameters);
 }
 
 // The same address with another ending; an aspect may have a dot, a query too.
@@ -47,7 +47,7 @@ std::string withExtension(const std::string& target, std::string_view extension)
   const size_t query = std::min(target.find('?'), target.size());
   const size_t dot = target.rfind('.', query);
   if (dot == std::string::npos) return target;
-  return absl::StrCat(target.substr(0, dot), std::string(extension), target.substr(query));
+  return strCat(target.substr(0, dot), std::string(extension), target.substr(query));
 }
 
 absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& target,
@@ -57,13 +57,13 @@ absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& tar
   if (response.ok()) return response;
   const std::string reason(response.status().message());
   if (absl::IsDeadlineExceeded(response.status())) {
-    return absl::DeadlineExceededError(absl::StrCat("the page at ", page.url(),
-                                                    " gave no answer within ", timeout.count(),
-                                                    " ms; wait longer with --timeout SECONDS"));
+    return absl::DeadlineExceededError(strCat("the page at ", page.url(), " gave no answer within ",
+                                              timeout.count(),
+                                              " ms; wait longer with --timeout SECONDS"));
   }
   return absl::UnavailableError(
-      absl::StrCat("no page of viewloomd at ", page.url(), " (", reason,
-                   "); start `viewloomd serve`, or name its page with --address http://HOST:PORT"));
+      strCat("no page of viewloomd at ", page.url(), " (", reason,
+             "); start `viewloomd serve`, or name its page with --address http://HOST:PORT"));
 }
 
 absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
@@ -72,8 +72,8 @@ absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
   const json message = path.is_object() ? path.value("message", json()) : json();
   if (message.is_string()) return absl::FailedPreconditionError(message.get<std::string>());
   return absl::FailedPreconditionError(
-      absl::StrCat(page.url(), " answered with HTTP status ", response.status,
-                   "; check that --address names the page of a viewloomd"));
+      strCat(page.url(), " answered with HTTP status ", response.status,
+             "; check that --address names the page of a viewloomd"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/byte_cursor.h"
 #include "files/file_bytes.h"
 
@@ -44,7 +44,7 @@ absl::StatusOr<BmpHeader> parseHeader(const std::string& name, std::span<const u
   cursor.take32();
   if (cursor.hasFailed()) return refuseCutShort(name, "BMP");
   if (info_bytes < kInfoBytes || info_bytes > kInfoBytesMax) {
-    return refuseDamaged(name, "BMP", absl::StrCat("a header of ", info_bytes, " bytes"));
+    return refuseDamaged(name, "BMP", strCat("a header of ", info_bytes, " bytes"));
   }
   const bool has_masks = header.compression == kMasks || header.compression == kMasksWithAlpha;
   if (has_masks) {
@@ -59,10 +59,10 @@ absl::StatusOr<BmpHeader> parseHeader(const std::string& name, std::span<const u
       (header.bits == 24 && header.compression == kPlain) ||
       ((header.bits == 16 || header.bits == 32) && (header.compression == kPlain || has_masks));
   if (!is_known) {
-    return refuseFile(name, absl::StrCat("is a BMP of ", header.bits, " bits a px and compression ",
-                                         header.compression,
-                                         "; accepted are 8, 16, 24 and 32 bits without "
-                                         "compression: save it as PNG"));
+    return refuseFile(
+        name, strCat("is a BMP of ", header.bits, " bits a px and compression ", header.compression,
+                     "; accepted are 8, 16, 24 and 32 bits without "
+                     "compression: save it as PNG"));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, std::abs(header.height_px)));
   return header;

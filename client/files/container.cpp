@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/foreign_file.h"
 
@@ -110,10 +110,10 @@ absl::Status checkPictureFile(const std::filesystem::path& path) {
   if (containerOf(path) != Container::kUnknown) return absl::OkStatus();
   if (const auto foreign = foreignKind(headOf(path), path)) {
     return refuseFile(path.string(),
-                      absl::StrCat("is ", foreign->what, ", not a picture; ", foreign->remedy));
+                      strCat("is ", foreign->what, ", not a picture; ", foreign->remedy));
   }
-  return refuseFile(path.string(), absl::StrCat("is no picture of a known kind; accepted are ",
-                                                kPictureKinds, ": export it as one of them"));
+  return refuseFile(path.string(), strCat("is no picture of a known kind; accepted are ",
+                                          kPictureKinds, ": export it as one of them"));
 }
 
 }  // namespace viewloom::files

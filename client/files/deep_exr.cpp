@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/byte_cursor.h"
 #include "files/exr_layer_names.h"
 #include "files/exr_unpack.h"
@@ -57,12 +57,12 @@ absl::Status DeepExr::findChannels() {
       is_found[wanted] = true;
     }
     sample_bytes_ += channel.sampleBytes();
-    absl::StrAppend(&all, all.empty() ? "" : ", ", channel.name);
+    all += strCat(all.empty() ? "" : ", ", channel.name);
   }
   for (int wanted = 0; wanted < kBack; ++wanted) {
     if (is_found[wanted]) continue;
-    return refuseFile(path_, absl::StrCat("has no deep channel ", kNames[wanted], "; it has ", all,
-                                          "; accepted are R, G, B, A, Z and perhaps ZBack"));
+    return refuseFile(path_, strCat("has no deep channel ", kNames[wanted], "; it has ", all,
+                                    "; accepted are R, G, B, A, Z and perhaps ZBack"));
   }
   if (!is_found[kBack]) channels_[kBack] = channels_[kFront];
   return absl::OkStatus();
@@ -70,9 +70,9 @@ absl::Status DeepExr::findChannels() {
 
 absl::Status DeepExr::refuse(const Chunk& chunk, const std::string& problem) const {
   const bool has_tiles = header_.part.tile_width_px != 0;
-  const std::string where = has_tiles ? absl::StrCat("tile ", chunk.column, ", ", chunk.row)
-                                      : absl::StrCat("row ", chunk.row + header_.part.data.min_y);
-  return refuseFile(path_, absl::StrCat(where, ": ", problem));
+  const std::string where = has_tiles ? strCat("tile ", chunk.column, ", ", chunk.row)
+                                      : strCat("row ", chunk.row + header_.part.data.min_y);
+  return refuseFile(path_, strCat(where, ": ", problem));
 }
 
 std::optional<Imf::Chromaticities> DeepExr::chromaticities() const {
@@ -127,28 +127,28 @@ absl::Status DeepExr::readChunk(const Chunk& chunk,
   const auto packed_table = cursor.take(table_size);
   const auto packed = cursor.take(packed_size);
   if (cursor.hasFailed()) {
-    return refuse(chunk, absl::StrCat("its chunk at byte ", offset, " ends after byte ",
-                                      bytes_.size(), ", the last of the file"));
+    return refuse(chunk, strCat("its chunk at byte ", offset, " ends after byte ", bytes_.size(),
+                                ", the last of the file"));
   }
   if (!is_right_part || !is_right_place) {
-    return refuse(chunk, absl::StrCat("the chunk at byte ", offset, " is another one"));
+    return refuse(chunk, strCat("the chunk at byte ", offset, " is another one"));
   }
 
   VIEWLOOM_RETURN_IF_ERROR(readCounts(chunk, packed_table));
   const uint64_t samples = std::accumulate(counts_.begin(), counts_.end(), uint64_t{0});
   if (unpacked_size != samples * sample_bytes_ || unpacked_size > kDeepChunkBytesMax) {
-    return refuse(chunk, absl::StrCat("has ", unpacked_size, " bytes for ", samples, " samples of ",
-                                      sample_bytes_, "; accepted are up to ", kDeepChunkBytesMax));
+    return refuse(chunk, strCat("has ", unpacked_size, " bytes for ", samples, " samples of ",
+                                sample_bytes_, "; accepted are up to ", kDeepChunkBytesMax));
   }
   sample_count_ += samples;
   if (sample_count_ > kDeepSamplesMax) {
-    return refuse(chunk, absl::StrCat("is beyond ", kDeepSamplesMax, " samples in view"));
+    return refuse(chunk, strCat("is beyond ", kDeepSamplesMax, " samples in view"));
   }
   // What compression would not make smaller is stored as it is.
   const bool is_stored = packed_size == unpacked_size;
   const std::string problem = unpackExr(is_stored ? ExrCompression::kNone : compression(), packed,
                                         unpacked_size, unpacked_);
-  if (!problem.empty()) return refuse(chunk, absl::StrCat("samples: ", problem));
+  if (!problem.empty()) return refuse(chunk, strCat("samples: ", problem));
   visitRows(chunk, visit);
   return absl::OkStatus();
 }
@@ -172,19 +172,18 @@ std::string DeepExr::unpackCounts(std::span<const uint8_t> packed, uint64_t size
 absl::Status DeepExr::readCounts(const Chunk& chunk, std::span<const uint8_t> packed) {
   const uint64_t pixels = uint64_t{chunk.width_px} * chunk.height_px;
   if (pixels > kDeepChunkPixelsMax) {
-    return refuse(chunk,
-                  absl::StrCat("has ", pixels, " px; accepted are up to ", kDeepChunkPixelsMax));
+    return refuse(chunk, strCat("has ", pixels, " px; accepted are up to ", kDeepChunkPixelsMax));
   }
   const std::string problem = unpackCounts(packed, 4 * pixels);
-  if (!problem.empty()) return refuse(chunk, absl::StrCat("sample counts: ", problem));
+  if (!problem.empty()) return refuse(chunk, strCat("sample counts: ", problem));
   counts_.resize(pixels);
   ByteCursor cursor(table_);
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t before = i % chunk.width_px == 0 ? 0 : counts_[i - 1];
     counts_[i] = cursor.take32();
     if (counts_[i] < before || counts_[i] > kDeepSamplesMax) {
-      return refuse(chunk, absl::StrCat("px ", i % chunk.width_px, " is said to end at sample ",
-                                        counts_[i], ", the one before it at ", before));
+      return refuse(chunk, strCat("px ", i % chunk.width_px, " is said to end at sample ",
+                                  counts_[i], ", the one before it at ", before));
     }
   }
   for (size_t i = pixels; i-- > 0;) {

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "deep/split_pixel.h"
 #include "deep/tidy_pixel.h"
 #include "files/deep_exr.h"
@@ -69,9 +69,9 @@ absl::Status checkDepth(const v1::DepthFormat& depth) {
   if (depth.meaning() != v1::DEPTH_MEANING_PLANAR &&
       depth.meaning() != v1::DEPTH_MEANING_RAY_DISTANCE) {
     return invalidField("depth.meaning",
-                        absl::StrCat("is ", v1::DepthMeaning_Name(depth.meaning()),
-                                     "; accepted for deep files are DEPTH_MEANING_PLANAR and "
-                                     "_RAY_DISTANCE"));
+                        strCat("is ", v1::DepthMeaning_Name(depth.meaning()),
+                               "; accepted for deep files are DEPTH_MEANING_PLANAR and "
+                               "_RAY_DISTANCE"));
   }
   if (!std::isfinite(depth.scale()) || !std::isfinite(depth.offset())) {
     return invalidField("depth.scale", "and offset must be finite");
@@ -197,8 +197,8 @@ absl::StatusOr<DeepLayers> loadDeepLayers(const v1::DeepFile& options,
                                           const std::filesystem::path& folder) {
   const uint32_t layer_count_max = options.layers() == 0 ? deep::kGroupsMax : options.layers();
   if (layer_count_max > deep::kGroupsMax) {
-    return invalidField("layers", absl::StrCat("is ", options.layers(), "; accepted is 1..",
-                                               deep::kGroupsMax, ", 0 for the most"));
+    return invalidField("layers", strCat("is ", options.layers(), "; accepted is 1..",
+                                         deep::kGroupsMax, ", 0 for the most"));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkDepth(options.depth()));
   const DeepUnits units = {
@@ -211,9 +211,8 @@ absl::StatusOr<DeepLayers> loadDeepLayers(const v1::DeepFile& options,
   const uint64_t bytes_max =
       uint64_t{layer_count_max} * file->widthPx() * file->heightPx() * (kColorBytes + kDepthBytes);
   if (bytes_max > kLayersBytesMax) {
-    return refuseFile(path.string(),
-                      absl::StrCat("would take ", bytes_max, " bytes as ", layer_count_max,
-                                   " layers; accepted are up to ", kLayersBytesMax));
+    return refuseFile(path.string(), strCat("would take ", bytes_max, " bytes as ", layer_count_max,
+                                            " layers; accepted are up to ", kLayersBytesMax));
   }
   DeepSplit split(*file, layer_count_max, options.black_sky());
   VIEWLOOM_RETURN_IF_ERROR(split.run());

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
@@ -158,11 +158,11 @@ absl::StatusOr<Picture> unpackDepth(const std::string& file, const Picture& pict
                                     v1::DepthPacking packing) {
   const uint32_t wanted = needsAlpha(packing) ? 4 : 3;
   if (picture.bits != 8 || picture.channels < wanted) {
-    return refuseFile(file, absl::StrCat("has ", picture.channels, " channels of ", picture.bits,
-                                         " bits; --depth-packing ", nameOf(packing), " takes ",
-                                         wanted == 4 ? "RGBA" : "RGB",
-                                         " of 8 bits: leave the option out for "
-                                         "depth that is grey"));
+    return refuseFile(file, strCat("has ", picture.channels, " channels of ", picture.bits,
+                                   " bits; --depth-packing ", nameOf(packing), " takes ",
+                                   wanted == 4 ? "RGBA" : "RGB",
+                                   " of 8 bits: leave the option out for "
+                                   "depth that is grey"));
   }
   Picture depth{.width_px = picture.width_px,
                 .height_px = picture.height_px,
@@ -183,17 +183,17 @@ std::string adviceForColor(const Picture& picture) {
   constexpr char kStart[] =
       "is coloured; accepted as depth is grey of 8 or 16 bits, or floats: save depth without a "
       "colour map";
-  if (picture.bits != 8) return absl::StrCat(kStart, ", and check which half of it is depth");
+  if (picture.bits != 8) return strCat(kStart, ", and check which half of it is depth");
   const v1::DepthPacking packing = likelyPacking(picture);
   const char* const scale = packing == v1::DEPTH_PACKING_HUE
                                 ? " --depth-near METRES --depth-far METRES"
                             : packing == v1::DEPTH_PACKING_RGB24
                                 ? " (CARLA: white is 1000 m, others with --depth-scale METRES)"
                                 : " --depth-scale METRES-AT-WHITE";
-  return absl::StrCat(kStart, "; if its channels are digits of the depth, give --depth-packing ",
-                      nameOf(packing), scale,
-                      "; if it is the colour picture, or depth is in its other half, check "
-                      "--depth and --depth-side");
+  return strCat(kStart, "; if its channels are digits of the depth, give --depth-packing ",
+                nameOf(packing), scale,
+                "; if it is the colour picture, or depth is in its other half, check "
+                "--depth and --depth-side");
 }
 
 }  // namespace viewloom::files

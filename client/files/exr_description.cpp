@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/exr_open.h"
 #include "files/file_bytes.h"
 
@@ -56,13 +56,13 @@ std::optional<std::string> textOf(const Imf::Attribute& attribute) {
     return text->value();
   }
   if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
-    return absl::StrCat(number->value());
+    return strCat(number->value());
   }
   if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) {
-    return absl::StrCat(number->value());
+    return strCat(number->value());
   }
   if (const auto* number = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
-    return absl::StrCat(number->value());
+    return strCat(number->value());
   }
   return std::nullopt;
 }
@@ -114,7 +114,7 @@ absl::StatusOr<ExrDescription> describeExr(const std::filesystem::path& path) {
   try {
     return describeExr(**file);
   } catch (const std::exception& error) {
-    return absl::DataLossError(absl::StrCat(path.string(), ": ", error.what()));
+    return absl::DataLossError(strCat(path.string(), ": ", error.what()));
   }
 }
 
@@ -122,8 +122,7 @@ std::string listExrChannels(const ExrDescription& description) {
   std::string names;
   for (const ExrDescribedPart& part : description.parts) {
     for (const ExrDescribedChannel& channel : part.channels) {
-      absl::StrAppend(&names, names.empty() ? "" : ", ", channel.name,
-                      part.isDeep() ? " (deep)" : "");
+      names += strCat(names.empty() ? "" : ", ", channel.name, part.isDeep() ? " (deep)" : "");
     }
   }
   return names;

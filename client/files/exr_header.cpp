@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/byte_cursor.h"
 #include "files/file_bytes.h"
 #include "files/plane_image.h"
@@ -34,8 +34,8 @@ class HeaderReader {
     const uint32_t version = cursor_.take32();
     const uint32_t known = kTiledFlag | kLongNamesFlag | kDeepFlag | kMultiPartFlag | 0xFF;
     if ((version & 0xFF) != kVersion || (version & ~known) != 0) {
-      return refuse(absl::StrCat("is of version ", version & 0xFF, " with flags ", version & ~0xFFU,
-                                 "; accepted is version 2"));
+      return refuse(strCat("is of version ", version & 0xFF, " with flags ", version & ~0xFFU,
+                           "; accepted is version 2"));
     }
     const bool is_multi_part = (version & kMultiPartFlag) != 0;
     std::vector<ExrPart> parts;
@@ -59,7 +59,7 @@ class HeaderReader {
 
  private:
   absl::Status refuse(const std::string& problem) const {
-    return refuseFile(path_, absl::StrCat("header, up to byte ", cursor_.offset(), ": ", problem));
+    return refuseFile(path_, strCat("header, up to byte ", cursor_.offset(), ": ", problem));
   }
 
   absl::Status readParts(bool is_multi_part, std::vector<ExrPart>& parts) {
@@ -69,7 +69,7 @@ class HeaderReader {
       VIEWLOOM_RETURN_IF_ERROR(readPart(part, is_empty));
       if (is_multi_part && is_empty) return absl::OkStatus();
       if (parts.size() == kPartsMax) {
-        return refuse(absl::StrCat("has more than ", kPartsMax, " parts"));
+        return refuse(strCat("has more than ", kPartsMax, " parts"));
       }
       parts.push_back(std::move(part));
     } while (is_multi_part);
@@ -86,15 +86,15 @@ class HeaderReader {
       const int32_t size = cursor_.takeSigned32();
       const auto value = cursor_.take(size < 0 ? UINT64_MAX : static_cast<uint64_t>(size));
       if (cursor_.hasFailed()) {
-        return refuse(absl::StrCat("attribute ", name, " has ", size, " bytes, more than follow"));
+        return refuse(strCat("attribute ", name, " has ", size, " bytes, more than follow"));
       }
       ByteCursor content(value);
       readAttribute(name, type, content, value, part);
       if (content.hasFailed()) {
-        return refuse(absl::StrCat("attribute ", name, " of ", size, " bytes ends too soon"));
+        return refuse(strCat("attribute ", name, " of ", size, " bytes ends too soon"));
       }
       if (part.channels.size() > kChannelsMax) {
-        return refuse(absl::StrCat("has more than ", kChannelsMax, " channels"));
+        return refuse(strCat("has more than ", kChannelsMax, " channels"));
       }
     }
   }
@@ -150,25 +150,25 @@ class HeaderReader {
   absl::Status check(const ExrPart& part) const {
     if (part.data.width() < 1 || part.data.height() < 1 || part.data.width() > kExrDataSideMax_px ||
         part.data.height() > kExrDataSideMax_px) {
-      return refuse(absl::StrCat("the data window is ", part.data.width(), "x", part.data.height(),
-                                 " px; accepted is 1..", kExrDataSideMax_px, " a side"));
+      return refuse(strCat("the data window is ", part.data.width(), "x", part.data.height(),
+                           " px; accepted is 1..", kExrDataSideMax_px, " a side"));
     }
     VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(path_, part.display.width(), part.display.height()));
     if (part.compression > static_cast<uint8_t>(ExrCompression::kZips)) {
-      return refuse(absl::StrCat("compression is number ", part.compression,
-                                 "; accepted for deep data are none (0), RLE (1) and ZIPS (2)"));
+      return refuse(strCat("compression is number ", part.compression,
+                           "; accepted for deep data are none (0), RLE (1) and ZIPS (2)"));
     }
     const bool has_tiles = part.tile_width_px != 0 && part.tile_height_px != 0;
     if (has_tiles != (part.type == "deeptile")) {
-      return refuse(absl::StrCat("is ", part.type, " with tiles of ", part.tile_width_px, "x",
-                                 part.tile_height_px, " px"));
+      return refuse(strCat("is ", part.type, " with tiles of ", part.tile_width_px, "x",
+                           part.tile_height_px, " px"));
     }
     for (const ExrHeaderChannel& channel : part.channels) {
       if (channel.type > ExrSampleType::kFloat || channel.is_subsampled) {
-        return refuse(absl::StrCat("channel ", channel.name, " is of type ",
-                                   static_cast<uint32_t>(channel.type),
-                                   channel.is_subsampled ? ", subsampled" : "",
-                                   "; accepted are 0 (uint), 1 (half), 2 (float) in every px"));
+        return refuse(strCat("channel ", channel.name, " is of type ",
+                             static_cast<uint32_t>(channel.type),
+                             channel.is_subsampled ? ", subsampled" : "",
+                             "; accepted are 0 (uint), 1 (half), 2 (float) in every px"));
       }
     }
     return checkTable(part);
@@ -177,15 +177,14 @@ class HeaderReader {
   absl::Status checkTable(const ExrPart& part) const {
     const int64_t chunks = part.chunkColumns() * part.chunkRows();
     if (part.chunk_count && *part.chunk_count < chunks) {
-      return refuse(
-          absl::StrCat("chunkCount is ", *part.chunk_count, "; the data window has ", chunks));
+      return refuse(strCat("chunkCount is ", *part.chunk_count, "; the data window has ", chunks));
     }
     // Whatever else the file has lies behind the header, so no sum can overflow.
     const uint64_t before = part.chunk_table_offset - cursor_.offset();
     if (before > cursor_.leftCount() ||
         static_cast<uint64_t>(chunks) > (cursor_.leftCount() - before) / 8) {
-      return refuse(absl::StrCat("the file has ", cursor_.leftCount(), " bytes more; ", chunks,
-                                 " offsets of chunks should begin after ", before));
+      return refuse(strCat("the file has ", cursor_.leftCount(), " bytes more; ", chunks,
+                           " offsets of chunks should begin after ", before));
     }
     return absl::OkStatus();
   }

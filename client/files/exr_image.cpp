@@ -10,7 +10,7 @@
 #include <cstring>
 #include <exception>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/exr_channels.h"
 #include "files/exr_description.h"
 #include "files/exr_open.h"
@@ -30,12 +30,12 @@ absl::StatusOr<std::vector<ExrChannel>> findAll(const std::string& path,
   for (const std::string& name : names) {
     std::optional<ExrChannel> channel = findExrChannel(file, name);
     if (!channel) {
-      return refuseFile(path, absl::StrCat("has no channel ", name, "; it has ",
-                                           listExrChannels(describeExr(file))));
+      return refuseFile(
+          path, strCat("has no channel ", name, "; it has ", listExrChannels(describeExr(file))));
     }
     if (!channels.empty() && channel->part != channels.front().part) {
-      return refuseFile(path, absl::StrCat("channels ", names.front(), " and ", name,
-                                           " are of different parts; accepted is one part"));
+      return refuseFile(path, strCat("channels ", names.front(), " and ", name,
+                                     " are of different parts; accepted is one part"));
     }
     channels.push_back(*std::move(channel));
   }
@@ -45,8 +45,8 @@ absl::StatusOr<std::vector<ExrChannel>> findAll(const std::string& path,
 absl::Status refuseSubsampled(const std::string& path, std::span<const ExrChannel> channels) {
   for (const ExrChannel& channel : channels) {
     if (!channel.isSubsampled()) continue;
-    return refuseFile(path, absl::StrCat("channel ", channel.name,
-                                         " is subsampled; accepted is full resolution"));
+    return refuseFile(
+        path, strCat("channel ", channel.name, " is subsampled; accepted is full resolution"));
   }
   return absl::OkStatus();
 }
@@ -178,8 +178,8 @@ absl::StatusOr<PlaneImage> readAgreeing(const std::string& path, Imf::MultiPartI
     for (size_t i = 1; i < channels.size(); ++i) {
       if (std::memcmp(samples, samples + i * sample_bytes, sample_bytes) == 0) continue;
       return refuseFile(
-          path, absl::StrCat("holds no depth for sure: ", channels[0].name, " and ",
-                             channels[i].name, " differ; name its channel with --depth-channel"));
+          path, strCat("holds no depth for sure: ", channels[0].name, " and ", channels[i].name,
+                       " differ; name its channel with --depth-channel"));
     }
     std::memcpy(&bytes[at], samples, sample_bytes);
   }
@@ -188,7 +188,7 @@ absl::StatusOr<PlaneImage> readAgreeing(const std::string& path, Imf::MultiPartI
 }
 
 std::string guarded(const std::exception& error, const std::string& path) {
-  return absl::StrCat(path, ": ", error.what());
+  return strCat(path, ": ", error.what());
 }
 
 }  // namespace
@@ -204,10 +204,10 @@ absl::StatusOr<PlaneImage> readExrColor(const std::filesystem::path& path,
     const std::span<const std::string> names = channels.empty() ? usual : channels;
     if (names.size() != 1 && names.size() != 3 && names.size() != 4) {
       return refuseFile(path.string(),
-                        absl::StrCat("no colour in ", names.size(),
-                                     " channels; accepted are 1, 3 or 4, by default R, G, B, A or "
-                                     "Y; name others with --color-channels; it has ",
-                                     listExrChannels(description)));
+                        strCat("no colour in ", names.size(),
+                               " channels; accepted are 1, 3 or 4, by default R, G, B, A or "
+                               "Y; name others with --color-channels; it has ",
+                               listExrChannels(description)));
     }
     const auto found = findAll(path.string(), **file, names);
     if (!found.ok()) return found.status();
@@ -235,10 +235,10 @@ absl::StatusOr<PlaneImage> readExrDepth(const std::filesystem::path& path,
     const std::vector<std::string> usual = usualExrChannels(description, "").depth;
     const std::span<const std::string> names = channels.empty() ? usual : channels;
     if (names.empty()) {
-      return refuseFile(path.string(), absl::StrCat("no depth in 0 channels; accepted is one, by "
-                                                    "default Z; name another with "
-                                                    "--depth-channel; it has ",
-                                                    listExrChannels(description)));
+      return refuseFile(path.string(), strCat("no depth in 0 channels; accepted is one, by "
+                                              "default Z; name another with "
+                                              "--depth-channel; it has ",
+                                              listExrChannels(description)));
     }
     const auto found = findAll(path.string(), **file, names);
     if (!found.ok()) return found.status();

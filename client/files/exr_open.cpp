@@ -11,7 +11,7 @@
 #include <mutex>
 #include <string>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
@@ -53,19 +53,19 @@ class AttributeWalk {
       header_bytes_ += size;
       if (!in_) return refuse("the file ends in the header, or a name in it has no end");
       if (size > kAttributeBytesMax || header_bytes_ > kHeaderBytesMax) {
-        return refuse(absl::StrCat("attribute ", name, " says it has ", size,
-                                   " bytes; accepted are up to ", kAttributeBytesMax, ", and ",
-                                   kHeaderBytesMax, " in all"));
+        return refuse(strCat("attribute ", name, " says it has ", size,
+                             " bytes; accepted are up to ", kAttributeBytesMax, ", and ",
+                             kHeaderBytesMax, " in all"));
       }
       in_.ignore(size);
       if (in_.gcount() != std::streamsize{size}) {
-        return refuse(absl::StrCat("attribute ", name, " has ", size, " bytes, more than follow"));
+        return refuse(strCat("attribute ", name, " has ", size, " bytes, more than follow"));
       }
     }
   }
 
   absl::Status refuse(const std::string& problem) const {
-    return refuseFile(path_, absl::StrCat("is no EXR file to be read: ", problem));
+    return refuseFile(path_, strCat("is no EXR file to be read: ", problem));
   }
 
   uint32_t takeNumber() {
@@ -107,7 +107,7 @@ absl::StatusOr<std::unique_ptr<Imf::MultiPartInputFile>> openExr(
   try {
     return std::make_unique<Imf::MultiPartInputFile>(path.c_str());
   } catch (const std::exception& error) {
-    return refuseFile(path.string(), absl::StrCat("is no EXR file to be read: ", error.what()));
+    return refuseFile(path.string(), strCat("is no EXR file to be read: ", error.what()));
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::files {
 namespace {
@@ -61,7 +61,7 @@ std::string unpackExr(ExrCompression compression, std::span<const uint8_t> packe
                       uint64_t unpacked_size, std::vector<uint8_t>& unpacked) {
   const bool is_stored = compression == ExrCompression::kNone;
   if (is_stored ? packed.size() != unpacked_size : packed.size() * kExpansionMax < unpacked_size) {
-    return absl::StrCat(packed.size(), " bytes cannot be the ", unpacked_size, " wanted");
+    return strCat(packed.size(), " bytes cannot be the ", unpacked_size, " wanted");
   }
   if (is_stored) {
     unpacked.assign(packed.begin(), packed.end());
@@ -71,7 +71,7 @@ std::string unpackExr(ExrCompression compression, std::span<const uint8_t> packe
   const bool is_whole = compression == ExrCompression::kRle ? unpackRuns(packed, unpacked)
                                                             : inflate(packed, unpacked);
   if (!is_whole) {
-    return absl::StrCat(packed.size(), " compressed bytes are not the ", unpacked_size, " wanted");
+    return strCat(packed.size(), " compressed bytes are not the ", unpacked_size, " wanted");
   }
   undoPrediction(unpacked);
   return "";

@@ -7,10 +7,10 @@
 #include <tuple>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "base/nearest_name.h"
+#include "base/str_cat.h"
 #include "files/exr_layer_names.h"
 
 namespace viewloom::files {
@@ -106,7 +106,7 @@ std::string suggestion(const ExrDescription& description, std::string_view word,
     for (const ExrDescribedChannel& channel : part.channels) names.push_back(channel.name);
   }
   const std::string meant = didYouMean(word, names);
-  return meant.empty() ? "" : absl::StrCat("; ", meant);
+  return meant.empty() ? "" : strCat("; ", meant);
 }
 
 // The channel's name as the file has it; "" = none.
@@ -205,7 +205,7 @@ absl::StatusOr<std::vector<std::string>> namedExrColor(const ExrDescription& des
     if (names.size() == 1) return names;
   }
   const std::vector<std::string> layer_names = colorLayerNames(layers);
-  return absl::InvalidArgumentError(absl::StrCat(
+  return absl::InvalidArgumentError(strCat(
       "--color-channels ", wanted, ": accepted are a layer with colour (",
       absl::StrJoin(layer_names, ", "),
       "), one channel for grey, or three or four channels as R,G,B,A; the file has ",
@@ -223,7 +223,7 @@ absl::StatusOr<std::vector<std::string>> namedExrDepth(const ExrDescription& des
     const std::string depth = depthIn(*layer);
     if (!depth.empty()) return std::vector<std::string>{depth};
   }
-  return absl::InvalidArgumentError(absl::StrCat(
+  return absl::InvalidArgumentError(strCat(
       "--depth-channel ", wanted, ": accepted is a channel of the file, which has ",
       listExrChannels(description), suggestion(description, wanted, depthLayerNames(layers))));
 }
@@ -232,11 +232,10 @@ absl::StatusOr<std::string> exrView(const ExrDescription& description, const std
   const std::string found = viewOr(description, view);
   if (!exrLayersOf(description, found).empty() || view.empty()) return found;
   const std::string meant = didYouMean(view, description.views);
-  return absl::InvalidArgumentError(absl::StrCat(
+  return absl::InvalidArgumentError(strCat(
       "has no view ", view,
-      description.views.empty()
-          ? ""
-          : absl::StrCat("; accepted are ", absl::StrJoin(description.views, ", ")),
+      description.views.empty() ? ""
+                                : strCat("; accepted are ", absl::StrJoin(description.views, ", ")),
       "; its channels are ", listExrChannels(description), meant.empty() ? "" : "; ", meant));
 }
 

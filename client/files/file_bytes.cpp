@@ -4,8 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "absl/strings/str_cat.h"
 #include "base/output_file.h"
+#include "base/str_cat.h"
 
 namespace viewloom::files {
 namespace {
@@ -19,13 +19,13 @@ absl::StatusOr<uint64_t> fileSize(const std::filesystem::path& path, uint64_t by
   }
   if (!std::filesystem::is_regular_file(path, error)) {
     return absl::NotFoundError(
-        absl::StrCat(path.string(), ": no such file; check the name and the folder"));
+        strCat(path.string(), ": no such file; check the name and the folder"));
   }
   const uint64_t size = std::filesystem::file_size(path, error);
-  if (error) return absl::NotFoundError(absl::StrCat(path.string(), ": ", error.message()));
+  if (error) return absl::NotFoundError(strCat(path.string(), ": ", error.message()));
   if (size > bytes_max) {
     return refuseFile(path.string(),
-                      absl::StrCat("has ", size, " bytes; accepted are up to ", bytes_max));
+                      strCat("has ", size, " bytes; accepted are up to ", bytes_max));
   }
   return size;
 }
@@ -33,19 +33,19 @@ absl::StatusOr<uint64_t> fileSize(const std::filesystem::path& path, uint64_t by
 }  // namespace
 
 absl::Status refuseFile(const std::string& path, const std::string& problem) {
-  return absl::InvalidArgumentError(absl::StrCat(path, ": ", problem));
+  return absl::InvalidArgumentError(strCat(path, ": ", problem));
 }
 
 absl::Status refuseCutShort(const std::string& path, const std::string& format) {
-  return refuseFile(path, absl::StrCat("ends before its picture is whole (", format,
-                                       "): it is cut short or still being written; wait until it "
-                                       "is complete, or write it again"));
+  return refuseFile(path, strCat("ends before its picture is whole (", format,
+                                 "): it is cut short or still being written; wait until it "
+                                 "is complete, or write it again"));
 }
 
 absl::Status refuseDamaged(const std::string& path, const std::string& format,
                            const std::string& detail) {
-  return refuseFile(
-      path, absl::StrCat("is damaged (", format, ": ", detail, "); copy or export it again"));
+  return refuseFile(path,
+                    strCat("is damaged (", format, ": ", detail, "); copy or export it again"));
 }
 
 absl::Status checkFile(const std::filesystem::path& path) {
@@ -62,7 +62,7 @@ absl::StatusOr<std::vector<uint8_t>> readFileBytes(const std::filesystem::path& 
   std::vector<uint8_t> bytes(*size);
   std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) return absl::DataLossError(absl::StrCat(path.string(), ": cannot be read"));
+  if (!in) return absl::DataLossError(strCat(path.string(), ": cannot be read"));
   return bytes;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::files {
 namespace {
@@ -117,8 +117,7 @@ std::string remedyFor(const Signature& found, const std::filesystem::path& path)
   const std::string name = path.filename().string();
   switch (found.family) {
     case Family::kVideo:
-      return absl::StrCat("write its frames as pictures first: ffmpeg -i \"", name,
-                          "\" frame_%04d.png");
+      return strCat("write its frames as pictures first: ffmpeg -i \"", name, "\" frame_%04d.png");
     case Family::kModel:
       return "render it with a depth pass first, for instance in Blender as multilayer EXR "
              "(Combined and Z)";

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/json_message.h"
 #include "files/plane_file.h"
@@ -27,7 +27,7 @@ absl::StatusOr<Message> readJson(const std::filesystem::path& path, const std::s
 
 absl::Status checkCount(const std::string& field, int count, int max) {
   if (count >= 1 && count <= max) return absl::OkStatus();
-  return invalidField(field, absl::StrCat("has ", count, "; accepted is 1..", max));
+  return invalidField(field, strCat("has ", count, "; accepted is 1..", max));
 }
 
 void addPlane(LoadedPlane loaded, v1::Layer& layer, WireFrame& frame) {
@@ -85,9 +85,9 @@ absl::Status checkDepthSizes(const v1::Source& source) {
     const v1::SizePx& size = source.layers(i).planes(1).size();
     if (size.width() == first.width() && size.height() == first.height()) continue;
     return invalidField(
-        absl::StrCat("layers[", i, "].depth"),
-        absl::StrCat("is ", size.width(), "x", size.height(),
-                     " px; accepted is the size of layer 0, ", first.width(), "x", first.height()));
+        strCat("layers[", i, "].depth"),
+        strCat("is ", size.width(), "x", size.height(), " px; accepted is the size of layer 0, ",
+               first.width(), "x", first.height()));
   }
   return absl::OkStatus();
 }
@@ -117,7 +117,7 @@ absl::Status loadSource(const v1::SourceFiles& files, const std::filesystem::pat
   VIEWLOOM_RETURN_IF_ERROR(checkCount("layers", files.layers_size(), kLayersMax));
   for (int i = 0; i < files.layers_size(); ++i) {
     const absl::Status status = loadLayer(files.layers(i), folder, *source.add_layers(), frame);
-    if (!status.ok()) return withFieldPrefix(status, absl::StrCat("layers[", i, "]"));
+    if (!status.ok()) return withFieldPrefix(status, strCat("layers[", i, "]"));
   }
   return checkDepthSizes(source);
 }
@@ -144,7 +144,7 @@ absl::StatusOr<LoadedFrame> loadFrame(const v1::FrameManifest& manifest,
   for (int i = 0; i < manifest.sources_size(); ++i) {
     const absl::Status status =
         loadSource(manifest.sources(i), folder, *header.add_sources(), frame);
-    if (!status.ok()) return withFieldPrefix(status, absl::StrCat("sources[", i, "]"));
+    if (!status.ok()) return withFieldPrefix(status, strCat("sources[", i, "]"));
   }
   return frame;
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/exif.h"
 #include "files/file_bytes.h"
 #include "files/icc_profile.h"
@@ -35,8 +35,8 @@ absl::StatusOr<JpegHeader> readHeader(const std::string& name, std::span<const u
   int subsampling = 0;
   if (tjDecompressHeader3(handle, bytes.data(), bytes.size(), &header.width_px, &header.height_px,
                           &subsampling, &header.color_space) != 0) {
-    return refuseFile(name, absl::StrCat("is no JPEG that can be read: ", tjGetErrorStr2(handle),
-                                         "; copy or export it again"));
+    return refuseFile(name, strCat("is no JPEG that can be read: ", tjGetErrorStr2(handle),
+                                   "; copy or export it again"));
   }
   if (header.width_px == 0 && header.height_px == 0) return refuseCutShort(name, "JPEG");
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));

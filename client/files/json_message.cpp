@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
@@ -17,7 +17,7 @@ std::string inOneLine(const std::string& problem) {
   if (end == std::string::npos) return problem;
   const std::string place = problem.substr(end + 1, problem.find('\n', end + 1) - end - 1);
   const std::string sentence = problem.substr(0, end - (problem[end - 1] == '.' ? 1 : 0));
-  return place.empty() ? sentence : absl::StrCat(sentence, " at \"", place, "\"");
+  return place.empty() ? sentence : strCat(sentence, " at \"", place, "\"");
 }
 
 }  // namespace
@@ -29,8 +29,8 @@ absl::Status readJsonMessage(const std::filesystem::path& path, uint64_t bytes_m
   const auto parsed = google::protobuf::util::JsonStringToMessage(
       std::string(bytes->begin(), bytes->end()), &message);
   if (parsed.ok()) return absl::OkStatus();
-  return refuseFile(path.string(), absl::StrCat("does not describe ", what, " in JSON: ",
-                                                inOneLine(std::string(parsed.message()))));
+  return refuseFile(path.string(), strCat("does not describe ", what,
+                                          " in JSON: ", inOneLine(std::string(parsed.message()))));
 }
 
 }  // namespace viewloom::files

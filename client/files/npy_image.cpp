@@ -7,9 +7,9 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "base/str_cat.h"
 #include "files/byte_cursor.h"
 #include "files/file_bytes.h"
 #include "files/stored_samples.h"
@@ -24,7 +24,7 @@ constexpr size_t kDimensionsMax = 6;
 // The literal behind a key of the header's dictionary, up to where the value ends.
 std::string valueOf(const std::string& header, const char* key, char last) {
   for (const char quote : {'\'', '"'}) {
-    const std::string quoted = absl::StrCat(std::string(1, quote), key, std::string(1, quote));
+    const std::string quoted = strCat(std::string(1, quote), key, std::string(1, quote));
     const size_t at = header.find(quoted);
     if (at == std::string::npos) continue;
     const size_t colon = header.find(':', at + quoted.size());
@@ -128,16 +128,16 @@ absl::StatusOr<Picture> decodeNpy(const std::string& name, std::span<const uint8
   const std::string stated_shape = valueOf(*header, "shape", ')');
   const auto shape = shapeOf(stated_shape);
   if (!type) {
-    return refuseFile(name, absl::StrCat("holds ", stated_type.substr(0, 40),
-                                         "; accepted are floats of 16, 32 and 64 bits and whole "
-                                         "numbers: save array.astype('float32')"));
+    return refuseFile(name, strCat("holds ", stated_type.substr(0, 40),
+                                   "; accepted are floats of 16, 32 and 64 bits and whole "
+                                   "numbers: save array.astype('float32')"));
   }
   const auto layout =
       shape ? layoutOf(*shape, valueOf(*header, "fortran_order", ',') == "True") : std::nullopt;
   if (!layout) {
-    return refuseFile(name, absl::StrCat("is an array of shape ", stated_shape.substr(0, 60),
-                                         "); accepted are (height, width) and (height, width, "
-                                         "channels): save one frame of it"));
+    return refuseFile(name, strCat("is an array of shape ", stated_shape.substr(0, 60),
+                                   "); accepted are (height, width) and (height, width, "
+                                   "channels): save one frame of it"));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, layout->width_px, layout->height_px));
   Picture picture{.width_px = static_cast<uint32_t>(layout->width_px),

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "absl/strings/numbers.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/stored_samples.h"
 #include "files/text_header.h"
@@ -53,8 +53,8 @@ absl::StatusOr<std::span<const uint8_t>> samplesOf(const std::string& name, cons
   if (between.size() > 2 || !std::all_of(between.begin(), between.end(), isSpaceByte)) {
     return refuseDamaged(
         name, "PFM",
-        absl::StrCat("has ", bytes.size(), " bytes; ", header.width_px, "x", header.height_px,
-                     " px need ", header.end_bytes + 1 + sample_bytes));
+        strCat("has ", bytes.size(), " bytes; ", header.width_px, "x", header.height_px,
+               " px need ", header.end_bytes + 1 + sample_bytes));
   }
   return bytes.last(sample_bytes);
 }

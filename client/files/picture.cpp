@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/depth_packing.h"
 #include "files/file_bytes.h"
 #include "files/primaries.h"
@@ -115,8 +115,8 @@ absl::StatusOr<Picture> cutPart(const std::string& file, Picture picture, v1::Im
   if (part == v1::IMAGE_PART_UNSPECIFIED) return picture;
   const bool beside = part == v1::IMAGE_PART_LEFT || part == v1::IMAGE_PART_RIGHT;
   if ((beside ? picture.width_px : picture.height_px) % 2 != 0) {
-    return refuseFile(file, absl::StrCat("is ", picture.width_px, "x", picture.height_px,
-                                         " px; halves need an even ", beside ? "width" : "height"));
+    return refuseFile(file, strCat("is ", picture.width_px, "x", picture.height_px,
+                                   " px; halves need an even ", beside ? "width" : "height"));
   }
   const uint32_t width_px = beside ? picture.width_px / 2 : picture.width_px;
   const uint32_t height_px = beside ? picture.height_px : picture.height_px / 2;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/container.h"
 #include "files/depth_packing.h"
 #include "files/exr_image.h"
@@ -33,33 +33,33 @@ absl::Status refuseForeign(const v1::PlaneFile& file, Container container) {
   const bool is_exr = container == Container::kExr, is_yuv = container == Container::kYuv;
   if (!is_exr && !file.channels().empty()) {
     return invalidField("channels",
-                        absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
+                        strCat("given for ", file.file(), "; accepted for EXR files only"));
   }
   if (!is_exr && file.has_window()) {
     return invalidField("window",
-                        absl::StrCat("given for ", file.file(), "; accepted for EXR files only"));
+                        strCat("given for ", file.file(), "; accepted for EXR files only"));
   }
   if ((is_exr || is_yuv) && file.part() != v1::IMAGE_PART_UNSPECIFIED) {
-    return invalidField("part", absl::StrCat("given for ", file.file(),
-                                             "; accepted for PNG, JPEG and other pictures, not "
-                                             "for EXR and .yuv"));
+    return invalidField("part", strCat("given for ", file.file(),
+                                       "; accepted for PNG, JPEG and other pictures, not "
+                                       "for EXR and .yuv"));
   }
   if (is_exr && file.transfer() == v1::COLOR_TRANSFER_SRGB) {
     return invalidField("transfer",
-                        absl::StrCat("is SRGB for ", file.file(), "; accepted for EXR is LINEAR"));
+                        strCat("is SRGB for ", file.file(), "; accepted for EXR is LINEAR"));
   }
   if ((is_exr || is_yuv) && file.packing() != v1::DEPTH_PACKING_UNSPECIFIED) {
-    return invalidField("packing", absl::StrCat("given for ", file.file(),
-                                                "; accepted for pictures of 8 bits a channel"));
+    return invalidField("packing", strCat("given for ", file.file(),
+                                          "; accepted for pictures of 8 bits a channel"));
   }
   if (is_yuv != file.has_raw()) {
-    return invalidField("raw", absl::StrCat(is_yuv ? "is missing for " : "given for ", file.file(),
-                                            "; it belongs to .yuv files"));
+    return invalidField("raw", strCat(is_yuv ? "is missing for " : "given for ", file.file(),
+                                      "; it belongs to .yuv files"));
   }
   if (container != Container::kHeic) return absl::OkStatus();
   return invalidField(
-      "file", absl::StrCat("is ", file.file(), ", a HEIC photo; accepted here are ", kPictureKinds,
-                           " without HEIC: give photos as the colour of publish or inspect"));
+      "file", strCat("is ", file.file(), ", a HEIC photo; accepted here are ", kPictureKinds,
+                     " without HEIC: give photos as the colour of publish or inspect"));
 }
 
 absl::StatusOr<Picture> readPart(const v1::PlaneFile& file, const std::filesystem::path& path,
@@ -107,9 +107,9 @@ absl::StatusOr<PlaneImage> readDepth(const v1::PlaneFile& file, const std::files
   const bool has_digits =
       file.packing() != v1::DEPTH_PACKING_UNSPECIFIED && file.packing() != v1::DEPTH_PACKING_HUE;
   if (has_digits && container == Container::kJpeg) {
-    return invalidField("packing", absl::StrCat("given for ", file.file(),
-                                                ", a JPEG, which changes digits; accepted are "
-                                                "lossless pictures, as PNG"));
+    return invalidField("packing", strCat("given for ", file.file(),
+                                          ", a JPEG, which changes digits; accepted are "
+                                          "lossless pictures, as PNG"));
   }
   absl::StatusOr<Picture> picture = readPart(file, path, PictureUse::kDepth);
   if (picture.ok() && file.packing() != v1::DEPTH_PACKING_UNSPECIFIED) {

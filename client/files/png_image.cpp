@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/exif.h"
 #include "files/file_bytes.h"
 #include "files/icc_profile.h"
@@ -152,8 +152,8 @@ absl::StatusOr<Picture> decodePng(const std::string& name, std::span<const uint8
   if (!reader.readHeader()) return refusal();
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, reader.width(), reader.height()));
   if (use == PictureUse::kDepth && reader.bitDepth() < 8) {
-    return refuseFile(name, absl::StrCat("has samples of ", reader.bitDepth(),
-                                         " bits; accepted as depth is grey of 8 or 16"));
+    return refuseFile(name, strCat("has samples of ", reader.bitDepth(),
+                                   " bits; accepted as depth is grey of 8 or 16"));
   }
   const ColorCoding coding = use == PictureUse::kColor ? reader.coding() : ColorCoding();
   if (!reader.expand(use)) return refusal();

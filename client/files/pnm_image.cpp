@@ -3,7 +3,6 @@
 
 #include <cstring>
 
-#include "absl/strings/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/stored_samples.h"
 #include "files/text_header.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::files {
 namespace {
@@ -23,7 +23,7 @@ absl::Status checkFields(const v1::PlaneFile& file) {
                                                                                     : nullptr;
   if (foreign == nullptr) return absl::OkStatus();
   return invalidField(foreign,
-                      absl::StrCat("given for ", file.file(), ", whose samples count as they are"));
+                      strCat("given for ", file.file(), ", whose samples count as they are"));
 }
 
 // Samples of a px, as they are stored.
@@ -78,14 +78,14 @@ absl::StatusOr<LoadedPlane> loadSurfacePlane(const v1::PlaneFile& file,
   const bool is_normal = kind == v1::PLANE_KIND_NORMAL;
   const bool is_whole = image->code_max != 0;  // v of at most n stands for v / n
   if (kind == v1::PLANE_KIND_MOTION && is_whole) {
-    return invalidField("file", absl::StrCat("is ", file.file(),
-                                             ", of whole numbers; accepted are floats, as EXR, "
-                                             "PFM and TIFF have them"));
+    return invalidField("file", strCat("is ", file.file(),
+                                       ", of whole numbers; accepted are floats, as EXR, "
+                                       "PFM and TIFF have them"));
   }
   if (image->encoding == v1::PLANE_ENCODING_JPEG) {
-    return invalidField("file", absl::StrCat("is ", file.file(),
-                                             ", a JPEG, which changes numbers; accepted are EXR, "
-                                             "PNG, PFM and other lossless files"));
+    return invalidField("file", strCat("is ", file.file(),
+                                       ", a JPEG, which changes numbers; accepted are EXR, "
+                                       "PNG, PFM and other lossless files"));
   }
   if (kind == v1::PLANE_KIND_MOTION || (is_normal && is_half)) {
     plane.encoding = v1::PLANE_ENCODING_XYZ16F;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/icc_profile.h"
 #include "files/stored_samples.h"
@@ -157,8 +157,7 @@ absl::StatusOr<Picture> readPlain(const std::string& name, const TiffStream& str
   const bool is_size = bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8;
   if (!is_number || !is_size || header.channels < color_count ||
       (bytes == 1 && header.format == SAMPLEFORMAT_IEEEFP)) {
-    return refuseFile(name,
-                      absl::StrCat("is a TIFF of ", header.channels, " channels of ", header.bits,
+    return refuseFile(name, strCat("is a TIFF of ", header.channels, " channels of ", header.bits,
                                    " bits; accepted are whole numbers and floats of 8, 16, "
                                    "32 and 64 bits: export it anew"));
   }
@@ -214,10 +213,10 @@ absl::StatusOr<Picture> decodeTiff(const std::string& name, std::span<const uint
   const TiffHeader header = headerOf(tiff.get());
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(name, header.width_px, header.height_px));
   if (!header.isPlain() && use == PictureUse::kDepth) {
-    return refuseFile(name, absl::StrCat("is a TIFF of ", header.bits, " bits and photometric ",
-                                         header.photometric,
-                                         "; accepted as depth is grey of 8 bits and more: save "
-                                         "depth without a palette"));
+    return refuseFile(
+        name, strCat("is a TIFF of ", header.bits, " bits and photometric ", header.photometric,
+                     "; accepted as depth is grey of 8 bits and more: save "
+                     "depth without a palette"));
   }
   absl::StatusOr<Picture> picture = header.isPlain()
                                         ? readPlain(name, stream, tiff.get(), header)

@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "files/exif.h"
 #include "files/file_bytes.h"
 #include "files/icc_profile.h"

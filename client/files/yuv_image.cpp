@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
@@ -27,7 +27,7 @@ absl::StatusOr<FrameShape> shapeOf(const std::string& file, const v1::RawVideo& 
   VIEWLOOM_RETURN_IF_ERROR(checkPlaneSize(file, raw.size().width(), raw.size().height()));
   const uint32_t bits = raw.sample_bits() == 0 ? 16 : raw.sample_bits();
   if (bits < 8 || bits > 16) {
-    return invalidField("raw.sample_bits", absl::StrCat("is ", bits, "; accepted is 8..16"));
+    return invalidField("raw.sample_bits", strCat("is ", bits, "; accepted is 8..16"));
   }
   const size_t width = raw.size().width(), height = raw.size().height();
   return FrameShape{.bits = bits,
@@ -41,13 +41,13 @@ absl::StatusOr<uint32_t> frameCount(const std::filesystem::path& path, const v1:
                                     const FrameShape& shape) {
   std::error_code error;
   const uint64_t bytes = std::filesystem::file_size(path, error);
-  if (error) return absl::NotFoundError(absl::StrCat(path.string(), ": ", error.message()));
+  if (error) return absl::NotFoundError(strCat(path.string(), ": ", error.message()));
   if (bytes == 0 || bytes % shape.frameBytes() != 0) {
     return refuseFile(
         path.string(),
-        absl::StrCat("has ", bytes, " bytes; accepted are whole frames of ", shape.frameBytes(),
-                     ", which is ", raw.size().width(), "x", raw.size().height(), " px of ",
-                     shape.bits, " bits ", raw.luma_alone() ? "without chroma" : "in 4:2:0"));
+        strCat("has ", bytes, " bytes; accepted are whole frames of ", shape.frameBytes(),
+               ", which is ", raw.size().width(), "x", raw.size().height(), " px of ", shape.bits,
+               " bits ", raw.luma_alone() ? "without chroma" : "in 4:2:0"));
   }
   return static_cast<uint32_t>(std::min<uint64_t>(bytes / shape.frameBytes(), UINT32_MAX));
 }
@@ -59,15 +59,14 @@ absl::StatusOr<std::vector<uint16_t>> readSamples(const std::filesystem::path& p
   const absl::StatusOr<uint32_t> count = frameCount(path, raw, shape);
   if (!count.ok()) return count.status();
   if (raw.frame_index() >= *count) {
-    return refuseFile(
-        path.string(),
-        absl::StrCat("has ", *count, " frames; there is none of index ", raw.frame_index()));
+    return refuseFile(path.string(), strCat("has ", *count, " frames; there is none of index ",
+                                            raw.frame_index()));
   }
   std::vector<uint8_t> bytes(shape.frameBytes());
   std::ifstream in(path, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(shape.frameBytes() * raw.frame_index()));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) return absl::DataLossError(absl::StrCat(path.string(), ": cannot be read"));
+  if (!in) return absl::DataLossError(strCat(path.string(), ": cannot be read"));
   std::vector<uint16_t> samples(shape.sampleCount());
   if (shape.sample_bytes == 2) {
     std::memcpy(samples.data(), bytes.data(), bytes.size());

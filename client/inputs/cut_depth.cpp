@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "inspect/depth_samples.h"
 #include "inspect/stored_numbers.h"
 
@@ -49,7 +49,7 @@ absl::Status cutPlane(double farthest_m, const v1::Camera& camera, v1::Plane& pl
 absl::Status cutDepth(double farthest_m, v1::Source& source, WireFrame& wire) {
   if (!(farthest_m > 0)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("--no-surface-beyond is ", farthest_m, "; accepted are metres above 0"));
+        strCat("--no-surface-beyond is ", farthest_m, "; accepted are metres above 0"));
   }
   size_t index = 0;
   for (v1::Layer& layer : *source.mutable_layers()) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -17,10 +17,10 @@ absl::Status checkNearAndFar(const NearAndFar& given, bool may_be_infinite) {
   const bool is_far_enough = far_m > near_m && (may_be_infinite || std::isfinite(far_m));
   if (near_m > 0 && is_far_enough) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("--depth-near is ", near_m, " and --depth-far ", far_m,
-                   "; accepted are the metres of the nearest and of the farthest code, 0 < near < "
-                   "far",
-                   may_be_infinite ? " (which may be inf)" : ", finite where depth is planar"));
+      strCat("--depth-near is ", near_m, " and --depth-far ", far_m,
+             "; accepted are the metres of the nearest and of the farthest code, 0 < near < "
+             "far",
+             may_be_infinite ? " (which may be inf)" : ", finite where depth is planar"));
 }
 
 v1::DepthFormat withInvalid(v1::DepthFormat format, const InputSettings& settings) {
@@ -86,10 +86,10 @@ absl::StatusOr<v1::DepthFormat> twoDPlusZFormat(const InputSettings& settings,
   const double black = 1 - strength * settings.screen_code / 255;
   if (!(settings.screen_m > 0) || !(strength > 0) || !(black >= 0)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("--screen ", settings.screen_m, " --factor ", settings.factor,
-                     " --screen-code ", settings.screen_code,
-                     " put black behind infinity; accepted are a screen and a factor above 0, and "
-                     "factor / 64 x screen-code / 255 up to 1"));
+        strCat("--screen ", settings.screen_m, " --factor ", settings.factor, " --screen-code ",
+               settings.screen_code,
+               " put black behind infinity; accepted are a screen and a factor above 0, and "
+               "factor / 64 x screen-code / 255 up to 1"));
   }
   v1::DepthFormat format;
   format.set_meaning(v1::DEPTH_MEANING_DISPARITY);

@@ -8,7 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "inputs/axes.h"
 
 namespace viewloom::inputs {
@@ -34,8 +34,8 @@ bool isFinite(const glm::dmat4& matrix) {
 }
 
 absl::Status refuse(const std::string& file, const std::string& matrix, const std::string& why) {
-  return absl::InvalidArgumentError(absl::StrCat(file, ": header ", matrix, " ", why,
-                                                 "; give the camera by --fov and --input plain"));
+  return absl::InvalidArgumentError(
+      strCat(file, ": header ", matrix, " ", why, "; give the camera by --fov and --input plain"));
 }
 
 bool isRigid(const glm::dmat4& matrix) {

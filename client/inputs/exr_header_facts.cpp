@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/primaries.h"
 #include "inputs/exr_camera.h"
 #include "inputs/unreal_camera.h"
@@ -18,9 +18,9 @@ void readAspect(const InputSettings& settings, const files::ExrDescription& desc
   const double aspect = description.pixel_aspect;
   if (settings.pixel_aspect || aspect == 1 || !(aspect > 0.01 && aspect < 100)) return;
   result.pixel_aspect = aspect;
-  result.notes.push_back(absl::StrCat("pixelAspectRatio ", aspect,
-                                      " of the header "
-                                      "(--pixel-aspect)"));
+  result.notes.push_back(strCat("pixelAspectRatio ", aspect,
+                                " of the header "
+                                "(--pixel-aspect)"));
 }
 
 void readEnvmap(const InputSettings& settings, const files::ExrDescription& description,
@@ -41,9 +41,8 @@ void notePrimaries(const InputSettings& settings, const files::ExrDescription& d
     result.notes.push_back("chromaticities of the header are left alone: --primaries");
   } else if (!known) {
     const auto& [red, green, blue, white] = *description.chromaticities;
-    result.notes.push_back(absl::StrCat("chromaticities of the header (red ", red.x, ", ", red.y,
-                                        ", white ", white.x, ", ", white.y,
-                                        "): converted to BT.2020"));
+    result.notes.push_back(strCat("chromaticities of the header (red ", red.x, ", ", red.y,
+                                  ", white ", white.x, ", ", white.y, "): converted to BT.2020"));
   } else if (*known != v1::COLOR_PRIMARIES_BT709) {
     result.notes.push_back("chromaticities of the header: sent as they are");
   }
@@ -94,7 +93,7 @@ absl::Status readHeaderCamera(const InputSettings& settings, const std::string& 
     *stated.mutable_intrinsics() = *(*camera)->intrinsics;
     setCameraSize(description, result);
   }
-  result.notes.push_back(absl::StrCat(
+  result.notes.push_back(strCat(
       "camera of worldToCamera", (*camera)->intrinsics ? " and worldToNDC" : "",
       ", which looks along ", settings.looks_along_minus_z ? "-z" : "+z", " (--camera-forward)"));
   return absl::OkStatus();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/plane_image.h"
 
 namespace viewloom::inputs {
@@ -12,8 +12,8 @@ namespace {
 using files::ExrWindow;
 
 std::string textOf(const ExrWindow& window) {
-  return absl::StrCat(window.width(), "x", window.height(), " px from ", window.min_x, ", ",
-                      window.min_y);
+  return strCat(window.width(), "x", window.height(), " px from ", window.min_x, ", ",
+                window.min_y);
 }
 
 bool isInside(const ExrWindow& inner, const ExrWindow& outer) {
@@ -38,16 +38,16 @@ void settleWindow(const ExrFrameWindows& windows, v1::ExrWindow& window, Interpr
   const ExrWindow all{std::min(display.min_x, data.min_x), std::min(display.min_y, data.min_y),
                       std::max(display.max_x, data.max_x), std::max(display.max_y, data.max_y)};
   const std::string between =
-      absl::StrCat("data window ", textOf(data), ", display window ", textOf(display));
+      strCat("data window ", textOf(data), ", display window ", textOf(display));
   if (isInside(data, display)) {
     result.notes.push_back(between + ": no surface where there is no data");
     return;
   }
   if (all.width() > files::kSideMax_px || all.height() > files::kSideMax_px) {
-    result.notes.push_back(absl::StrCat(between,
-                                        ": what is beyond the display window is left out, "
-                                        "since planes have at most ",
-                                        files::kSideMax_px, " px a side"));
+    result.notes.push_back(strCat(between,
+                                  ": what is beyond the display window is left out, "
+                                  "since planes have at most ",
+                                  files::kSideMax_px, " px a side"));
     return;
   }
   window.set_min_x(all.min_x);

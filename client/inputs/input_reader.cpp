@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "inputs/cut_depth.h"
 #include "inputs/missing_channels.h"
@@ -37,8 +37,8 @@ SampleRange rangeOfFloats(const v1::Plane& plane, const std::vector<uint8_t>& by
 
 std::string distancesNote(const InputSettings& settings) {
   const NearAndFar distances = nearAndFar(settings);
-  return absl::StrCat("depth of unknown scale is laid between ", distances.near_m, " and ",
-                      distances.far_m, " m, which suits displays (--depth-near, --depth-far)");
+  return strCat("depth of unknown scale is laid between ", distances.near_m, " and ",
+                distances.far_m, " m, which suits displays (--depth-near, --depth-far)");
 }
 
 v1::Plane& depthOf(files::LoadedFrame& frame) {
@@ -72,7 +72,7 @@ absl::Status InputReader::settleFormat(Interpretation& how, files::LoadedFrame& 
       is_2d_plus_z ? twoDPlusZFormat(settings_, range) : normalisedFormat(settings_, range);
   if (!format.ok()) {
     return absl::InvalidArgumentError(
-        absl::StrCat("--input ", nameOf(how.kind), ": ", std::string(format.status().message())));
+        strCat("--input ", nameOf(how.kind), ": ", std::string(format.status().message())));
   }
   if (!is_2d_plus_z && choosesDistances(settings_)) how.notes.push_back(distancesNote(settings_));
   *plane.mutable_depth() = *std::move(format);
@@ -91,7 +91,7 @@ absl::Status InputReader::settlePixels(const Interpretation& how, files::LoadedF
       how.source.camera().has_intrinsics() || settings_.focal_px || settings_.fov_y_deg;
   if (!has_camera || plane.depth().meaning() != v1::DEPTH_MEANING_DISPARITY ||
       how.range != DepthRange::kStated) {
-    return absl::InvalidArgumentError(absl::StrCat(
+    return absl::InvalidArgumentError(strCat(
         "--baseline ", *settings_.baseline_m,
         has_camera ? " is given for depth that is no disparity in px; it goes with --input kitti "
                      "or --depth-meaning disparity"
@@ -116,7 +116,7 @@ void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
     has_scattered_zeros_ = pattern.isScattered();
     if (*has_scattered_zeros_) {
       const double share = double(pattern.zero_count) / double(stored.size());
-      how.notes.push_back(absl::StrCat(
+      how.notes.push_back(strCat(
           std::round(1000 * share) / 10,
           " % of the depth is 0, scattered over the picture: 0 is read as no surface, not as "
           "infinitely far (--depth-far-zero makes it a sky, --depth-invalid 0 no surface always)"));
@@ -141,9 +141,9 @@ absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
                         frame->wire.planes[1], how->notes);
   }
   if (how->projection != Projection::kFlat) {
-    how->notes.push_back(absl::StrCat(
-        "panorama of all directions", settings_.projection ? "" : " by the header's envmap",
-        ": sent as a cube map, to which --fov and --focal-px do not apply"));
+    how->notes.push_back(
+        strCat("panorama of all directions", settings_.projection ? "" : " by the header's envmap",
+               ": sent as a cube map, to which --fov and --focal-px do not apply"));
     VIEWLOOM_RETURN_IF_ERROR(makeCubeMap(files.color, how->projection, *frame));
   }
   *source.mutable_camera() = settleCamera(settings_, *how, source.layers(0).planes(1).size());

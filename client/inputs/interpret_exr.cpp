@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "base/str_cat.h"
 #include "files/container.h"
 #include "files/exr_description.h"
 #include "files/exr_image.h"
@@ -189,20 +189,19 @@ class ExrInterpreter {
   }
 
   void note() {
-    std::string note = absl::StrCat(nameOf(result_.kind), ": ");
+    std::string note = strCat(nameOf(result_.kind), ": ");
     if (color_ != nullptr && !found_.color.empty()) {
-      absl::StrAppend(&note, "colour in ", absl::StrJoin(found_.color, ", "));
+      note += strCat("colour in ", absl::StrJoin(found_.color, ", "));
       const bool has_chroma = found_.color.size() > 2 && found_.color[1].ends_with("RY");
-      if (has_chroma) absl::StrAppend(&note, " (luminance and chroma)");
+      if (has_chroma) note += strCat(" (luminance and chroma)");
     }
     if (depthFile() != nullptr && !found_.depth.empty()) {
-      absl::StrAppend(&note, note.ends_with(": ") ? "" : ", ", "depth in ", found_.depth.front(),
-                      found_.depth.size() > 1 ? ", which the other channels repeat" : "",
-                      meaning());
+      note += strCat(note.ends_with(": ") ? "" : ", ", "depth in ", found_.depth.front(),
+                     found_.depth.size() > 1 ? ", which the other channels repeat" : "", meaning());
       const files::ExrDescribedPart& part = partOf(depthFile()->description, found_.depth);
       for (const files::ExrDescribedChannel& channel : part.channels) {
         if (channel.name == found_.depth.front() && channel.type == "uint") {
-          absl::StrAppend(&note, " of whole numbers");
+          note += strCat(" of whole numbers");
         }
       }
     }

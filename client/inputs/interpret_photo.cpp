@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "inputs/depth_format.h"
 #include "photos/photo.h"
@@ -46,8 +46,8 @@ void readFocalLength(const PhotoDescription& photo, Interpretation& result) {
   v1::SizePx& size = result.camera_size.emplace();
   size.set_width(photo.width_px);
   size.set_height(photo.height_px);
-  result.notes.push_back(absl::StrCat("photo: focal length ", *photo.focal_35mm,
-                                      " mm of Exif, for a film 36 mm wide (--fov)"));
+  result.notes.push_back(strCat("photo: focal length ", *photo.focal_35mm,
+                                " mm of Exif, for a film 36 mm wide (--fov)"));
 }
 
 absl::StatusOr<v1::DepthFormat> formatBetween(InputSettings settings, const PhotoDepth& depth) {
@@ -72,9 +72,9 @@ absl::StatusOr<v1::DepthFormat> statedFormat(const std::string& file, const Inpu
   if (settings.depth_scale) return format;
   if (!depth.ends) {
     return files::refuseFile(
-        file, absl::StrCat("has ", depth.type,
-                           " without the numbers that its codes stand for; give --depth-near and "
-                           "--depth-far, the metres of the nearest and of the farthest"));
+        file, strCat("has ", depth.type,
+                     " without the numbers that its codes stand for; give --depth-near and "
+                     "--depth-far, the metres of the nearest and of the farthest"));
   }
   photos::CodeEnds ends = *depth.ends;
   if (settings.is_black_near) std::swap(ends.at_zero, ends.at_most);
@@ -85,12 +85,11 @@ absl::StatusOr<v1::DepthFormat> statedFormat(const std::string& file, const Inpu
 
 void noteDepth(const PhotoDepth& depth, Interpretation& result) {
   const bool is_distance = depth.quantity == CodeQuantity::kDistance;
-  std::string note =
-      absl::StrCat("photo: ", is_distance ? "distances" : "disparity", " in ", depth.type);
+  std::string note = strCat("photo: ", is_distance ? "distances" : "disparity", " in ", depth.type);
   if (result.range == DepthRange::kStated && depth.ends) {
-    absl::StrAppend(&note, ", ", depth.ends->at_zero, " .. ", depth.ends->at_most,
-                    is_distance ? " m" : " 1/m", " by its ", depth.origin);
-    if (depth.is_relative) absl::StrAppend(&note, ", which calls itself relative");
+    note += strCat(", ", depth.ends->at_zero, " .. ", depth.ends->at_most,
+                   is_distance ? " m" : " 1/m", " by its ", depth.origin);
+    if (depth.is_relative) note += strCat(", which calls itself relative");
   }
   result.notes.push_back(std::move(note));
 }
@@ -120,9 +119,9 @@ absl::Status interpretPhoto(const InputSettings& settings, const InputFiles& fil
   if (settings.kind != InputKind::kPlain) readFocalLength(description, result);
   if (!files.depth.empty()) return absl::OkStatus();
   if (settings.kind != InputKind::kAuto && settings.kind != InputKind::kIphone) {
-    return files::refuseFile(
-        files.color, absl::StrCat("is read without --depth by --input iphone, or none; --input ",
-                                  nameOf(settings.kind), " is given"));
+    return files::refuseFile(files.color,
+                             strCat("is read without --depth by --input iphone, or none; --input ",
+                                    nameOf(settings.kind), " is given"));
   }
   VIEWLOOM_RETURN_IF_ERROR(photo->requireDepth());
   return readDepth(settings, files.color, *description.depth, result);

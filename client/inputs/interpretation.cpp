@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/container.h"
 #include "files/file_bytes.h"
 #include "files/file_extension.h"
@@ -22,23 +22,23 @@ namespace viewloom::inputs {
 namespace {
 
 constexpr std::pair<InputKind, const char*> kNames[] = {
-    {InputKind::kAuto, "auto"},       {InputKind::kPlain, "plain"},
-    {InputKind::kBlender, "blender"}, {InputKind::kUnreal, "unreal"},
-    {InputKind::kNuke, "nuke"},       {InputKind::kArnold, "arnold"},
-    {InputKind::kVray, "vray"},       {InputKind::kRedshift, "redshift"},
-    {InputKind::kHoudini, "houdini"}, {InputKind::kRgbd, "rgbd"},
-    {InputKind::k2dPlusZ, "2d+z"},    {InputKind::kSensor, "sensor"},
-    {InputKind::kOpenXr, "openxr"},   {InputKind::kTmiv, "tmiv"},
-    {InputKind::kIphone, "iphone"},   {InputKind::kRelative, "relative"},
-    {InputKind::kKitti, "kitti"},     {InputKind::kTum, "tum"},
-    {InputKind::kL515, "l515"},       {InputKind::kD405, "d405"},
+    {InputKind::kAuto, "auto"},        {InputKind::kPlain, "plain"},
+    {InputKind::kBlender, "blender"},  {InputKind::kUnreal, "unreal"},
+    {InputKind::kNuke, "nuke"},        {InputKind::kArnold, "arnold"},
+    {InputKind::kVray, "vray"},        {InputKind::kRedshift, "redshift"},
+    {InputKind::kHoudini, "houdini"},  {InputKind::kRgbd, "rgbd"},
+    {InputKind::k2dPlusZ, "2d+z"},     {InputKind::kSensor, "sensor"},
+    {InputKind::kOpenXr, "openxr"},    {InputKind::kTmiv, "tmiv"},
+    {InputKind::kIphone, "iphone"},    {InputKind::kRelative, "relative"},
+    {InputKind::kKitti, "kitti"},      {InputKind::kTum, "tum"},
+    {InputKind::kL515, "l515"},        {InputKind::kD405, "d405"},
     {InputKind::kRecord3d, "record3d"}};
 
 // CARLA's cameras see as far; white of their packed depth.
 constexpr double kCarlaFar_m = 1000;
 
 absl::Status refuseInput(InputKind kind, const std::string& problem) {
-  return absl::InvalidArgumentError(absl::StrCat("--input ", nameOf(kind), " ", problem));
+  return absl::InvalidArgumentError(strCat("--input ", nameOf(kind), " ", problem));
 }
 
 v1::ImagePart oppositeOf(v1::ImagePart part) {
@@ -100,12 +100,12 @@ absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
     if (!count.ok()) return count.status();
     if (result.video_frame_count != 1 && result.video_frame_count != *count) {
       return files::refuseFile(
-          plane->file(), absl::StrCat("has ", *count, " frames, the colour ",
-                                      result.video_frame_count, "; accepted is the same number"));
+          plane->file(), strCat("has ", *count, " frames, the colour ", result.video_frame_count,
+                                "; accepted is the same number"));
     }
     result.video_frame_count = *count;
   }
-  result.notes.push_back(absl::StrCat("camera ", camera->name, " of ", settings.camera_file));
+  result.notes.push_back(strCat("camera ", camera->name, " of ", settings.camera_file));
   return absl::OkStatus();
 }
 
@@ -139,7 +139,7 @@ absl::Status readPacking(const InputSettings& settings, Interpretation& result) 
   }
   format.set_scale(kCarlaFar_m);
   result.notes.push_back(
-      absl::StrCat("depth: packed, white is ", kCarlaFar_m, " m as CARLA has it (--depth-scale)"));
+      strCat("depth: packed, white is ", kCarlaFar_m, " m as CARLA has it (--depth-scale)"));
   return absl::OkStatus();
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/container.h"
 #include "files/exr_description.h"
 #include "files/exr_usual.h"
@@ -14,8 +14,7 @@ namespace {
 
 absl::Status refuseMissing(const std::string& file, const std::string& problem,
                            const files::ExrDescription& description) {
-  return files::refuseFile(file,
-                           absl::StrCat(problem, "; it has ", files::listExrChannels(description)));
+  return files::refuseFile(file, strCat(problem, "; it has ", files::listExrChannels(description)));
 }
 
 }  // namespace
@@ -27,9 +26,9 @@ absl::Status requireExrChannels(const InputFiles& files, const Interpretation& h
     if (!description.ok()) return description.status();
     if (!layer.depth().channels().empty() && files.depth.empty()) {
       return refuseMissing(files.color,
-                           absl::StrCat("has depth alone, in ", layer.depth().channels(0),
-                                        ": name the colour file first and this one with --depth, "
-                                        "or its colour with --color-channels"),
+                           strCat("has depth alone, in ", layer.depth().channels(0),
+                                  ": name the colour file first and this one with --depth, "
+                                  "or its colour with --color-channels"),
                            *description);
     }
     if (files::hasPositionsAlone(*description)) {

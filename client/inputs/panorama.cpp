@@ -17,7 +17,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/jpeg_image.h"
 #include "files/plane_image.h"
@@ -194,9 +194,9 @@ absl::Status check(const std::string& file, Projection projection, const v1::Lay
       continue;
     }
     return files::refuseFile(
-        file, absl::StrCat("is a cube map of ", plane.size().width(), "x", plane.size().height(),
-                           " px; accepted are six square faces, one below "
-                           "the other, colour and depth alike"));
+        file, strCat("is a cube map of ", plane.size().width(), "x", plane.size().height(),
+                     " px; accepted are six square faces, one below "
+                     "the other, colour and depth alike"));
   }
   return absl::OkStatus();
 }

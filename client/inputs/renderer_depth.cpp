@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom::inputs {
 namespace {
@@ -82,8 +82,8 @@ void settleRendererDepth(const InputSettings& settings, v1::Plane& plane, Shared
   }
   bytes = std::move(settled);
   const double percent = std::round(1000.0 * double(huge_count) / double(count)) / 10;
-  notes.push_back(absl::StrCat(percent, " % of the depth is ", huge,
-                               " or the like, where nothing was hit: infinitely far"));
+  notes.push_back(strCat(percent, " % of the depth is ", huge,
+                         " or the like, where nothing was hit: infinitely far"));
 }
 
 }  // namespace viewloom::inputs

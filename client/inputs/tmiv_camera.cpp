@@ -10,7 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/plane_image.h"
 #include "inputs/axes.h"
@@ -62,7 +62,7 @@ class CameraReader {
     if (!status_.ok()) return 0;
     std::string came = camera_.contains(key) ? camera_[key].dump() : "missing";
     if (came.size() > 60) came = came.substr(0, 60) + "...";
-    status_ = files::refuseFile(file_, absl::StrCat(key, " is ", came, "; accepted is ", accepted));
+    status_ = files::refuseFile(file_, strCat(key, " is ", came, "; accepted is ", accepted));
     return 0;
   }
 
@@ -133,7 +133,7 @@ absl::StatusOr<TmivCamera> cameraOf(const std::string& file, const Json& json) {
   }
   const double width = reader.number("Resolution", 0), height = reader.number("Resolution", 1);
   if (!(width >= 1 && height >= 1 && width <= files::kSideMax_px && height <= files::kSideMax_px)) {
-    reader.refuse("Resolution", absl::StrCat("[width, height] in px, 1..", files::kSideMax_px));
+    reader.refuse("Resolution", strCat("[width, height] in px, 1..", files::kSideMax_px));
   }
   const double color_bits = reader.numberOr("BitDepthColor", 10);
   const double depth_bits = reader.numberOr("BitDepthDepth", 16);
@@ -199,11 +199,11 @@ absl::StatusOr<TmivCamera> readTmivCamera(const std::filesystem::path& path,
   for (const Json* camera : cameras) {
     const std::string its_name = nameIn(*camera);
     if (isMeant(its_name, name, depth_stem)) return cameraOf(path.string(), *camera);
-    absl::StrAppend(&names, names.empty() ? "" : ", ", its_name);
+    names += strCat(names.empty() ? "" : ", ", its_name);
   }
   if (cameras.size() == 1 && name.empty()) return cameraOf(path.string(), *cameras.front());
-  return files::refuseFile(
-      path.string(), absl::StrCat("has no camera ", name.empty() ? "of " + depth_file : name,
+  return files::refuseFile(path.string(),
+                           strCat("has no camera ", name.empty() ? "of " + depth_file : name,
                                   "; its cameras are ", names, ": pick one with --camera-name"));
 }
 

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "absl/strings/numbers.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "inputs/axes.h"
 
 namespace viewloom::inputs {
@@ -34,9 +34,9 @@ class HeaderNumbers {
       if (absl::SimpleAtod(text, &value) && std::abs(value) <= kNumberMax) return value;
       if (status_.ok()) {
         status_ = absl::InvalidArgumentError(
-            absl::StrCat(file_, ": header ", name, " is \"", text.substr(0, 40),
-                         "\"; accepted is a number: correct it, or give the camera by --fov and "
-                         "--input plain"));
+            strCat(file_, ": header ", name, " is \"", text.substr(0, 40),
+                   "\"; accepted is a number: correct it, or give the camera by --fov and "
+                   "--input plain"));
       }
     }
     return std::nullopt;
@@ -94,8 +94,8 @@ absl::StatusOr<std::optional<v1::Camera>> unrealCamera(
   if (fov_x_deg) {
     if (!(*fov_x_deg > 0.01 && *fov_x_deg < 179)) {
       return absl::InvalidArgumentError(
-          absl::StrCat(file, ": the header's field of view is ", *fov_x_deg,
-                       " degrees; accepted is 0.01..179: give it by --fov and --input plain"));
+          strCat(file, ": the header's field of view is ", *fov_x_deg,
+                 " degrees; accepted is 0.01..179: give it by --fov and --input plain"));
     }
     *camera.mutable_intrinsics() = intrinsicsAcross(*fov_x_deg, width_px, height_px, pixel_aspect);
   }

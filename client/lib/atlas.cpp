@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -19,7 +19,7 @@ std::string nameOf(v1::AtlasPlane plane) {
 
 absl::Status missing(v1::AtlasPlane plane) {
   return absl::FailedPreconditionError(
-      absl::StrCat("the atlas has no whole ", nameOf(plane), "; it has to be asked for"));
+      strCat("the atlas has no whole ", nameOf(plane), "; it has to be asked for"));
 }
 
 std::vector<const AtlasBand*> bandsOf(const Atlas& atlas, v1::AtlasPlane plane, uint32_t image) {
@@ -61,9 +61,8 @@ absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_
   if (tjDecompressHeader3(handle.get(), bytes, jpeg.size(), &width, &height, &subsampling,
                           &color_space) != 0 ||
       width != static_cast<int>(picture.width_px) || height != static_cast<int>(image_height)) {
-    return absl::DataLossError(absl::StrCat("the JPEG is ", width, "x", height,
-                                            " px; the layout says ", picture.width_px, "x",
-                                            image_height));
+    return absl::DataLossError(strCat("the JPEG is ", width, "x", height, " px; the layout says ",
+                                      picture.width_px, "x", image_height));
   }
   const size_t image_bytes = size_t{picture.width_px} * image_height * picture.channels;
   if (tjDecompress2(handle.get(), bytes, jpeg.size(), &picture.samples[image * image_bytes], width,
@@ -77,8 +76,8 @@ absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_
 absl::Status unpackBand(const AtlasBand& band, uint8_t* out, size_t size) {
   if (band.encoding == v1::BAND_ENCODING_RAW) {
     if (band.bytes.size() != size) {
-      return absl::DataLossError(absl::StrCat("band at row ", band.first_row, " has ",
-                                              band.bytes.size(), " bytes; expected ", size));
+      return absl::DataLossError(strCat("band at row ", band.first_row, " has ", band.bytes.size(),
+                                        " bytes; expected ", size));
     }
     std::memcpy(out, band.bytes.data(), size);
     return absl::OkStatus();
@@ -86,7 +85,7 @@ absl::Status unpackBand(const AtlasBand& band, uint8_t* out, size_t size) {
   const size_t got = ZSTD_decompress(out, size, band.bytes.data(), band.bytes.size());
   if (ZSTD_isError(got) != 0 || got != size) {
     return absl::DataLossError(
-        absl::StrCat("band at row ", band.first_row, " does not inflate to ", size, " bytes"));
+        strCat("band at row ", band.first_row, " does not inflate to ", size, " bytes"));
   }
   return absl::OkStatus();
 }

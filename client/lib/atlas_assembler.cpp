@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 
@@ -51,13 +51,12 @@ void AtlasAssembler::begin(v1::AtlasHeader header) {
 
 absl::Status AtlasAssembler::addBand(v1::Band band) {
   if (!open_ || band.sequence() != open_->header.sequence()) {
-    return absl::DataLossError(
-        absl::StrCat("a band of atlas ", band.sequence(), " came outside it"));
+    return absl::DataLossError(strCat("a band of atlas ", band.sequence(), " came outside it"));
   }
   bytes_ += band.data().size();
   if (bytes_ > bytes_max_) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("atlas ", band.sequence(), " has more than ", bytes_max_, " bytes"));
+        strCat("atlas ", band.sequence(), " has more than ", bytes_max_, " bytes"));
   }
   if (!band_is_open_) {
     open_->bands.push_back({.image_index = band.image_index(),
@@ -70,8 +69,8 @@ absl::Status AtlasAssembler::addBand(v1::Band band) {
   AtlasBand& to = open_->bands.back();
   if (band.offset_bytes() != to.bytes.size() || band.first_row() != to.first_row ||
       band.plane() != to.plane || band.image_index() != to.image_index) {
-    return absl::DataLossError(absl::StrCat("a piece of atlas ", band.sequence(), ", row ",
-                                            band.first_row(), ", came out of order"));
+    return absl::DataLossError(strCat("a piece of atlas ", band.sequence(), ", row ",
+                                      band.first_row(), ", came out of order"));
   }
   if (to.bytes.empty()) {
     to.bytes = std::move(*band.mutable_data());
@@ -85,7 +84,7 @@ absl::Status AtlasAssembler::addBand(v1::Band band) {
 absl::StatusOr<std::optional<Atlas>> AtlasAssembler::end(uint64_t sequence) {
   if (!open_ || sequence != open_->header.sequence() || band_is_open_ ||
       open_->bands.size() != open_->header.band_count()) {
-    return absl::DataLossError(absl::StrCat("atlas ", sequence, " ended before it was whole"));
+    return absl::DataLossError(strCat("atlas ", sequence, " ended before it was whole"));
   }
   std::optional<Atlas> whole = std::exchange(open_, std::nullopt);
   bytes_ = 0;

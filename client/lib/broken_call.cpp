@@ -8,7 +8,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/channel.h"
 
 namespace viewloom {
@@ -90,8 +90,8 @@ std::string explainBrokenCall(const absl::Status& status) {
     return candidate.code == status.code() && absl::StrContains(status.message(), sign);
   });
   if (cause == kCauses.end()) return "";
-  return absl::StrCat(std::string(cause->cause), " (", status.message(), "); ",
-                      std::string(cause->remedy));
+  return strCat(std::string(cause->cause), " (", status.message(), "); ",
+                std::string(cause->remedy));
 }
 
 }  // namespace viewloom

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/channel.h"
 
 namespace viewloom {
@@ -25,7 +25,7 @@ absl::StatusOr<Response> call(Stub& stub,
   Response response;
   const grpc::Status status = (stub.*method)(&context, request, &response);
   if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
-    return absl::DeadlineExceededError(absl::StrCat("no answer within ", kPatience.count(), " s"));
+    return absl::DeadlineExceededError(strCat("no answer within ", kPatience.count(), " s"));
   }
   if (!status.ok()) return statusFromGrpc(status);
   return response;

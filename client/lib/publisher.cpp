@@ -5,8 +5,8 @@
 #include <random>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 #include "lib/channel.h"
 #include "lib/frame_messages.h"
 #include "lib/server_clock.h"
@@ -17,8 +17,7 @@ namespace {
 PublisherOptions withSession(PublisherOptions options) {
   if (!options.session_id.empty()) return options;
   std::random_device random;  // 128 bits, not to be guessed
-  for (int i = 0; i < 4; ++i)
-    absl::StrAppend(&options.session_id, absl::Hex(random(), absl::kZeroPad8));
+  for (int i = 0; i < 4; ++i) options.session_id += strCat(absl::Hex(random(), absl::kZeroPad8));
   return options;
 }
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/inverse_depth.h"
 
 namespace viewloom {
@@ -147,9 +147,9 @@ QuantisedDepth quantiseDepth(v1::Source& source, std::span<SharedBytes> planes) 
   const double step_max = focal_inv_z > 0 ? focal_inv_z / focal_px : grid.step;
   if (grid.step > step_max) {
     return {.step_max = step_max,
-            .kept_because = absl::StrCat("16 bits from ", grid.inv_z_min, " to ", grid.invZMax(),
-                                         " 1/m are steps of ", grid.step, " 1/m; no more than ",
-                                         step_max, " stay unseen")};
+            .kept_because = strCat("16 bits from ", grid.inv_z_min, " to ", grid.invZMax(),
+                                   " 1/m are steps of ", grid.step, " 1/m; no more than ", step_max,
+                                   " stay unseen")};
   }
   for (DepthPlane& depth : depths) replace(depth, grid, codesOf(depth, grid));
   return {.step = grid.step, .step_max = step_max, .kept_because = {}};

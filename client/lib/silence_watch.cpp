@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/retry_loop.h"
 
 namespace viewloom {
@@ -21,8 +21,8 @@ void SilenceWatch::listens() {
 absl::Status SilenceWatch::status() const {
   const auto silence = options_.tick * options_.tick_count_max;
   return absl::UnavailableError(
-      absl::StrCat("the server has been silent for ",
-                   std::chrono::duration_cast<std::chrono::seconds>(silence).count(), " s"));
+      strCat("the server has been silent for ",
+             std::chrono::duration_cast<std::chrono::seconds>(silence).count(), " s"));
 }
 
 void SilenceWatch::run(const std::stop_token& stop) {

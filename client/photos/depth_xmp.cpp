@@ -5,8 +5,8 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
+#include "base/str_cat.h"
 
 namespace viewloom::photos {
 namespace {
@@ -31,7 +31,7 @@ std::string prefixOf(absl::string_view xml, absl::string_view uri) {
 
 // The text of an element without attributes, or an attribute's value, named `prefix`:`name`.
 std::string valueOf(absl::string_view xml, const std::string& prefix, const char* name) {
-  const std::string full = absl::StrCat(prefix, ":", name);
+  const std::string full = strCat(prefix, ":", name);
   for (size_t at = xml.find(full); at != absl::string_view::npos; at = xml.find(full, at + 1)) {
     const bool begins = at > 0 && (xml[at - 1] == '<' || absl::ascii_isspace(xml[at - 1]));
     absl::string_view rest = absl::StripLeadingAsciiWhitespace(xml.substr(at + full.size()));

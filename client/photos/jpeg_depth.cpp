@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "absl/strings/escaping.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "files/exif.h"
 #include "files/file_bytes.h"
 #include "files/jpeg_image.h"
@@ -43,7 +43,7 @@ std::optional<JpegDepth> findAuxiliaryDepth(std::span<const uint8_t> bytes,
     const DepthXmp xmp = parseDepthXmp(its.xmp);
     if (xmp.image_type != "disparity" && xmp.image_type != "depth") continue;
     JpegDepth found;
-    found.depth.type = absl::StrCat("an auxiliary picture of ", xmp.image_type);
+    found.depth.type = strCat("an auxiliary picture of ", xmp.image_type);
     readDepthXmp(xmp, found.depth);
     found.bytes.assign(picture.begin(), picture.end());
     return found;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "base/str_cat.h"
 #include "files/container.h"
 #include "files/exif.h"
 #include "files/file_bytes.h"
@@ -23,9 +23,9 @@ namespace {
 constexpr uint64_t kPhotoBytesMax = uint64_t{256} << 20;
 
 absl::Status refuseHeif(const std::string& name, const char* what, const std::string& why) {
-  return files::refuseFile(
-      name, absl::StrCat(what, ": ", absl::StripAsciiWhitespace(why),
-                         "; copy it anew from where it was taken, unchanged (.heic)"));
+  return files::refuseFile(name,
+                           strCat(what, ": ", absl::StripAsciiWhitespace(why),
+                                  "; copy it anew from where it was taken, unchanged (.heic)"));
 }
 
 std::optional<double> focalOf(const heif_image_handle* image) {
@@ -80,9 +80,9 @@ absl::StatusOr<Rows> decodeImage(const std::string& name, const heif_image_handl
   if (width_px != heif_image_handle_get_width(handle) ||
       height_px != heif_image_handle_get_height(handle)) {
     return files::refuseFile(
-        name, absl::StrCat("says ", heif_image_handle_get_width(handle), "x",
-                           heif_image_handle_get_height(handle), " px of an image of ", width_px,
-                           "x", height_px, "; the file is damaged"));
+        name, strCat("says ", heif_image_handle_get_width(handle), "x",
+                     heif_image_handle_get_height(handle), " px of an image of ", width_px, "x",
+                     height_px, "; the file is damaged"));
   }
   return rows;
 }
@@ -178,10 +178,10 @@ absl::Status Photo::requireDepth() const {
   const std::string others =
       description_.other_types.empty()
           ? "no auxiliary image"
-          : absl::StrCat("auxiliary images of ", absl::StrJoin(description_.other_types, ", "));
-  return files::refuseFile(name_, absl::StrCat("has no depth: it holds ", others,
-                                               "; take it in portrait mode, or give --depth FILE "
-                                               "beside it"));
+          : strCat("auxiliary images of ", absl::StrJoin(description_.other_types, ", "));
+  return files::refuseFile(name_, strCat("has no depth: it holds ", others,
+                                         "; take it in portrait mode, or give --depth FILE "
+                                         "beside it"));
 }
 
 absl::StatusOr<files::PlaneImage> Photo::readColor() const {
@@ -214,8 +214,8 @@ absl::StatusOr<files::PlaneImage> Photo::readDepth() const {
                           .encoding = v1::PLANE_ENCODING_DEPTH_U16,
                           .code_max = depth.code_max};
   if (rows->bits < 8 || rows->bits > 16 || (1U << rows->bits) - 1 != depth.code_max) {
-    return files::refuseFile(name_, absl::StrCat("has depth of ", rows->bits,
-                                                 " bits; accepted are 8 to 16, as it says itself"));
+    return files::refuseFile(name_, strCat("has depth of ", rows->bits,
+                                           " bits; accepted are 8 to 16, as it says itself"));
   }
   image.bytes.resize(size_t{2} * image.width_px * image.height_px);
   const size_t sample_bytes = rows->bits == 8 ? 1 : 2;

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/file_name_part.h"
 
 namespace viewloom {
@@ -19,8 +19,8 @@ std::string problemOf(const v1::AtlasLayout& layout) {
   const uint64_t width = layout.size().width();
   const uint64_t height = layout.size().height();
   if (std::min(width, height) == 0 || std::max(width, height) > kSideMax_px) {
-    return absl::StrCat("has an atlas of ", width, "x", height, " px, accepted are 1..",
-                        kSideMax_px, " a side,");
+    return strCat("has an atlas of ", width, "x", height, " px, accepted are 1..", kSideMax_px,
+                  " a side,");
   }
   const bool has_room =
       uint64_t{layout.columns()} * layout.tile_size().width() <= width &&

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "lib/frame_messages.h"
 
 namespace viewloom {
@@ -85,8 +85,8 @@ absl::Status FrameRecordingReader::takeChunk(const RecordedMessage& message, uin
   const v1::FrameChunk& chunk = request.chunk();
   if (!is_chunk || chunk.plane_index() != plane || chunk.offset_bytes() != bytes.size() ||
       chunk.data().empty() || chunk.data().size() > plane_bytes - bytes.size()) {
-    return reader_->refuse(absl::StrCat("lacks the piece of plane ", plane, " from its byte ",
-                                        bytes.size(), " of ", plane_bytes));
+    return reader_->refuse(strCat("lacks the piece of plane ", plane, " from its byte ",
+                                  bytes.size(), " of ", plane_bytes));
   }
   bytes.insert(bytes.end(), chunk.data().begin(), chunk.data().end());
   return absl::OkStatus();

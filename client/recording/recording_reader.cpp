@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 
@@ -15,10 +15,10 @@ absl::StatusOr<std::unique_ptr<RecordingReader>> RecordingReader::open(
     const std::filesystem::path& path, RecordingKind kind) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
+    return absl::NotFoundError(strCat(path.string(), ": no such file"));
   }
   const uint64_t size_bytes = std::filesystem::file_size(path, error);
-  if (error) return absl::NotFoundError(absl::StrCat(path.string(), ": ", error.message()));
+  if (error) return absl::NotFoundError(strCat(path.string(), ": ", error.message()));
   std::unique_ptr<RecordingReader> reader(new RecordingReader(path, size_bytes));
   VIEWLOOM_RETURN_IF_ERROR(reader->readHead(kind));
   return reader;
@@ -31,22 +31,22 @@ absl::Status RecordingReader::readHead(RecordingKind kind) {
   const uint64_t found = readNumber(sizeof(uint32_t));
   if (!in_ || magic != kRecordingMagic) {
     return absl::InvalidArgumentError(
-        absl::StrCat(path_.string(),
-                     ": is no recording; accepted is what `viewloom record` or `viewloom publish "
-                     "--record` wrote"));
+        strCat(path_.string(),
+               ": is no recording; accepted is what `viewloom record` or `viewloom publish "
+               "--record` wrote"));
   }
   if (version != kRecordingVersion) {
-    return absl::InvalidArgumentError(absl::StrCat(path_.string(), ": is a recording of version ",
-                                                   version, "; accepted is ", kRecordingVersion));
+    return absl::InvalidArgumentError(strCat(path_.string(), ": is a recording of version ",
+                                             version, "; accepted is ", kRecordingVersion));
   }
   position_ = kRecordingHeadBytes;
   if (found == static_cast<uint32_t>(kind)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat(path_.string(), ": is a recording of ",
-                   kind == RecordingKind::kFrames
-                       ? "atlases; `viewloom watch --from` takes it, accepted are frames"
-                       : "frames; `viewloom publish --replay` takes it, accepted are "
-                         "atlases"));
+      strCat(path_.string(), ": is a recording of ",
+             kind == RecordingKind::kFrames
+                 ? "atlases; `viewloom watch --from` takes it, accepted are frames"
+                 : "frames; `viewloom publish --replay` takes it, accepted are "
+                   "atlases"));
 }
 
 uint64_t RecordingReader::readNumber(size_t byte_count) {
@@ -58,12 +58,12 @@ uint64_t RecordingReader::readNumber(size_t byte_count) {
 }
 
 absl::Status RecordingReader::cannotRead() const {
-  return absl::DataLossError(absl::StrCat(path_.string(), ": cannot be read"));
+  return absl::DataLossError(strCat(path_.string(), ": cannot be read"));
 }
 
 absl::Status RecordingReader::refuse(const std::string& problem) const {
   return absl::InvalidArgumentError(
-      absl::StrCat(path_.string(), ": ", problem, " at byte ", record_position_));
+      strCat(path_.string(), ": ", problem, " at byte ", record_position_));
 }
 
 absl::StatusOr<std::optional<RecordedMessage>> RecordingReader::next() {
@@ -77,15 +77,15 @@ absl::StatusOr<std::optional<RecordedMessage>> RecordingReader::next() {
   if (!in_) return cannotRead();
   position_ += kRecordHeadBytes;
   if (message.time_ns < last_time_ns_) {
-    return refuse(absl::StrCat("has the time ", message.time_ns, " ns after ", last_time_ns_));
+    return refuse(strCat("has the time ", message.time_ns, " ns after ", last_time_ns_));
   }
   last_time_ns_ = message.time_ns;
   if (length > kRecordBytesMax) {
-    return refuse(absl::StrCat("has a message of ", length, " bytes, accepted are up to ",
-                               kRecordBytesMax, ","));
+    return refuse(
+        strCat("has a message of ", length, " bytes, accepted are up to ", kRecordBytesMax, ","));
   }
   if (length == 0) {
-    if (restBytes() > 0) return refuse(absl::StrCat("has ", restBytes(), " bytes after its end"));
+    if (restBytes() > 0) return refuse(strCat("has ", restBytes(), " bytes after its end"));
     is_complete_ = true;
     return std::optional<RecordedMessage>();
   }

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -45,7 +45,7 @@ absl::Status RecordingWriter::add(int64_t time_ns, const google::protobuf::Messa
   if (written.ok()) last_time_ns_ = time_ns;
   if (written.ok() || whole_bytes_ == 0) return written;
   return absl::FailedPreconditionError(
-      absl::StrCat(written.message(), "; the recording ends here and keeps what came before"));
+      strCat(written.message(), "; the recording ends here and keeps what came before"));
 }
 
 void RecordingWriter::markWhole() {
@@ -55,7 +55,7 @@ void RecordingWriter::markWhole() {
 absl::Status RecordingWriter::complete() {
   if (whole_bytes_ == 0) {
     return absl::FailedPreconditionError(
-        absl::StrCat(path_.string(), ": is not written, as nothing whole came to be recorded"));
+        strCat(path_.string(), ": is not written, as nothing whole came to be recorded"));
   }
   VIEWLOOM_RETURN_IF_ERROR(out_->cutTo(whole_bytes_));
   const absl::Status ended = out_->write(recordHead(last_time_ns_, 0));

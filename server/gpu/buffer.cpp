@@ -3,8 +3,8 @@
 
 #include <atomic>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -47,9 +47,9 @@ uint32_t memoryType(const Device& device, uint32_t allowed_types, MemoryIntent i
 vk::raii::Buffer makeBuffer(const Device& device, const BufferOptions& options) {
   VIEWLOOM_CHECK(options.size_bytes > 0);
   if (options.size_bytes > device.info().limits.allocation_bytes_max) {
-    throw vk::OutOfDeviceMemoryError(absl::StrCat(options.debug_name, " needs a buffer of ",
-                                                  options.size_bytes, " bytes; the device allows ",
-                                                  device.info().limits.allocation_bytes_max));
+    throw vk::OutOfDeviceMemoryError(strCat(options.debug_name, " needs a buffer of ",
+                                            options.size_bytes, " bytes; the device allows ",
+                                            device.info().limits.allocation_bytes_max));
   }
   using Usage = vk::BufferUsageFlagBits;
   return {device.handle(),

@@ -8,8 +8,8 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "base/str_cat.h"
 #include "gpu/device_features.h"
 
 namespace viewloom {
@@ -82,7 +82,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, uint32_t index) {
     const auto driver =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
             .get<vk::PhysicalDeviceDriverProperties>();
-    info.driver = absl::StrCat(driver.driverName.data(), ", ", driver.driverInfo.data());
+    info.driver = strCat(driver.driverName.data(), ", ", driver.driverInfo.data());
     info.limits = limitsOf(device);
   }
   return info;
@@ -117,22 +117,22 @@ uint32_t choose(const std::vector<DeviceInfo>& infos, const std::string& select)
   for (const DeviceInfo& info : infos) {
     if (!select.empty() && !isSelected(info, select)) continue;
     if (!info.missing_features.empty()) {
-      absl::StrAppend(&refused, "\n  ", info.index, " ", info.name, " lacks ",
-                      absl::StrJoin(info.missing_features, ", "));
+      refused += strCat("\n  ", info.index, " ", info.name, " lacks ",
+                        absl::StrJoin(info.missing_features, ", "));
     } else if (!best || (infos[*best].is_software && !info.is_software)) {
       best = info.index;
     }
   }
   if (best) return *best;
   if (!refused.empty()) {
-    throw std::runtime_error(absl::StrCat("no usable Vulkan device; update the driver or choose ",
-                                          "another device with --device:", refused));
+    throw std::runtime_error(strCat("no usable Vulkan device; update the driver or choose ",
+                                    "another device with --device:", refused));
   }
   const auto name = [](std::string* out, const DeviceInfo& info) {
-    absl::StrAppend(out, "\n  ", info.index, " ", info.name);
+    *out += strCat("\n  ", info.index, " ", info.name);
   };
-  throw std::runtime_error(absl::StrCat("no Vulkan device matches \"", select,
-                                        "\"; there are:", absl::StrJoin(infos, "", name)));
+  throw std::runtime_error(strCat("no Vulkan device matches \"", select,
+                                  "\"; there are:", absl::StrJoin(infos, "", name)));
 }
 
 uint32_t computeFamily(const vk::raii::PhysicalDevice& device) {

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 #include "publish/member.h"
 
 namespace viewloom {
@@ -52,11 +52,11 @@ absl::Status Broadcaster::State::checkRoom(bool is_new_display) const {
   if (is_draining) return absl::UnavailableError("the server is shutting down");
   if (subscriber_count >= limits.subscriber_count_max) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("too many subscribers: accepted are up to ", limits.subscriber_count_max));
+        strCat("too many subscribers: accepted are up to ", limits.subscriber_count_max));
   }
   if (is_new_display && displays.size() >= limits.display_count_max) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("too many distinct displays: accepted are up to ", limits.display_count_max));
+        strCat("too many distinct displays: accepted are up to ", limits.display_count_max));
   }
   return absl::OkStatus();
 }
@@ -118,14 +118,14 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
     std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes) {
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   // A stream's name holds no blank, so that the parts cannot run into each other.
-  std::string picture_key = absl::StrCat(stream, " ", displayKey(spec));
+  std::string picture_key = strCat(stream, " ", displayKey(spec));
   MemberPtr member;
   AtlasPtr newest;
   uint64_t display_id = 0;
   {
     std::lock_guard lock(state_->mutex);
-    if (eyes != nullptr) absl::StrAppend(&picture_key, "of ", state_->next_id, " ");
-    const std::string key = absl::StrCat(picture_key, encodingKey(encoding));
+    if (eyes != nullptr) picture_key += strCat("of ", state_->next_id, " ");
+    const std::string key = strCat(picture_key, encodingKey(encoding));
     const auto known = state_->id_of_key.find(key);
     const bool is_new = known == state_->id_of_key.end();
     VIEWLOOM_RETURN_IF_ERROR(state_->checkRoom(is_new));

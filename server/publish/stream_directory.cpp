@@ -6,8 +6,8 @@
 #include <mutex>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "base/retry_delay.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -76,12 +76,11 @@ struct StreamDirectory::State {
 // Who has the stream and since when; worth another try for the same user.
 absl::Status alreadyPublished(const KnownStream& known, const std::string& host, int64_t now_ns) {
   const int64_t held_s = (now_ns - known.claimed_ns) / 1'000'000'000;
-  const std::string held =
-      held_s < 120 ? absl::StrCat(held_s, " s") : absl::StrCat(held_s / 60, " min");
+  const std::string held = held_s < 120 ? strCat(held_s, " s") : strCat(held_s / 60, " min");
   const absl::Status status = absl::AlreadyExistsError(
-      absl::StrCat("stream \"", known.entry.name, "\" has a publisher",
-                   known.host.empty() ? "" : absl::StrCat(" on ", known.host), ", for ", held,
-                   " now; accepted is its session_id, or another name"));
+      strCat("stream \"", known.entry.name, "\" has a publisher",
+             known.host.empty() ? "" : strCat(" on ", known.host), ", for ", held,
+             " now; accepted is its session_id, or another name"));
   return !host.empty() && known.host == host ? worthRetry(status, kRetryDelay_ns) : status;
 }
 
@@ -114,7 +113,7 @@ absl::Status StreamDirectory::State::makeRoomFor(const std::string& stream) {
     return absl::OkStatus();
   }
   return absl::ResourceExhaustedError(
-      absl::StrCat("too many streams: accepted are up to ", stream_count_max));
+      strCat("too many streams: accepted are up to ", stream_count_max));
 }
 
 StreamDirectory::StreamDirectory(const Clock& clock, uint32_t stream_count_max)
@@ -135,7 +134,7 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
     const bool is_new = !state_->streams.contains(stream);
     if (is_new && state_->streams.size() >= state_->stream_count_max) {
       return absl::ResourceExhaustedError(
-          absl::StrCat("too many streams: accepted are up to ", state_->stream_count_max));
+          strCat("too many streams: accepted are up to ", state_->stream_count_max));
     }
     KnownStream& known = state_->streams[stream];
     const bool is_live = known.claim_id != 0;

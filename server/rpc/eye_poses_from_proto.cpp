@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/eye_poses_from_proto.h"
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "messages/geometry_from_proto.h"
 
 namespace viewloom {
@@ -27,12 +27,11 @@ absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto) {
                  .eyes = {}};
   if (proto.eyes_size() != int(poses.eyes.size())) {
     return invalidField("eye_poses.eyes",
-                        absl::StrCat("got ", proto.eyes_size(), ", accepted is two: left, right"));
+                        strCat("got ", proto.eyes_size(), ", accepted is two: left, right"));
   }
   for (int i = 0; i < proto.eyes_size(); ++i) {
     const auto eye = eyeFromProto(proto.eyes(i));
-    VIEWLOOM_RETURN_IF_ERROR(
-        withFieldPrefix(eye.status(), absl::StrCat("eye_poses.eyes[", i, "]")));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(eye.status(), strCat("eye_poses.eyes[", i, "]")));
     poses.eyes[size_t(i)] = *eye;
   }
   return poses;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/str_cat.h"
 #include "frame/cube_map.h"
 #include "messages/depth_format_from_proto.h"
 #include "messages/enum_from_proto.h"
@@ -139,14 +140,14 @@ absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
   std::optional<PlaneFormat> color;
   std::optional<PlaneFormat> depth;
   for (int i = 0; i < proto.planes_size(); ++i) {
-    const std::string path = absl::StrCat("planes[", i, "]");
+    const std::string path = strCat("planes[", i, "]");
     const auto plane = planeFromProto(proto.planes(i));
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(plane.status(), path));
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(addPlane(*plane, color, depth, layer), path));
   }
   if (!color || !depth) {
-    return invalidField("planes", absl::StrCat("got ", proto.planes_size(),
-                                               "; accepted: one COLOR and one DEPTH plane"));
+    return invalidField(
+        "planes", strCat("got ", proto.planes_size(), "; accepted: one COLOR and one DEPTH plane"));
   }
   layer.color = *color;
   layer.depth = *depth;
@@ -184,8 +185,8 @@ absl::Status cameraFromProto(const v1::Source& source, SizePx size_px, Camera& c
 absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const FrameLimits& limits) {
   const auto layer_count = static_cast<uint32_t>(proto.layers_size());
   if (layer_count == 0 || layer_count > limits.layer_count_max) {
-    return invalidField("layers", absl::StrCat("has ", layer_count, " entries, must have 1..",
-                                               limits.layer_count_max));
+    return invalidField(
+        "layers", strCat("has ", layer_count, " entries, must have 1..", limits.layer_count_max));
   }
   SourceFormat source;
   source.connection_tolerance = proto.connection_tolerance();
@@ -193,7 +194,7 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
   for (const v1::Layer& layer_proto : proto.layers()) {
     const auto layer = layerFromProto(layer_proto);
     VIEWLOOM_RETURN_IF_ERROR(
-        withFieldPrefix(layer.status(), absl::StrCat("layers[", source.layers.size(), "]")));
+        withFieldPrefix(layer.status(), strCat("layers[", source.layers.size(), "]")));
     source.layers.push_back(*layer);
   }
   const SizePx size_px = source.layers.front().depth.size_px;
@@ -204,8 +205,8 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
 
 absl::Status validateSourceCount(uint32_t source_count, const FrameLimits& limits) {
   if (source_count > 0 && source_count <= limits.source_count_max) return absl::OkStatus();
-  return invalidField("sources", absl::StrCat("has ", source_count, " entries, must have 1..",
-                                              limits.source_count_max));
+  return invalidField(
+      "sources", strCat("has ", source_count, " entries, must have 1..", limits.source_count_max));
 }
 
 absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
@@ -217,7 +218,7 @@ absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,
   FrameFormat format;
   for (int i = 0; i < proto.sources_size(); ++i) {
     auto source = sourceFromProto(proto.sources(i), limits);
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(source.status(), absl::StrCat("sources[", i, "]")));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(source.status(), strCat("sources[", i, "]")));
     format.sources.push_back(*std::move(source));
   }
   format.number = proto.number();

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "rpc/frame_from_proto.h"
 #include "rpc/limits_to_proto.h"
 #include "rpc/read_chunk.h"
@@ -63,9 +63,8 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
   if (!stream_.empty()) return invalidField("settings", "came again; accepted: once, first");
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(settings.stream(), "settings.stream"));
   if (settings.session_id().size() > kSessionBytesMax) {
-    return invalidField("settings.session_id",
-                        absl::StrCat("has ", settings.session_id().size(), " bytes; accepted: 0..",
-                                     kSessionBytesMax));
+    return invalidField("settings.session_id", strCat("has ", settings.session_id().size(),
+                                                      " bytes; accepted: 0..", kSessionBytesMax));
   }
   const auto on_takeover = [self = weak_from_this()] {
     const auto call = self.lock();
@@ -103,7 +102,7 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
   }
   if (format->number <= last_number_) {
     return fieldError(absl::StatusCode::kOutOfRange, "header.number",
-                      absl::StrCat("is ", format->number, ", must be above ", last_number_));
+                      strCat("is ", format->number, ", must be above ", last_number_));
   }
   last_number_ = format->number;
   times_ = {};
@@ -162,8 +161,8 @@ void PublishCall::onReport(const FrameReport& report) {
 absl::Status PublishCall::handleHalfClose() {
   if (stream_.empty()) return invalidField("settings", "never came; accepted: once, first");
   if (assembly_.has_value() && !assembly_->complete()) {
-    return invalidField("chunk", absl::StrCat("is missing: the call was closed within frame ",
-                                              assembly_->frameNumber()));
+    return invalidField(
+        "chunk", strCat("is missing: the call was closed within frame ", assembly_->frameNumber()));
   }
   end(absl::OkStatus());
   return absl::OkStatus();
@@ -208,9 +207,9 @@ void PublishCall::tick() {
     if (!wantsToRead() && unreported_count_ > 0) heard_.restart();
     if (!heard_.reaches(kSilenceTicks)) return;
   }
-  end(absl::UnavailableError(absl::StrCat("no heartbeat came for ", kSilence_s,
-                                          " s, and the stream's name is free for others; a "
-                                          "publisher that lives may call again")));
+  end(absl::UnavailableError(strCat("no heartbeat came for ", kSilence_s,
+                                    " s, and the stream's name is free for others; a "
+                                    "publisher that lives may call again")));
 }
 
 bool PublishCall::wantsToRead() const {

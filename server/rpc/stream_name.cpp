@@ -5,8 +5,8 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
-#include "absl/strings/str_cat.h"
 #include "base/nearest_name.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -22,9 +22,8 @@ bool isNameCharacter(char c) {
 absl::Status validateStreamName(const std::string& name, std::string_view field) {
   const bool fits = !name.empty() && name.size() <= kNameLengthMax;
   if (fits && std::all_of(name.begin(), name.end(), isNameCharacter)) return absl::OkStatus();
-  return invalidField(field,
-                      absl::StrCat("got \"", absl::CEscape(name.substr(0, kNameLengthMax)),
-                                   "\"; accepted: 1..", kNameLengthMax, " of A-Z a-z 0-9 . _ -"));
+  return invalidField(field, strCat("got \"", absl::CEscape(name.substr(0, kNameLengthMax)),
+                                    "\"; accepted: 1..", kNameLengthMax, " of A-Z a-z 0-9 . _ -"));
 }
 
 absl::Status noSuchStream(const std::string& name, std::string_view field,

@@ -3,9 +3,8 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-#include "publish/subscriber.h"
 #include "messages/display_from_proto.h"
+#include "publish/subscriber.h"
 #include "rpc/encoding_from_proto.h"
 #include "rpc/eye_poses_from_proto.h"
 #include "rpc/stream_name.h"

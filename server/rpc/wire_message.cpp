@@ -3,8 +3,8 @@
 
 #include <grpcpp/support/proto_buffer_reader.h>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 
@@ -24,7 +24,7 @@ absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
-      absl::StrCat("got ", byte_count, " bytes that are no ", message.GetTypeName()));
+      strCat("got ", byte_count, " bytes that are no ", message.GetTypeName()));
 }
 
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {

@@ -2,7 +2,7 @@
 #include "web/content_disposition.h"
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "web/url.h"
 
 namespace viewloom {
@@ -26,8 +26,8 @@ std::string plainName(std::string_view file_name) {
 
 std::string contentDisposition(std::string_view file_name) {
   const std::string plain = plainName(file_name);
-  std::string value = absl::StrCat("inline; filename=\"", plain, "\"");
-  if (plain != file_name) absl::StrAppend(&value, "; filename*=UTF-8''", percentEncoded(file_name));
+  std::string value = strCat("inline; filename=\"", plain, "\"");
+  if (plain != file_name) value += strCat("; filename*=UTF-8''", percentEncoded(file_name));
   return value;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -42,9 +42,9 @@ absl::Status HostPolicy::checkHost(std::string_view host) const {
                                    [&](const auto& other) { return lowerCase(other) == name; });
   if (allowed || isLoopback(name)) return absl::OkStatus();
   return fieldError(absl::StatusCode::kPermissionDenied, "host",
-                    absl::StrCat("got \"", std::string(host),
-                                 "\", accepted on loopback are localhost, loopback addresses and "
-                                 "the hosts named in the settings"));
+                    strCat("got \"", std::string(host),
+                           "\", accepted on loopback are localhost, loopback addresses and "
+                           "the hosts named in the settings"));
 }
 
 absl::Status HostPolicy::checkOrigin(std::string_view origin, std::string_view host) const {
@@ -53,9 +53,9 @@ absl::Status HostPolicy::checkOrigin(std::string_view origin, std::string_view h
   const bool same = scheme_end != std::string_view::npos &&
                     lowerCase(origin.substr(scheme_end + 3)) == lowerCase(host);
   if (same) return absl::OkStatus();
-  return fieldError(absl::StatusCode::kPermissionDenied, "origin",
-                    absl::StrCat("got \"", std::string(origin),
-                                 "\", accepted are pages of this server, and programs"));
+  return fieldError(
+      absl::StatusCode::kPermissionDenied, "origin",
+      strCat("got \"", std::string(origin), "\", accepted are pages of this server, and programs"));
 }
 
 }  // namespace viewloom

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "web/connection.h"
 
@@ -22,8 +22,8 @@ tcp::endpoint endpointOf(const HttpOptions& options) {
   ErrorCode error;
   const auto address = net::ip::make_address(options.address, error);
   if (!error) return {address, options.port};
-  throw std::runtime_error(absl::StrCat("web address \"", options.address,
-                                        "\": accepted is a numeric IPv4 or IPv6 address"));
+  throw std::runtime_error(
+      strCat("web address \"", options.address, "\": accepted is a numeric IPv4 or IPv6 address"));
 }
 
 tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
@@ -31,9 +31,9 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
   try {
     return tcp::acceptor(io, endpoint);
   } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(absl::StrCat("cannot listen on ", options.address, ":", options.port,
-                                          " for the web page: ", error.code().message(),
-                                          "; choose another address or port"));
+    throw std::runtime_error(strCat("cannot listen on ", options.address, ":", options.port,
+                                    " for the web page: ", error.code().message(),
+                                    "; choose another address or port"));
   }
 }
 
@@ -130,8 +130,8 @@ uint16_t HttpServer::port() const {
 std::string HttpServer::url() const {
   const auto& address = state_->endpoint.address();
   const std::string host =
-      address.is_v6() ? absl::StrCat("[", address.to_string(), "]") : address.to_string();
-  return absl::StrCat("http://", host, ":", port(), "/");
+      address.is_v6() ? strCat("[", address.to_string(), "]") : address.to_string();
+  return strCat("http://", host, ":", port(), "/");
 }
 
 void HttpServer::drain() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/quilt_address.h"
-
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -54,14 +53,14 @@ absl::StatusOr<AddressParts> takeApart(const Url& url, const QuiltAddressForm& f
     if (readSuffix(parts.suffix, parts.parameters)) return parts;
   }
   return fieldError(absl::StatusCode::kNotFound, "url",
-                    absl::StrCat("accepted are ", form.root, "STREAM/PRESET and ", form.root,
-                                 "STREAM_qs8x6a0.75", form.extensions.front()));
+                    strCat("accepted are ", form.root, "STREAM/PRESET and ", form.root,
+                           "STREAM_qs8x6a0.75", form.extensions.front()));
 }
 
 // "?quality=90", or nothing.
 std::string queryText(const QueryParameters& parameters) {
   const std::string query = queryString(parameters);
-  return query.empty() ? "" : absl::StrCat("?", query);
+  return query.empty() ? "" : strCat("?", query);
 }
 
 }  // namespace
@@ -84,17 +83,17 @@ absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddres
   if (suffix->empty()) {
     // Players read the suffix of a quilt: other displays are found by their names alone.
     const std::string preset = parameters["preset"];
-    address.file_name = absl::StrCat(address.request.stream, "_", preset, address.extension);
+    address.file_name = strCat(address.request.stream, "_", preset, address.extension);
     if (parts->suffix.empty()) return address;
     parameters.erase("preset");
-    address.redirect = absl::StrCat(form.root, stream, "/", percentEncoded(preset),
-                                    address.extension, queryText(parameters));
+    address.redirect = strCat(form.root, stream, "/", percentEncoded(preset), address.extension,
+                              queryText(parameters));
     return address;
   }
-  const std::string layout = absl::StrCat(*suffix, address.extension);
+  const std::string layout = strCat(*suffix, address.extension);
   address.file_name = address.request.stream + layout;
   if (*suffix == parts->suffix) return address;
-  address.redirect = absl::StrCat(form.root, stream, layout, queryText(parameters));
+  address.redirect = strCat(form.root, stream, layout, queryText(parameters));
   return address;
 }
 

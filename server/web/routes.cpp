@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
 #include "base/nearest_name.h"
+#include "base/str_cat.h"
 #include "web/catalog_json.h"
 #include "web/multipart_stream.h"
 #include "web/page_assets.h"
@@ -75,18 +75,18 @@ HttpReply notFoundReply(const std::string& path) {
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
-      absl::StrCat("there is no ", path, suggestion.empty() ? "" : ", ", suggestion,
-                   "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
-                   "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
+      strCat("there is no ", path, suggestion.empty() ? "" : ", ", suggestion,
+             "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
+             "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
 }
 
 }  // namespace
 
 std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request) {
   if (request.method != "GET" && request.method != "HEAD") {
-    HttpReply reply = errorReply(
-        405, fieldError(absl::StatusCode::kUnimplemented, "method",
-                        absl::StrCat("got ", request.method, ", accepted are GET and HEAD")));
+    HttpReply reply =
+        errorReply(405, fieldError(absl::StatusCode::kUnimplemented, "method",
+                                   strCat("got ", request.method, ", accepted are GET and HEAD")));
     reply.headers.emplace_back("Allow", "GET, HEAD");
     return reply;
   }

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "web/atlas_inbox.h"
 #include "web/atlas_message.h"
 #include "web/catalog_json.h"
@@ -57,8 +57,8 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
   }
   co_return errorReply(fieldError(
       absl::StatusCode::kDeadlineExceeded, "stream",
-      absl::StrCat("\"", request.stream, "\" gave no atlas within ",
-                   context.options.still_timeout.count(), " ms; does its publisher send frames?")));
+      strCat("\"", request.stream, "\" gave no atlas within ",
+             context.options.still_timeout.count(), " ms; does its publisher send frames?")));
 }
 
 }  // namespace

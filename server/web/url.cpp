@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -23,9 +23,9 @@ absl::StatusOr<std::string> decode(std::string_view escaped, Plus plus) {
       const char* begin = escaped.data() + i + 1;
       const char* end = begin + 2;
       if (i + 2 >= escaped.size() || std::from_chars(begin, end, value, 16).ptr != end) {
-        return invalidField("url", absl::StrCat("the escape \"", std::string(escaped.substr(i, 3)),
-                                                "\" is broken, accepted is % and two "
-                                                "hexadecimal digits"));
+        return invalidField("url", strCat("the escape \"", std::string(escaped.substr(i, 3)),
+                                          "\" is broken, accepted is % and two "
+                                          "hexadecimal digits"));
       }
       character = static_cast<char>(value);
       i += 2;
@@ -66,7 +66,7 @@ std::string percentEncoded(std::string_view plain) {
     if (unreserved) {
       escaped.push_back(character);
     } else {
-      absl::StrAppend(&escaped, "%", absl::Hex(byte, absl::kZeroPad2));
+      escaped += strCat("%", absl::Hex(byte, absl::kZeroPad2));
     }
   }
   return escaped;
@@ -90,8 +90,7 @@ absl::StatusOr<Url> parseUrl(std::string_view target) {
 std::string queryString(const QueryParameters& parameters) {
   std::string query;
   for (const auto& [key, value] : parameters) {
-    absl::StrAppend(&query, query.empty() ? "" : "&", percentEncoded(key), "=",
-                    percentEncoded(value));
+    query += strCat(query.empty() ? "" : "&", percentEncoded(key), "=", percentEncoded(value));
   }
   return query;
 }

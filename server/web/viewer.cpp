@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_cat.h"
 #include "web/atlas_message.h"
 #include "web/http_reply.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <type_traits>
 
-#include "absl/strings/str_cat.h"
 #include "base/status.h"
+#include "base/str_cat.h"
 #include "web/url.h"
 
 namespace viewloom {
@@ -29,8 +29,8 @@ absl::Status readNumber(const QueryParameters& parameters, const char* name, Num
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool whole = error == std::errc() && end == text.data() + text.size();
   if (!whole || !std::isfinite(static_cast<double>(number))) {
-    return invalidField(name, absl::StrCat("got \"", text, "\", accepted is a ",
-                                           std::is_integral_v<Number> ? "whole number" : "number"));
+    return invalidField(name, strCat("got \"", text, "\", accepted is a ",
+                                     std::is_integral_v<Number> ? "whole number" : "number"));
   }
   value = number;
   return absl::OkStatus();

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "base/nearest_name.h"
+#include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/named_display.h"
 #include "web/rgbd_request.h"
@@ -95,7 +95,7 @@ absl::Status namedByParameter(const absl::Status& status, std::span<const Parame
     if (field != known.field) continue;
     std::string problem(status.message());
     if (problem.starts_with(field + ": ")) problem.erase(0, field.size() + 2);
-    if (field.ends_with("_rad")) absl::StrAppend(&problem, " radians");
+    if (field.ends_with("_rad")) problem += strCat(" radians");
     return fieldError(status.code(), known.parameter, problem);
   }
   return status;
@@ -104,7 +104,7 @@ absl::Status namedByParameter(const absl::Status& status, std::span<const Parame
 // ", did you mean "portrait"?", or nothing.
 std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
   const std::string text = didYouMean(word, names);
-  return text.empty() ? "" : absl::StrCat(", ", text);
+  return text.empty() ? "" : strCat(", ", text);
 }
 
 absl::Status checkKnown(const QueryParameters& parameters, std::span<const ParameterField> all) {
@@ -114,8 +114,7 @@ absl::Status checkKnown(const QueryParameters& parameters, std::span<const Param
     if (known) continue;
     std::vector<std::string> names;
     for (const ParameterField& accepted : all) names.emplace_back(accepted.parameter);
-    return invalidField(name,
-                        absl::StrCat("this display has no such parameter", suggestion(name, names),
+    return invalidField(name, strCat("this display has no such parameter", suggestion(name, names),
                                      "; accepted are ", absl::StrJoin(names, ", ")));
   }
   return absl::OkStatus();
@@ -152,8 +151,8 @@ absl::Status readTemporal(const QueryParameters& parameters, DisplaySpec& displa
   VIEWLOOM_RETURN_IF_ERROR(readNumber(parameters, "rate_hz", temporal.output_rate_hz));
   if (const auto between = parameters.find("between"); between != parameters.end()) {
     if (between->second != "predict" && between->second != "interpolate") {
-      return invalidField("between", absl::StrCat("got \"", between->second,
-                                                  "\", accepted are predict and interpolate"));
+      return invalidField(
+          "between", strCat("got \"", between->second, "\", accepted are predict and interpolate"));
     }
     if (between->second == "interpolate") temporal.mode = TemporalMode::kInterpolate;
   }
@@ -169,14 +168,13 @@ absl::StatusOr<EncodingSpec> readEncoding(const QueryParameters& parameters, boo
   if (const auto chroma = parameters.find("chroma"); chroma != parameters.end()) {
     if (chroma->second != "420" && chroma->second != "444") {
       return invalidField("chroma",
-                          absl::StrCat("got \"", chroma->second, "\", accepted are 420 and 444"));
+                          strCat("got \"", chroma->second, "\", accepted are 420 and 444"));
     }
     encoding.chroma = chroma->second == "444" ? Chroma::k444 : Chroma::k420;
   }
   if (const auto depth = parameters.find("depth"); depth != parameters.end()) {
     if (depth->second != "0" && depth->second != "1") {
-      return invalidField("depth",
-                          absl::StrCat("got \"", depth->second, "\", accepted are 0 and 1"));
+      return invalidField("depth", strCat("got \"", depth->second, "\", accepted are 0 and 1"));
     }
     encoding.with_depth = depth->second == "1";
     encoding.planes = BandEncoding::kRaw;  // browsers have no zstd
@@ -219,8 +217,8 @@ absl::Status readEffort(const QueryParameters& parameters, DisplaySpec& display)
   } else if (effort->second == "best") {
     display.quality = Quality::kBest;
   } else {
-    return invalidField("effort", absl::StrCat("got \"", effort->second,
-                                               "\", accepted are draft, balanced and best"));
+    return invalidField(
+        "effort", strCat("got \"", effort->second, "\", accepted are draft, balanced and best"));
   }
   return absl::OkStatus();
 }

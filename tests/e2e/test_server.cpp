@@ -5,7 +5,7 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -52,7 +52,7 @@ std::shared_ptr<grpc::Channel> TestServer::connect() const {
 }
 
 std::string TestServer::address() const {
-  return absl::StrCat("127.0.0.1:", rpc_->port());
+  return strCat("127.0.0.1:", rpc_->port());
 }
 
 }  // namespace viewloom

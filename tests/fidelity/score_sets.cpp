@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <absl/strings/str_cat.h>
-
+#include "base/str_cat.h"
 #include "commands/truth_image.h"
 #include "fidelity/flicker.h"
 #include "fidelity/own_views.h"
@@ -121,7 +120,7 @@ void addCoarse(std::vector<Trial>& trials, const Trial& trial, const std::string
 Trial shiftedTrial(const Trial& trial, double inv_z) {
   Trial result = trial;
   result.set = test::shifted(trial.set, inv_z);
-  result.set.name += absl::StrCat(", 1/Z + ", inv_z);
+  result.set.name += strCat(", 1/Z + ", inv_z);
   std::erase_if(result.set.views, [](const test::TrueView& view) {
     return std::find(std::begin(kShiftedViews), std::end(kShiftedViews), view.name) ==
            std::end(kShiftedViews);

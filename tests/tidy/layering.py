@@ -101,6 +101,8 @@ THIRD_PARTY = [
     ("protobuf", r"google/protobuf/|.*\.pb\.h"),
     ("gtest", r"gtest/|gmock/"), ("benchmark", r"benchmark/"),
 ]
+# Headers of others that one of ours stands for.
+STANDS_FOR = {"absl/strings/str_cat.h": "server/core/base/str_cat.h"}
 # The language and the operating system below it are everybody's.
 SYSTEM = re.compile(r"[a-z_0-9]+(\.h)?|c?x?xabi\.h|(sys|arpa|netinet|net|linux)/[a-z_0-9]+\.h")
 
@@ -150,6 +152,8 @@ def _judge(tree, path, target):
     for folder, forbidden in INDEPENDENT.items():
         if path.startswith(folder + "/") and included and owner(included, forbidden):
             return f"{folder} judges {owner(included, forbidden)} and must not include {target}"
+    if STANDS_FOR.get(target, path) != path:
+        return f"{STANDS_FOR[target]} stands for {target}"
     if path.startswith(COMPOSITION):
         return None
     folder = owner(path, LAYERS)

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
 #include "base/check.h"
+#include "base/str_cat.h"
 #include "display/camera_list.h"
 #include "display/integral.h"
 #include "display/lenticular.h"
@@ -124,16 +124,16 @@ absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& lim
     return fieldError(absl::StatusCode::kResourceExhausted, grid.size_field, problem);
   };
   if (std::max(grid.width_px, grid.height_px) > limits.side_px_max) {
-    return refuse(absl::StrCat("the atlas has ", grid.width_px, "x", grid.height_px,
-                               " px, accepted is a side of up to ", limits.side_px_max));
+    return refuse(strCat("the atlas has ", grid.width_px, "x", grid.height_px,
+                         " px, accepted is a side of up to ", limits.side_px_max));
   }
   if (grid.width_px * grid.height_px > limits.area_px_max) {
-    return refuse(absl::StrCat("the atlas has ", grid.width_px * grid.height_px,
-                               " px, accepted is up to ", limits.area_px_max));
+    return refuse(strCat("the atlas has ", grid.width_px * grid.height_px,
+                         " px, accepted is up to ", limits.area_px_max));
   }
   if (grid.view_count > limits.view_count_max) {
-    return refuse(absl::StrCat("the atlas has ", grid.view_count, " views, accepted is up to ",
-                               limits.view_count_max));
+    return refuse(strCat("the atlas has ", grid.view_count, " views, accepted is up to ",
+                         limits.view_count_max));
   }
   return absl::OkStatus();
 }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/field_checks.h"
 #include "display/focal_window.h"
 
@@ -48,11 +48,11 @@ absl::Status completeArrangement(CamerasSpec& cameras) {
   if (cameras.arrangement != TileArrangement::kGrid && cameras.columns != 0 &&
       cameras.columns != columns) {
     return invalidField("cameras.columns",
-                        absl::StrCat("got ", cameras.columns, ", the arrangement has ", columns));
+                        strCat("got ", cameras.columns, ", the arrangement has ", columns));
   }
   if (cameras.arrangement == TileArrangement::kQuad && viewCount(cameras) != 4) {
-    return invalidField("cameras.arrangement", absl::StrCat("got QUAD_2X2 for ", viewCount(cameras),
-                                                            " views, accepted are four"));
+    return invalidField("cameras.arrangement", strCat("got QUAD_2X2 for ", viewCount(cameras),
+                                                      " views, accepted are four"));
   }
   if (cameras.columns == 0) cameras.columns = columns;
   return checkCount(cameras.columns, kCameraCountMax, "cameras.columns");
@@ -71,7 +71,7 @@ absl::Status complete(CamerasSpec& cameras) {
       cameras.grid ? uint64_t{cameras.grid->columns} * cameras.grid->rows : cameras.cameras.size();
   if (count < 1 || count > kCameraCountMax) {
     return invalidField(cameras.grid ? "cameras.grid" : "cameras.cameras",
-                        absl::StrCat("got ", count, ", accepted is 1..", kCameraCountMax));
+                        strCat("got ", count, ", accepted is 1..", kCameraCountMax));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkSize(cameras.tile_size_px, kEyeSidePxMax, "cameras.tile_size"));
   VIEWLOOM_RETURN_IF_ERROR(completeArrangement(cameras));
@@ -94,7 +94,7 @@ TileGrid tileGrid(const CamerasSpec& cameras) {
 
 absl::Status validateCameras(const std::vector<ViewCamera>& cameras, const std::string& field) {
   for (size_t i = 0; i < cameras.size(); ++i) {
-    const std::string name = absl::StrCat(field, "[", i, "]");
+    const std::string name = strCat(field, "[", i, "]");
     VIEWLOOM_RETURN_IF_ERROR(validatePose(cameras[i].pose, name + ".pose"));
     if (const auto* fov = std::get_if<Fov>(&cameras[i].projection)) {
       VIEWLOOM_RETURN_IF_ERROR(validateFov(*fov, name + ".fov"));

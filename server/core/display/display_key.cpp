@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "base/str_cat.h"
 #include "display/display_spec.h"
 
 namespace viewloom {
@@ -15,7 +15,7 @@ class KeyText {
   void add(double value) {
     absl::StrAppendFormat(&text_, "%a ", value + 0.0);  // -0 becomes 0
   }
-  void add(uint32_t value) { absl::StrAppend(&text_, value, " "); }
+  void add(uint32_t value) { text_ += strCat(value, " "); }
   void add(SizePx size) {
     add(size.width);
     add(size.height);
@@ -71,7 +71,7 @@ class KeyText {
     Calibration calibration = *lenticular.calibration;
     calibration.serial.clear();
     calibration.config_version.clear();
-    absl::StrAppend(&text_, writeCalibration(calibration), " ");
+    text_ += strCat(writeCalibration(calibration), " ");
     add(lenticular.view_count);
     add(lenticular.view_cone_rad);
     add(lenticular.focal_distance_m);

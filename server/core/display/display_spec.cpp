@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/camera_list.h"
 #include "display/field_checks.h"
@@ -79,8 +79,8 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
   if (spec.tolerance_px == 0) spec.tolerance_px = kTolerances_px[size_t(spec.quality)];
   if (spec.background_rgb > 0xFFFFFF) {
-    return invalidField("background_rgb", absl::StrCat("got 0x", absl::Hex(spec.background_rgb),
-                                                       ", accepted is 0..0xffffff"));
+    return invalidField("background_rgb", strCat("got 0x", absl::Hex(spec.background_rgb),
+                                                 ", accepted is 0..0xffffff"));
   }
   // Stills and browsers take any display as JPEG, so no atlas may be larger than a JPEG.
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(

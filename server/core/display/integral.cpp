@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/field_checks.h"
 #include "display/named_display.h"
 
@@ -66,7 +66,7 @@ absl::Status complete(IntegralSpec& integral) {
   if (lens_px < kLensPxMin || lens_px > kLensPxMax) {
     return invalidField(
         "integral.lens_pitch_m",
-        absl::StrCat("a lens covers ", lens_px, " px, accepted is ", kLensPxMin, "..", kLensPxMax));
+        strCat("a lens covers ", lens_px, " px, accepted is ", kLensPxMin, "..", kLensPxMax));
   }
   VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_columns, integral.panel_px.width,
                                              lens_px, "integral.lens_columns"));

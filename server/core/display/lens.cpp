@@ -8,7 +8,7 @@
 
 #include <glm/common.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/depth_budget.h"
 #include "display/display_kinds.h"
@@ -112,8 +112,8 @@ absl::Status completeLens(LensSpec& lens, Quality quality) {
     const double radius_m = lens.aperture_radius_m;
     if (!(radius_m > 0 && radius_m <= kApertureRadiusMax_m)) {
       return invalidField("aperture_radius_m",
-                          absl::StrCat("got ", radius_m, ", accepted is more than 0, up to ",
-                                       kApertureRadiusMax_m, " m, or automatic_aperture"));
+                          strCat("got ", radius_m, ", accepted is more than 0, up to ",
+                                 kApertureRadiusMax_m, " m, or automatic_aperture"));
     }
   }
   if (lens.focus_distance_m) {
@@ -121,20 +121,20 @@ absl::Status completeLens(LensSpec& lens, Quality quality) {
                                         kFocalDistanceMax_m, "focus_distance_m"));
   }
   if (lens.blades != 0 && (lens.blades < kLensBladesMin || lens.blades > kLensBladesMax)) {
-    return invalidField("blades", absl::StrCat("got ", lens.blades, ", accepted is 0 or ",
-                                               kLensBladesMin, "..", kLensBladesMax));
+    return invalidField("blades", strCat("got ", lens.blades, ", accepted is 0 or ", kLensBladesMin,
+                                         "..", kLensBladesMax));
   }
   if (!std::isfinite(lens.rotation_rad)) {
     return invalidField("rotation_rad",
-                        absl::StrCat("got ", lens.rotation_rad, ", accepted is what is finite"));
+                        strCat("got ", lens.rotation_rad, ", accepted is what is finite"));
   }
   const SampleCounts counts = kSampleCounts[size_t(quality)];
   if (lens.walked_count == 0) lens.walked_count = counts.walked;
   VIEWLOOM_RETURN_IF_ERROR(checkCount(lens.walked_count, kWalkedSamplesMax, "samples"));
   lens.gathered_count = lens.gathered_count.value_or(counts.gathered);
   if (*lens.gathered_count > kGatheredSamplesMax) {
-    return invalidField("gathered_samples", absl::StrCat("got ", *lens.gathered_count,
-                                                         ", accepted is 0..", kGatheredSamplesMax));
+    return invalidField("gathered_samples", strCat("got ", *lens.gathered_count,
+                                                   ", accepted is 0..", kGatheredSamplesMax));
   }
   return absl::OkStatus();
 }

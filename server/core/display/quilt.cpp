@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "base/str_cat.h"
 #include "display/field_checks.h"
 #include "display/focal_window.h"
 #include "display/presets.h"
@@ -42,8 +42,8 @@ absl::Status completeDepthiness(QuiltSpec& quilt) {
       takes_half ? quilt.depthiness * quilt.view_cone_rad : 2 * quilt.view_cone_rad;
   if (widest_rad <= kViewAngleMax_rad) return absl::OkStatus();
   return invalidField("quilt.depthiness",
-                      absl::StrCat("it widens the cone of ", quilt.view_cone_rad, " rad to ",
-                                   widest_rad, ", accepted is up to ", kViewAngleMax_rad));
+                      strCat("it widens the cone of ", quilt.view_cone_rad, " rad to ", widest_rad,
+                             ", accepted is up to ", kViewAngleMax_rad));
 }
 
 absl::Status completePart(QuiltSpec& quilt) {
@@ -69,13 +69,13 @@ absl::Status complete(QuiltSpec& quilt) {
   VIEWLOOM_RETURN_IF_ERROR(checkSize(quilt.size_px, kQuiltSidePxMax, "quilt.size"));
   if (quilt.size_px.width < quilt.columns) {
     return invalidField("quilt.size.width",
-                        absl::StrCat("got ", quilt.size_px.width, " px for ", quilt.columns,
-                                     " columns, accepted is 1 px a tile or more"));
+                        strCat("got ", quilt.size_px.width, " px for ", quilt.columns,
+                               " columns, accepted is 1 px a tile or more"));
   }
   if (quilt.size_px.height < quilt.rows) {
     return invalidField("quilt.size.height",
-                        absl::StrCat("got ", quilt.size_px.height, " px for ", quilt.rows,
-                                     " rows, accepted is 1 px a tile or more"));
+                        strCat("got ", quilt.size_px.height, " px for ", quilt.rows,
+                               " rows, accepted is 1 px a tile or more"));
   }
   if (quilt.aspect != 0) {
     VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.aspect, kAspectMin, kAspectMax, "quilt.aspect"));

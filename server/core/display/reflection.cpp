@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/reflection.h"
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/field_checks.h"
 
 namespace viewloom {
@@ -24,9 +24,8 @@ absl::Status completeReflection(ReflectionSpec& reflection, Quality quality) {
   VIEWLOOM_RETURN_IF_ERROR(
       checkCount(reflection.sample_count, kReflectionSampleCountMax, "samples"));
   if (reflection.environment_rgb <= 0xFFFFFF) return absl::OkStatus();
-  return invalidField(
-      "environment_rgb",
-      absl::StrCat("got 0x", absl::Hex(reflection.environment_rgb), ", accepted is 0..0xffffff"));
+  return invalidField("environment_rgb", strCat("got 0x", absl::Hex(reflection.environment_rgb),
+                                                ", accepted is 0..0xffffff"));
 }
 
 }  // namespace viewloom

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/field_checks.h"
 #include "display/focal_window.h"
 #include "display/named_display.h"
@@ -83,8 +83,8 @@ absl::Status checkDepths(const RgbdSpec& rgbd) {
     VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(rgbd.far_m, "rgbd.far_m"));
   }
   if (rgbd.near_m > 0 && rgbd.far_m > 0 && rgbd.far_m <= rgbd.near_m) {
-    return invalidField("rgbd.far_m", absl::StrCat("got ", rgbd.far_m, ", accepted is more than ",
-                                                   "near_m, which is ", rgbd.near_m));
+    return invalidField("rgbd.far_m", strCat("got ", rgbd.far_m, ", accepted is more than ",
+                                             "near_m, which is ", rgbd.near_m));
   }
   return checkOptionalDistance(rgbd.screen_m, "rgbd.screen_m");
 }
@@ -125,7 +125,7 @@ absl::Status complete(RgbdSpec& rgbd) {
   if (rgbd.depth_bits == 0) rgbd.depth_bits = kDefaultDepthBits;
   if (rgbd.depth_bits != 8 && rgbd.depth_bits != 16) {
     return invalidField("rgbd.depth_bits",
-                        absl::StrCat("got ", rgbd.depth_bits, ", accepted are 8 and 16"));
+                        strCat("got ", rgbd.depth_bits, ", accepted are 8 and 16"));
   }
   VIEWLOOM_RETURN_IF_ERROR(completePlacement(rgbd));
   VIEWLOOM_RETURN_IF_ERROR(checkDepths(rgbd));
@@ -170,10 +170,10 @@ void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout&
 absl::Status validateDepthCodes(const DepthCodes& codes) {
   if (codes.inv_z_near > codes.inv_z_far) return absl::OkStatus();
   return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.near_m",
-                    absl::StrCat("the nearest code is ", 1 / codes.inv_z_near,
-                                 " m away and the farthest ", 1 / codes.inv_z_far,
-                                 " m: one of them is the stream's; accepted is a nearest one that "
-                                 "is nearer, say both near_m and far_m"));
+                    strCat("the nearest code is ", 1 / codes.inv_z_near,
+                           " m away and the farthest ", 1 / codes.inv_z_far,
+                           " m: one of them is the stream's; accepted is a nearest one that "
+                           "is nearer, say both near_m and far_m"));
 }
 
 bool showsDepth(const DisplaySpec& spec) {

@@ -3,7 +3,7 @@
 
 #include <glm/common.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/camera_list.h"
 #include "display/field_checks.h"
 #include "display/focal_window.h"
@@ -20,7 +20,7 @@ absl::Status complete(StereoSpec& stereo) {
   VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(stereo.fov_y_rad, "stereo.fov_y_rad"));
   if (!stereo.eyes.empty() && stereo.eyes.size() != 2) {
     return invalidField("stereo.eyes",
-                        absl::StrCat("got ", stereo.eyes.size(), ", accepted is none or two"));
+                        strCat("got ", stereo.eyes.size(), ", accepted is none or two"));
   }
   if (stereo.is_tracked && !stereo.eyes.empty()) {
     return invalidField("stereo.eyes", "got two beside tracked, accepted is one of the two");

@@ -3,14 +3,14 @@
 
 #include <glm/common.hpp>
 
-#include "absl/strings/str_cat.h"
+#include "base/str_cat.h"
 #include "display/focal_window.h"
 
 namespace viewloom {
 namespace {
 
 std::string fieldOfEye(size_t eye) {
-  return absl::StrCat("eye_poses.eyes[", eye, "]");
+  return strCat("eye_poses.eyes[", eye, "]");
 }
 
 Camera cameraOf(const TrackedEye& eye, const FocalWindow& window, SizePx eye_size_px) {
@@ -33,10 +33,10 @@ absl::Status validateInFront(const EyePoses& poses, double focal_distance_m) {
     const TrackedEye& eye = poses.eyes[i];
     if (eye.projection || eye.pose.position_m.z > -focal_distance_m) continue;
     return invalidField(fieldOfEye(i) + ".pose.position.z",
-                        absl::StrCat("is ", eye.pose.position_m.z,
-                                     ", on or behind the focal plane; accepted is "
-                                     "more than ",
-                                     -focal_distance_m, ", or an eye with a projection"));
+                        strCat("is ", eye.pose.position_m.z,
+                               ", on or behind the focal plane; accepted is "
+                               "more than ",
+                               -focal_distance_m, ", or an eye with a projection"));
   }
   return absl::OkStatus();
 }

@@ -5,6 +5,7 @@
 
 #include <google/protobuf/repeated_ptr_field.h>
 
+#include "base/str_cat.h"
 #include "display/named_display.h"
 #include "messages/enum_from_proto.h"
 #include "messages/geometry_from_proto.h"
@@ -64,7 +65,7 @@ absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
     const google::protobuf::RepeatedPtrField<v1::Camera>& protos, const char* field) {
   std::vector<ViewCamera> cameras;
   for (const v1::Camera& proto : protos) {
-    const std::string path = absl::StrCat(field, "[", cameras.size(), "]");
+    const std::string path = strCat(field, "[", cameras.size(), "]");
     const auto pose = poseFromProto(proto.pose(), "pose");
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(pose.status(), path));
     const auto projection = projectionFromProto(proto);

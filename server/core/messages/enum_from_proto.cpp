@@ -3,18 +3,19 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include "base/str_cat.h"
+
 namespace viewloom {
 
 absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int number,
                         const std::string& accepted, std::string_view field) {
   const auto* known = type.FindValueByNumber(number);
   if (known != nullptr && number != 0) {
-    return fieldError(
-        absl::StatusCode::kUnimplemented, field,
-        absl::StrCat("got ", known->name(), ", not served yet; accepted: ", accepted));
+    return fieldError(absl::StatusCode::kUnimplemented, field,
+                      strCat("got ", known->name(), ", not served yet; accepted: ", accepted));
   }
-  const std::string got = known != nullptr ? known->name() : absl::StrCat("number ", number);
-  return invalidField(field, absl::StrCat("got ", got, "; accepted: ", accepted));
+  const std::string got = known != nullptr ? known->name() : strCat("number ", number);
+  return invalidField(field, strCat("got ", got, "; accepted: ", accepted));
 }
 
 }  // namespace viewloom

@@ -8,8 +8,8 @@
 
 #include <google/protobuf/generated_enum_reflection.h>
 
-#include "absl/strings/str_cat.h"
 #include "base/status.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 
@@ -34,8 +34,7 @@ absl::StatusOr<Value> enumFromProto(Proto proto, std::string_view field,
   const auto& type = *google::protobuf::GetEnumDescriptor<Proto>();
   std::string accepted;
   for (const auto& row : rows) {
-    absl::StrAppend(&accepted, accepted.empty() ? "" : ", ",
-                    type.FindValueByNumber(row.proto)->name());
+    accepted += strCat(accepted.empty() ? "" : ", ", type.FindValueByNumber(row.proto)->name());
   }
   return refuseEnum(type, proto, accepted, field);
 }
