@@ -6,6 +6,13 @@ target_compile_options(viewloom_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wunused-result
   -Wno-missing-field-initializers)  # what a designated initialiser leaves out has its default
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+  # Where std::string is inlined from precompiled headers, GCC 12 warns of accesses that nothing does. In
+  # other headers of the system it keeps quiet.
+  target_compile_options(viewloom_options INTERFACE
+    -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
+
 # Of folders that compute with vectors: with one rounding per operation, on every kind of CPU. And GCC
 # 12, for AVX-512, takes a bool that decides over whole vectors in a loop for the mask of their lanes,
 # and so over the first lane alone (few_rays_test), where it converts branches of loops.
@@ -24,15 +31,58 @@ if(VIEWLOOM_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-# viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...]): static library viewloom_<folder>.
-# Includes are written from server/core, server/ and client/.
+# Headers of libraries are compiled once and reused (precompiled), never those of viewloom itself: what
+# changes is compiled anew in each file that includes it. A set is what a group of folders includes:
+#   common   the standard library, absl::StatusOr and GLM: all folders that name no other set
+#   kernels  the same, for folders that compute with vectors
+#   grpc     and gRPC with Protobuf: proto/
+#   vulkan   and Vulkan-Hpp: server/gpu/
+#   beast    and Boost.Beast: server/web/
+#   gtest    and GoogleTest: tests/
+# Builds that prove that each file includes what it uses do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+set(viewloom_common_headers
+  <algorithm> <array> <atomic> <chrono> <cmath> <condition_variable> <cstddef> <cstdint> <filesystem>
+  <functional> <map> <memory> <mutex> <optional> <set> <span> <string> <string_view> <thread>
+  <unordered_map> <utility> <variant> <vector>
+  <absl/status/status.h> <absl/status/statusor.h> <absl/strings/str_cat.h>
+  <glm/common.hpp> <glm/geometric.hpp> <glm/vec2.hpp> <glm/vec3.hpp>)
+# GCC takes precompiled headers only with the flags that they were compiled with, and some of what
+# folders link asks for this one. Other flags, as -ffp-contract, it takes from the precompiled headers,
+# whatever the file is compiled with: who has flags of their own needs a set of their own.
+add_compile_options(-pthread)
+
+# viewloom_precompile(<set> [HEADERS ...] [LINK ...]): what PRECOMPILED <set> of viewloom_add_library names.
+function(viewloom_precompile set)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${set}_headers.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// All that this library has are its precompiled headers.\n")
+  add_library(viewloom_${set}_headers OBJECT ${source})
+  target_include_directories(viewloom_${set}_headers PRIVATE ${PROJECT_SOURCE_DIR}/server)
+  target_link_libraries(viewloom_${set}_headers PRIVATE viewloom_options ${ARG_LINK})
+  target_precompile_headers(viewloom_${set}_headers PRIVATE ${viewloom_common_headers} ${ARG_HEADERS})
+endfunction()
+viewloom_precompile(common)
+viewloom_precompile(kernels LINK viewloom_kernel_options)
+
+# viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...] [PRECOMPILED <set>] [VECTORS]): static
+# library viewloom_<folder>. Includes are written from server/core, server/ and client/. VECTORS: it
+# computes with vectors (viewloom_kernel_options).
 function(viewloom_add_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "VECTORS" "PRECOMPILED" "SOURCES;HEADERS;LINK" ${ARGN})
   set(target viewloom_${folder})
+  if(ARG_VECTORS)
+    set(ARG_PRECOMPILED kernels)
+  elseif(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED common)
+  endif()
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE viewloom_options)
+    if(ARG_VECTORS)
+      target_link_libraries(${target} PRIVATE viewloom_kernel_options)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM viewloom_${ARG_PRECOMPILED}_headers)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -68,14 +118,18 @@ function(viewloom_add_library folder)
   target_link_libraries(${target} ${scope} ${ARG_LINK})
 endfunction()
 
-# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...]): one GoogleTest program,
-# registered as one ctest case.
+# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...] [TIMEOUT <seconds>]): one
+# GoogleTest program, registered as one ctest case. The timeout is for hung tests; slow machines are
+# busy with others, too.
 function(viewloom_add_test name)
-  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 900)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE viewloom_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_precompile_headers(${name} REUSE_FROM viewloom_gtest_headers)
   add_test(NAME ${name} COMMAND ${name})
-  # Of hung tests; slow machines are busy with others, too.
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT 900)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()
