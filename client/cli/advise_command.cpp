@@ -117,20 +117,18 @@ int advise(const AdviseOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-RunCommand addAdviseCommand(CLI::App& app) {
+RunCommand addAdviseCommand(const usage::Command& app) {
   const auto options = std::make_shared<AdviseOptions>();
   app.footer(
       "Examples:\n"
       "  viewloom advise --preset portrait --fov 14 --near 0.5 --far 3\n"
       "  viewloom advise --display panel.json --near 1 --far 1000 --json");
-  auto* file = addDisplayShape(app, options->display);
-  app.add_option("--fov", options->display.fov_y_deg, "Vertical field of view, degrees")
-      ->excludes(file);
+  const usage::Option file = addDisplayShape(app, options->display);
+  app.add("--fov", options->display.fov_y_deg, "Vertical field of view, degrees").excludes(file);
   addPanelOptions(app, options->display);
-  app.add_option("--near", options->near_m, "Depth of the nearest part of the scene, metres")
-      ->required();
-  app.add_option("--far", options->far_m, "Depth of the farthest, metres, up to 1e9")->required();
-  app.add_flag("--json", options->as_json, "The server's answer as JSON");
+  app.add("--near", options->near_m, "Depth of the nearest part of the scene, metres").required();
+  app.add("--far", options->far_m, "Depth of the farthest, metres, up to 1e9").required();
+  app.addFlag("--json", options->as_json, "The server's answer as JSON");
   return [options](const CommonOptions& common) { return advise(*options, common); };
 }
 

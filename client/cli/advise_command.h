@@ -2,12 +2,11 @@
 // `viewloom advise`: says which source would serve a display of a scene between two depths.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addAdviseCommand(CLI::App& app);
+RunCommand addAdviseCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

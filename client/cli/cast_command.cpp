@@ -140,38 +140,37 @@ int run(const CastOptions& options) {
 
 }  // namespace
 
-RunCommand addCastCommand(CLI::App& app) {
+RunCommand addCastCommand(const usage::Command& app) {
   const auto options = std::make_shared<CastOptions>();
   app.footer(
       "Examples:\n"
       "  viewloom cast                                    the demo, as the display wants it\n"
       "  viewloom cast scan --preset portrait --every 2\n"
       "  viewloom cast --bridge http://10.0.0.7 --address http://10.0.0.5:8080");
-  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
-  app.add_option("--bridge", options->bridge, "Looking Glass Bridge")->capture_default_str();
-  app.add_option("--address", options->address, "The page of viewloomd, as Bridge reaches it")
-      ->capture_default_str();
-  app.add_option("--preset", options->preset,
-                 "A named device, see `viewloom list presets` [the quilt that the display wants]");
-  app.add_option("--cone", options->view_cone_deg, "Angle between the outermost views, degrees")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--focal-distance", options->focal_distance_m,
-                 "Metres to the plane without parallax [by the content]")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--quality", options->jpeg_quality, "JPEG quality")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  app.add_option("--head", options->display_index, "Bridge's index of the display [the first]")
-      ->check(CLI::Range(0, 255));
-  auto* every = app.add_option("--every", options->every_s,
-                               "Hand the still over again after so many seconds, until Ctrl-C")
-                    ->check(CLI::Range(0.1, 86400.0));
-  app.add_flag("--motion", options->is_motion,
-               "Hand over the motion JPEG stream instead of stills; not tried on a display yet")
-      ->excludes(every);
-  app.add_option("--timeout", options->timeout_s, "Seconds for any answer")
-      ->check(CLI::Range(0.1, 600.0))
-      ->capture_default_str();
+  app.add("stream", options->stream, "Name of the stream").showDefault();
+  app.add("--bridge", options->bridge, "Looking Glass Bridge").showDefault();
+  app.add("--address", options->address, "The page of viewloomd, as Bridge reaches it")
+      .showDefault();
+  app.add("--preset", options->preset,
+          "A named device, see `viewloom list presets` [the quilt that the display wants]");
+  app.add("--cone", options->view_cone_deg, "Angle between the outermost views, degrees")
+      .positive();
+  app.add("--focal-distance", options->focal_distance_m,
+          "Metres to the plane without parallax [by the content]")
+      .positive();
+  app.add("--quality", options->jpeg_quality, "JPEG quality").between(1, 100).showDefault();
+  app.add("--head", options->display_index, "Bridge's index of the display [the first]")
+      .between(0, 255);
+  const usage::Option every =
+      app.add("--every", options->every_s,
+              "Hand the still over again after so many seconds, until Ctrl-C")
+          .between(0.1, 86400.0);
+  app.addFlag("--motion", options->is_motion,
+              "Hand over the motion JPEG stream instead of stills; not tried on a display yet")
+      .excludes(every);
+  app.add("--timeout", options->timeout_s, "Seconds for any answer")
+      .between(0.1, 600.0)
+      .showDefault();
   return [options](const CommonOptions&) -> int { return run(*options); };
 }
 

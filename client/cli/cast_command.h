@@ -2,12 +2,11 @@
 // `viewloom cast`: has Looking Glass Bridge show a stream's quilt.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addCastCommand(CLI::App& app);
+RunCommand addCastCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

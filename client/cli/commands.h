@@ -2,16 +2,15 @@
 // The subcommands of `viewloom`.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <utility>
 #include <vector>
 
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
 // Adds them all, with what each runs.
-std::vector<std::pair<CLI::App*, RunCommand>> addCommands(CLI::App& app);
+std::vector<std::pair<usage::Command, RunCommand>> addCommands(const usage::Command& app);
 
 }  // namespace viewloom::cli

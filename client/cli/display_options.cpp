@@ -27,68 +27,68 @@ absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
 
 }  // namespace
 
-CLI::Option* addDisplayShape(CLI::App& app, DisplayOptions& options) {
-  auto* file = app.add_option("--display", options.file, "Display message as JSON: any kind");
-  app.add_option("--preset", options.preset,
-                 "A named device, see `viewloom list presets` [portrait]")
-      ->excludes(file);
-  app.add_option("--columns", options.columns, "Of the quilt")->excludes(file);
-  app.add_option("--rows", options.rows, "Of the quilt")->excludes(file);
-  addSizeOption(app, "--size", options.size_px, 16384, "Of the whole quilt")->excludes(file);
-  app.add_option("--cone", options.view_cone_deg, "Angle between the outermost views, degrees")
-      ->excludes(file);
-  app.add_option("--focal-distance", options.focal_distance_m,
-                 "Metres to the plane without parallax [by the content]")
-      ->excludes(file);
+usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options) {
+  const usage::Option file =
+      app.add("--display", options.file, "Display message as JSON: any kind");
+  app.add("--preset", options.preset, "A named device, see `viewloom list presets` [portrait]")
+      .excludes(file);
+  app.add("--columns", options.columns, "Of the quilt").excludes(file);
+  app.add("--rows", options.rows, "Of the quilt").excludes(file);
+  addSizeOption(app, "--size", options.size_px, 16384, "Of the whole quilt").excludes(file);
+  app.add("--cone", options.view_cone_deg, "Angle between the outermost views, degrees")
+      .excludes(file);
+  app.add("--focal-distance", options.focal_distance_m,
+          "Metres to the plane without parallax [by the content]")
+      .excludes(file);
   return file;
 }
 
-void addDisplayOptions(CLI::App& app, DisplayOptions& options) {
-  auto* file = addDisplayShape(app, options);
-  app.add_option("--focus-follow", options.focus_following_s,
-                 "Seconds in which the focal plane goes 63 % of its way to what suits new frames")
-      ->check(CLI::Range(0.01, 60.0))
-      ->excludes(file);
-  app.add_option("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
-      ->excludes(file);
-  app.add_option("--samples", options.sample_count,
-                 "Rays of each px, spread over it and the eyes up to half way to the next view")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str()
-      ->excludes(file);
+void addDisplayOptions(const usage::Command& app, DisplayOptions& options) {
+  const usage::Option file = addDisplayShape(app, options);
+  app.add("--focus-follow", options.focus_following_s,
+          "Seconds in which the focal plane goes 63 % of its way to what suits new frames")
+      .between(0.01, 60.0)
+      .excludes(file);
+  app.add("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
+      .excludes(file);
+  app.add("--samples", options.sample_count,
+          "Rays of each px, spread over it and the eyes up to half way to the next view")
+      .between(1, 16)
+      .showDefault()
+      .excludes(file);
   addLensOptions(app, options.lens, file);
   addTemporalOptions(app, options.temporal, file);
-  app.add_option("--reflections", options.bounce_count,
-                 "Show what surfaces with SPECULAR planes mirror, over so many bounces")
-      ->check(CLI::Range(1, 4))
-      ->excludes(file);
-  app.add_option("--quality", options.jpeg_quality, "JPEG quality")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str()
-      ->group("Encoding");
-  app.add_flag("--444", options.is_444, "JPEG colour at full resolution")->group("Encoding");
-  app.add_flag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
-      ->group("Encoding");
+  app.add("--reflections", options.bounce_count,
+          "Show what surfaces with SPECULAR planes mirror, over so many bounces")
+      .between(1, 4)
+      .excludes(file);
+  app.add("--quality", options.jpeg_quality, "JPEG quality")
+      .between(1, 100)
+      .showDefault()
+      .group("Encoding");
+  app.addFlag("--444", options.is_444, "JPEG colour at full resolution").group("Encoding");
+  app.addFlag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
+      .group("Encoding");
 }
 
-void addMaskOption(CLI::App& app, DisplayOptions& options) {
-  app.add_flag("--mask", options.has_mask,
-               "Also get the mask of ray classes: 1 hit .. 3 hidden, 4 outside, 5 empty")
-      ->group("Encoding");
+void addMaskOption(const usage::Command& app, DisplayOptions& options) {
+  app.addFlag("--mask", options.has_mask,
+              "Also get the mask of ray classes: 1 hit .. 3 hidden, 4 outside, 5 empty")
+      .group("Encoding");
 }
 
-void addPanelOptions(CLI::App& app, DisplayOptions& options) {
-  app.add_flag("--native", options.is_native,
-               "The px of the preset's panel instead of a quilt: interlaced by the server");
-  app.add_option("--calibration", options.calibration_file,
-                 "The device's own visual.json: the px of that panel");
+void addPanelOptions(const usage::Command& app, DisplayOptions& options) {
+  app.addFlag("--native", options.is_native,
+              "The px of the preset's panel instead of a quilt: interlaced by the server");
+  app.add("--calibration", options.calibration_file,
+          "The device's own visual.json: the px of that panel");
 }
 
-void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options) {
-  std::vector<CLI::Option*> others;
+void addDepthDisplayOptions(const usage::Command& app, DisplayOptions& options) {
+  std::vector<usage::Option> others;
   for (const char* name : {"--display", "--columns", "--rows", "--size", "--cone",
                            "--focal-distance", "--native", "--calibration"}) {
-    if (CLI::Option* const other = app.get_option_no_throw(name)) others.push_back(other);
+    if (const auto other = app.find(name)) others.push_back(*other);
   }
   addRgbdOptions(app, options.rgbd, others);
 }

@@ -2,8 +2,6 @@
 // Options that say which display to watch, and how its atlases come.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 
 #include "base/status.h"
@@ -11,6 +9,7 @@
 #include "cli/rgbd_options.h"
 #include "cli/temporal_options.h"
 #include "frame/size.h"
+#include "usage/command_line.h"
 #include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
 
@@ -40,20 +39,20 @@ struct DisplayOptions {
 };
 
 // What says where its views stand and what they frame, but for their field of view.
-CLI::Option* addDisplayShape(CLI::App& app, DisplayOptions& options);
+usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options);
 // That, and the rest of what is asked of a server.
-void addDisplayOptions(CLI::App& app, DisplayOptions& options);
-void addMaskOption(CLI::App& app, DisplayOptions& options);
+void addDisplayOptions(const usage::Command& app, DisplayOptions& options);
+void addMaskOption(const usage::Command& app, DisplayOptions& options);
 
 // The px of the device itself instead of a quilt.
-void addPanelOptions(CLI::App& app, DisplayOptions& options);
+void addPanelOptions(const usage::Command& app, DisplayOptions& options);
 
 // Whether a display was named at all.
 bool isGiven(const DisplayOptions& options);
 // Whether the display gives its own field of view, so that it needs none of a stream.
 bool hasOwnFov(const DisplayOptions& options);
 // Colour with depth instead of them; after the options that it excludes.
-void addDepthDisplayOptions(CLI::App& app, DisplayOptions& options);
+void addDepthDisplayOptions(const usage::Command& app, DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
 v1::AtlasEncoding makeEncoding(const DisplayOptions& options);

@@ -2,12 +2,11 @@
 // Options that name the files of frames.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/file_frames.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-void addFileOptions(CLI::App& app, FileFeedOptions& options);
+void addFileOptions(const usage::Command& app, FileFeedOptions& options);
 
 }  // namespace viewloom::cli

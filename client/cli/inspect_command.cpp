@@ -149,7 +149,7 @@ int inspect(const InspectOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-RunCommand addInspectCommand(CLI::App& app) {
+RunCommand addInspectCommand(const usage::Command& app) {
   const auto options = std::make_shared<InspectOptions>();
   app.footer(
       "Examples:\n"
@@ -159,13 +159,13 @@ RunCommand addInspectCommand(CLI::App& app) {
       "--depth-far 12\n"
       "  viewloom inspect holiday_rgbd.png --input rgbd --depth-near 1 --depth-far inf --json");
   addFileOptions(app, options->files);
-  app.add_option("--layers", options->layer_count, "At most of deep files, 1..4 [4]")
-      ->check(CLI::Range(1, 4))
-      ->group("What");
-  app.add_option("--picture", options->picture,
-                 "PNG to write: colour of the first frame beside its depth, white near, magenta "
-                 "without surface");
-  app.add_flag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
+  app.add("--layers", options->layer_count, "At most of deep files, 1..4 [4]")
+      .between(1, 4)
+      .group("What");
+  app.add("--picture", options->picture,
+          "PNG to write: colour of the first frame beside its depth, white near, magenta "
+          "without surface");
+  app.addFlag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
   addPlaneOptions(app, options->files.loader.input);
   addDisplayShape(app, options->display);
   addPanelOptions(app, options->display);

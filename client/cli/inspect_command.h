@@ -2,12 +2,11 @@
 // `viewloom inspect`: what files hold, how they are read, and what looks wrong. Needs no server.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addInspectCommand(CLI::App& app);
+RunCommand addInspectCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

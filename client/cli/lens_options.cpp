@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lens_options.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 #include <map>
 #include <string>
@@ -13,48 +13,46 @@ const std::map<std::string, v1::Quality> kQualities{
 
 }  // namespace
 
-void addLensOptions(CLI::App& app, LensOptions& options, CLI::Option* file) {
+void addLensOptions(const usage::Command& app, LensOptions& options, usage::Option file) {
   const char* const group = "Lens";
-  CLI::Option* const radius =
-      app.add_option("--aperture", options.aperture_radius_m,
-                     "Radius of the opening of a lens before every view, m: blurs what is not in "
-                     "focus")
-          ->check(CLI::Range(1e-6, 10.0))
-          ->excludes(file)
-          ->group(group);
-  app.add_flag("--auto-aperture", options.has_automatic_aperture,
-               "As wide as surfaces beyond the ghosting limit need it")
-      ->excludes(file)
-      ->excludes(radius)
-      ->group(group);
-  app.add_option("--lens-focus", options.focus_distance_m,
-                 "Distance at which it is sharp, m [the focal plane]")
-      ->check(CLI::Range(1e-6, 1e9))
-      ->excludes(file)
-      ->group(group);
-  app.add_option("--blades", options.blades, "Straight sides of the opening; 0 = round")
-      ->check(CLI::Range(0, 16))
-      ->excludes(file)
-      ->group(group);
-  app.add_option("--lens-samples", options.walked_count, "Walked rays a px [by --effort]")
-      ->check(CLI::Range(1, 64))
-      ->excludes(file)
-      ->group(group);
-  app.add_option("--lens-gathered", options.gathered_count,
-                 "Further rays a px, compared with what the walked ones met [by --effort]")
-      ->check(CLI::Range(0, 256))
-      ->excludes(file)
-      ->group(group);
+  const usage::Option radius =
+      app.add("--aperture", options.aperture_radius_m,
+              "Radius of the opening of a lens before every view, m: blurs what is not in "
+              "focus")
+          .between(1e-6, 10.0)
+          .excludes(file)
+          .group(group);
+  app.addFlag("--auto-aperture", options.has_automatic_aperture,
+              "As wide as surfaces beyond the ghosting limit need it")
+      .excludes(file)
+      .excludes(radius)
+      .group(group);
+  app.add("--lens-focus", options.focus_distance_m,
+          "Distance at which it is sharp, m [the focal plane]")
+      .between(1e-6, 1e9)
+      .excludes(file)
+      .group(group);
+  app.add("--blades", options.blades, "Straight sides of the opening; 0 = round")
+      .between(0, 16)
+      .excludes(file)
+      .group(group);
+  app.add("--lens-samples", options.walked_count, "Walked rays a px [by --effort]")
+      .between(1, 64)
+      .excludes(file)
+      .group(group);
+  app.add("--lens-gathered", options.gathered_count,
+          "Further rays a px, compared with what the walked ones met [by --effort]")
+      .between(0, 256)
+      .excludes(file)
+      .group(group);
   const auto walk_doubtful = [&options] { options.mode = v1::GATHER_MODE_EXACT; };
-  app.add_flag_callback("--lens-exact", walk_doubtful,
-                        "Walk those that something else may stand in the way of")
-      ->excludes(file)
-      ->group(group);
-  const auto take = [&options](const std::string& word) { options.quality = kQualities.at(word); };
-  app.add_option_function<std::string>(
-         "--effort", take, "draft, balanced or best: what is spent on what is left open [balanced]")
-      ->check(usage::oneOf(kQualities))
-      ->excludes(file);
+  app.addAction("--lens-exact", walk_doubtful,
+                "Walk those that something else may stand in the way of")
+      .excludes(file)
+      .group(group);
+  app.addWord("--effort", options.quality, kQualities,
+              "draft, balanced or best: what is spent on what is left open [balanced]")
+      .excludes(file);
 }
 
 void setLens(const LensOptions& options, v1::Display& display) {

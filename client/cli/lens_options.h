@@ -4,8 +4,7 @@
 
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
+#include "usage/command_line.h"
 #include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
@@ -22,7 +21,7 @@ struct LensOptions {
 };
 
 // None of them beside `file`, which says it all.
-void addLensOptions(CLI::App& app, LensOptions& options, CLI::Option* file);
+void addLensOptions(const usage::Command& app, LensOptions& options, usage::Option file);
 
 // No lens without an aperture.
 void setLens(const LensOptions& options, v1::Display& display);

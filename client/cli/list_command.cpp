@@ -130,21 +130,20 @@ absl::Status list(const ListOptions& options, const Catalog& catalog) {
 
 }  // namespace
 
-RunCommand addListCommand(CLI::App& app) {
+RunCommand addListCommand(const usage::Command& app) {
   const auto options = std::make_shared<ListOptions>();
   app.footer(
       "Examples:\n"
       "  viewloom list                                    all there is on this machine's server\n"
       "  viewloom list streams --server 192.168.1.20:50051");
-  app.add_option("what", options->what, "streams, displays, presets, server or all")
-      ->capture_default_str();
+  app.add("what", options->what, "streams, displays, presets, server or all").showDefault();
   for (const char* what : {"streams", "displays", "presets"}) {
-    app.add_flag_callback(
+    app.addAction(
            strCat("--", what), [options, what] { options->what = what; }, strCat("As ", what))
-        ->excludes("what")
-        ->group("");
+        .excludes("what")
+        .group("");
   }
-  app.add_flag("--json", options->as_json, "The server's answers as JSON");
+  app.addFlag("--json", options->as_json, "The server's answers as JSON");
   return [options](const CommonOptions& common) -> int {
     leaveInterrupts();  // a server that hangs keeps nobody waiting
     if (std::ranges::find(kLists, options->what) == kLists.end()) {

@@ -2,12 +2,11 @@
 // `viewloom list`: what a server has.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addListCommand(CLI::App& app);
+RunCommand addListCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

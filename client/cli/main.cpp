@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `viewloom` command.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,32 +11,31 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "lib/channel.h"
-#include "usage/parse_command_line.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Publishes colour and depth to a viewloom server, and watches light fields.",
-               "viewloom");
-  app.set_version_flag("--version", VIEWLOOM_VERSION);
-  app.require_subcommand(1);
-  app.fallthrough();
+  const usage::CommandLine app(
+      "Publishes colour and depth to a viewloom server, and watches light fields.", "viewloom");
+  app.version(VIEWLOOM_VERSION);
+  app.requireCommand();
   app.footer("See \"viewloom COMMAND --help\" for the options of a command.");
   CommonOptions common{.server = kDefaultAddress};
-  app.add_option("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
-      ->envname("VIEWLOOM_SERVER_ADDRESS")
-      ->capture_default_str();
+  app.add("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
+      .environment("VIEWLOOM_SERVER_ADDRESS")
+      .showDefault();
 
-  const std::vector<std::pair<CLI::App*, RunCommand>> commands = addCommands(app);
+  const std::vector<std::pair<usage::Command, RunCommand>> commands = addCommands(app);
   if (argc <= 1) {
     std::fputs(app.help().c_str(), stdout);
     return kExitDone;
   }
-  if (const std::optional<int> code = usage::parseCommandLine(app, argc, argv)) return *code;
+  if (const std::optional<int> code = app.parse(argc, argv)) return *code;
   catchInterrupts();
   for (const auto& [command, run_command] : commands) {
-    if (command->parsed()) return run_command(common);
+    if (command.wasNamed()) return run_command(common);
   }
   return kExitUsage;
 }

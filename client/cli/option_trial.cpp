@@ -31,14 +31,9 @@ const std::set<std::string> kOfManifests{"--depth-meaning",
 // Settings that were given, with the options after them. Nothing when they contradict each other.
 std::optional<inputs::InputSettings> withOptions(inputs::InputSettings settings,
                                                  const std::string& options) {
-  CLI::App app;
+  const usage::CommandLine app;
   addPlaneOptions(app, settings);
-  try {
-    app.parse(options);
-  } catch (const CLI::ParseError&) {
-    return std::nullopt;
-  }
-  return settings;
+  return app.parse(options) ? std::optional(settings) : std::nullopt;
 }
 
 v1::DepthFormat depthOf(const inputs::InputSettings& settings, const v1::DepthFormat& format) {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "cli/size_option.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -14,27 +14,26 @@ constexpr double kConeMin_deg = 1, kConeMax_deg = 120;
 
 }  // namespace
 
-void addPatternOptions(CLI::App& app, PatternFeedOptions& options) {
+void addPatternOptions(const usage::Command& app, PatternFeedOptions& options) {
   const char* const group = "What";
-  auto* pattern =
-      app.add_option("--pattern", options.name,
-                     "Publish a test pattern, which stands still: view-numbers, "
-                     "parallax-ruler, focal-grid or card")
-          ->check(usage::oneOf({"view-numbers", "parallax-ruler", "focal-grid", "card"}))
-          ->group(group);
-  app.add_option("--views", options.pattern.views.count,
-                 "Views of the display that the pattern is for, 2..512 [48]")
-      ->check(CLI::Range(2U, patterns::kPatternViewsMax))
-      ->needs(pattern)
-      ->group(group);
-  app.add_option("--cone", options.cone_deg, "Their cone, 1..120 degrees [40]")
-      ->check(CLI::Range(kConeMin_deg, kConeMax_deg))
-      ->needs(pattern)
-      ->group(group);
+  const usage::Option pattern = app.add("--pattern", options.name,
+                                        "Publish a test pattern, which stands still: view-numbers, "
+                                        "parallax-ruler, focal-grid or card")
+                                    .oneOf({"view-numbers", "parallax-ruler", "focal-grid", "card"})
+                                    .group(group);
+  app.add("--views", options.pattern.views.count,
+          "Views of the display that the pattern is for, 2..512 [48]")
+      .between(2U, patterns::kPatternViewsMax)
+      .needs(pattern)
+      .group(group);
+  app.add("--cone", options.cone_deg, "Their cone, 1..120 degrees [40]")
+      .between(kConeMin_deg, kConeMax_deg)
+      .needs(pattern)
+      .group(group);
   addSizeOption(app, "--view-size", options.pattern.views.size_px, 8192,
                 "Size of one of them [420x560]")
-      ->needs(pattern)
-      ->group(group);
+      .needs(pattern)
+      .group(group);
 }
 
 patterns::PatternOptions patternOptions(const PatternFeedOptions& options) {

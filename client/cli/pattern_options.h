@@ -2,11 +2,10 @@
 // Options that say which test pattern is published, and for which display it is drawn.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 
 #include "patterns/pattern.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
@@ -16,7 +15,7 @@ struct PatternFeedOptions {
   patterns::PatternOptions pattern;
 };
 
-void addPatternOptions(CLI::App& app, PatternFeedOptions& options);
+void addPatternOptions(const usage::Command& app, PatternFeedOptions& options);
 
 // What patterns are drawn from. `name` is one that addPatternOptions accepts.
 patterns::PatternOptions patternOptions(const PatternFeedOptions& options);

@@ -2,12 +2,11 @@
 // Options that say which tool wrote files, what their samples mean, and which camera took them.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "inputs/input_settings.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-void addPlaneOptions(CLI::App& app, inputs::InputSettings& settings);
+void addPlaneOptions(const usage::Command& app, inputs::InputSettings& settings);
 
 }  // namespace viewloom::cli

@@ -18,7 +18,7 @@
 #include "cli/report_error.h"
 #include "cli/size_option.h"
 #include "cli/synthetic_frames.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -36,72 +36,70 @@ struct PublishOptions {
   PublishRunOptions run;
 };
 
-void addSourceOptions(CLI::App& app, PublishOptions& options) {
-  app.add_flag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
-      ->group("What");
+void addSourceOptions(const usage::Command& app, PublishOptions& options) {
+  app.addFlag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
+      .group("What");
   addSizeOption(app, "--size", options.size_px, 8192,
                 "Of the synthetic frames [960x540], of the pattern [1920x1080]")
-      ->group("What");
-  app.add_option("--layers", options.layer_count,
-                 "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
-      ->check(CLI::Range(1, 4))
-      ->group("What");
-  app.add_option("--sources", options.synthetic.source_count,
-                 "Cameras side by side that see the synthetic scene, 1..8 [1]")
-      ->check(CLI::Range(1, 8))
-      ->group("What");
-  app.add_flag("--cube", options.synthetic.is_cube_map,
-               "The synthetic scene as a cube map: six square faces as high as --size")
-      ->excludes("--sources")
-      ->group("What");
-  app.add_flag("--moving-camera", options.synthetic.has_moving_camera,
-               "The synthetic scene from a camera that sways")
-      ->group("What");
-  app.add_flag("--mirrors", options.synthetic.has_mirrors,
-               "The synthetic scene with a lake and things of metal, for displays with reflections")
-      ->excludes("--sources")
-      ->excludes("--cube")
-      ->group("What");
-  app.add_flag("--motion", options.synthetic.has_motion,
-               "With how the things of the synthetic scene move, for displays with an output rate")
-      ->excludes("--cube")
-      ->group("What");
-  app.add_option("--seconds", options.synthetic.duration_s,
-                 "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
-      ->check(CLI::NonNegativeNumber)
-      ->group("What");
-  app.add_option("--replay", options.replay.file,
-                 "A recording of frames (--record), at its own times or at --rate")
-      ->group("What");
+      .group("What");
+  app.add("--layers", options.layer_count,
+          "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
+      .between(1, 4)
+      .group("What");
+  app.add("--sources", options.synthetic.source_count,
+          "Cameras side by side that see the synthetic scene, 1..8 [1]")
+      .between(1, 8)
+      .group("What");
+  app.addFlag("--cube", options.synthetic.is_cube_map,
+              "The synthetic scene as a cube map: six square faces as high as --size")
+      .excludes("--sources")
+      .group("What");
+  app.addFlag("--moving-camera", options.synthetic.has_moving_camera,
+              "The synthetic scene from a camera that sways")
+      .group("What");
+  app.addFlag("--mirrors", options.synthetic.has_mirrors,
+              "The synthetic scene with a lake and things of metal, for displays with reflections")
+      .excludes("--sources")
+      .excludes("--cube")
+      .group("What");
+  app.addFlag("--motion", options.synthetic.has_motion,
+              "With how the things of the synthetic scene move, for displays with an output rate")
+      .excludes("--cube")
+      .group("What");
+  app.add("--seconds", options.synthetic.duration_s,
+          "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
+      .notNegative()
+      .group("What");
+  app.add("--replay", options.replay.file,
+          "A recording of frames (--record), at its own times or at --rate")
+      .group("What");
 }
 
-void addStreamOptions(CLI::App& app, PublishOptions& options) {
+void addStreamOptions(const usage::Command& app, PublishOptions& options) {
   PublishRunOptions& run = options.run;
-  app.add_option("--stream", run.stream, "Name of the stream")->capture_default_str();
-  app.add_option("--session", run.session_id,
-                 "Secret with which this publisher may take its stream over again [random]");
-  auto* rate = app.add_option("--fps,--rate", run.rate_hz,
-                              "Frames a second [15; of a recording: as recorded]")
-                   ->check(CLI::Range(0.001, 1000.0));
-  app.add_option("--speed", options.replay.speed, "Replay so many times as fast as recorded [1]")
-      ->check(CLI::Range(0.001, 1000.0))
-      ->needs("--replay")
-      ->excludes(rate);
-  app.add_flag("--loop", options.is_looping, "Start again after the last file or recorded frame");
-  app.add_flag("--hold", run.is_holding, "Keep the stream after the last frame, until Ctrl-C");
-  app.add_option("--zstd", run.zstd_level,
-                 "Compress planes, level 1..19; for slow links; 0 = do not")
-      ->check(CLI::Range(0, 19))
-      ->capture_default_str();
-  app.add_option(
-         "--depth-encoding", run.depth_encoding,
-         "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where its "
-         "steps do not show), or auto: plain on this machine, else predicted")
-      ->check(usage::oneOf({"auto", "plain", "predicted"}))
-      ->capture_default_str();
-  app.add_option("--record", run.record_file, "Keep the frames that are sent in this file");
-  app.add_flag("--no-retry", run.has_no_retry, "End when the server cannot be reached");
-  app.add_flag("-q,--quiet", run.is_quiet, "No status line");
+  app.add("--stream", run.stream, "Name of the stream").showDefault();
+  app.add("--session", run.session_id,
+          "Secret with which this publisher may take its stream over again [random]");
+  const usage::Option rate =
+      app.add("--fps,--rate", run.rate_hz, "Frames a second [15; of a recording: as recorded]")
+          .between(0.001, 1000.0);
+  app.add("--speed", options.replay.speed, "Replay so many times as fast as recorded [1]")
+      .between(0.001, 1000.0)
+      .needs("--replay")
+      .excludes(rate);
+  app.addFlag("--loop", options.is_looping, "Start again after the last file or recorded frame");
+  app.addFlag("--hold", run.is_holding, "Keep the stream after the last frame, until Ctrl-C");
+  app.add("--zstd", run.zstd_level, "Compress planes, level 1..19; for slow links; 0 = do not")
+      .between(0, 19)
+      .showDefault();
+  app.add("--depth-encoding", run.depth_encoding,
+          "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where its "
+          "steps do not show), or auto: plain on this machine, else predicted")
+      .oneOf({"auto", "plain", "predicted"})
+      .showDefault();
+  app.add("--record", run.record_file, "Keep the frames that are sent in this file");
+  app.addFlag("--no-retry", run.has_no_retry, "End when the server cannot be reached");
+  app.addFlag("-q,--quiet", run.is_quiet, "No status line");
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& options) {
@@ -169,7 +167,7 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
 
 }  // namespace
 
-RunCommand addPublishCommand(CLI::App& app) {
+RunCommand addPublishCommand(const usage::Command& app) {
   const auto options = std::make_shared<PublishOptions>();
   app.footer(
       "Examples:\n"
@@ -185,10 +183,10 @@ RunCommand addPublishCommand(CLI::App& app) {
   addSourceOptions(app, *options);
   addPatternOptions(app, options->pattern);
   addFileOptions(app, options->files);
-  app.add_option("--watch-folder", options->watched_folder,
-                 "Publish every complete file that is in this folder or comes into it; colour and "
-                 "depth in two files pair up by name, as x.png and x_depth.png")
-      ->group("What");
+  app.add("--watch-folder", options->watched_folder,
+          "Publish every complete file that is in this folder or comes into it; colour and "
+          "depth in two files pair up by name, as x.png and x_depth.png")
+      .group("What");
   addStreamOptions(app, *options);
   addPlaneOptions(app, options->files.loader.input);
   return [options](const CommonOptions& common) -> int {

@@ -2,12 +2,11 @@
 // `viewloom publish`: sends the synthetic scene, test patterns, files or manifests as a stream.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addPublishCommand(CLI::App& app);
+RunCommand addPublishCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

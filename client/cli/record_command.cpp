@@ -156,7 +156,7 @@ class RecordRun {
 
 }  // namespace
 
-RunCommand addRecordCommand(CLI::App& app) {
+RunCommand addRecordCommand(const usage::Command& app) {
   const auto options = std::make_shared<RecordOptions>();
   app.footer(
       "Examples:\n"
@@ -164,14 +164,13 @@ RunCommand addRecordCommand(CLI::App& app) {
       "  viewloom record demo --seconds 10 --preset portrait --out portrait.vlr\n"
       "  viewloom watch --from portrait.vlr --out quilts  as files for the device\n"
       "Frames are recorded where they are sent: `viewloom publish --record`.");
-  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
-  app.add_option("--out", options->file, "The file; it is there once it is complete")->required();
-  app.add_option("--count", options->count, "Atlases to record; 0 = until Ctrl-C");
-  app.add_option("--seconds", options->duration_s, "How long to record; 0 = until Ctrl-C")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--no-wait", options->fails_without_stream, "End when there is no such stream");
-  app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
-  app.add_flag("-q,--quiet", options->is_quiet, "No status line");
+  app.add("stream", options->stream, "Name of the stream").showDefault();
+  app.add("--out", options->file, "The file; it is there once it is complete").required();
+  app.add("--count", options->count, "Atlases to record; 0 = until Ctrl-C");
+  app.add("--seconds", options->duration_s, "How long to record; 0 = until Ctrl-C").notNegative();
+  app.addFlag("--no-wait", options->fails_without_stream, "End when there is no such stream");
+  app.addFlag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
+  app.addFlag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
   addDepthDisplayOptions(app, options->display);
   return

@@ -2,12 +2,11 @@
 // `viewloom record`: keeps the atlases of a stream in a file.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addRecordCommand(CLI::App& app);
+RunCommand addRecordCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

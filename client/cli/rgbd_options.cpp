@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/size_option.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -19,42 +19,35 @@ const std::map<std::string, v1::DepthPlacement> kPlacements{{"right", v1::DEPTH_
                                                             {"top", v1::DEPTH_PLACEMENT_TOP},
                                                             {"bottom", v1::DEPTH_PLACEMENT_BOTTOM}};
 
-// An option that takes one of the words.
-template <typename Value>
-CLI::Option* addWord(CLI::App& app, const std::string& name, Value& value,
-                     const std::map<std::string, Value>& words, const std::string& description) {
-  const auto take = [&value, words](const std::string& word) { value = words.at(word); };
-  return app.add_option_function<std::string>(name, take, description)->check(usage::oneOf(words));
-}
-
 }  // namespace
 
-void addRgbdOptions(CLI::App& app, RgbdOptions& options, const std::vector<CLI::Option*>& others) {
+void addRgbdOptions(const usage::Command& app, RgbdOptions& options,
+                    const std::vector<usage::Option>& others) {
   const char* const group = "Colour and depth";
-  CLI::Option* const size =
+  const usage::Option size =
       addSizeOption(app, "--rgbd", options.view_size_px, kViewSidePxMax,
                     "One view of this size, and its depth as grey, for displays that make their "
                     "own views")
-          ->group(group);
-  for (CLI::Option* other : others) size->excludes(other);
-  addWord(app, "--rgbd-form", options.form, kForms,
-          "color-depth, or two-layers: below both what lies behind [color-depth]")
-      ->group(group)
-      ->needs(size);
-  addWord(app, "--depth-side", options.placement, kPlacements,
-          "Where depth lies, seen from colour: right, left, top, bottom [right]")
-      ->group(group)
-      ->needs(size);
-  app.add_option("--depth-bits", options.depth_bits, "Of depth: 8, or 16 in PNG files of 16 bits")
-      ->check(usage::oneOf({"8", "16"}))
-      ->capture_default_str()
-      ->group(group)
-      ->needs(size);
-  app.add_flag("--black-near", options.is_black_near, "Black is near, not white")
-      ->group(group)
-      ->needs(size);
+          .group(group);
+  for (usage::Option other : others) size.excludes(other);
+  app.addWord("--rgbd-form", options.form, kForms,
+              "color-depth, or two-layers: below both what lies behind [color-depth]")
+      .group(group)
+      .needs(size);
+  app.addWord("--depth-side", options.placement, kPlacements,
+              "Where depth lies, seen from colour: right, left, top, bottom [right]")
+      .group(group)
+      .needs(size);
+  app.add("--depth-bits", options.depth_bits, "Of depth: 8, or 16 in PNG files of 16 bits")
+      .oneOf({"8", "16"})
+      .showDefault()
+      .group(group)
+      .needs(size);
+  app.addFlag("--black-near", options.is_black_near, "Black is near, not white")
+      .group(group)
+      .needs(size);
   const auto addDistance = [&](const char* name, double& value_m, const char* text) {
-    app.add_option(name, value_m, text)->group(group)->needs(size);
+    app.add(name, value_m, text).group(group).needs(size);
   };
   addDistance("--depth-near", options.near_m, "Metres to the nearest code [by the content]");
   addDistance("--depth-far", options.far_m,

@@ -2,9 +2,8 @@
 // Options for displays that make their own views: colour with depth instead of a quilt.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "frame/size.h"
+#include "usage/command_line.h"
 #include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
@@ -21,7 +20,8 @@ struct RgbdOptions {
 };
 
 // None of them beside `others`.
-void addRgbdOptions(CLI::App& app, RgbdOptions& options, const std::vector<CLI::Option*>& others);
+void addRgbdOptions(const usage::Command& app, RgbdOptions& options,
+                    const std::vector<usage::Option>& others);
 
 v1::RgbdDisplay makeRgbd(const RgbdOptions& options, double fov_y_rad);
 

@@ -18,7 +18,7 @@
 #include "show/find_calibration.h"
 #include "show/show_session.h"
 #include "show/tune_session.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -157,7 +157,7 @@ int run(const ShowOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-RunCommand addShowCommand(CLI::App& app) {
+RunCommand addShowCommand(const usage::Command& app) {
   const auto options = std::make_shared<ShowOptions>();
   app.footer(
       "Keys: left/right view, up/down focus, [ ] cone, m mode, b blend, i statistics,\n"
@@ -168,38 +168,38 @@ RunCommand addShowCommand(CLI::App& app) {
       "  viewloom show --windowed --mode pair   two views side by side, in a window\n"
       "  head-tracker | viewloom show --display tracked.json --eyes-from -\n"
       "  viewloom show --tune --out visual.json adjust the calibration by eye");
-  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
-  app.add_option(
-         "--mode", options->mode,
-         "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
-         "two side by side; quilt [on a calibrated panel weave where the server renders on a CPU, "
-         "else native; without one pair of a stereo display, else view]")
-      ->check(usage::oneOf({"native", "weave", "view", "pair", "quilt"}));
-  auto* calibration = app.add_option("--calibration", options->calibration_file,
-                                     "The panel's visual.json [the one on its USB storage]");
-  auto* eyes = app.add_option("--eyes-from", options->eye_file,
-                              "Where the eyes before a tracked --display are, as `viewloom watch "
-                              "--eyes` takes them; - reads them from a pipe")
-                   ->excludes(calibration);
-  app.add_option("--monitor", options->monitor,
-                 "Number of the monitor [the one of the panel's size]");
-  app.add_flag("--windowed", options->is_windowed, "A window instead of the full screen");
-  app.add_option("--view", options->view, "View to show first, from 0 [the middle one]");
-  app.add_option("--pair-distance", options->pair_distance,
-                 "Views between the two of a pair [an eighth of all]");
-  app.add_option("--between-views", options->views_between,
-                 "Of a woven quilt: blend neighbouring views, or show the nearest")
-      ->check(usage::oneOf({"blend", "nearest"}))
-      ->capture_default_str();
-  app.add_flag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
-  auto* tune = app.add_flag("--tune", options->is_tuning,
-                            "Adjust pitch, slope and centre by eye; its keys stand on the screen")
-                   ->excludes(eyes)
-                   ->group("Calibration");
-  app.add_option("--out", options->out_file, "The calibration that --tune writes")
-      ->needs(tune)
-      ->capture_default_str()
-      ->group("Calibration");
+  app.add("stream", options->stream, "Name of the stream").showDefault();
+  app.add("--mode", options->mode,
+          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
+          "two side by side; quilt [on a calibrated panel weave where the server renders on a CPU, "
+          "else native; without one pair of a stereo display, else view]")
+      .oneOf({"native", "weave", "view", "pair", "quilt"});
+  const usage::Option calibration = app.add("--calibration", options->calibration_file,
+                                            "The panel's visual.json [the one on its USB storage]");
+  const usage::Option eyes =
+      app.add("--eyes-from", options->eye_file,
+              "Where the eyes before a tracked --display are, as `viewloom watch "
+              "--eyes` takes them; - reads them from a pipe")
+          .excludes(calibration);
+  app.add("--monitor", options->monitor, "Number of the monitor [the one of the panel's size]");
+  app.addFlag("--windowed", options->is_windowed, "A window instead of the full screen");
+  app.add("--view", options->view, "View to show first, from 0 [the middle one]");
+  app.add("--pair-distance", options->pair_distance,
+          "Views between the two of a pair [an eighth of all]");
+  app.add("--between-views", options->views_between,
+          "Of a woven quilt: blend neighbouring views, or show the nearest")
+      .oneOf({"blend", "nearest"})
+      .showDefault();
+  app.addFlag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
+  const usage::Option tune =
+      app.addFlag("--tune", options->is_tuning,
+                  "Adjust pitch, slope and centre by eye; its keys stand on the screen")
+          .excludes(eyes)
+          .group("Calibration");
+  app.add("--out", options->out_file, "The calibration that --tune writes")
+      .needs(tune)
+      .showDefault()
+      .group("Calibration");
   addDisplayOptions(app, options->display);
   return [options](const CommonOptions& common) -> int { return run(*options, common); };
 }

@@ -2,12 +2,11 @@
 // `viewloom show`: a stream on a light-field panel, or in a window.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addShowCommand(CLI::App& app);
+RunCommand addShowCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

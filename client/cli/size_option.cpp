@@ -21,18 +21,18 @@ std::optional<SizePx> parseSize(const std::string& text) {
 
 }  // namespace
 
-CLI::Option* addSizeOption(CLI::App& app, const std::string& name, SizePx& size_px,
-                           uint32_t side_max_px, const std::string& description) {
+usage::Option addSizeOption(const usage::Command& app, const std::string& name, SizePx& size_px,
+                            uint32_t side_max_px, const std::string& description) {
   const auto take = [&size_px, name, side_max_px](const std::string& text) {
     const std::optional<SizePx> parsed = parseSize(text);
     const auto in_range = [&](uint32_t side) { return side >= 1 && side <= side_max_px; };
     if (!parsed || !in_range(parsed->width) || !in_range(parsed->height)) {
-      throw CLI::ValidationError(
-          name, strCat("is ", text, "; accepted is WIDTHxHEIGHT, 1..", side_max_px, " px a side"));
+      throw usage::BadValue(
+          strCat("is ", text, "; accepted is WIDTHxHEIGHT, 1..", side_max_px, " px a side"));
     }
     size_px = *parsed;
   };
-  return app.add_option_function<std::string>(name, take, description)->type_name("WxH");
+  return app.addTaken(name, take, description).valueName("WxH");
 }
 
 }  // namespace viewloom::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/temporal_options.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 #include <map>
 #include <string>
@@ -13,27 +13,24 @@ const std::map<std::string, v1::TemporalMode> kModes{
 
 }  // namespace
 
-void addTemporalOptions(CLI::App& app, TemporalOptions& options, CLI::Option* file) {
+void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usage::Option file) {
   const char* const group = "Between frames";
-  CLI::Option* const rate =
-      app.add_option("--output-rate", options.output_rate_hz,
-                     "Atlases a second, whatever the stream's rate is: in between, its camera is "
-                     "carried on")
-          ->check(CLI::Range(1.0, 240.0))
-          ->excludes(file)
-          ->group(group);
-  const auto take = [&options](const std::string& word) { options.mode = kModes.at(word); };
-  app.add_option_function<std::string>(
-         "--between", take,
-         "predict: from the newest frame; interpolate: one frame late, from two [predict]")
-      ->check(usage::oneOf(kModes))
-      ->needs(rate)
-      ->group(group);
-  app.add_option("--bridge", options.bridge_s,
-                 "Seconds for which a late frame is bridged before the picture is held [0.25]")
-      ->check(CLI::Range(0.001, 10.0))
-      ->needs(rate)
-      ->group(group);
+  const usage::Option rate =
+      app.add("--output-rate", options.output_rate_hz,
+              "Atlases a second, whatever the stream's rate is: in between, its camera is "
+              "carried on")
+          .between(1.0, 240.0)
+          .excludes(file)
+          .group(group);
+  app.addWord("--between", options.mode, kModes,
+              "predict: from the newest frame; interpolate: one frame late, from two [predict]")
+      .needs(rate)
+      .group(group);
+  app.add("--bridge", options.bridge_s,
+          "Seconds for which a late frame is bridged before the picture is held [0.25]")
+      .between(0.001, 10.0)
+      .needs(rate)
+      .group(group);
 }
 
 void setTemporal(const TemporalOptions& options, v1::Display& display) {

@@ -2,8 +2,7 @@
 // Options for atlases between the frames of a stream.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include "usage/command_line.h"
 #include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
@@ -15,7 +14,7 @@ struct TemporalOptions {
 };
 
 // None of them beside `file`, which says it all.
-void addTemporalOptions(CLI::App& app, TemporalOptions& options, CLI::Option* file);
+void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usage::Option file);
 
 // Nothing is set without a rate.
 void setTemporal(const TemporalOptions& options, v1::Display& display);

@@ -26,7 +26,7 @@
 #include "lib/clock_follower.h"
 #include "lib/frame_latency.h"
 #include "lib/watcher.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
@@ -257,7 +257,7 @@ class WatchRun {
 
 }  // namespace
 
-RunCommand addWatchCommand(CLI::App& app) {
+RunCommand addWatchCommand(const usage::Command& app) {
   const auto options = std::make_shared<WatchOptions>();
   app.footer(
       "Examples:\n"
@@ -269,23 +269,22 @@ RunCommand addWatchCommand(CLI::App& app) {
       "  viewloom watch --output-rate 60 --between interpolate   60 atlases/s of any stream\n"
       "  viewloom watch --from portrait.vlr --out quilts  from a recording\n"
       "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
-  app.add_option("stream", options->stream, "Name of the stream")->capture_default_str();
-  auto* from = app.add_option("--from", options->recording,
-                              "Watch a recording (`viewloom record`) instead of a stream");
-  app.add_option("--eyes", options->eye_file,
-                 "Where the eyes before a tracked --display are: lines {\"time_ns\": 8, \"left\": "
-                 "[x, y, z], \"right\": [x, y, z]}, metres; - reads them from a pipe")
-      ->excludes(from);
-  app.add_option("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
-  auto* out = app.add_option("--out", options->folder, "Write every atlas into this folder");
-  app.add_flag("--views", options->writes_views, "Write single views instead of atlases")
-      ->needs(out);
-  app.add_option("--format", options->format, "Of the files: jpg or png")
-      ->check(usage::oneOf({"jpg", "png"}))
-      ->capture_default_str();
-  app.add_flag("--no-wait", options->fails_without_stream, "End when there is no such stream");
-  app.add_flag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
-  app.add_flag("-q,--quiet", options->is_quiet, "No status line");
+  app.add("stream", options->stream, "Name of the stream").showDefault();
+  const usage::Option from = app.add("--from", options->recording,
+                                     "Watch a recording (`viewloom record`) instead of a stream");
+  app.add("--eyes", options->eye_file,
+          "Where the eyes before a tracked --display are: lines {\"time_ns\": 8, \"left\": "
+          "[x, y, z], \"right\": [x, y, z]}, metres; - reads them from a pipe")
+      .excludes(from);
+  app.add("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
+  const usage::Option out = app.add("--out", options->folder, "Write every atlas into this folder");
+  app.addFlag("--views", options->writes_views, "Write single views instead of atlases").needs(out);
+  app.add("--format", options->format, "Of the files: jpg or png")
+      .oneOf({"jpg", "png"})
+      .showDefault();
+  app.addFlag("--no-wait", options->fails_without_stream, "End when there is no such stream");
+  app.addFlag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
+  app.addFlag("-q,--quiet", options->is_quiet, "No status line");
   addDisplayOptions(app, options->display);
   addPanelOptions(app, options->display);
   addDepthDisplayOptions(app, options->display);

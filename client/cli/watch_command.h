@@ -2,12 +2,11 @@
 // `viewloom watch`: receives atlases of a stream, writes them, and says how it goes.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
-RunCommand addWatchCommand(CLI::App& app);
+RunCommand addWatchCommand(const usage::Command& app);
 
 }  // namespace viewloom::cli

@@ -2,7 +2,6 @@
 // viewloomd bench: what this machine does with the synthetic scene on a Looking Glass Portrait.
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "commands/stage_bench.h"
 #include "messages/display_from_proto.h"
 #include "synthetic/synthetic_wire_frame.h"
+#include "usage/command_line.h"
 
 namespace viewloom {
 namespace {
@@ -158,22 +158,21 @@ int bench(const BenchArguments& arguments, const Config& config) {
 
 }  // namespace
 
-void addBenchCommand(CLI::App& app, Command& chosen) {
+void addBenchCommand(const usage::Command& app, RunCommand& chosen) {
   const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "bench",
       "Times this machine on the synthetic scene, 1920x1080 in two layers, as a Portrait "
       "quilt; prints JSON");
-  command->fallthrough();
-  command->add_option("--repeat", arguments->repetition_count, "Repetitions of each stage")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--seconds", arguments->seconds, "Length of the run through gRPC")
-      ->check(CLI::Range(0.1, 3600.0));
+  command.add("--repeat", arguments->repetition_count, "Repetitions of each stage")
+      .between(1, 1000);
+  command.add("--seconds", arguments->seconds, "Length of the run through gRPC")
+      .between(0.1, 3600.0);
   command
-      ->add_option("--cone", arguments->cone_deg,
-                   "Angle between the outermost views, degrees: how far rays travel sets the cost")
-      ->check(CLI::Range(0.01, 140.0));
-  command->callback([arguments, &chosen] {
+      .add("--cone", arguments->cone_deg,
+           "Angle between the outermost views, degrees: how far rays travel sets the cost")
+      .between(0.01, 140.0);
+  command.onChosen([arguments, &chosen] {
     chosen = [arguments](const Config& config) { return bench(*arguments, config); };
   });
 }

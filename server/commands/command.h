@@ -5,23 +5,20 @@
 #include <functional>
 
 #include "config/config.h"
-
-namespace CLI {
-class App;
-}
+#include "usage/command_line.h"
 
 namespace viewloom {
 
 // Does what the subcommand is for. Returns the exit code; throws std::exception, with the remedy,
 // when it cannot start (exit code 2).
-using Command = std::function<int(const Config& config)>;
+using RunCommand = std::function<int(const Config& config)>;
 
 // Each adds its subcommand and options to `app`; `chosen` is set when the command line names it.
-void addServeCommand(CLI::App& app, Command& chosen);
+void addServeCommand(const usage::Command& app, RunCommand& chosen);
 // Returns 1 when its input is refused.
-void addRenderCommand(CLI::App& app, Command& chosen);
-void addBenchCommand(CLI::App& app, Command& chosen);
+void addRenderCommand(const usage::Command& app, RunCommand& chosen);
+void addBenchCommand(const usage::Command& app, RunCommand& chosen);
 // Returns 1 when something must be put right before the server can run.
-void addDoctorCommand(CLI::App& app, Command& chosen);
+void addDoctorCommand(const usage::Command& app, RunCommand& chosen);
 
 }  // namespace viewloom

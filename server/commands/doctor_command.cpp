@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // viewloomd doctor: says what is well, what is not, and what to do about it.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "base/printable.h"
 #include "commands/command.h"
 #include "commands/doctor_checks.h"
+#include "usage/command_line.h"
 
 namespace viewloom {
 namespace {
@@ -45,11 +45,10 @@ int doctor(const Config& config) {
 
 }  // namespace
 
-void addDoctorCommand(CLI::App& app, Command& chosen) {
-  CLI::App* const command =
-      app.add_subcommand("doctor", "Checks device, ports and host, and says what to do");
-  command->fallthrough();
-  command->callback([&chosen] { chosen = doctor; });
+void addDoctorCommand(const usage::Command& app, RunCommand& chosen) {
+  const usage::Command command =
+      app.addCommand("doctor", "Checks device, ports and host, and says what to do");
+  command.onChosen([&chosen] { chosen = doctor; });
 }
 
 }  // namespace viewloom

@@ -2,7 +2,6 @@
 // viewloomd render: one frame from files, on one display, to picture files.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -23,7 +22,7 @@
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
 #include "frame/timing_text.h"
-#include "usage/one_of.h"
+#include "usage/command_line.h"
 
 namespace viewloom {
 namespace {
@@ -212,43 +211,37 @@ int render(const RenderArguments& arguments, const Config& config) {
 
 }  // namespace
 
-void addRenderCommand(CLI::App& app, Command& chosen) {
+void addRenderCommand(const usage::Command& app, RunCommand& chosen) {
   const auto arguments = std::make_shared<RenderArguments>();
   CompareOptions& compare = arguments->compare;
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "render", "Renders a frame from files to picture files; prints a report as JSON");
-  command->fallthrough();
-  command->add_option("--frame", arguments->frame, "Manifest of the frame, JSON")->required();
-  CLI::Option* const later =
-      command->add_option("--later", arguments->later_s,
-                          "Seconds from --frame to what a display with effects.temporal is shown: "
-                          "0 or more to predict, 0 or less to interpolate");
+  command.add("--frame", arguments->frame, "Manifest of the frame, JSON").required();
+  const usage::Option later =
+      command.add("--later", arguments->later_s,
+                  "Seconds from --frame to what a display with effects.temporal is shown: "
+                  "0 or more to predict, 0 or less to interpolate");
   command
-      ->add_option("--before", arguments->before,
-                   "Manifest of the frame before, JSON, which tells how the camera moves")
-      ->needs(later);
-  CLI::Option_group* const display = command->add_option_group("Display");
-  display->add_option("--display", arguments->display, "Description of the display, JSON");
-  display->add_option("--preset", arguments->preset, "A named device, see `viewloom list presets`");
-  display->require_option(1);
-  command->add_option("--out", arguments->out, "Folder for the pictures, made if need be")
-      ->required();
-  CLI::Option* const truth = command->add_option(
-      "--compare", compare.truth, "Manifest of true views, JSON: scores views against it");
+      .add("--before", arguments->before,
+           "Manifest of the frame before, JSON, which tells how the camera moves")
+      .needs(later);
+  const usage::Command display = command.addAlternatives("Display");
+  display.add("--display", arguments->display, "Description of the display, JSON");
+  display.add("--preset", arguments->preset, "A named device, see `viewloom list presets`");
+  command.add("--out", arguments->out, "Folder for the pictures, made if need be").required();
+  const usage::Option truth = command.add("--compare", compare.truth,
+                                          "Manifest of true views, JSON: scores views against it");
   command
-      ->add_option_function<std::string>(
-          "--transfer",
-          [&compare](const std::string& word) { compare.transfer = kTransfers.at(word); },
-          "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
-      ->check(usage::oneOf(kTransfers))
-      ->needs(truth);
-  command->add_option("--border", compare.border_px, "px left out on every side of a scored view")
-      ->needs(truth);
+      .addWord("--transfer", compare.transfer, kTransfers,
+               "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
+      .needs(truth);
+  command.add("--border", compare.border_px, "px left out on every side of a scored view")
+      .needs(truth);
   command
-      ->add_option("--covered-mask", compare.covered_masks,
-                   "8-bit grey PNG per true view: 255 covered, 0 hidden, between outside")
-      ->needs(truth);
-  command->callback([arguments, &chosen] {
+      .add("--covered-mask", compare.covered_masks,
+           "8-bit grey PNG per true view: 255 covered, 0 hidden, between outside")
+      .needs(truth);
+  command.onChosen([arguments, &chosen] {
     chosen = [arguments](const Config& config) { return render(*arguments, config); };
   });
 }

@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include "commands/reachable_addresses.h"
 #include "gpu/device_error.h"
 #include "service.h"
+#include "usage/command_line.h"
 
 namespace viewloom {
 namespace {
@@ -86,10 +86,9 @@ int serve(const Config& config) {
   return has_failed ? kExitFailed : 0;
 }
 
-void addServeCommand(CLI::App& app, Command& chosen) {
-  CLI::App* const command = app.add_subcommand("serve", "Runs the server (default)");
-  command->fallthrough();
-  command->callback([&chosen] { chosen = serve; });
+void addServeCommand(const usage::Command& app, RunCommand& chosen) {
+  const usage::Command command = app.addCommand("serve", "Runs the server (default)");
+  command.onChosen([&chosen] { chosen = serve; });
 }
 
 }  // namespace viewloom

@@ -119,17 +119,17 @@ void writePictures(const Arguments& arguments) {
 
 }  // namespace
 
-void addPicturesCommand(CLI::App& app) {
+void addPicturesCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "pictures", "Write input, result and truth of each application of the tracer, as PPM");
-  command->add_option("folder", arguments->folder, "Where to")->required();
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.add("folder", arguments->folder, "Where to").required();
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Frames and displays so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 8));
-  command->callback([arguments] { writePictures(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "Frames and displays so many times smaller on a side: tries the program out")
+      .between(1, 8);
+  command.onChosen([arguments] { writePictures(*arguments); });
 }
 
 }  // namespace viewloom::bench

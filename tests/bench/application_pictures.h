@@ -2,10 +2,10 @@
 // `viewloom-bench pictures`: each application of the tracer in pictures.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addPicturesCommand(CLI::App& app);
+void addPicturesCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
@@ -35,6 +34,7 @@
 #include "bench/tick_bench.h"
 #include "bench/uplink.h"
 #include "bench/viewloom_contestant.h"
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 namespace {
@@ -129,37 +129,36 @@ void measureAll(const Arguments& arguments, Work work) {
   }
 }
 
-void addCommand(CLI::App& app, const char* name, const char* description, Work work) {
+void addCommand(const usage::Command& app, const char* name, const char* description, Work work) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(name, description);
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  CLI::Option* const json =
-      command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
-  command->add_flag("--table", arguments->prints_table, "Print tables in markdown at the end")
-      ->excludes(json);
-  command->add_option("--rounds", arguments->round_count, "Rounds of each load, for the medians")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--only", arguments->only, "Loads whose name has this in it");
+  const usage::Command command = app.addCommand(name, description);
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  const usage::Option json =
+      command.addFlag("--json", arguments->prints_json, "Print one JSON object at the end");
+  command.addFlag("--table", arguments->prints_table, "Print tables in markdown at the end")
+      .excludes(json);
+  command.add("--rounds", arguments->round_count, "Rounds of each load, for the medians")
+      .between(1, 1000);
+  command.add("--only", arguments->only, "Loads whose name has this in it");
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Scenes and tiles so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 32));
-  command->add_option("--data", arguments->data, "Folder of the recorded sets")
-      ->capture_default_str();
-  command->add_option("--frame", arguments->manifests, "FrameManifest to add as a load; repeatable")
-      ->check(CLI::ExistingFile);
+      .add("--miniature", arguments->miniature,
+           "Scenes and tiles so many times smaller on a side: tries the program out")
+      .between(1, 32);
+  command.add("--data", arguments->data, "Folder of the recorded sets").showDefault();
+  command.add("--frame", arguments->manifests, "FrameManifest to add as a load; repeatable")
+      .existingFile();
   if (work == Work::kBuildAndTrace) {
-    command->add_flag("--full,!--quick", arguments->is_full,
-                      "Every scene with every display, and 4K; default: two dozen loads");
+    command.addFlag("--full,!--quick", arguments->is_full,
+                    "Every scene with every display, and 4K; default: two dozen loads");
   }
-  command->callback([arguments, work] { measureAll(*arguments, work); });
+  command.onChosen([arguments, work] { measureAll(*arguments, work); });
 }
 
 }  // namespace
 
 int runBench(int argc, char** argv) {
-  CLI::App app("Times viewloom beside its rivals on the same frames");
-  app.require_subcommand(1);
+  const usage::CommandLine app("Times viewloom beside its rivals on the same frames");
+  app.requireCommand();
   addCommand(app, "trace", "Build and trace whole atlases", Work::kBuildAndTrace);
   addCommand(app, "build", "Build structures alone", Work::kBuild);
   addDisplaysCommand(app);
@@ -172,7 +171,7 @@ int runBench(int argc, char** argv) {
   addTicksCommand(app);
   addQualityCommand(app);
   addPicturesCommand(app);
-  CLI11_PARSE(app, argc, argv);
+  if (const std::optional<int> code = app.parse(argc, argv)) return *code;
   return 0;
 }
 

@@ -127,22 +127,21 @@ void measure(const Arguments& arguments) {
 
 }  // namespace
 
-void addDisplaysCommand(CLI::App& app) {
+void addDisplaysCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "displays", "Trace the synthetic frame for every preset, as a quilt and in its panel's px");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object");
-  command->add_option("--rounds", arguments->round_count, "Rounds, for the medians")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--only", arguments->only, "Displays whose name has this in it");
-  command->add_option("--cone", arguments->cone_deg, "Degrees, instead of each preset's")
-      ->check(CLI::Range(0.01, 140.0));
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object");
+  command.add("--rounds", arguments->round_count, "Rounds, for the medians").between(1, 1000);
+  command.add("--only", arguments->only, "Displays whose name has this in it");
+  command.add("--cone", arguments->cone_deg, "Degrees, instead of each preset's")
+      .between(0.01, 140.0);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Frames and displays so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 32));
-  command->callback([arguments] { measure(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "Frames and displays so many times smaller on a side: tries the program out")
+      .between(1, 32);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

@@ -2,10 +2,10 @@
 // `viewloom-bench displays`: what a frame of each display costs.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addDisplaysCommand(CLI::App& app);
+void addDisplaysCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -241,20 +241,18 @@ void measureAll(const Arguments& arguments) {
 
 }  // namespace
 
-void addIngestCommand(CLI::App& app) {
+void addIngestCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "ingest", "Send frames of 3840x2160 to a server in another process, beside gRPC alone");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object instead of a table");
-  command->add_option("--rounds", arguments->round_count, "Rounds, for the medians")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--frames", arguments->frame_count, "Frames a round")
-      ->check(CLI::Range(1, 100000));
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object instead of a table");
+  command.add("--rounds", arguments->round_count, "Rounds, for the medians").between(1, 1000);
+  command.add("--frames", arguments->frame_count, "Frames a round").between(1, 100000);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "A frame so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 32));
-  command->callback([arguments] { measureAll(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "A frame so many times smaller on a side: tries the program out")
+      .between(1, 32);
+  command.onChosen([arguments] { measureAll(*arguments); });
 }
 
 }  // namespace viewloom::bench

@@ -3,10 +3,10 @@
 // a copy of its bytes.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addIngestCommand(CLI::App& app);
+void addIngestCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

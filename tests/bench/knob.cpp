@@ -125,19 +125,18 @@ std::vector<KnobPoint> knobPoints(const Device& device, const KnobLoad& load,
   return points;
 }
 
-void addKnobCommand(CLI::App& app) {
+void addKnobCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "knob", "Time over PSNR of draft, balanced and best, for each application of the tracer");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object");
-  command->add_option("--rounds", arguments->round_count, "Of each trace, for the median")
-      ->check(CLI::Range(1, 1000));
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object");
+  command.add("--rounds", arguments->round_count, "Of each trace, for the median").between(1, 1000);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Frames and displays so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 8));
-  command->callback([arguments] { measure(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "Frames and displays so many times smaller on a side: tries the program out")
+      .between(1, 8);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

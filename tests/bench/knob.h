@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "bench/knob_loads.h"
 #include "gpu/device.h"
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
@@ -22,6 +21,6 @@ struct KnobPoint {
 // Of draft, balanced and best in turn, as often as rounds say, at least once.
 std::vector<KnobPoint> knobPoints(const Device& device, const KnobLoad& load, uint32_t round_count);
 
-void addKnobCommand(CLI::App& app);
+void addKnobCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

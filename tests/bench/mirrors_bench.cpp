@@ -99,16 +99,15 @@ void measure(const Arguments& arguments) {
 
 }  // namespace
 
-void addMirrorsCommand(CLI::App& app) {
+void addMirrorsCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "mirrors", "Time and PSNR of reflected rays, walked and marched from px to px");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object");
-  command->add_option("--only", arguments->only, "Scenes whose name has this in it");
-  command->add_option("--rounds", arguments->round_count, "Of each way, for the medians")
-      ->check(CLI::Range(1, 1000));
-  command->callback([arguments] { measure(*arguments); });
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object");
+  command.add("--only", arguments->only, "Scenes whose name has this in it");
+  command.add("--rounds", arguments->round_count, "Of each way, for the medians").between(1, 1000);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

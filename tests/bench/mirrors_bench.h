@@ -2,10 +2,10 @@
 // `viewloom-bench mirrors`: reflections beside those of a march from px to px.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addMirrorsCommand(CLI::App& app);
+void addMirrorsCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -53,16 +53,16 @@ void scoreAll(const Arguments& arguments) {
 
 }  // namespace
 
-void addQualityCommand(CLI::App& app) {
+void addQualityCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command =
-      app.add_subcommand("quality", "Score the applications of the tracer beside the truth");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
+  const usage::Command command =
+      app.addCommand("quality", "Score the applications of the tracer beside the truth");
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object at the end");
   std::vector<std::string> names;
   for (const Section& section : kSections) names.emplace_back(section.name);
-  command->add_option("--only", arguments->only, "This section alone")->check(CLI::IsMember(names));
-  command->callback([arguments] { scoreAll(*arguments); });
+  command.add("--only", arguments->only, "This section alone").oneOf(names);
+  command.onChosen([arguments] { scoreAll(*arguments); });
 }
 
 }  // namespace viewloom::bench

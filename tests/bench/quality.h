@@ -2,10 +2,10 @@
 // `viewloom-bench quality`: what the applications of the tracer are worth beside the truth.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addQualityCommand(CLI::App& app);
+void addQualityCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -114,19 +114,18 @@ FramePtr withMotion(const Frame& still, double share) {
   return frame;
 }
 
-void addRetimeCommand(CLI::App& app) {
+void addRetimeCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "retime", "Time for frames between frames, of which a share moves, beside build and trace");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
-  command->add_option("--rounds", arguments->round_count, "Of each stage, for the median")
-      ->check(CLI::Range(1, 1000));
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object at the end");
+  command.add("--rounds", arguments->round_count, "Of each stage, for the median").between(1, 1000);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "A frame so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 8));
-  command->callback([arguments] { measure(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "A frame so many times smaller on a side: tries the program out")
+      .between(1, 8);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

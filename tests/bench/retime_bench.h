@@ -3,9 +3,8 @@
 // move by themselves.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "frame/frame.h"
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
@@ -13,6 +12,6 @@ namespace viewloom::bench {
 // none where that is 0.
 FramePtr withMotion(const Frame& still, double share);
 
-void addRetimeCommand(CLI::App& app);
+void addRetimeCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

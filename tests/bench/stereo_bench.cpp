@@ -139,20 +139,19 @@ void measure(const Arguments& arguments) {
 
 }  // namespace
 
-void addStereoCommand(CLI::App& app) {
+void addStereoCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "stereo", "Serve tracked stereo displays: from poses in to the last band of their picture");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object");
-  command->add_option("--only", arguments->only, "Loads whose name has this in it");
-  command->add_option("--seconds", arguments->seconds, "Of each load")
-      ->check(CLI::Range(0.1, 600.0));
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object");
+  command.add("--only", arguments->only, "Loads whose name has this in it");
+  command.add("--seconds", arguments->seconds, "Of each load").between(0.1, 600.0);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Frames and displays so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 32));
-  command->callback([arguments] { measure(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "Frames and displays so many times smaller on a side: tries the program out")
+      .between(1, 32);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

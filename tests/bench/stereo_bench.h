@@ -2,10 +2,10 @@
 // `viewloom-bench stereo`: how long tracked eyes wait for what they see.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addStereoCommand(CLI::App& app);
+void addStereoCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -206,23 +206,21 @@ void measure(const Arguments& arguments) {
 
 }  // namespace
 
-void addTicksCommand(CLI::App& app) {
+void addTicksCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
+  const usage::Command command = app.addCommand(
       "ticks",
       "Serve a display at 60 Hz alone and beside a stream in which things move, also at 60 Hz: how "
       "old what they show is when it is out");
-  command->add_option("--device", arguments->device, "Vulkan device, as viewloomd --device");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object at the end");
-  command->add_option("--rounds", arguments->round_count, "Loads in turn, so often")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--seconds", arguments->seconds, "Of each load in each round")
-      ->check(CLI::Range(0.1, 600.0));
+  command.add("--device", arguments->device, "Vulkan device, as viewloomd --device");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object at the end");
+  command.add("--rounds", arguments->round_count, "Loads in turn, so often").between(1, 1000);
+  command.add("--seconds", arguments->seconds, "Of each load in each round").between(0.1, 600.0);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "Frames and displays so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 8));
-  command->callback([arguments] { measure(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "Frames and displays so many times smaller on a side: tries the program out")
+      .between(1, 8);
+  command.onChosen([arguments] { measure(*arguments); });
 }
 
 }  // namespace viewloom::bench

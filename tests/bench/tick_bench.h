@@ -3,10 +3,10 @@
 // in which things move by themselves.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addTicksCommand(CLI::App& app);
+void addTicksCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

@@ -157,18 +157,17 @@ void measureAll(const Arguments& arguments) {
 
 }  // namespace
 
-void addUplinkCommand(CLI::App& app) {
+void addUplinkCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command =
-      app.add_subcommand("uplink", "Pack and decode the depth of the built-in scene in every form");
-  command->add_flag("--json", arguments->prints_json, "Print one JSON object instead of a table");
-  command->add_option("--rounds", arguments->round_count, "Rounds, for the medians")
-      ->check(CLI::Range(1, 1000));
+  const usage::Command command =
+      app.addCommand("uplink", "Pack and decode the depth of the built-in scene in every form");
+  command.addFlag("--json", arguments->prints_json, "Print one JSON object instead of a table");
+  command.add("--rounds", arguments->round_count, "Rounds, for the medians").between(1, 1000);
   command
-      ->add_option("--miniature", arguments->miniature,
-                   "A frame so many times smaller on a side: tries the program out")
-      ->check(CLI::Range(1, 32));
-  command->callback([arguments] { measureAll(*arguments); });
+      .add("--miniature", arguments->miniature,
+           "A frame so many times smaller on a side: tries the program out")
+      .between(1, 32);
+  command.onChosen([arguments] { measureAll(*arguments); });
 }
 
 }  // namespace viewloom::bench

@@ -3,10 +3,10 @@
 // packed.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "usage/command_line.h"
 
 namespace viewloom::bench {
 
-void addUplinkCommand(CLI::App& app);
+void addUplinkCommand(const usage::Command& app);
 
 }  // namespace viewloom::bench

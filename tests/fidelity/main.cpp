@@ -3,12 +3,12 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
-
-#include <CLI/CLI.hpp>
 
 #include "base/log.h"
 #include "fidelity/report.h"
+#include "usage/command_line.h"
 
 namespace viewloom::fidelity {
 
@@ -28,16 +28,17 @@ static void run(const std::filesystem::path& data, const std::string& device_nam
 }  // namespace viewloom::fidelity
 
 int main(int argc, char** argv) {
-  CLI::App app("Scores viewloom and simple depth warps against true views of recorded sets");
+  const viewloom::usage::CommandLine app(
+      "Scores viewloom and simple depth warps against true views of recorded sets");
   std::filesystem::path data;
   std::string device;
   bool prints_json = false;
-  app.add_option("--data", data, "Folder with beachball-stereo and hci-antinous")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("--device", device, "Vulkan device, as viewloomd --device");
-  app.add_flag("--json", prints_json, "Print one JSON object at the end");
-  CLI11_PARSE(app, argc, argv);
+  app.add("--data", data, "Folder with beachball-stereo and hci-antinous")
+      .required()
+      .existingFolder();
+  app.add("--device", device, "Vulkan device, as viewloomd --device");
+  app.addFlag("--json", prints_json, "Print one JSON object at the end");
+  if (const std::optional<int> code = app.parse(argc, argv)) return *code;
   try {
     viewloom::fidelity::run(data, device, prints_json);
   } catch (const std::exception& error) {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "pictures/step_pictures.h"
+#include "usage/command_line.h"
 
 static void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -18,14 +18,12 @@ static void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws a picture of each step of the algorithm");
+  const viewloom::usage::CommandLine app("Draws a picture of each step of the algorithm");
   std::filesystem::path folder;
   std::string device_name;
-  app.add_option("folder", folder, "Where they go: shaders/pictures")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("--device", device_name, "Vulkan device, as viewloomd --device");
-  CLI11_PARSE(app, argc, argv);
+  app.add("folder", folder, "Where they go: shaders/pictures").required().existingFolder();
+  app.add("--device", device_name, "Vulkan device, as viewloomd --device");
+  if (const std::optional<int> code = app.parse(argc, argv)) return *code;
   try {
     const viewloom::Device device({.select = device_name});
     for (const viewloom::pictures::Picture& picture : viewloom::pictures::drawSteps(device)) {

@@ -72,7 +72,7 @@ LAYERS = {
     "client/cli": (["base", "bridge", "calibration", "display", "messages", "frame", "eyes", "lib",
                     "files", "inputs", "inspect", "patterns", "photos", "recording", "show",
                     "synthetic", "usage"],
-                   ["absl", "glm", "grpc", "protobuf", "cli11", "jpeg", "nlohmann"]),
+                   ["absl", "glm", "grpc", "protobuf", "jpeg", "nlohmann"]),
     "shaders/shared": ([], ["glm"]),
     "shaders/lib": ([SHADERS_SHARED], []),
     "shaders/structure": (["shaders/lib", SHADERS_SHARED], []),

@@ -44,12 +44,12 @@ TEST(UserWords, standInTheHelpOfEveryCommand) {
   const std::regex of_developers(
       "\\b(trac(e|es|ed|ing)|drain(s|ed|ing)?|slots?|structs?|enums?|ENUM|payload|protobuf|"
       "FrameManifest|TruthManifest|DEPTH_MEANING_\\w+|PLANE_ENCODING_\\w+|null|boolean)\\b");
-  CLI::App app;
+  const usage::CommandLine app;
   for (const auto& [command, run] : addCommands(app)) {
-    const std::string help = command->help();
+    const std::string help = command.help();
     std::smatch word;
     EXPECT_FALSE(std::regex_search(help, word, of_developers))
-        << command->get_name() << ": " << word.str();
+        << command.name() << ": " << word.str();
   }
 }
 

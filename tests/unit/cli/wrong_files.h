@@ -69,9 +69,9 @@ class WrongFilesTest : public ::testing::Test {
 
   static cli::LoaderOptions withOptions(const std::string& options) {
     cli::LoaderOptions loader;
-    CLI::App app;
+    const usage::CommandLine app;
     cli::addPlaneOptions(app, loader.input);
-    if (!options.empty()) app.parse(options);
+    EXPECT_TRUE(options.empty() || app.parse(options)) << options;
     return loader;
   }
 
