@@ -151,7 +151,7 @@ class StageBench {
   void build() {
     if (!is_uploaded_) structure_.upload(*frame_);
     is_uploaded_ = true;
-    const vk::CommandBuffer commands = recorder_.begin();
+    const Commands commands = recorder_.begin();
     build_timer_.recordReset(commands);
     builder_.record(commands, structure_, &build_timer_);
     timeline_.wait(recorder_.submit(timeline_));
@@ -163,9 +163,9 @@ class StageBench {
                                    .intent = MemoryIntent::kReadback,
                                    .debug_name = "bench readback"});
     const LayeredBuffer& arrays = structure_.structure();
-    const vk::CommandBuffer commands = recorder_.begin();
-    commands.copyBuffer(arrays.buffer(0).handle(), readback.handle(),
-                        vk::BufferCopy{.srcOffset = arrays.offsetBytes(0), .size = size_bytes});
+    const Commands commands = recorder_.begin();
+    commands.copy(arrays.buffer(0), readback,
+                  {.from_offset = arrays.offsetBytes(0), .size_bytes = size_bytes});
     recordTransferToHost(commands);
     timeline_.wait(recorder_.submit(timeline_));
     std::vector<abi::uvec2> cells(structure_.layout().cellCount());
@@ -182,7 +182,7 @@ class StageBench {
   }
 
   void trace(BandRows rows) {
-    const vk::CommandBuffer commands = recorder_.begin();
+    const Commands commands = recorder_.begin();
     trace_timer_.recordReset(commands);
     tracer_.recordBand(commands, structure_, job_, rows, *trace_slot_, &trace_timer_);
     timeline_.wait(recorder_.submit(timeline_));

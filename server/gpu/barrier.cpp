@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/barrier.h"
 
+#include "gpu/vulkan.h"
+
 namespace viewloom {
 namespace {
 
@@ -21,34 +23,34 @@ const Scope kTransferWrites{Stage::eAllTransfer, Access::eTransferWrite};
 const Scope kTransferUses{Stage::eAllTransfer, Access::eTransferRead | Access::eTransferWrite};
 const Scope kHostReads{Stage::eHost, Access::eHostRead};
 
-void recordBarrier(vk::CommandBuffer commands, const Scope& before, const Scope& after) {
+void recordBarrier(Commands commands, const Scope& before, const Scope& after) {
   const vk::MemoryBarrier2 barrier{.srcStageMask = before.stages,
                                    .srcAccessMask = before.accesses,
                                    .dstStageMask = after.stages,
                                    .dstAccessMask = after.accesses};
-  commands.pipelineBarrier2(
-      vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+  vk::CommandBuffer(commands.handle())
+      .pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
 }
 
 }  // namespace
 
-void recordComputeBarrier(vk::CommandBuffer commands) {
+void recordComputeBarrier(Commands commands) {
   recordBarrier(commands, kComputeWrites, kComputeUses);
 }
 
-void recordComputeToTransfer(vk::CommandBuffer commands) {
+void recordComputeToTransfer(Commands commands) {
   recordBarrier(commands, kComputeWrites, kTransferUses);
 }
 
-void recordTransferToCompute(vk::CommandBuffer commands) {
+void recordTransferToCompute(Commands commands) {
   recordBarrier(commands, kTransferWrites, kComputeUses);
 }
 
-void recordComputeToHost(vk::CommandBuffer commands) {
+void recordComputeToHost(Commands commands) {
   recordBarrier(commands, kComputeWrites, kHostReads);
 }
 
-void recordTransferToHost(vk::CommandBuffer commands) {
+void recordTransferToHost(Commands commands) {
   recordBarrier(commands, kTransferWrites, kHostReads);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/str_cat.h"
+#include "gpu/vulkan.h"
 
 namespace viewloom {
 namespace {
@@ -85,21 +86,23 @@ CountedMemory& CountedMemory::operator=(CountedMemory&& other) noexcept {
   return *this;
 }
 
-Buffer::Buffer() : memory_(nullptr), buffer_(nullptr) {}
-
-Buffer::Buffer(const Device& device, const BufferOptions& options) : Buffer() {
-  buffer_ = makeBuffer(device, options);
-  const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
-  memory_ = makeMemory(device, needs, options.intent);
+Buffer::Buffer(const Device& device, const BufferOptions& options)
+    : buffer_(hide(makeBuffer(device, options))) {
+  const vk::MemoryRequirements needs = buffer_->getMemoryRequirements();
+  memory_ = hide(makeMemory(device, needs, options.intent));
   counted_ = CountedMemory(needs.size);
-  buffer_.bindMemory(*memory_, 0);
+  buffer_->bindMemory(**memory_, 0);
   size_bytes_ = options.size_bytes;
-  address_ = device.handle().getBufferAddress({.buffer = *buffer_});
+  address_ = device.handle().getBufferAddress({.buffer = **buffer_});
   if (options.intent != MemoryIntent::kDeviceOnly) {
-    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+    mapped_ = static_cast<std::byte*>(memory_->mapMemory(0, VK_WHOLE_SIZE));
   }
-  const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkBuffer>(*buffer_));
+  const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkBuffer>(**buffer_));
   device.setName(vk::ObjectType::eBuffer, raw_handle, options.debug_name);
+}
+
+vk::Buffer Buffer::handle() const {
+  return **buffer_;
 }
 
 uint64_t gpuAllocationCount() {

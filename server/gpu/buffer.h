@@ -38,25 +38,25 @@ class CountedMemory {
 };
 
 // Invariant: empty, or a buffer bound to memory of its own (coherent and mapped unless
-// kDeviceOnly). The device must outlive it. Throws vk::OutOfDeviceMemoryError when the device
-// cannot hold it. Thread-safety: const methods may be called from any thread; what mapped() holds
-// is the caller's care.
+// kDeviceOnly). The device must outlive it. Throws when the device cannot hold it
+// (isOutOfDeviceMemory). Thread-safety: const methods may be called from any thread; what mapped()
+// holds is the caller's care.
 class Buffer {
  public:
-  Buffer();
+  Buffer() = default;
   Buffer(const Device& device, const BufferOptions& options);
 
-  vk::Buffer handle() const { return *buffer_; }
-  vk::DeviceAddress address() const { return address_; }
+  vk::Buffer handle() const;
+  uint64_t address() const { return address_; }
   uint64_t sizeBytes() const { return size_bytes_; }
   std::span<std::byte> mapped() const { return {mapped_, mapped_ ? size_bytes_ : 0}; }
 
  private:
-  vk::raii::DeviceMemory memory_;
+  Hidden<vk::raii::DeviceMemory> memory_;
   CountedMemory counted_;
-  vk::raii::Buffer buffer_;
+  Hidden<vk::raii::Buffer> buffer_;
   uint64_t size_bytes_ = 0;
-  vk::DeviceAddress address_ = 0;
+  uint64_t address_ = 0;
   std::byte* mapped_ = nullptr;
 };
 

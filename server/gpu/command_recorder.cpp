@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "gpu/vulkan.h"
+
 namespace viewloom {
 namespace {
 
@@ -16,18 +18,19 @@ vk::raii::CommandBuffer allocateCommands(const Device& device, vk::CommandPool p
 
 CommandRecorder::CommandRecorder(const Device& device)
     : device_(&device),
-      pool_(device.handle(), {.queueFamilyIndex = device.queueFamily()}),
-      commands_(allocateCommands(device, *pool_)) {}
+      pool_(
+          hide(vk::raii::CommandPool(device.handle(), {.queueFamilyIndex = device.queueFamily()}))),
+      commands_(hide(allocateCommands(device, **pool_))) {}
 
-vk::CommandBuffer CommandRecorder::begin() {
-  pool_.reset();
-  commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  return *commands_;
+Commands CommandRecorder::begin() {
+  pool_->reset();
+  commands_->begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  return Commands(**commands_);
 }
 
 uint64_t CommandRecorder::submit(Timeline& timeline) {
-  commands_.end();
-  const vk::CommandBufferSubmitInfo commands{.commandBuffer = *commands_};
+  commands_->end();
+  const vk::CommandBufferSubmitInfo commands{.commandBuffer = **commands_};
   const vk::SemaphoreSubmitInfo signal{.semaphore = timeline.handle(),
                                        .value = timeline.nextValue(),
                                        .stageMask = vk::PipelineStageFlagBits2::eAllCommands};

@@ -2,6 +2,7 @@
 // A command buffer that is recorded and submitted again and again; each slot owns one.
 #pragma once
 
+#include "gpu/commands.h"
 #include "gpu/timeline.h"
 
 namespace viewloom {
@@ -12,14 +13,14 @@ class CommandRecorder {
   explicit CommandRecorder(const Device& device);
 
   // Starts over. The last submission must have reached its timeline value.
-  vk::CommandBuffer begin();
+  Commands begin();
   // Ends the recording and submits it. Returns the value that `timeline` reaches when it is done.
   uint64_t submit(Timeline& timeline);
 
  private:
   const Device* device_;
-  vk::raii::CommandPool pool_;
-  vk::raii::CommandBuffer commands_;
+  Hidden<vk::raii::CommandPool> pool_;
+  Hidden<vk::raii::CommandBuffer> commands_;
 };
 
 }  // namespace viewloom

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "gpu/vulkan.h"
 
 namespace viewloom {
 namespace {
@@ -82,56 +83,60 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
 ComputePass::ComputePass(const Device& device, const ComputePassOptions& options)
     : device_(&device),
       push_bytes_(options.push_bytes),
-      slots_(makeSlots(device, options.descriptors)),
-      layout_(makeLayout(device, options.push_bytes, *slots_)),
-      pipeline_(makePipeline(device, options, *layout_)) {
-  const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkPipeline>(*pipeline_));
+      slots_(hide(makeSlots(device, options.descriptors))),
+      layout_(hide(makeLayout(device, options.push_bytes, **slots_))),
+      pipeline_(hide(makePipeline(device, options, **layout_))) {
+  const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkPipeline>(**pipeline_));
   device.setName(vk::ObjectType::ePipeline, raw_handle, options.debug_name);
 }
 
-void ComputePass::recordDescriptors(vk::CommandBuffer commands,
+void ComputePass::recordDescriptors(Commands commands,
                                     std::span<const Descriptor> descriptors) const {
   constexpr size_t kCountMax = 16;
   VIEWLOOM_CHECK(descriptors.size() <= kCountMax);
   std::array<vk::DescriptorBufferInfo, kCountMax> buffers;
+  std::array<vk::BufferView, kCountMax> views;
   std::array<vk::WriteDescriptorSet, kCountMax> writes;
   for (size_t i = 0; i < descriptors.size(); ++i) {
     const Descriptor& descriptor = descriptors[i];
-    buffers[i] = vk::DescriptorBufferInfo{.buffer = descriptor.buffer,
-                                          .offset = descriptor.offset_bytes,
-                                          .range = descriptor.size_bytes};
     const bool is_texels = descriptor.kind == DescriptorKind::kTexels;
-    writes[i] =
-        vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
-                               .descriptorCount = 1,
-                               .descriptorType = typeOf(descriptor.kind),
-                               .pBufferInfo = is_texels ? nullptr : &buffers[i],
-                               .pTexelBufferView = is_texels ? &descriptor.texels : nullptr};
+    if (is_texels) views[i] = descriptor.texels->handle();
+    buffers[i] =
+        vk::DescriptorBufferInfo{.buffer = is_texels ? vk::Buffer() : descriptor.buffer->handle(),
+                                 .offset = descriptor.offset_bytes,
+                                 .range = descriptor.size_bytes};
+    writes[i] = vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
+                                       .descriptorCount = 1,
+                                       .descriptorType = typeOf(descriptor.kind),
+                                       .pBufferInfo = is_texels ? nullptr : &buffers[i],
+                                       .pTexelBufferView = is_texels ? &views[i] : nullptr};
   }
-  commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, *layout_, 0,
-                                static_cast<uint32_t>(descriptors.size()), writes.data(),
-                                *device_->handle().getDispatcher());
+  vk::CommandBuffer(commands.handle())
+      .pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, **layout_, 0,
+                            static_cast<uint32_t>(descriptors.size()), writes.data(),
+                            *device_->handle().getDispatcher());
 }
 
-void ComputePass::recordState(vk::CommandBuffer commands, std::span<const std::byte> push) const {
+void ComputePass::recordState(Commands commands, std::span<const std::byte> push) const {
   VIEWLOOM_CHECK(push.size() == push_bytes_);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  const vk::CommandBuffer recording(commands.handle());
+  recording.bindPipeline(vk::PipelineBindPoint::eCompute, **pipeline_);
   if (!push.empty()) {
-    commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, 0,
-                           static_cast<uint32_t>(push.size()), push.data());
+    recording.pushConstants(**layout_, vk::ShaderStageFlagBits::eCompute, 0,
+                            static_cast<uint32_t>(push.size()), push.data());
   }
 }
 
-void ComputePass::record(vk::CommandBuffer commands, std::span<const std::byte> push,
-                         uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+void ComputePass::record(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
+                         uint32_t groups_y, uint32_t groups_z) const {
   recordState(commands, push);
-  commands.dispatch(groups_x, groups_y, groups_z);
+  vk::CommandBuffer(commands.handle()).dispatch(groups_x, groups_y, groups_z);
 }
 
-void ComputePass::recordIndirect(vk::CommandBuffer commands, std::span<const std::byte> push,
+void ComputePass::recordIndirect(Commands commands, std::span<const std::byte> push,
                                  const Buffer& groups, uint64_t offset_bytes) const {
   recordState(commands, push);
-  commands.dispatchIndirect(groups.handle(), offset_bytes);
+  vk::CommandBuffer(commands.handle()).dispatchIndirect(groups.handle(), offset_bytes);
 }
 
 }  // namespace viewloom

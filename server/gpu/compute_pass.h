@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/descriptor.h"
 
 namespace viewloom {
@@ -30,20 +31,20 @@ class ComputePass {
   ComputePass(const Device& device, const ComputePassOptions& options);
 
   // Dispatches with these push constants; `push` has exactly push_bytes. Does not synchronise.
-  void record(vk::CommandBuffer commands, std::span<const std::byte> push, uint32_t groups_x,
+  void record(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
               uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
   // The same, with as many groups as three words of a buffer say when the device gets there.
-  void recordIndirect(vk::CommandBuffer commands, std::span<const std::byte> push,
-                      const Buffer& groups, uint64_t offset_bytes) const;
+  void recordIndirect(Commands commands, std::span<const std::byte> push, const Buffer& groups,
+                      uint64_t offset_bytes) const;
 
   // The descriptors of the next dispatch; slots that the shader does not use may be left out.
-  void recordDescriptors(vk::CommandBuffer commands, std::span<const Descriptor> descriptors) const;
+  void recordDescriptors(Commands commands, std::span<const Descriptor> descriptors) const;
 
   template <typename Push>
   requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
       (!std::is_convertible_v<Push, std::span<const std::byte>>)void record(
-          vk::CommandBuffer commands, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
+          Commands commands, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
           uint32_t groups_z = 1) const {
     record(commands, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
@@ -51,19 +52,18 @@ class ComputePass {
   template <typename Push>
   requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
       (!std::is_convertible_v<Push, std::span<const std::byte>>)void recordIndirect(
-          vk::CommandBuffer commands, const Push& push, const Buffer& groups,
-          uint64_t offset_bytes) const {
+          Commands commands, const Push& push, const Buffer& groups, uint64_t offset_bytes) const {
     recordIndirect(commands, std::as_bytes(std::span(&push, 1)), groups, offset_bytes);
   }
 
  private:
-  void recordState(vk::CommandBuffer commands, std::span<const std::byte> push) const;
+  void recordState(Commands commands, std::span<const std::byte> push) const;
 
   const Device* device_;
   uint32_t push_bytes_;
-  vk::raii::DescriptorSetLayout slots_;
-  vk::raii::PipelineLayout layout_;
-  vk::raii::Pipeline pipeline_;
+  Hidden<vk::raii::DescriptorSetLayout> slots_;
+  Hidden<vk::raii::PipelineLayout> layout_;
+  Hidden<vk::raii::Pipeline> pipeline_;
 };
 
 }  // namespace viewloom

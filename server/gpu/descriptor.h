@@ -23,28 +23,30 @@ struct DescriptorSlot {
   DescriptorKind kind = DescriptorKind::kStorage;
 };
 
+enum class TexelFormat : uint8_t { kR32Uint, kRg32Uint, kRgba32Uint, kR32Float };
+
 // Reads a buffer as a one-dimensional image of texels. The buffer must outlive it.
 class TexelView {
  public:
-  TexelView() : view_(nullptr) {}
+  TexelView() = default;
   // Throws vk::SystemError. At most DeviceLimits::texel_count_max texels.
-  TexelView(const Device& device, const Buffer& buffer, vk::Format format);
+  TexelView(const Device& device, const Buffer& buffer, TexelFormat format);
 
-  bool isEmpty() const { return !*view_; }
-  vk::BufferView handle() const { return *view_; }
+  bool isEmpty() const { return !view_; }
+  vk::BufferView handle() const;
 
  private:
-  vk::raii::BufferView view_;
+  Hidden<vk::raii::BufferView> view_;
 };
 
 // What stands in a slot for one dispatch.
 struct Descriptor {
   uint32_t binding = 0;
   DescriptorKind kind = DescriptorKind::kStorage;
-  vk::Buffer buffer = {};      // kStorage, kUniform
-  uint64_t offset_bytes = 0;   // a multiple of 256 serves every device
+  const Buffer* buffer = nullptr;  // kStorage, kUniform
+  uint64_t offset_bytes = 0;       // a multiple of 256 serves every device
   uint64_t size_bytes = 0;
-  vk::BufferView texels = {};  // kTexels
+  const TexelView* texels = nullptr;  // kTexels
 };
 
 }  // namespace viewloom

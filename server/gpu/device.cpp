@@ -11,6 +11,7 @@
 #include "absl/strings/str_join.h"
 #include "base/str_cat.h"
 #include "gpu/device_features.h"
+#include "gpu/vulkan.h"
 
 namespace viewloom {
 namespace {
@@ -159,32 +160,52 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical_device,
 
 }  // namespace
 
+struct Device::Handles {
+  vk::raii::Context context;
+  vk::raii::Instance instance;
+  vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
+  vk::raii::PhysicalDevice physical_device = nullptr;
+  vk::raii::Device device = nullptr;
+  vk::raii::Queue queue = nullptr;
+
+  explicit Handles(ValidationLog* validation_log)
+      : instance(makeInstance(context, validation_log)) {
+    if (validation_log) messenger = {instance, validation_log->messengerCreateInfo()};
+  }
+};
+
 Device::Device(const DeviceOptions& options)
     : validation_(options.validation),
       planted_fault_(options.planted_fault),
-      instance_(makeInstance(context_, validation_ ? &validation_log_ : nullptr)),
-      messenger_(nullptr),
-      physical_device_(nullptr),
-      device_(nullptr),
-      queue_(nullptr) {
-  if (validation_) messenger_ = {instance_, validation_log_.messengerCreateInfo()};
-  const auto devices = instance_.enumeratePhysicalDevices();
+      handles_(std::make_unique<Handles>(validation_ ? &validation_log_ : nullptr)) {
+  const auto devices = handles_->instance.enumeratePhysicalDevices();
   const std::vector<DeviceInfo> infos = describeAll(devices);
   const uint32_t chosen = choose(infos, options.select);
-  physical_device_ = devices[chosen];
+  const vk::raii::PhysicalDevice& physical_device = devices[chosen];
+  handles_->physical_device = physical_device;
   info_ = infos[chosen];
   if (options.has_own_memory) info_.shares_memory = false;
   DeviceLimits& limits = info_.limits;
   limits.storage_bytes_max = std::min(limits.storage_bytes_max, options.storage_bytes_max);
   limits.texel_count_max = std::min(limits.texel_count_max, options.texel_count_max);
-  queue_family_ = computeFamily(physical_device_);
-  const auto family = physical_device_.getQueueFamilyProperties()[queue_family_];
+  queue_family_ = computeFamily(physical_device);
+  const auto family = physical_device.getQueueFamilyProperties()[queue_family_];
   timestamp_valid_bits_ = family.timestampValidBits;
   if (timestamp_valid_bits_ > 0) {
-    timestamp_period_ns_ = double{physical_device_.getProperties().limits.timestampPeriod};
+    timestamp_period_ns_ = double{physical_device.getProperties().limits.timestampPeriod};
   }
-  device_ = makeDevice(physical_device_, queue_family_);
-  queue_ = device_.getQueue(queue_family_, 0);
+  handles_->device = makeDevice(physical_device, queue_family_);
+  handles_->queue = handles_->device.getQueue(queue_family_, 0);
+}
+
+Device::~Device() = default;
+
+const vk::raii::Device& Device::handle() const {
+  return handles_->device;
+}
+
+const vk::raii::PhysicalDevice& Device::physicalDevice() const {
+  return handles_->physical_device;
 }
 
 std::vector<DeviceInfo> Device::listDevices() {
@@ -199,12 +220,12 @@ std::vector<DeviceInfo> Device::listDevices() {
 
 void Device::submit(const vk::SubmitInfo2& submission) const {
   std::lock_guard lock(queue_mutex_);
-  queue_.submit2(submission);
+  handles_->queue.submit2(submission);
 }
 
 void Device::setName(vk::ObjectType type, uint64_t handle, const char* name) const {
   if (!validation_) return;
-  device_.setDebugUtilsObjectNameEXT(
+  handles_->device.setDebugUtilsObjectNameEXT(
       {.objectType = type, .objectHandle = handle, .pObjectName = name});
 }
 

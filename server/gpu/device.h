@@ -4,12 +4,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "gpu/validation_log.h"
-#include "gpu/vulkan.h"
+#include "gpu/vulkan_names.h"
 
 namespace viewloom {
 
@@ -53,12 +54,13 @@ class Device {
   explicit Device(const DeviceOptions& options);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
+  ~Device();
 
   // Every device Vulkan offers; none, and no exception, when there is no Vulkan at all.
   static std::vector<DeviceInfo> listDevices();
 
-  const vk::raii::Device& handle() const { return device_; }
-  const vk::raii::PhysicalDevice& physicalDevice() const { return physical_device_; }
+  const vk::raii::Device& handle() const;
+  const vk::raii::PhysicalDevice& physicalDevice() const;
   uint32_t queueFamily() const { return queue_family_; }
   const DeviceInfo& info() const { return info_; }
   uint32_t plantedFault() const { return planted_fault_; }
@@ -74,20 +76,17 @@ class Device {
   const ValidationLog& validationLog() const { return validation_log_; }
 
  private:
+  struct Handles;
+
   ValidationLog validation_log_;  // outlives the messenger
   bool validation_;
   uint32_t planted_fault_;
-  vk::raii::Context context_;
-  vk::raii::Instance instance_;
-  vk::raii::DebugUtilsMessengerEXT messenger_;
-  vk::raii::PhysicalDevice physical_device_;
   DeviceInfo info_;
   uint32_t queue_family_;
   double timestamp_period_ns_ = 0;
   uint32_t timestamp_valid_bits_ = 0;
-  vk::raii::Device device_;
-  mutable std::mutex queue_mutex_;  // guards queue_
-  vk::raii::Queue queue_;
+  std::unique_ptr<Handles> handles_;
+  mutable std::mutex queue_mutex_;  // guards the queue
 };
 
 }  // namespace viewloom

@@ -30,4 +30,8 @@ std::string deviceErrorText(const std::exception& error) {
   return strCat(text, " (", error.what(), ")");
 }
 
+bool isOutOfDeviceMemory(const std::exception& error) {
+  return dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error) != nullptr;
+}
+
 }  // namespace viewloom

@@ -11,4 +11,7 @@ namespace viewloom {
 // driver's own words follow in brackets. Other errors say what they say.
 std::string deviceErrorText(const std::exception& error);
 
+// Whether the device has no memory left for what was asked of it.
+bool isOutOfDeviceMemory(const std::exception& error);
+
 }  // namespace viewloom

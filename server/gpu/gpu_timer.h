@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/commands.h"
 #include "gpu/device.h"
 
 namespace viewloom {
@@ -22,16 +23,16 @@ class GpuTimer {
   GpuTimer(const Device& device, uint32_t pass_count_max);
 
   // Once, at the start of a recording.
-  void recordReset(vk::CommandBuffer commands);
+  void recordReset(Commands commands);
   // Around each pass; passes do not nest. Those over pass_count_max go untimed.
-  void recordBegin(vk::CommandBuffer commands, const char* name);
-  void recordEnd(vk::CommandBuffer commands);
+  void recordBegin(Commands commands, const char* name);
+  void recordEnd(Commands commands);
 
   // In recording order; valid until the next recordReset. Call once the submission is done.
   std::span<const GpuPassTime> results();
 
  private:
-  vk::raii::QueryPool pool_;
+  Hidden<vk::raii::QueryPool> pool_;
   double period_ns_;
   uint64_t tick_mask_ = 0;  // the bits of a timestamp that count
   uint32_t pass_count_max_;

@@ -22,12 +22,12 @@ class Timeline {
   uint64_t nextValue() { return ++last_value_; }
   // Waits until the value is reached; false = timed out. Throws vk::DeviceLostError.
   bool wait(uint64_t value, uint64_t timeout_ns = kForeverNs) const;
-  uint64_t completedValue() const { return semaphore_.getCounterValue(); }
-  vk::Semaphore handle() const { return *semaphore_; }
+  uint64_t completedValue() const;
+  vk::Semaphore handle() const;
 
  private:
   const Device* device_;
-  vk::raii::Semaphore semaphore_;
+  Hidden<vk::raii::Semaphore> semaphore_;
   std::atomic<uint64_t> last_value_ = 0;
 };
 

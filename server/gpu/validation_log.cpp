@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "gpu/vulkan.h"
+
 namespace viewloom {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/vulkan.h"
+#include "gpu/vulkan_names.h"
 
 namespace viewloom {
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "gpu/device_error.h"
 #include "lens/host_structure.h"
 
 namespace viewloom {
@@ -23,8 +24,8 @@ std::shared_ptr<StructureBuild> FrameBuilder::takeSlot(SlotPool<StructureBuild>&
       if (!fits(memory, shapes)) memory = makeBuildMemory(links_.device, shapes);
       slot->prepareWalked(links_.device, memory);
     }
-  } catch (const vk::OutOfDeviceMemoryError&) {
-    if (!slot->is_swept) throw;
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error) || !slot->is_swept) throw;
     slot->is_walked = false;  // those who need it are told, the others are served
   }
   return slot;

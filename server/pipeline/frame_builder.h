@@ -20,7 +20,7 @@ class FrameBuilder {
 
   // A slot of these for such frames; nullptr while all are lent. It is built for the walk where
   // that is all there is, or where `is_walked` says so, which is reset then; in this memory, which
-  // all slots share. Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // all slots share. Throws when the device cannot hold it (isOutOfDeviceMemory).
   std::shared_ptr<StructureBuild> takeSlot(SlotPool<StructureBuild>& slots,
                                            FrameBuildMemory& memory, const Frame& frame,
                                            std::atomic<bool>& is_walked) const;

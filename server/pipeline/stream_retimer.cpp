@@ -24,7 +24,8 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
   last.structure = nullptr;  // its slot may serve again
   try {
     last.structure = build(*structure, carried_ns, guesses, last.retimer);
-  } catch (const vk::OutOfDeviceMemoryError& error) {
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error)) throw;
     log(LogLevel::kWarning, "stream ", structure->stream,
         ": shown without pictures between its frames: ", deviceErrorText(error));
     return structure;

@@ -32,8 +32,8 @@ struct StructureBuild {
   std::unique_ptr<WalkedForm> walked;
   bool is_walked = false;
 
-  // The walked form is to be built in this memory, whose shapes are these. Throws
-  // vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // The walked form is to be built in this memory, whose shapes are these. Throws when the device
+  // cannot hold it (isOutOfDeviceMemory).
   void prepareWalked(const Device& device, const FrameBuildMemory& build_memory) {
     if (walked) {
       walked->structure.buildIn(build_memory);

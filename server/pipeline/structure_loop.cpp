@@ -81,7 +81,8 @@ bool StructureLoop::serve(PipelineStream& stream) {
   std::shared_ptr<StructureBuild> slot;
   try {
     slot = takeSlot(stream, *stream.next->frame);
-  } catch (const vk::OutOfDeviceMemoryError& error) {
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error)) throw;
     const std::string problem = deviceErrorText(error);
     log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", problem);
     stream.next->ticket->noteRefused(problem);

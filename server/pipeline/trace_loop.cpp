@@ -216,7 +216,8 @@ absl::StatusOr<TraceMethod> TraceLoop::prepareMethod(const TraceJob& picture, co
     for (const ResidentPtr& structure : {job.structure, job.before}) {
       if (structure && !structure->build->is_walked) buildForWalk(*structure->build);
     }
-  } catch (const vk::OutOfDeviceMemoryError& error) {
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error)) throw;
     return absl::ResourceExhaustedError(
         strCat("this display cannot be served: ", deviceErrorText(error)));
   }

@@ -21,7 +21,7 @@ LayeredBufferOptions undividedColor(const Device& device, const FrameShape& shap
   const uint32_t texel_bytes = texelBytes(shape.color_storage);
   return {.layer_bytes = colorLayerBytes(shape),
           .layer_count = shape.layerCount(),
-          .texel_format = texel_bytes == 4 ? vk::Format::eR32Uint : vk::Format::eR32G32Uint,
+          .texel_format = texel_bytes == 4 ? TexelFormat::kR32Uint : TexelFormat::kRg32Uint,
           .texel_bytes = texel_bytes,
           .intent =
               writesColorInPlace(device, shape) ? MemoryIntent::kUpload : MemoryIntent::kDeviceOnly,
@@ -31,7 +31,7 @@ LayeredBufferOptions undividedColor(const Device& device, const FrameShape& shap
 LayeredBufferOptions undividedInvZ(const FrameShape& shape) {
   return {.layer_bytes = structureLayout(shape.depth_px).invZBytes(),
           .layer_count = shape.layerCount(),
-          .texel_format = vk::Format::eR32Sfloat,
+          .texel_format = TexelFormat::kR32Float,
           .texel_bytes = 4,
           .debug_name = "inv_z"};
 }
@@ -39,7 +39,7 @@ LayeredBufferOptions undividedInvZ(const FrameShape& shape) {
 LayeredBufferOptions undividedStructure(const FrameShape& shape) {
   return {.layer_bytes = structureLayout(shape.depth_px).layerBytes(),
           .layer_count = shape.layerCount(),
-          .texel_format = vk::Format::eR32G32Uint,
+          .texel_format = TexelFormat::kRg32Uint,
           .texel_bytes = 8,
           .has_half_texels = true,
           .debug_name = "structure"};
@@ -71,7 +71,7 @@ LayeredBufferOptions meanColorOptions(const Device& device, const FrameShape& sh
 LayeredBufferOptions surfaceOptions(const Device& device, const FrameShape& shape) {
   return dividedAsNeeded({.layer_bytes = surfaceBytes(shape.depth_px),
                           .layer_count = shape.layerCount(),
-                          .texel_format = vk::Format::eR32G32Uint,
+                          .texel_format = TexelFormat::kRg32Uint,
                           .texel_bytes = sizeof(abi::SurfaceTexel),
                           .debug_name = "surface"},
                          device, shape);

@@ -17,7 +17,7 @@ BuildMemory::BuildMemory(const Device& device, const FrameShape& shape)
                 .debug_name = "staged planes"}),
       staging_texels_(mustDivide(device, shape)
                           ? TexelView()
-                          : TexelView(device, staging_, vk::Format::eR32Uint)),
+                          : TexelView(device, staging_, TexelFormat::kR32Uint)),
       inv_z_(device, invZOptions(device, shape)) {}
 
 const LayeredBuffer& BuildMemory::meansAlongY() {

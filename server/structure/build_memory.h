@@ -15,7 +15,7 @@ namespace viewloom {
 // the device is done with one build before the planes of the next are written.
 class BuildMemory {
  public:
-  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // Throws when the device cannot hold it (isOutOfDeviceMemory).
   BuildMemory(const Device& device, const FrameShape& shape);
 
   const FrameShape& shape() const { return shape_; }

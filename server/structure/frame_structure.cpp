@@ -103,8 +103,7 @@ void FrameStructure::upload(const Frame& frame) {
   for (size_t i = 0; i < parts.size(); ++i) slots_[i]->upload(frame, parts[i]);
 }
 
-void FrameStructure::recordBuild(vk::CommandBuffer commands,
-                                 const StructureBuilder& builder) const {
+void FrameStructure::recordBuild(Commands commands, const StructureBuilder& builder) const {
   for (const BuiltSource& source : sources_) {
     if (source.parts.size() == 1) {
       builder.record(commands, *source.parts.front(), nullptr);

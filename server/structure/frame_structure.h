@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/commands.h"
 #include "structure/structure_builder.h"
 #include "structure/structure_slot.h"
 
@@ -14,7 +15,8 @@ namespace viewloom {
 // Owner decides when it is free, as of a slot. Thread-safety: as StructureSlot.
 class FrameStructure {
  public:
-  // Of all parts of a frame. Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // Of all parts of a frame. Throws, as isOutOfDeviceMemory() tells, when the device cannot hold
+  // it.
   FrameStructure(const Device& device, const FrameBuildMemory& build_memory);
   // Shares no memory with others.
   FrameStructure(const Device& device, const std::vector<FrameShape>& shapes);
@@ -25,7 +27,7 @@ class FrameStructure {
   // Copies the planes into mapped memory. The frame's parts have these shapes.
   void upload(const Frame& frame);
   // From uploaded planes to structures that can be traced.
-  void recordBuild(vk::CommandBuffer commands, const StructureBuilder& builder) const;
+  void recordBuild(Commands commands, const StructureBuilder& builder) const;
 
   // Of each part of the frame.
   std::span<const StructureSlot* const> parts() const { return parts_; }

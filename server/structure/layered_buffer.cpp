@@ -25,7 +25,7 @@ LayeredBuffer::LayeredBuffer(const Device& device, const LayeredBufferOptions& o
   }
   const Buffer& read = is_divided_ ? placeholder_ : buffers_.front();
   texels_ = TexelView(device, read, options.texel_format);
-  if (options.has_half_texels) half_texels_ = TexelView(device, read, vk::Format::eR32Uint);
+  if (options.has_half_texels) half_texels_ = TexelView(device, read, TexelFormat::kR32Uint);
 }
 
 bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions& options) {
@@ -36,7 +36,7 @@ bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions&
          total_bytes / least_texel_bytes > limits.texel_count_max;
 }
 
-vk::DeviceAddress LayeredBuffer::address(uint32_t layer) const {
+uint64_t LayeredBuffer::address(uint32_t layer) const {
   return buffer(layer).address() + offsetBytes(layer);
 }
 
@@ -45,17 +45,17 @@ std::span<std::byte> LayeredBuffer::mapped(uint32_t layer) const {
 }
 
 Descriptor LayeredBuffer::asTexels(uint32_t binding) const {
-  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = texels_.handle()};
+  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = &texels_};
 }
 
 Descriptor LayeredBuffer::asHalfTexels(uint32_t binding) const {
-  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = half_texels_.handle()};
+  return {.binding = binding, .kind = DescriptorKind::kTexels, .texels = &half_texels_};
 }
 
 Descriptor LayeredBuffer::asStorage(uint32_t binding) const {
   return {.binding = binding,
           .kind = DescriptorKind::kStorage,
-          .buffer = buffers_.front().handle(),
+          .buffer = &buffers_.front(),
           .size_bytes = storage_bytes_};
 }
 

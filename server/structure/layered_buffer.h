@@ -14,7 +14,7 @@ namespace viewloom {
 struct LayeredBufferOptions {
   uint64_t layer_bytes = 0;
   uint32_t layer_count = 1;
-  vk::Format texel_format = vk::Format::eR32Uint;
+  TexelFormat texel_format = TexelFormat::kR32Uint;
   uint32_t texel_bytes = 4;
   bool has_half_texels = false;  // also read as texels of one uint; texels have two
   // Whether all layers must be divided because another array of the same structure is.
@@ -31,7 +31,7 @@ class LayeredBuffer {
   // Whether these arrays are too large for one buffer, or for one texel view.
   static bool mustDivide(const Device& device, const LayeredBufferOptions& options);
 
-  vk::DeviceAddress address(uint32_t layer) const;
+  uint64_t address(uint32_t layer) const;
   // Where a layer lies, for copies.
   const Buffer& buffer(uint32_t layer) const { return buffers_[is_divided_ ? layer : 0]; }
   uint64_t offsetBytes(uint32_t layer) const { return is_divided_ ? 0 : layer * layer_bytes_; }

@@ -17,8 +17,7 @@ uint32_t groups(uint32_t count, uint32_t group_size) {
 // Runs one stage between its time stamps.
 class Timed {
  public:
-  Timed(vk::CommandBuffer commands, GpuTimer* timer, const char* name)
-      : commands_(commands), timer_(timer) {
+  Timed(Commands commands, GpuTimer* timer, const char* name) : commands_(commands), timer_(timer) {
     if (timer_) timer_->recordBegin(commands_, name);
   }
   ~Timed() {
@@ -28,22 +27,22 @@ class Timed {
   Timed& operator=(const Timed&) = delete;
 
  private:
-  vk::CommandBuffer commands_;
+  Commands commands_;
   GpuTimer* timer_;
 };
 
 template <typename Record>
-void recordStage(vk::CommandBuffer commands, GpuTimer* timer, const char* name, Record&& record) {
+void recordStage(Commands commands, GpuTimer* timer, const char* name, Record&& record) {
   const Timed timed(commands, timer, name);
   record();
 }
 
 // All counters 0, and a minimum that anything is below.
-void recordClear(vk::CommandBuffer commands, const Buffer& measured) {
+void recordClear(Commands commands, const Buffer& measured) {
   constexpr uint64_t kMin = offsetof(abi::MeasuredHead, inv_z_min_bits);
-  commands.fillBuffer(measured.handle(), 0, kMin, 0);
-  commands.fillBuffer(measured.handle(), kMin, sizeof(uint32_t), UINT32_MAX);
-  commands.fillBuffer(measured.handle(), kMin + sizeof(uint32_t), VK_WHOLE_SIZE, 0);
+  commands.fill(measured, 0, kMin, 0);
+  commands.fill(measured, kMin, sizeof(uint32_t), UINT32_MAX);
+  commands.fill(measured, kMin + sizeof(uint32_t), kToTheEnd, 0);
 }
 
 std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
@@ -58,19 +57,18 @@ std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
 }
 
 // How layers mirror; those that do not, mirror nothing.
-void recordSurface(vk::CommandBuffer commands, const StructureSlot& slot) {
+void recordSurface(Commands commands, const StructureSlot& slot) {
   const LayeredBuffer* const surface = slot.surface();
   if (surface == nullptr) return;
   for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
     const StagedPlane& staged = slot.staged()[i].surface;
     if (staged.size_bytes == 0) {
-      commands.fillBuffer(surface->buffer(i).handle(), surface->offsetBytes(i),
-                          surface->layerBytes(), 0);
+      commands.fill(surface->buffer(i), surface->offsetBytes(i), surface->layerBytes(), 0);
     } else {
-      commands.copyBuffer(slot.staging().handle(), surface->buffer(i).handle(),
-                          vk::BufferCopy{.srcOffset = staged.offset,
-                                         .dstOffset = surface->offsetBytes(i),
-                                         .size = staged.size_bytes});
+      commands.copy(slot.staging(), surface->buffer(i),
+                    {.from_offset = staged.offset,
+                     .to_offset = surface->offsetBytes(i),
+                     .size_bytes = staged.size_bytes});
     }
   }
 }
@@ -97,7 +95,7 @@ PrepareVariant preparationOf(const StructureSlot& slot) {
 // One build, stage after stage.
 class Recording {
  public:
-  Recording(vk::CommandBuffer commands, const StructureSlot& slot, const StructurePasses& passes,
+  Recording(Commands commands, const StructureSlot& slot, const StructurePasses& passes,
             const ComputePass& preparation)
       : commands_(commands),
         slot_(slot),
@@ -119,7 +117,7 @@ class Recording {
   // An invocation a node; kernels that take whole columns dispatch one layer.
   void overNodes(const ComputePass& pass, uint32_t level, uint32_t layer_count);
 
-  vk::CommandBuffer commands_;
+  Commands commands_;
   const StructureSlot& slot_;
   const StructurePasses& passes_;
   const ComputePass& preparation_;
@@ -210,7 +208,7 @@ const ApronPasses& StructureBuilder::apronPasses() const {
   return *apron_passes_;
 }
 
-void StructureBuilder::recordColumns(vk::CommandBuffer commands, const StructureSlot& slot,
+void StructureBuilder::recordColumns(Commands commands, const StructureSlot& slot,
                                      GpuTimer* timer) const {
   Recording recording(commands, slot, passesFor(variantOf(slot)),
                       preparationFor(preparationOf(slot)));
@@ -225,7 +223,7 @@ void StructureBuilder::recordColumns(vk::CommandBuffer commands, const Structure
   recordStage(commands, timer, "smooth", [&] { recording.smooth(); });
 }
 
-void StructureBuilder::recordSurfaces(vk::CommandBuffer commands, const StructureSlot& slot,
+void StructureBuilder::recordSurfaces(Commands commands, const StructureSlot& slot,
                                       GpuTimer* timer) const {
   Recording recording(commands, slot, passesFor(variantOf(slot)),
                       preparationFor(preparationOf(slot)));
@@ -233,19 +231,17 @@ void StructureBuilder::recordSurfaces(vk::CommandBuffer commands, const Structur
   recordStage(commands, timer, "blocks", [&] { recording.buildBlocks(); });
   recordStage(commands, timer, "levels", [&] { recording.buildLevels(); });
   recordComputeToTransfer(commands);
-  commands.copyBuffer(slot.measured().handle(), slot.measuredReadback().handle(),
-                      vk::BufferCopy{.size = slot.measuredReadback().sizeBytes()});
+  commands.copy(slot.measured(), slot.measuredReadback(),
+                {.size_bytes = slot.measuredReadback().sizeBytes()});
   recordTransferToHost(commands);
 }
 
-void StructureBuilder::record(vk::CommandBuffer commands, const StructureSlot& slot,
-                              GpuTimer* timer) const {
+void StructureBuilder::record(Commands commands, const StructureSlot& slot, GpuTimer* timer) const {
   recordColumns(commands, slot, timer);
   recordSurfaces(commands, slot, timer);
 }
 
-void StructureBuilder::recordCube(vk::CommandBuffer commands,
-                                  std::span<const StructureSlot* const> faces,
+void StructureBuilder::recordCube(Commands commands, std::span<const StructureSlot* const> faces,
                                   const Buffer& face_list) const {
   const ApronPasses& passes = apronPasses();
   const auto recordAprons = [&](const ComputePass& pass) {
@@ -268,14 +264,14 @@ void StructureBuilder::recordCube(vk::CommandBuffer commands,
   recordAprons(passes.color_apron);
 }
 
-void StructureBuilder::recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const {
+void StructureBuilder::recordColor(Commands commands, const StructureSlot& slot) const {
   if (slot.colorIsInPlace()) return;
   for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
     if (slot.shape().color_storage == ColorStorage::kRgba8Srgb) {
-      commands.copyBuffer(slot.staging().handle(), slot.color().buffer(i).handle(),
-                          vk::BufferCopy{.srcOffset = slot.staged()[i].color.offset,
-                                         .dstOffset = slot.color().offsetBytes(i),
-                                         .size = slot.staged()[i].color.size_bytes});
+      commands.copy(slot.staging(), slot.color().buffer(i),
+                    {.from_offset = slot.staged()[i].color.offset,
+                     .to_offset = slot.color().offsetBytes(i),
+                     .size_bytes = slot.staged()[i].color.size_bytes});
       continue;
     }
     // Two dimensions of groups: one alone would pass the least limit of 65535 from 2048 x 2048 px

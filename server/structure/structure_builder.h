@@ -7,6 +7,7 @@
 #include <mutex>
 #include <span>
 
+#include "gpu/commands.h"
 #include "gpu/gpu_timer.h"
 #include "structure/structure_passes.h"
 #include "structure/structure_slot.h"
@@ -25,21 +26,21 @@ class StructureBuilder {
   // From uploaded planes to a structure that can be traced, and its stats in host memory. Commands
   // recorded afterwards in the same submission see it, too. `timer` was reset in this recording;
   // nullptr = untimed.
-  void record(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  void record(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
   // The same for the six faces of a cube map, whose aprons come from each other. `face_list`:
   // abi::CubeFaceList of them.
-  void recordCube(vk::CommandBuffer commands, std::span<const StructureSlot* const> faces,
+  void recordCube(Commands commands, std::span<const StructureSlot* const> faces,
                   const Buffer& face_list) const;
 
  private:
   // From uploaded planes to columns as they are kept.
-  void recordColumns(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  void recordColumns(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
   // From those to what can be traced, and its stats in host memory.
-  void recordSurfaces(vk::CommandBuffer commands, const StructureSlot& slot, GpuTimer* timer) const;
+  void recordSurfaces(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
   const ApronPasses& apronPasses() const;
   const StructurePasses& passesFor(const StructureVariant& variant) const;
   const ComputePass& preparationFor(const PrepareVariant& variant) const;
-  void recordColor(vk::CommandBuffer commands, const StructureSlot& slot) const;
+  void recordColor(Commands commands, const StructureSlot& slot) const;
 
   const Device* device_;
   ComputePass convert_color_;

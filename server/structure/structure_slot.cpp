@@ -95,22 +95,21 @@ uint32_t StructureSlot::colorStride() const {
 Descriptor StructureSlot::measuredDescriptor() const {
   return {.binding = abi::kBindingMeasured,
           .kind = DescriptorKind::kUniform,
-          .buffer = measured_.handle(),
+          .buffer = &measured_,
           .size_bytes = sizeof(abi::MeasuredHead)};
 }
 
 Descriptor StructureSlot::depthPlanesDescriptor() const {
   return {.binding = abi::kBindingDepthPlanes,
           .kind = DescriptorKind::kUniform,
-          .buffer = depth_planes_upload_.handle(),
+          .buffer = &depth_planes_upload_,
           .size_bytes = sizeof(abi::DepthPlanes)};
 }
 
 Descriptor StructureSlot::stagingDescriptor() const {
   const TexelView& texels = build_memory_->stagingTexels();
   if (texels.isEmpty()) return structure_.asTexels(abi::kBindingSamples);
-  return {
-      .binding = abi::kBindingSamples, .kind = DescriptorKind::kTexels, .texels = texels.handle()};
+  return {.binding = abi::kBindingSamples, .kind = DescriptorKind::kTexels, .texels = &texels};
 }
 
 void StructureSlot::upload(const Frame& frame, const SourcePart& part) {

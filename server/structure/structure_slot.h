@@ -21,7 +21,7 @@ namespace viewloom {
 // Thread-safety: none by itself; upload() may run on any thread while the slot is free.
 class StructureSlot {
  public:
-  // Throws vk::OutOfDeviceMemoryError when the device cannot hold it.
+  // Throws when the device cannot hold it (isOutOfDeviceMemory).
   StructureSlot(const Device& device, BuildMemoryPtr build_memory);
   // Shares no memory with others.
   StructureSlot(const Device& device, const FrameShape& shape);
@@ -95,7 +95,7 @@ class StructureSlot {
 };
 
 // A device address as shaders take it.
-inline abi::Address addressWords(vk::DeviceAddress address) {
+inline abi::Address addressWords(uint64_t address) {
   return {uint32_t(address), uint32_t(address >> 32)};
 }
 

@@ -17,7 +17,7 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingBand, DescriptorKind::kStorag
 Descriptor storage(uint32_t binding, const Buffer& buffer) {
   return {.binding = binding,
           .kind = DescriptorKind::kStorage,
-          .buffer = buffer.handle(),
+          .buffer = &buffer,
           .size_bytes = buffer.sizeBytes()};
 }
 
@@ -38,8 +38,8 @@ const ComputePass& BandPacker::pass(ColorForm form) {
   return *made;
 }
 
-void BandPacker::record(vk::CommandBuffer commands, const Buffer& rgba, const Buffer& planes,
-                        SizePx size_px, ColorForm form) {
+void BandPacker::record(Commands commands, const Buffer& rgba, const Buffer& planes, SizePx size_px,
+                        ColorForm form) {
   const YcbcrLayout layout(size_px, form);
   const Descriptor bindings[] = {storage(abi::kBindingBand, rgba),
                                  storage(abi::kBindingPlanes, planes)};

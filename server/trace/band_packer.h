@@ -8,6 +8,7 @@
 
 #include "display/color_form.h"
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 
 namespace viewloom {
@@ -19,7 +20,7 @@ class BandPacker {
 
   // From R, G, B, ignored, uint32_t[row][width], to the planes of YcbcrLayout. Waits for the
   // compute work before it. The first band of a form compiles its pipeline.
-  void record(vk::CommandBuffer commands, const Buffer& rgba, const Buffer& planes, SizePx size_px,
+  void record(Commands commands, const Buffer& rgba, const Buffer& planes, SizePx size_px,
               ColorForm form);
 
  private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "gpu/descriptor.h"
 #include "shared/trace_abi.h"
 #include "trace/trace_job.h"
@@ -29,17 +30,17 @@ inline uint32_t groupCount(uint32_t invocation_count) {
 }
 
 // Of abi::IncompleteHead: nothing is on it, whatever used it before.
-inline void recordEmptyList(vk::CommandBuffer commands, const Buffer& list) {
+inline void recordEmptyList(Commands commands, const Buffer& list) {
   recordComputeToTransfer(commands);
-  commands.updateBuffer<abi::IncompleteHead>(list.handle(), 0,
-                                             {{.group_count = {0, 1, 1}, .count = 0}});
+  const abi::IncompleteHead empty{.group_count = {0, 1, 1}, .count = 0};
+  commands.write(list, std::as_bytes(std::span(&empty, 1)));
   recordTransferToCompute(commands);
 }
 
 inline Descriptor wholeBuffer(uint32_t binding, const Buffer& buffer) {
   return {.binding = binding,
           .kind = DescriptorKind::kStorage,
-          .buffer = buffer.handle(),
+          .buffer = &buffer,
           .size_bytes = buffer.sizeBytes()};
 }
 

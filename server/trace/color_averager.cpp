@@ -20,8 +20,7 @@ constexpr uint32_t kStripOnSoftware_px = 32;
 
 }  // namespace
 
-ColorAverager::Color ColorAverager::record(vk::CommandBuffer commands,
-                                           const StructureSlot& structure,
+ColorAverager::Color ColorAverager::record(Commands commands, const StructureSlot& structure,
                                            const ColorReach& reach) {
   const uint32_t format = colorFormat(structure.shape().color_storage);
   if (reach.isNone() || !structure.shape().canAverageColor()) return {structure.color(), format};
@@ -40,7 +39,7 @@ ColorAverager::Color ColorAverager::record(vk::CommandBuffer commands,
   return {planes.means, abi::kColorCodes11};
 }
 
-void ColorAverager::recordAlong(vk::CommandBuffer commands, const StructureSlot& structure,
+void ColorAverager::recordAlong(Commands commands, const StructureSlot& structure,
                                 const Axis& axis) {
   const uint32_t tap_count = tapCount(axis.reach_px);
   const uint32_t strip_px = device_->info().is_software ? kStripOnSoftware_px : 1;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "structure/structure_slot.h"
 
@@ -24,7 +25,7 @@ class ColorAverager {
   };
   // The planes of a structure, averaged over a reach. Records what makes them where that has not
   // been done since the upload: later submissions to the queue see it, too.
-  Color record(vk::CommandBuffer commands, const StructureSlot& structure, const ColorReach& reach);
+  Color record(Commands commands, const StructureSlot& structure, const ColorReach& reach);
 
  private:
   struct Variant {
@@ -45,7 +46,7 @@ class ColorAverager {
     const LayeredBuffer& to;
   };
 
-  void recordAlong(vk::CommandBuffer commands, const StructureSlot& structure, const Axis& axis);
+  void recordAlong(Commands commands, const StructureSlot& structure, const Axis& axis);
   const ComputePass& pass(const Variant& variant);
 
   const Device* device_;

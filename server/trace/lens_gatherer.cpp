@@ -89,12 +89,12 @@ const ComputePass& LensGatherer::gatherPass(const Variant& variant) {
   return *made;
 }
 
-void LensGatherer::recordLists(vk::CommandBuffer commands, const StructureSlot& structure,
+void LensGatherer::recordLists(Commands commands, const StructureSlot& structure,
                                const TraceJob& job, BandRows rows, const Descriptor& views,
                                const MetTarget& target, MetRound round) {
   const MetBlocks blocks = metBlocks(*job.layout, rows);
   recordComputeToTransfer(commands);
-  commands.fillBuffer(target.incomplete.handle(), 0, sizeof(abi::IncompleteHead), 0);
+  commands.fill(target.incomplete, 0, sizeof(abi::IncompleteHead), 0);
   recordTransferToCompute(commands);
   if (blocks.row_count == 0) return;
   const Descriptor descriptors[] = {structure.structure().asTexels(abi::kBindingStructure), views,
@@ -108,7 +108,7 @@ void LensGatherer::recordLists(vk::CommandBuffer commands, const StructureSlot& 
   recordComputeBarrier(commands);
 }
 
-void LensGatherer::record(vk::CommandBuffer commands, const StructureSlot& structure,
+void LensGatherer::record(Commands commands, const StructureSlot& structure,
                           const LayeredBuffer& color, uint32_t color_format, const TraceJob& job,
                           const GatherRows& rows, const std::vector<Descriptor>& params,
                           const GatherTarget& target) {

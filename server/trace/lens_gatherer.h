@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "structure/structure_slot.h"
 #include "trace/met_blocks.h"
@@ -47,14 +48,13 @@ class LensGatherer {
 
   // Lists what a round of rays met, and the blocks that are not complete by it. `views`: as for the
   // walk. Waits for the compute work before it, and what follows waits for it.
-  void recordLists(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
+  void recordLists(Commands commands, const StructureSlot& structure, const TraceJob& job,
                    BandRows rows, const Descriptor& views, const MetTarget& target, MetRound round);
   // `color`: of the structure, opaque. `params`: the views, the extras and all points of the lens,
   // as for the walk. Waits as above.
-  void record(vk::CommandBuffer commands, const StructureSlot& structure,
-              const LayeredBuffer& color, uint32_t color_format, const TraceJob& job,
-              const GatherRows& rows, const std::vector<Descriptor>& params,
-              const GatherTarget& target);
+  void record(Commands commands, const StructureSlot& structure, const LayeredBuffer& color,
+              uint32_t color_format, const TraceJob& job, const GatherRows& rows,
+              const std::vector<Descriptor>& params, const GatherTarget& target);
 
  private:
   struct Variant {

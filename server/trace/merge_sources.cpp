@@ -50,7 +50,7 @@ const ComputePass& ViewTracer::joinPass() {
 }
 
 // The walks of a piece of the band that may see something, a bit each.
-uint64_t ViewTracer::recordWalks(vk::CommandBuffer commands,
+uint64_t ViewTracer::recordWalks(Commands commands,
                                  std::span<const StructureSlot* const> structures,
                                  const TraceJob& job, BandRows piece, const Rays& rays,
                                  const AnswersLayout& answers, const TraceSlot& slot) {
@@ -65,7 +65,7 @@ uint64_t ViewTracer::recordWalks(vk::CommandBuffer commands,
     const uint64_t size_bytes = answers.stride * sizeof(abi::RayAnswer);
     const Descriptor target{.binding = abi::kBindingBand,
                             .kind = DescriptorKind::kStorage,
-                            .buffer = slot.answers_.handle(),
+                            .buffer = &slot.answers_,
                             .offset_bytes = walk * size_bytes,
                             .size_bytes = size_bytes};
     recordWalk(commands, {structure, job, walk, rays, slot, target}, piece);
@@ -76,7 +76,7 @@ uint64_t ViewTracer::recordWalks(vk::CommandBuffer commands,
 }
 
 // Of each cube map one answer, in the place of its first face's.
-void ViewTracer::recordJoins(vk::CommandBuffer commands, const TraceJob& job, uint64_t walked,
+void ViewTracer::recordJoins(Commands commands, const TraceJob& job, uint64_t walked,
                              uint32_t answer_count, const AnswersLayout& answers,
                              const TraceSlot& slot) {
   for (const JobSource& source : job.sources) {
@@ -95,9 +95,9 @@ void ViewTracer::recordJoins(vk::CommandBuffer commands, const TraceJob& job, ui
 }
 
 // Piece by piece of the band: what each walk answers, and the px that follow from all answers.
-void ViewTracer::recordMerged(vk::CommandBuffer commands,
-                              std::span<const StructureSlot* const> structures, const TraceJob& job,
-                              BandRows rows, const Rays& rays, TraceSlot& slot) {
+void ViewTracer::recordMerged(Commands commands, std::span<const StructureSlot* const> structures,
+                              const TraceJob& job, BandRows rows, const Rays& rays,
+                              TraceSlot& slot) {
   const AtlasLayout& layout = *job.layout;
   const AnswersLayout answers = answersLayout(layout.size_px.width, rows.row_count, job.walk_count);
   const ComputePass& merge = mergePass(rays.wanted, raySourceOf(layout));

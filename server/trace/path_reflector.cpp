@@ -88,7 +88,7 @@ const ComputePass& PathReflector::mergePass() {
   return *merge_pass_;
 }
 
-void PathReflector::recordTurns(vk::CommandBuffer commands, const PathPiece& piece) {
+void PathReflector::recordTurns(Commands commands, const PathPiece& piece) {
   const ComputePass& turn = turnPass({.reads_by_address = piece.structure.readsByAddress(),
                                       .rays = piece.rays,
                                       .through_lens = piece.through_lens});
@@ -100,7 +100,7 @@ void PathReflector::recordTurns(vk::CommandBuffer commands, const PathPiece& pie
   turn.record(commands, piece.push, groupCount(piece.push.atlas_width_px), piece.rows.row_count);
 }
 
-void PathReflector::recordWalk(vk::CommandBuffer commands, const PathPiece& piece) {
+void PathReflector::recordWalk(Commands commands, const PathPiece& piece) {
   const FrameShape& shape = piece.structure.shape();
   const ComputePass& walk = walkPass({.reads_by_address = piece.structure.readsByAddress(),
                                       .color_format = colorFormat(shape.color_storage),
@@ -113,7 +113,7 @@ void PathReflector::recordWalk(vk::CommandBuffer commands, const PathPiece& piec
   walk.record(commands, piece.push, groupCount(piece.push.atlas_width_px), piece.rows.row_count);
 }
 
-void PathReflector::recordMerge(vk::CommandBuffer commands, const MergedPaths& merged) {
+void PathReflector::recordMerge(Commands commands, const MergedPaths& merged) {
   const ComputePass& merge = mergePass();
   const Descriptor descriptors[] = {merged.answers, merged.paths, merged.reflected};
   merge.recordDescriptors(commands, descriptors);

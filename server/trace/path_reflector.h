@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "shared/reflection_abi.h"
 #include "structure/structure_slot.h"
@@ -48,9 +49,9 @@ class PathReflector {
   explicit PathReflector(const Device& device) : device_(&device), albedos_(device) {}
 
   // From the surfaces of this walk that rays have met, or the first ones. It mirrors.
-  void recordTurns(vk::CommandBuffer commands, const PathPiece& piece);
-  void recordWalk(vk::CommandBuffer commands, const PathPiece& piece);
-  void recordMerge(vk::CommandBuffer commands, const MergedPaths& merged);
+  void recordTurns(Commands commands, const PathPiece& piece);
+  void recordWalk(Commands commands, const PathPiece& piece);
+  void recordMerge(Commands commands, const MergedPaths& merged);
 
  private:
   struct WalkVariant {

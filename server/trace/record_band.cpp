@@ -17,15 +17,14 @@ bool hasUnusedPixels(const TraceJob& job) {
 }
 
 // What no view covers is black; every plane is cleared, so that no byte of an older band is left.
-void recordClear(vk::CommandBuffer commands, const ReadablePlane& plane, uint32_t value) {
-  if (!plane.isEmpty()) commands.fillBuffer(plane.target().handle(), 0, VK_WHOLE_SIZE, value);
+void recordClear(Commands commands, const ReadablePlane& plane, uint32_t value) {
+  if (!plane.isEmpty()) commands.fill(plane.target(), value);
 }
 
 }  // namespace
 
-void ViewTracer::recordBand(vk::CommandBuffer commands,
-                            std::span<const StructureSlot* const> structures, const TraceJob& job,
-                            BandRows rows, TraceSlot& slot, GpuTimer* timer) {
+void ViewTracer::recordBand(Commands commands, std::span<const StructureSlot* const> structures,
+                            const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   if (timer) timer->recordBegin(commands, "trace");
   const uint32_t part_count = BandParts(job, rows).count();
   for (uint32_t part = 0; part < part_count; ++part) {
@@ -34,18 +33,16 @@ void ViewTracer::recordBand(vk::CommandBuffer commands,
   if (timer) timer->recordEnd(commands);
 }
 
-void ViewTracer::recordPart(vk::CommandBuffer commands,
-                            std::span<const StructureSlot* const> structures, const TraceJob& job,
-                            BandRows rows, uint32_t part, TraceSlot& slot) {
+void ViewTracer::recordPart(Commands commands, std::span<const StructureSlot* const> structures,
+                            const TraceJob& job, BandRows rows, uint32_t part, TraceSlot& slot) {
   const BandParts parts(job, rows);
   if (part == 0) beginBand(commands, structures, job, rows, slot);
   recordSamples(commands, structures, job, rows, parts.at(part), slot);
   if (part + 1 == parts.count()) endBand(commands, slot);
 }
 
-void ViewTracer::beginBand(vk::CommandBuffer commands,
-                           std::span<const StructureSlot* const> structures, const TraceJob& job,
-                           BandRows rows, TraceSlot& slot) {
+void ViewTracer::beginBand(Commands commands, std::span<const StructureSlot* const> structures,
+                           const TraceJob& job, BandRows rows, TraceSlot& slot) {
   const AtlasLayout& layout = *job.layout;
   VIEWLOOM_CHECK(
       slot.shape_.width_px >= layout.size_px.width && slot.shape_.row_count_max >= rows.row_count &&
@@ -57,15 +54,15 @@ void ViewTracer::beginBand(vk::CommandBuffer commands,
   slot.band_px_ = {layout.size_px.width, rows.row_count};
   fillParams(structures, job, slot);
 
-  commands.copyBuffer(slot.upload_.handle(), slot.params_.handle(),
-                      vk::BufferCopy{.size = TraceSlot::lensOffset(job) +
-                                             std::span(job.layout->lens_points).size_bytes()});
+  commands.copy(
+      slot.upload_, slot.params_,
+      {.size_bytes = TraceSlot::lensOffset(job) + std::span(job.layout->lens_points).size_bytes()});
   recordClear(commands, slot.counters_, 0);
   if (hasUnusedPixels(job)) {
-    commands.fillBuffer(slot.sampleTarget(job).handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
+    commands.fill(slot.sampleTarget(job), kOpaqueBlack);
     // The second stage of a lens writes px of views alone.
     if (job.mayGather()) {
-      commands.fillBuffer(slot.rgba().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
+      commands.fill(slot.rgba(), kOpaqueBlack);
     }
     for (const ReadablePlane* plane : {&slot.depth_, &slot.mask_, &slot.linear_, &slot.records_}) {
       recordClear(commands, *plane, 0);
@@ -74,7 +71,7 @@ void ViewTracer::beginBand(vk::CommandBuffer commands,
   recordTransferToCompute(commands);
 }
 
-void ViewTracer::endBand(vk::CommandBuffer commands, TraceSlot& slot) {
+void ViewTracer::endBand(Commands commands, TraceSlot& slot) {
   const uint64_t area_px = slot.band_px_.area();
   const ColorForm form = slot.shape_.outputs.color;
   if (form != ColorForm::kRgba) {

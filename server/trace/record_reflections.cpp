@@ -45,7 +45,7 @@ std::vector<Descriptor> ViewTracer::describeReflected(const Walk& walk, uint32_t
 }
 
 // Of rows of a band whose px are known. The last of them adds all to the px.
-void ViewTracer::recordReflections(vk::CommandBuffer commands,
+void ViewTracer::recordReflections(Commands commands,
                                    std::span<const StructureSlot* const> structures,
                                    const TraceJob& job, BandRows rows, const BandPart& part,
                                    TraceSlot& slot) {
@@ -59,7 +59,7 @@ void ViewTracer::recordReflections(vk::CommandBuffer commands,
   reflector_.recordAdd(commands, job, reflectedTarget(job, rows, slot));
 }
 
-void ViewTracer::recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
+void ViewTracer::recordMirrors(Commands commands, const Walk& walk, BandRows rows,
                                const BandPart& part) {
   std::vector<Descriptor> params = describeReflected(walk, walk.index);
   params.push_back(walk.slot.lensDescriptor(walk.job, walk.rays.sample));
@@ -76,9 +76,9 @@ void ViewTracer::recordMirrors(vk::CommandBuffer commands, const Walk& walk, Ban
 
 // All rays of one sample that have met as many mirrors: turned where they are, then followed
 // through every source.
-void ViewTracer::recordBounce(vk::CommandBuffer commands, std::span<PathPiece> pieces,
-                              const TraceJob& job, const AnswersLayout& answers,
-                              const MergedPaths& merged, const TraceSlot& slot) {
+void ViewTracer::recordBounce(Commands commands, std::span<PathPiece> pieces, const TraceJob& job,
+                              const AnswersLayout& answers, const MergedPaths& merged,
+                              const TraceSlot& slot) {
   bool is_first = true;
   for (PathPiece& piece : pieces) {
     piece.push.bounce = merged.push.bounce;
@@ -99,9 +99,9 @@ void ViewTracer::recordBounce(vk::CommandBuffer commands, std::span<PathPiece> p
 }
 
 // Piece by piece of the rows, as the views' own rays are traced.
-void ViewTracer::recordPaths(vk::CommandBuffer commands,
-                             std::span<const StructureSlot* const> structures, const TraceJob& job,
-                             BandRows rows, const BandPart& part, const TraceSlot& slot) {
+void ViewTracer::recordPaths(Commands commands, std::span<const StructureSlot* const> structures,
+                             const TraceJob& job, BandRows rows, const BandPart& part,
+                             const TraceSlot& slot) {
   const Rays rays{.sample = part.first_sample};
   const uint32_t width_px = job.layout->size_px.width;
   const ReflectionSpec& spec = *job.reflection;
@@ -161,7 +161,7 @@ std::vector<PathPiece> ViewTracer::describePaths(std::span<const StructureSlot* 
                       .paths = wholeBuffer(abi::kBindingPaths, slot.paths_),
                       .answers = {.binding = abi::kBindingBand,
                                   .kind = DescriptorKind::kStorage,
-                                  .buffer = slot.answers_.handle(),
+                                  .buffer = &slot.answers_,
                                   .offset_bytes = index * size_bytes,
                                   .size_bytes = size_bytes}});
   }

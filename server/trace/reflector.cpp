@@ -64,7 +64,7 @@ const ComputePass& Reflector::addPass() {
   return *add_pass_;
 }
 
-void Reflector::record(vk::CommandBuffer commands, const ReflectedRows& rows) {
+void Reflector::record(Commands commands, const ReflectedRows& rows) {
   const StructureSlot& structure = rows.structure;
   const ComputePass& reflect =
       reflectPass({.reads_by_address = structure.readsByAddress(),
@@ -88,8 +88,7 @@ void Reflector::record(vk::CommandBuffer commands, const ReflectedRows& rows) {
   recordComputeBarrier(commands);
 }
 
-void Reflector::recordAdd(vk::CommandBuffer commands, const TraceJob& job,
-                          const ReflectedTarget& target) {
+void Reflector::recordAdd(Commands commands, const TraceJob& job, const ReflectedTarget& target) {
   const AtlasLayout& layout = *job.layout;
   const Descriptor descriptors[] = {wholeBuffer(abi::kBindingReflected, target.reflected),
                                     wholeBuffer(abi::kBindingBand, target.rgba)};

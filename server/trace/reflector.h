@@ -8,6 +8,7 @@
 #include <mutex>
 #include <span>
 
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "structure/structure_slot.h"
 #include "trace/albedos.h"
@@ -41,9 +42,9 @@ class Reflector {
   explicit Reflector(const Device& device) : device_(&device), albedos_(device) {}
 
   // Of one source. Waits for the compute work before it; what follows may read what is written.
-  void record(vk::CommandBuffer commands, const ReflectedRows& rows);
+  void record(Commands commands, const ReflectedRows& rows);
   // Of light that is there; what follows may read the band.
-  void recordAdd(vk::CommandBuffer commands, const TraceJob& job, const ReflectedTarget& target);
+  void recordAdd(Commands commands, const TraceJob& job, const ReflectedTarget& target);
 
  private:
   struct Variant {

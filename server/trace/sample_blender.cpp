@@ -39,7 +39,7 @@ const ComputePass& SampleBlender::pass() {
   return *pass_;
 }
 
-void SampleBlender::record(vk::CommandBuffer commands, const BlendTarget& target,
+void SampleBlender::record(Commands commands, const BlendTarget& target,
                            const std::vector<RaySample>& samples, uint32_t index) {
   const abi::BlendPush push{
       .px_count = target.px_count,

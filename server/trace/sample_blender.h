@@ -7,6 +7,7 @@
 
 #include "display/ray_samples.h"
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "gpu/descriptor.h"
 
@@ -28,8 +29,8 @@ class SampleBlender {
 
   // Adds sample `index` of `samples`, which come in order. Each channel is the mean of those that
   // count for it. Waits for the compute work before it, and what follows may write the next one.
-  void record(vk::CommandBuffer commands, const BlendTarget& target,
-              const std::vector<RaySample>& samples, uint32_t index);
+  void record(Commands commands, const BlendTarget& target, const std::vector<RaySample>& samples,
+              uint32_t index);
 
  private:
   const ComputePass& pass();

@@ -15,9 +15,8 @@ bool seesThrough(const StructureSlot& structure) {
 
 }  // namespace
 
-void ViewTracer::recordRays(vk::CommandBuffer commands,
-                            std::span<const StructureSlot* const> structures, const TraceJob& job,
-                            BandRows rows, const Rays& rays, TraceSlot& slot) {
+void ViewTracer::recordRays(Commands commands, std::span<const StructureSlot* const> structures,
+                            const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot) {
   if (job.walk_count == 1) {
     const Descriptor band = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
     recordWalk(commands, {*structures[0], job, 0, rays, slot, band}, rows);
@@ -26,8 +25,7 @@ void ViewTracer::recordRays(vk::CommandBuffer commands,
   }
 }
 
-void ViewTracer::recordSamples(vk::CommandBuffer commands,
-                               std::span<const StructureSlot* const> structures,
+void ViewTracer::recordSamples(Commands commands, std::span<const StructureSlot* const> structures,
                                const TraceJob& job, BandRows rows, const BandPart& part,
                                TraceSlot& slot) {
   // What else is wanted than colour is that of the ray through the middle of px and lens.
@@ -70,7 +68,7 @@ void ViewTracer::recordSamples(vk::CommandBuffer commands,
 
 // Of a lens that the host gathers. What a middle ray is taken to see that ends behind something
 // would be as sharp as without a lens: there the rays of the first stage are walked.
-void ViewTracer::recordMiddleRays(vk::CommandBuffer commands,
+void ViewTracer::recordMiddleRays(Commands commands,
                                   std::span<const StructureSlot* const> structures,
                                   const TraceJob& job, BandRows rows, uint32_t wanted,
                                   TraceSlot& slot) {
@@ -84,7 +82,7 @@ void ViewTracer::recordMiddleRays(vk::CommandBuffer commands,
 
 // Rays that are walked add their light, and leave what they met: blocks where a round of them met
 // nothing new have no more of them. The second stage makes px of the sums.
-void ViewTracer::recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
+void ViewTracer::recordLensSamples(Commands commands, const StructureSlot& structure,
                                    const TraceJob& job, BandRows rows, const BandPart& part,
                                    TraceSlot& slot) {
   std::vector<Descriptor> params = describeParams(job, 0, 0, slot);

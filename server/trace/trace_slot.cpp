@@ -93,7 +93,7 @@ uint64_t TraceSlot::lensOffset(const TraceJob& job) {
 Descriptor TraceSlot::lensDescriptor(const TraceJob& job, uint32_t sample) const {
   Descriptor points{.binding = abi::kBindingLensPoints,
                     .kind = DescriptorKind::kStorage,
-                    .buffer = params_.handle(),
+                    .buffer = &params_,
                     .size_bytes = kExtrasStride_bytes};
   if (!job.hasLens()) return points;
   constexpr uint64_t kPoint_bytes = uint64_t{kLensPatternArea_px} * sizeof(abi::vec2);
@@ -112,10 +112,9 @@ ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const ch
   if (!is_direct_) device_only_ = Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
 }
 
-void ReadablePlane::recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const {
+void ReadablePlane::recordReadback(Commands commands, uint64_t size_bytes) const {
   if (isEmpty() || is_direct_) return;
-  commands.copyBuffer(device_only_.handle(), readback_.handle(),
-                      vk::BufferCopy{.size = size_bytes});
+  commands.copy(device_only_, readback_, {.size_bytes = size_bytes});
 }
 
 TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_(shape) {
@@ -167,7 +166,7 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   if (shape.reflects) addReflections(device, area_px);
 }
 
-vk::DeviceAddress TraceSlot::recordsAddress() const {
+uint64_t TraceSlot::recordsAddress() const {
   if (hits_.sizeBytes() > 0) return hits_.address();
   return records_.isEmpty() ? 0 : records_.target().address();
 }
@@ -191,7 +190,7 @@ void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
 Descriptor TraceSlot::reflectionDescriptor(uint32_t walk) const {
   return {.binding = abi::kBindingReflection,
           .kind = DescriptorKind::kUniform,
-          .buffer = reflection_settings_.handle(),
+          .buffer = &reflection_settings_,
           .offset_bytes = walk * kDescriptorAlignment_bytes,
           .size_bytes = sizeof(abi::ReflectionSettings)};
 }

@@ -8,6 +8,7 @@
 
 #include "frame/stage_times.h"
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/descriptor.h"
 #include "shared/trace_abi.h"
 #include "trace/trace_job.h"
@@ -25,7 +26,7 @@ class ReadablePlane {
   bool isEmpty() const { return readback_.sizeBytes() == 0; }
   const Buffer& target() const { return is_direct_ ? readback_ : device_only_; }
   // Makes what kernels wrote readable: a barrier, and a copy where one is needed.
-  void recordReadback(vk::CommandBuffer commands, uint64_t size_bytes) const;
+  void recordReadback(Commands commands, uint64_t size_bytes) const;
   std::span<const std::byte> bytes() const { return readback_.mapped(); }
   std::span<std::byte> mutableBytes() { return readback_.mapped(); }
 
@@ -79,7 +80,7 @@ class TraceSlot {
   friend class ViewTracer;
 
   // Of abi::RayRecord per px; 0 = not wanted.
-  vk::DeviceAddress recordsAddress() const;
+  uint64_t recordsAddress() const;
   void addReflections(const Device& device, uint64_t area_px);
   // Of a walk; abi::ReflectionSettings.
   Descriptor reflectionDescriptor(uint32_t walk) const;

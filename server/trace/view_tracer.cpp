@@ -150,12 +150,12 @@ std::vector<Descriptor> ViewTracer::describeParams(const TraceJob& job, uint32_t
   const uint32_t part_count = job.sample_count * job.walk_count;
   return {{.binding = abi::kBindingViews,
            .kind = DescriptorKind::kStorage,
-           .buffer = slot.params_.handle(),
+           .buffer = &slot.params_,
            .offset_bytes = TraceSlot::tilesOffset(part, part_count, tiles.size()),
            .size_bytes = tiles.size_bytes()},
           {.binding = abi::kBindingExtras,
            .kind = DescriptorKind::kUniform,
-           .buffer = slot.params_.handle(),
+           .buffer = &slot.params_,
            .offset_bytes = TraceSlot::extrasOffset(part),
            .size_bytes = sizeof(abi::TraceExtras)}};
 }
@@ -218,7 +218,7 @@ ViewTracer::Variant ViewTracer::variantOf(const Walk& walk, uint32_t color_forma
           .lists_unfinished = device_->info().is_software && !walk.rays.areListed()};
 }
 
-void ViewTracer::recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows) {
+void ViewTracer::recordWalk(Commands commands, const Walk& walk, BandRows rows) {
   const StructureSlot& structure = walk.structure;
   const TileRays rays = raysOf(walk.job, walk.index, walk.rays.sample);
   const ColorAverager::Color color =

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "gpu/gpu_timer.h"
 #include "structure/structure_slot.h"
@@ -37,16 +38,16 @@ class ViewTracer {
   // tiles and the walks, of which the job has as many as there are structures. Their build is
   // done, not only recorded: its stats choose the kernels. `timer` was reset in this recording;
   // nullptr = untimed. The first band of a new variant compiles its pipeline.
-  void recordBand(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordBand(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer);
-  void recordBand(vk::CommandBuffer commands, const StructureSlot& structure, const TraceJob& job,
+  void recordBand(Commands commands, const StructureSlot& structure, const TraceJob& job,
                   BandRows rows, TraceSlot& slot, GpuTimer* timer) {
     const StructureSlot* const structures[] = {&structure};
     recordBand(commands, structures, job, rows, slot, timer);
   }
   // The same part by part (BandParts), all of them in their order, each in a submission of its own
   // if wanted. Nothing else may use the slot meanwhile.
-  void recordPart(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordPart(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, uint32_t part, TraceSlot& slot);
 
  private:
@@ -105,40 +106,37 @@ class ViewTracer {
                                                 const TraceSlot& slot);
   static abi::TracePush describeBand(const Walk& walk, const LayeredBuffer& color, BandRows rows);
   Variant variantOf(const Walk& walk, uint32_t color_format) const;
-  void recordWalk(vk::CommandBuffer commands, const Walk& walk, BandRows rows);
-  void recordReflections(vk::CommandBuffer commands,
-                         std::span<const StructureSlot* const> structures, const TraceJob& job,
-                         BandRows rows, const BandPart& part, TraceSlot& slot);
-  void recordMirrors(vk::CommandBuffer commands, const Walk& walk, BandRows rows,
-                     const BandPart& part);
+  void recordWalk(Commands commands, const Walk& walk, BandRows rows);
+  void recordReflections(Commands commands, std::span<const StructureSlot* const> structures,
+                         const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
+  void recordMirrors(Commands commands, const Walk& walk, BandRows rows, const BandPart& part);
   static ReflectedTarget reflectedTarget(const TraceJob& job, BandRows rows, const TraceSlot& slot);
   static std::vector<Descriptor> describeReflected(const Walk& walk, uint32_t first_walk);
   static std::vector<PathPiece> describePaths(std::span<const StructureSlot* const> structures,
                                               const TraceJob& job, BandRows piece, const Rays& rays,
                                               const AnswersLayout& answers, const TraceSlot& slot);
-  void recordBounce(vk::CommandBuffer commands, std::span<PathPiece> pieces, const TraceJob& job,
+  void recordBounce(Commands commands, std::span<PathPiece> pieces, const TraceJob& job,
                     const AnswersLayout& answers, const MergedPaths& merged, const TraceSlot& slot);
-  void recordPaths(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordPaths(Commands commands, std::span<const StructureSlot* const> structures,
                    const TraceJob& job, BandRows rows, const BandPart& part, const TraceSlot& slot);
-  void recordMerged(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordMerged(Commands commands, std::span<const StructureSlot* const> structures,
                     const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
-  void recordRays(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordRays(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, const Rays& rays, TraceSlot& slot);
-  void beginBand(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void beginBand(Commands commands, std::span<const StructureSlot* const> structures,
                  const TraceJob& job, BandRows rows, TraceSlot& slot);
-  void endBand(vk::CommandBuffer commands, TraceSlot& slot);
-  void recordSamples(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void endBand(Commands commands, TraceSlot& slot);
+  void recordSamples(Commands commands, std::span<const StructureSlot* const> structures,
                      const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
-  void recordMiddleRays(vk::CommandBuffer commands,
-                        std::span<const StructureSlot* const> structures, const TraceJob& job,
-                        BandRows rows, uint32_t wanted, TraceSlot& slot);
-  void recordLensSamples(vk::CommandBuffer commands, const StructureSlot& structure,
-                         const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
-  uint64_t recordWalks(vk::CommandBuffer commands, std::span<const StructureSlot* const> structures,
+  void recordMiddleRays(Commands commands, std::span<const StructureSlot* const> structures,
+                        const TraceJob& job, BandRows rows, uint32_t wanted, TraceSlot& slot);
+  void recordLensSamples(Commands commands, const StructureSlot& structure, const TraceJob& job,
+                         BandRows rows, const BandPart& part, TraceSlot& slot);
+  uint64_t recordWalks(Commands commands, std::span<const StructureSlot* const> structures,
                        const TraceJob& job, BandRows piece, const Rays& rays,
                        const AnswersLayout& answers, const TraceSlot& slot);
-  void recordJoins(vk::CommandBuffer commands, const TraceJob& job, uint64_t walked,
-                   uint32_t answer_count, const AnswersLayout& answers, const TraceSlot& slot);
+  void recordJoins(Commands commands, const TraceJob& job, uint64_t walked, uint32_t answer_count,
+                   const AnswersLayout& answers, const TraceSlot& slot);
   const ComputePass& pass(const Variant& variant);
   const ComputePass& mergePass(uint32_t wanted, uint32_t rays);
   const ComputePass& joinPass();

@@ -32,9 +32,8 @@ struct Push {
 };
 
 ComputePass makePass(const Device& device, uint32_t path) {
-  static constexpr DescriptorSlot kSlots[] = {{0, DescriptorKind::kStorage},
-                                              {1, DescriptorKind::kTexels},
-                                              {2, DescriptorKind::kStorage}};
+  static constexpr DescriptorSlot kSlots[] = {
+      {0, DescriptorKind::kStorage}, {1, DescriptorKind::kTexels}, {2, DescriptorKind::kStorage}};
   return ComputePass(device, {.spirv = memory_paths_spirv,
                               .push_bytes = sizeof(Push),
                               .specialization = {&path, 1},
@@ -43,19 +42,19 @@ ComputePass makePass(const Device& device, uint32_t path) {
 }
 
 nlohmann::json measure(const Device& device) {
-  const Buffer words(device, {.size_bytes = kWordCount * 8ull,
-                              .intent = MemoryIntent::kUpload,
-                              .debug_name = "words"});
+  const Buffer words(
+      device,
+      {.size_bytes = kWordCount * 8ull, .intent = MemoryIntent::kUpload, .debug_name = "words"});
   for (uint32_t i = 0; i < kWordCount; ++i) {
     const uint32_t word[] = {i * 2654435761u >> 7, i};
     std::memcpy(words.mapped().data() + i * 8ull, word, sizeof word);
   }
   const Buffer sums(device, {.size_bytes = kInvocationCount * 4ull, .debug_name = "sums"});
-  const TexelView texels(device, words, vk::Format::eR32G32Uint);
+  const TexelView texels(device, words, TexelFormat::kRg32Uint);
   const Descriptor descriptors[] = {
-      {.binding = 0, .buffer = words.handle(), .size_bytes = words.sizeBytes()},
-      {.binding = 1, .kind = DescriptorKind::kTexels, .texels = texels.handle()},
-      {.binding = 2, .buffer = sums.handle(), .size_bytes = sums.sizeBytes()}};
+      {.binding = 0, .buffer = &words, .size_bytes = words.sizeBytes()},
+      {.binding = 1, .kind = DescriptorKind::kTexels, .texels = &texels},
+      {.binding = 2, .buffer = &sums, .size_bytes = sums.sizeBytes()}};
 
   std::vector<ComputePass> passes;
   for (uint32_t path = 0; path < kPaths.size(); ++path) passes.push_back(makePass(device, path));
@@ -64,7 +63,7 @@ nlohmann::json measure(const Device& device) {
   CommandRecorder recorder(device);
   for (int run = 0; run <= kRunCount; ++run) {
     for (size_t path = 0; path < kPaths.size(); ++path) {
-      const vk::CommandBuffer commands = recorder.begin();
+      const Commands commands = recorder.begin();
       passes[path].recordDescriptors(commands, descriptors);
       passes[path].record(commands, Push{words.address(), kWordCount, kLoadCount},
                           kInvocationCount / 64);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "commands/median.h"
+#include "gpu/commands.h"
 #include "gpu/mirror_stage.h"
 
 namespace viewloom::bench {
@@ -53,7 +54,7 @@ std::vector<Way> walksOf(Reflector& reflector) {
     name << tolerance_px << " px";
     ways.push_back({.name = name.str(),
                     .tolerance_px = tolerance_px,
-                    .record = [&](vk::CommandBuffer commands, const ReflectedRows& rows) {
+                    .record = [&](Commands commands, const ReflectedRows& rows) {
                       reflector.record(commands, rows);
                     }});
   }
@@ -63,11 +64,10 @@ std::vector<Way> walksOf(Reflector& reflector) {
 std::vector<Way> marchesOf(DdaMirrors& rival) {
   std::vector<Way> ways;
   const auto add = [&](const MarchOptions& options) {
-    ways.push_back(
-        {.name = nameOf(options),
-         .record = [&rival, options](vk::CommandBuffer commands, const ReflectedRows& rows) {
-           rival.record(commands, rows, options);
-         }});
+    ways.push_back({.name = nameOf(options),
+                    .record = [&rival, options](Commands commands, const ReflectedRows& rows) {
+                      rival.record(commands, rows, options);
+                    }});
   };
   for (const uint32_t layer_count : kLayerCounts) {
     for (const double thickness_m : kThicknesses_m) {

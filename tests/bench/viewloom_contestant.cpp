@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gpu/commands.h"
+
 namespace viewloom::bench {
 namespace {
 
@@ -73,7 +75,7 @@ void ViewloomContestant::sweep(const TraceOutputs& outputs) {
 
 void ViewloomContestant::trace() {
   if (sweep_) return sweep({});
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   for (uint32_t band = 0; band < bands_.size(); ++band) {
     tracer_.recordBand(commands, *structure_, load_->job,
                        rowsOfBand(band, load_->job.layout->size_px.height), *bands_[band], nullptr);

@@ -52,7 +52,7 @@ TEST_F(ComputePassTest, readsAndWritesMappedMemoryByAddress) {
 
   Timeline timeline(device());
   CommandRecorder recorder(device());
-  const vk::CommandBuffer commands = recorder.begin();
+  const Commands commands = recorder.begin();
   pass.record(commands, ScalePush{source.address(), target.address(), kCount}, groupCount(kCount));
   recordComputeToHost(commands);
   ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
@@ -70,7 +70,7 @@ TEST_F(ComputePassTest, reachesPast128MiB) {
 
   Timeline timeline(device());
   CommandRecorder recorder(device());
-  const vk::CommandBuffer commands = recorder.begin();
+  const Commands commands = recorder.begin();
   const uint32_t first = count - kGroupSize;  // the last group alone: its addresses are what counts
   pass.record(
       commands,
@@ -91,16 +91,16 @@ TEST_F(ComputePassTest, chainsPassesAndTransfersThroughBarriers) {
 
   Timeline timeline(device());
   CommandRecorder recorder(device());
-  const vk::CommandBuffer commands = recorder.begin();
-  const vk::BufferCopy whole{.size = kBytes};
-  commands.copyBuffer(source.handle(), middle.handle(), whole);
+  const Commands commands = recorder.begin();
+  const CopiedBytes whole{.size_bytes = kBytes};
+  commands.copy(source, middle, whole);
   recordTransferToCompute(commands);
   const ScalePush in_place{middle.address(), middle.address(), kCount};
   times_two.record(commands, in_place, groupCount(kCount));
   recordComputeBarrier(commands);
   times_two.record(commands, in_place, groupCount(kCount));
   recordComputeToTransfer(commands);
-  commands.copyBuffer(middle.handle(), target.handle(), whole);
+  commands.copy(middle, target, whole);
   recordTransferToHost(commands);
   ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
 
@@ -115,7 +115,7 @@ TEST_F(ComputePassTest, timesEachNamedPass) {
   GpuTimer timer(device(), 2);
   Timeline timeline(device());
   CommandRecorder recorder(device());
-  const vk::CommandBuffer commands = recorder.begin();
+  const Commands commands = recorder.begin();
   timer.recordReset(commands);
   for (const char* name : {"first", "second", "one too many"}) {
     timer.recordBegin(commands, name);

@@ -163,7 +163,7 @@ std::vector<abi::FollowedRay> MirrorFollower::follow(MirrorStage& stage) {
   std::vector<abi::FollowedRay> followed(stage.layout().size_px.area());
   const uint64_t size_bytes = followed.size() * sizeof(abi::FollowedRay);
   const ReadablePlane rays(device_, size_bytes, "followed rays");
-  stage.timedMs([&](vk::CommandBuffer commands, const ReflectedRows& rows) {
+  stage.timedMs([&](Commands commands, const ReflectedRows& rows) {
     const StructureSlot& structure = rows.structure;
     std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
     for (const Descriptor& descriptor :
@@ -175,7 +175,7 @@ std::vector<abi::FollowedRay> MirrorFollower::follow(MirrorStage& stage) {
           structure.surface()->asTexels(abi::kBindingSurface)}) {
       descriptors.push_back(descriptor);
     }
-    commands.fillBuffer(rays.target().handle(), 0, VK_WHOLE_SIZE, 0);
+    commands.fill(rays.target(), 0);
     recordTransferToCompute(commands);
     pass_.recordDescriptors(commands, descriptors);
     pass_.record(commands, rows.push, groupCount(rows.push.atlas_width_px), rows.row_count);

@@ -25,7 +25,7 @@ TraceJob jobOf(const DisplaySpec& spec, const SeenSource& source, const SourceSt
 Descriptor uniform(uint32_t binding, const Buffer& buffer) {
   return {.binding = binding,
           .kind = DescriptorKind::kUniform,
-          .buffer = buffer.handle(),
+          .buffer = &buffer,
           .size_bytes = buffer.sizeBytes()};
 }
 
@@ -70,8 +70,8 @@ Buffer MirrorStage::filled(const void* from, uint64_t size_bytes, MemoryIntent i
   std::memcpy(upload.mapped().data(), from, size_bytes);
   if (intent == MemoryIntent::kUpload) return upload;
   Buffer buffer(device_, {.size_bytes = size_bytes, .intent = intent, .debug_name = name});
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(upload.handle(), buffer.handle(), vk::BufferCopy{.size = size_bytes});
+  const Commands commands = recorder_.begin();
+  commands.copy(upload, buffer, {.size_bytes = size_bytes});
   timeline_.wait(recorder_.submit(timeline_));
   return buffer;
 }
@@ -133,7 +133,7 @@ abi::TracePush MirrorStage::push() const {
 }
 
 double MirrorStage::timedMs(const Record& record) {
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   record(commands, {.structure = structure_.firstPart(),
                     .job = job_,
                     .row_count = layout().size_px.height,
@@ -150,9 +150,8 @@ std::vector<float> MirrorStage::picture() {
   const uint64_t size_bytes = without_.size() * sizeof(float);
   const Buffer before =
       filled(without_.data(), size_bytes, MemoryIntent::kUpload, "without its mirrors");
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(before.handle(), linear_.target().handle(),
-                      vk::BufferCopy{.size = size_bytes});
+  const Commands commands = recorder_.begin();
+  commands.copy(before, linear_.target(), {.size_bytes = size_bytes});
   recordTransferToCompute(commands);
   kernels_.reflector.recordAdd(commands, job_,
                                {.rows = {0, layout().size_px.height},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/command_recorder.h"
+#include "gpu/commands.h"
 #include "structure/frame_structure.h"
 #include "trace/reflector.h"
 #include "trace/view_tracer.h"
@@ -40,7 +41,7 @@ class MirrorStage {
   void setTolerance(double tolerance_px);
 
   // Finds the light of all px. Returns how long that took, from its submission to its end.
-  using Record = std::function<void(vk::CommandBuffer, const ReflectedRows&)>;
+  using Record = std::function<void(Commands, const ReflectedRows&)>;
   double timedMs(const Record& record);
 
   // float[height][width][4], sRGB-encoded: the view without its mirrors' light, and with what was

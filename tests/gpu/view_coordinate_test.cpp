@@ -38,7 +38,7 @@ class ViewCoordinateTest : public GpuTest {
     const abi::Lenticular lens = makeLenticular(calibration);
     Timeline timeline(device());
     CommandRecorder recorder(device());
-    const vk::CommandBuffer commands = recorder.begin();
+    const Commands commands = recorder.begin();
     pass.record(commands, CoordinatesPush{target.address(), size_px.width, view_count, lens},
                 (pixel_count + kGroupSize - 1) / kGroupSize);
     recordComputeToHost(commands);

@@ -181,11 +181,11 @@ std::unique_ptr<StructureSlot> WalkUnderTest::buildIn(BuildMemoryPtr build_memor
                                                       std::optional<uint32_t> old_word) {
   auto slot = std::make_unique<StructureSlot>(device_, std::move(build_memory));
   slot->upload(frame);
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   for (uint32_t layer = 0; old_word && layer < slot->shape().layerCount(); ++layer) {
     for (const LayeredBuffer* arrays : {&slot->invZ(), &slot->structure()}) {
-      commands.fillBuffer(arrays->buffer(layer).handle(), arrays->offsetBytes(layer),
-                          arrays->layerBytes(), *old_word);
+      commands.fill(arrays->buffer(layer), arrays->offsetBytes(layer), arrays->layerBytes(),
+                    *old_word);
     }
   }
   builder_.record(commands, *slot, nullptr);
@@ -198,10 +198,9 @@ std::vector<Element> WalkUnderTest::read(const LayeredBuffer& arrays, uint32_t l
   const Buffer readback(device_, {.size_bytes = arrays.layerBytes(),
                                   .intent = MemoryIntent::kReadback,
                                   .debug_name = "structure readback"});
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(
-      arrays.buffer(layer).handle(), readback.handle(),
-      vk::BufferCopy{.srcOffset = arrays.offsetBytes(layer), .size = arrays.layerBytes()});
+  const Commands commands = recorder_.begin();
+  commands.copy(arrays.buffer(layer), readback,
+                {.from_offset = arrays.offsetBytes(layer), .size_bytes = arrays.layerBytes()});
   recordTransferToHost(commands);
   timeline_.wait(recorder_.submit(timeline_));
   std::vector<Element> elements(arrays.layerBytes() / sizeof(Element));

@@ -117,25 +117,25 @@ void AtlasPass::bind(std::vector<Descriptor> descriptors, uint32_t box_stride) {
 
 // What no view covers stays black.
 void AtlasPass::clear() {
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.fillBuffer(atlas_.target().handle(), 0, VK_WHOLE_SIZE, kOpaqueBlack);
+  const Commands commands = recorder_.begin();
+  commands.fill(atlas_.target(), kOpaqueBlack);
   timeline_.wait(recorder_.submit(timeline_));
 }
 
 void AtlasPass::run(const ComputePass& pass) {
   const AtlasLayout& layout = *load_->job.layout;
   const uint32_t invocations = (layout.tile_size_px.width + pixels_ - 1) / pixels_ * layout.columns;
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   for (uint32_t row = 0; row < layout.size_px.height; row += rows_per_dispatch_) {
     const uint32_t rows = std::min(rows_per_dispatch_, layout.size_px.height - row);
     std::vector<Descriptor> descriptors = descriptors_;
     descriptors.push_back({.binding = abi::kBindingViews,
                            .kind = DescriptorKind::kStorage,
-                           .buffer = views_.handle(),
+                           .buffer = &views_,
                            .size_bytes = views_.sizeBytes()});
     descriptors.push_back({.binding = abi::kBindingBand,
                            .kind = DescriptorKind::kStorage,
-                           .buffer = atlas_.target().handle(),
+                           .buffer = &atlas_.target(),
                            .offset_bytes = row * rowBytes(*load_),
                            .size_bytes = rows * rowBytes(*load_)});
     abi::RivalPush push = push_;

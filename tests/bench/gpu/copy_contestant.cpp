@@ -64,27 +64,27 @@ void CopyContestant::prepare(const BenchLoad& load) {
   shape_ = shapeOfCopy(read_bytes, builtBytes(shape), device_.info().limits.storage_bytes_max);
   from_ =
       Buffer(device_, {.size_bytes = shape_.read_count * kUnitBytes, .debug_name = "copied from"});
-  from_texels_ = TexelView(device_, from_, vk::Format::eR32G32B32A32Uint);
+  from_texels_ = TexelView(device_, from_, TexelFormat::kRgba32Uint);
   to_ = Buffer(device_,
                {.size_bytes = uint64_t{shape_.part_count} * shape_.part_written_count * kUnitBytes,
                 .debug_name = "copied to"});
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(slot.staging().handle(), from_.handle(), vk::BufferCopy{.size = read_bytes});
+  const Commands commands = recorder_.begin();
+  commands.copy(slot.staging(), from_, {.size_bytes = read_bytes});
   timeline_.wait(recorder_.submit(timeline_));
 }
 
 void CopyContestant::build() {
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   const uint64_t part_bytes = shape_.part_written_count * kUnitBytes;
   for (uint32_t part = 0; part < shape_.part_count; ++part) {
     const uint32_t first = part * shape_.part_read_count;
     const uint32_t count = std::min(shape_.part_read_count, shape_.read_count - first);
     copy_.recordDescriptors(commands, std::vector<Descriptor>{{.binding = abi::kBindingFrom,
                                                                .kind = DescriptorKind::kTexels,
-                                                               .texels = from_texels_.handle()},
+                                                               .texels = &from_texels_},
                                                               {.binding = abi::kBindingTo,
                                                                .kind = DescriptorKind::kStorage,
-                                                               .buffer = to_.handle(),
+                                                               .buffer = &to_,
                                                                .offset_bytes = part * part_bytes,
                                                                .size_bytes = part_bytes}});
     copy_.record(commands,

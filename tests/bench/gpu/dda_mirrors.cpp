@@ -40,8 +40,7 @@ DdaMirrors::DdaMirrors(const Device& device)
                       .descriptors = kSlots,
                       .debug_name = "dda mirrors"}) {}
 
-void DdaMirrors::record(vk::CommandBuffer commands, const ReflectedRows& rows,
-                        const MarchOptions& options) {
+void DdaMirrors::record(Commands commands, const ReflectedRows& rows, const MarchOptions& options) {
   const StructureSlot& structure = rows.structure;
   std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
   for (const Descriptor& descriptor :

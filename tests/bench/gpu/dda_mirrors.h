@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/gpu/shaders/rival_abi.h"
+#include "gpu/commands.h"
 #include "trace/albedos.h"
 #include "trace/reflector.h"
 
@@ -22,7 +23,7 @@ class DdaMirrors {
 
   // As Reflector::record, of rows whose structure reads by bindings, with opaque colour of the
   // depth's size in 8 bits.
-  void record(vk::CommandBuffer commands, const ReflectedRows& rows, const MarchOptions& options);
+  void record(Commands commands, const ReflectedRows& rows, const MarchOptions& options);
 
  private:
   Albedos albedos_;

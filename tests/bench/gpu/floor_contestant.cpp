@@ -64,12 +64,11 @@ class Floor final : public Contestant {
     timeline_.wait(recorder_.submit(timeline_));
     findHits(load);
     atlas_.emplace(device_, load, floor_views_spirv, kSlots, "floor");
-    atlas_->bind({structure_->color().asTexels(abi::kBindingColor),
-                  structure_->structure().asTexels(abi::kBindingStructure),
-                  structure_->structure().asHalfTexels(abi::kBindingStructureHalves),
-                  {.binding = abi::kBindingHits,
-                   .kind = DescriptorKind::kTexels,
-                   .texels = hit_texels_.handle()}});
+    atlas_->bind(
+        {structure_->color().asTexels(abi::kBindingColor),
+         structure_->structure().asTexels(abi::kBindingStructure),
+         structure_->structure().asHalfTexels(abi::kBindingStructureHalves),
+         {.binding = abi::kBindingHits, .kind = DescriptorKind::kTexels, .texels = &hit_texels_}});
   }
   void build() override {}
   void trace() override { atlas_->trace(); }
@@ -119,11 +118,11 @@ void Floor::findHits(const BenchLoad& load) {
     }
   }
   hits_ = Buffer(device_, {.size_bytes = size_bytes, .debug_name = "known hits"});
-  const vk::CommandBuffer commands = recorder_.begin();
-  commands.copyBuffer(upload.handle(), hits_.handle(), vk::BufferCopy{.size = size_bytes});
+  const Commands commands = recorder_.begin();
+  commands.copy(upload, hits_, {.size_bytes = size_bytes});
   recordTransferToCompute(commands);
   timeline_.wait(recorder_.submit(timeline_));
-  hit_texels_ = TexelView(device_, hits_, vk::Format::eR32G32Uint);
+  hit_texels_ = TexelView(device_, hits_, TexelFormat::kRg32Uint);
 }
 
 }  // namespace

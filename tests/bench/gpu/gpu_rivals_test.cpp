@@ -204,10 +204,9 @@ class CopyTest : public GpuTest {
                                    .debug_name = "copy readback"});
     Timeline timeline(device);
     CommandRecorder recorder(device);
-    const vk::CommandBuffer commands = recorder.begin();
+    const Commands commands = recorder.begin();
     recordComputeToTransfer(commands);
-    commands.copyBuffer(buffer.handle(), readback.handle(),
-                        vk::BufferCopy{.size = buffer.sizeBytes()});
+    commands.copy(buffer, readback, {.size_bytes = buffer.sizeBytes()});
     recordTransferToHost(commands);
     timeline.wait(recorder.submit(timeline));
     std::vector<std::array<uint32_t, 4>> units(buffer.sizeBytes() / 16);

@@ -66,7 +66,7 @@ class HiZ final : public Contestant {
   Picture picture() override { return atlas_->picture(); }
 
  private:
-  void recordLevels(vk::CommandBuffer commands, uint32_t layer, uint32_t level) const;
+  void recordLevels(Commands commands, uint32_t layer, uint32_t level) const;
 
   const Device& device_;
   Timeline timeline_;
@@ -86,17 +86,16 @@ void HiZ::prepare(const BenchLoad& load) {
   const uint64_t stride = boxStride(load.source.size_px);
   boxes_ = Buffer(device_, {.size_bytes = stride * load.source.inv_z.size() * kBoxBytes,
                             .debug_name = "boxes"});
-  box_texels_ = TexelView(device_, boxes_, vk::Format::eR32Uint);
+  box_texels_ = TexelView(device_, boxes_, TexelFormat::kR32Uint);
   atlas_.emplace(device_, load, hiz_views_spirv, kWalkSlots, "hiz");
   std::vector<Descriptor> descriptors = source_->colorAndInvZ();
-  descriptors.push_back({.binding = abi::kBindingBoxes,
-                         .kind = DescriptorKind::kTexels,
-                         .texels = box_texels_.handle()});
+  descriptors.push_back(
+      {.binding = abi::kBindingBoxes, .kind = DescriptorKind::kTexels, .texels = &box_texels_});
   atlas_->bind(std::move(descriptors), uint32_t(stride));
 }
 
 void HiZ::build() {
-  const vk::CommandBuffer commands = recorder_.begin();
+  const Commands commands = recorder_.begin();
   source_->record(commands);
   for (uint32_t level = 0; level < abi::kBoxLevelLast; level += kLevelsPerPass) {
     for (uint32_t layer = 0; layer < load_->source.inv_z.size(); ++layer) {
@@ -107,21 +106,21 @@ void HiZ::build() {
   timeline_.wait(recorder_.submit(timeline_));
 }
 
-void HiZ::recordLevels(vk::CommandBuffer commands, uint32_t layer, uint32_t level) const {
+void HiZ::recordLevels(Commands commands, uint32_t layer, uint32_t level) const {
   const SizePx size_px = load_->source.size_px;
   const SizePx padded_px = paddedSize(size_px);
   const uint64_t stride = boxStride(size_px);
   const ComputePass& pass = level == 0 ? from_inv_z_ : from_boxes_;
-  pass.recordDescriptors(commands,
-                         std::vector<Descriptor>{source_->slot().invZ().asTexels(abi::kBindingInvZ),
-                                                 {.binding = abi::kBindingBoxes,
-                                                  .kind = DescriptorKind::kTexels,
-                                                  .texels = box_texels_.handle()},
-                                                 {.binding = abi::kBindingBoxesOut,
-                                                  .kind = DescriptorKind::kStorage,
-                                                  .buffer = boxes_.handle(),
-                                                  .offset_bytes = layer * stride * kBoxBytes,
-                                                  .size_bytes = stride * kBoxBytes}});
+  pass.recordDescriptors(
+      commands,
+      std::vector<Descriptor>{
+          source_->slot().invZ().asTexels(abi::kBindingInvZ),
+          {.binding = abi::kBindingBoxes, .kind = DescriptorKind::kTexels, .texels = &box_texels_},
+          {.binding = abi::kBindingBoxesOut,
+           .kind = DescriptorKind::kStorage,
+           .buffer = &boxes_,
+           .offset_bytes = layer * stride * kBoxBytes,
+           .size_bytes = stride * kBoxBytes}});
   const uint32_t columns = padded_px.width >> (level + kLevelsPerPass);
   pass.record(commands,
               abi::BoxesPush{.source_size_px = size_px.width | size_px.height << 16,

@@ -38,14 +38,14 @@ InvZBuild::InvZBuild(const Device& device, const BenchLoad& load)
     : slot_(uploaded(device, *load.frame)),
       prepare_columns_(makePrepareColumns(device, variantOf(slot_))) {}
 
-void InvZBuild::record(vk::CommandBuffer commands) const {
+void InvZBuild::record(Commands commands) const {
   // Counters of bad samples: nobody reads them here.
-  commands.fillBuffer(slot_.measured().handle(), 0, VK_WHOLE_SIZE, 0);
+  commands.fill(slot_.measured(), 0);
   for (uint32_t i = 0; !slot_.colorIsInPlace() && i < slot_.shape().layerCount(); ++i) {
-    commands.copyBuffer(slot_.staging().handle(), slot_.color().buffer(i).handle(),
-                        vk::BufferCopy{.srcOffset = slot_.staged()[i].color.offset,
-                                       .dstOffset = slot_.color().offsetBytes(i),
-                                       .size = slot_.staged()[i].color.size_bytes});
+    commands.copy(slot_.staging(), slot_.color().buffer(i),
+                  {.from_offset = slot_.staged()[i].color.offset,
+                   .to_offset = slot_.color().offsetBytes(i),
+                   .size_bytes = slot_.staged()[i].color.size_bytes});
   }
   recordTransferToCompute(commands);
   const SizePx size_px = slot_.shape().depth_px;

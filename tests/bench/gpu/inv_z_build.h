@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bench/bench_load.h"
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
 #include "structure/structure_slot.h"
 
@@ -16,7 +17,7 @@ class InvZBuild {
   InvZBuild(const Device& device, const BenchLoad& load);
 
   // Those recorded afterwards in the same submission see it.
-  void record(vk::CommandBuffer commands) const;
+  void record(Commands commands) const;
 
   const StructureSlot& slot() const { return slot_; }
   std::vector<Descriptor> colorAndInvZ() const {

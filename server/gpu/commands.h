@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is recorded for the device: copies, and what the barriers and passes of this folder add.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gpu/buffer.h"
+#include "gpu/vulkan_names.h"
+
+namespace viewloom {
+
+// As a size: all that lies behind the offset.
+inline constexpr uint64_t kToTheEnd = UINT64_MAX;
+
+struct CopiedBytes {
+  uint64_t from_offset = 0;
+  uint64_t to_offset = 0;
+  uint64_t size_bytes = 0;
+};
+
+// A light handle of a recording; copies record into the same one. Nothing here synchronises
+// (gpu/barrier.h). Offsets and sizes are multiples of 4 but for copies. Thread-safety: none.
+class Commands {
+ public:
+  explicit Commands(VkCommandBuffer_T* handle) : handle_(handle) {}
+  VkCommandBuffer_T* handle() const { return handle_; }
+
+  void copy(const Buffer& from, const Buffer& to, const CopiedBytes& bytes) const;
+  // Every word of the buffer, or of a part of it.
+  void fill(const Buffer& target, uint32_t word) const;
+  void fill(const Buffer& target, uint64_t offset, uint64_t size_bytes, uint32_t word) const;
+  // At most 64 KiB, which are kept with the recording.
+  void write(const Buffer& target, std::span<const std::byte> bytes) const;
+
+ private:
+  VkCommandBuffer_T* handle_;
+};
+
+}  // namespace viewloom
