@@ -2,13 +2,13 @@
 #include "service.h"
 
 #include <atomic>
-#include <charconv>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "absl/strings/str_split.h"
 #include "base/byte_pool.h"
+#include "base/host_port.h"
 #include "base/log.h"
 #include "decode/frame_intake.h"
 #include "gpu/device.h"
@@ -47,13 +47,10 @@ constexpr uint32_t kOtherHttpConnections = 256;
 
 // The address is "127.0.0.1:8080" or "[::1]:8080", as the settings have checked.
 HttpOptions httpOptions(const HttpConfig& config, uint32_t subscribers_max) {
-  const std::string& host_port = config.address;
-  const size_t colon = host_port.rfind(':');
-  std::string host = host_port.substr(0, colon);
-  if (host.front() == '[') host = host.substr(1, host.size() - 2);
+  const HostPort address = parseHostPort(config.address).value();
   HttpOptions options;
-  options.address = host == "localhost" ? "127.0.0.1" : host;
-  std::from_chars(host_port.data() + colon + 1, host_port.data() + host_port.size(), options.port);
+  options.address = address.host == "localhost" ? "127.0.0.1" : address.host;
+  options.port = address.port.value();
   options.allowed_hosts = absl::StrSplit(config.allowed_hosts, ',', absl::SkipEmpty());
   options.connection_count_max = subscribers_max + kOtherHttpConnections;
   return options;
@@ -62,7 +59,7 @@ HttpOptions httpOptions(const HttpConfig& config, uint32_t subscribers_max) {
 // The address as configured, with the port that was taken.
 std::string listeningAddress(const std::string& configured, uint16_t port) {
   if (configured.starts_with("unix:")) return configured;
-  return strCat(configured.substr(0, configured.rfind(':') + 1), port);
+  return HostPort{.host = parseHostPort(configured).value().host, .port = port}.text();
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include "bridge/http_request.h"
 
 #include <algorithm>
-#include <charconv>
 #include <future>
+#include <optional>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -11,6 +11,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
+#include "base/host_port.h"
 #include "base/str_cat.h"
 
 namespace viewloom::bridge {
@@ -29,29 +30,18 @@ bool isHostCharacter(char character) {
          character == '-' || character == '_';
 }
 
-bool readPort(std::string_view text, uint16_t& port) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  return error == std::errc() && end == text.data() + text.size() && port > 0;
-}
-
-// HOST, HOST:PORT, [IPV6] or [IPV6]:PORT.
+// Sets host and port, unless the text names no port.
 bool readAuthority(std::string_view text, HttpAddress& address) {
-  size_t end = text.find(':');
-  if (text.starts_with('[')) {
-    end = text.find(']');
-    if (end == std::string_view::npos) return false;
-    address.host = text.substr(1, end - 1);
-    if (address.host.find_first_not_of("0123456789abcdefABCDEF:.") != std::string::npos) {
-      return false;
-    }
-    text.remove_prefix(end + 1);
-  } else {
-    address.host = text.substr(0, end);
-    if (!std::all_of(address.host.begin(), address.host.end(), isHostCharacter)) return false;
-    text.remove_prefix(address.host.size());
-  }
-  if (address.host.empty()) return false;
-  return text.empty() || (text.front() == ':' && readPort(text.substr(1), address.port));
+  const std::optional<HostPort> parsed = parseHostPort(text);
+  if (!parsed || parsed->port == 0) return false;
+  const bool is_right =
+      text.starts_with('[')
+          ? parsed->host.find_first_not_of("0123456789abcdefABCDEF:.") == std::string::npos
+          : std::all_of(parsed->host.begin(), parsed->host.end(), isHostCharacter);
+  if (!is_right) return false;
+  address.host = parsed->host;
+  address.port = parsed->port.value_or(address.port);
+  return true;
 }
 
 // Runs one operation to its end; throws its error.
@@ -105,12 +95,11 @@ absl::Status statusOf(const boost::system::error_code& error) {
 }  // namespace
 
 bool HttpAddress::isLoopback() const {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
+  return isLoopbackHost(host);
 }
 
 std::string HttpAddress::url() const {
-  const bool is_ipv6 = host.find(':') != std::string::npos;
-  return strCat(std::string(kScheme), is_ipv6 ? "[" : "", host, is_ipv6 ? "]" : "", ":", port);
+  return strCat(std::string(kScheme), HostPort{.host = host, .port = port}.text());
 }
 
 absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t default_port,

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/srgb.h"
+
 namespace viewloom::files {
 namespace {
 
@@ -35,11 +37,7 @@ ToneCurve::ToneCurve(v1::ColorTransfer stated, const ColorCoding& coding,
 float ToneCurve::light(float stored) const {
   if (isLinear() || stored <= 0) return stored;
   if (!isSrgb()) return static_cast<float>(std::pow(double{stored}, 1 / gamma_));
-  return stored <= 0.04045F ? stored / 12.92F : std::pow((stored + 0.055F) / 1.055F, 2.4F);
-}
-
-float srgbFromLight(float light) {
-  return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
+  return static_cast<float>(linearFromSrgb(stored));
 }
 
 }  // namespace viewloom::files

@@ -38,6 +38,4 @@ class ToneCurve {
   double gamma_ = kSrgb;
 };
 
-float srgbFromLight(float light);
-
 }  // namespace viewloom::files

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/srgb.h"
 #include "base/str_cat.h"
 #include "files/depth_packing.h"
 #include "files/file_bytes.h"
@@ -61,7 +62,7 @@ std::vector<uint8_t> byteColor(Picture picture, const ToneCurve& curve) {
   for (size_t code = 0; code < colors.size(); ++code) {
     const float share = std::min(1.0F, static_cast<float>(code) / float(picture.whiteCode()));
     alphas[code] = static_cast<uint8_t>(std::lround(255 * share));
-    const float coded = is_kept ? share : srgbFromLight(curve.light(share));
+    const double coded = is_kept ? share : srgbFromLinear(curve.light(share));
     colors[code] = static_cast<uint8_t>(std::lround(255 * coded));
   }
   const size_t stored = picture.channels, made = hasAlpha(picture) ? 4 : 3;

@@ -8,16 +8,15 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "base/srgb.h"
 #include "files/jpeg_image.h"
 
 namespace viewloom::inspect {
 namespace {
 
-uint8_t srgbFromLinear(float linear) {
+uint8_t codeFromLinear(float linear) {
   const float clipped = std::clamp(linear, 0.0F, 1.0F);
-  const float encoded =
-      clipped <= 0.0031308F ? 12.92F * clipped : 1.055F * std::pow(clipped, 1 / 2.4F) - 0.055F;
-  return static_cast<uint8_t>(std::lround(255 * encoded));
+  return static_cast<uint8_t>(std::lround(255 * srgbFromLinear(clipped)));
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ Rgb ColorPixels::linearAt(size_t offset) const {
   std::array<uint16_t, 3> halves{};
   std::memcpy(halves.data(), &bytes()[offset], sizeof(halves));
   Rgb rgb{};
-  for (size_t i = 0; i < 3; ++i) rgb[i] = srgbFromLinear(glm::unpackHalf1x16(halves[i]));
+  for (size_t i = 0; i < 3; ++i) rgb[i] = codeFromLinear(glm::unpackHalf1x16(halves[i]));
   return rgb;
 }
 

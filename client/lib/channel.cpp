@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
 #include "absl/strings/cord.h"
+#include "base/host_port.h"
 #include "base/retry_delay.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -48,8 +50,8 @@ std::shared_ptr<grpc::Channel> makeChannel(const std::string& address) {
 
 bool staysOnMachine(const std::string& address) {
   if (address.rfind("unix:", 0) == 0 || address.rfind("unix-abstract:", 0) == 0) return true;
-  const std::string host = address.substr(0, address.rfind(':'));
-  return host == "localhost" || host == "[::1]" || host.rfind("127.", 0) == 0;
+  const std::optional<HostPort> parsed = parseHostPort(address);
+  return parsed && isLoopbackHost(parsed->host);
 }
 
 absl::Status statusFromGrpc(const grpc::Status& status) {

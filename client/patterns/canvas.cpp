@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/srgb.h"
+
 namespace viewloom::patterns {
 namespace {
 
 constexpr size_t kBytesPerPx = 4;
 
 double linearFrom(uint8_t code) {
-  const double srgb = code / 255.0;
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+  return linearFromSrgb(code / 255.0);
 }
 
 uint8_t codeFrom(double linear) {
-  const double srgb =
-      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255 * std::clamp(srgb, 0.0, 1.0)));
+  return static_cast<uint8_t>(std::lround(255 * std::clamp(srgbFromLinear(linear), 0.0, 1.0)));
 }
 
 // Of [px, px + 1).

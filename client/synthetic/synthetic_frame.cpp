@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/check.h"
+#include "base/srgb.h"
 #include "synthetic/cast_row.h"
 #include "synthetic/surface_color.h"
 #include "synthetic/surface_gloss.h"
@@ -28,9 +29,7 @@ class SrgbTable {
   SrgbTable() {
     for (size_t i = 0; i < table_.size(); ++i) {
       const double linear = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
-      const double srgb =
-          linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-      table_[i] = static_cast<uint8_t>(std::lround(255.0 * srgb));
+      table_[i] = static_cast<uint8_t>(std::lround(255 * srgbFromLinear(linear)));
     }
   }
 

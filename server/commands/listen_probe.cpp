@@ -9,6 +9,9 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
+
+#include "base/host_port.h"
 
 namespace viewloom {
 namespace {
@@ -37,13 +40,12 @@ std::string whyNotUnix(const std::filesystem::path& path) {
 std::string whyNotListen(const std::string& address) {
   constexpr char kUnix[] = "unix:";
   if (address.starts_with(kUnix)) return whyNotUnix(address.substr(sizeof kUnix - 1));
-  const size_t colon = address.rfind(':');
-  if (colon == std::string::npos) return "it has no port";
-  std::string host = address.substr(0, colon);
-  if (host.size() > 2 && host.front() == '[') host = host.substr(1, host.size() - 2);
+  const std::optional<HostPort> parsed = parseHostPort(address);
+  if (!parsed || !parsed->port) return "it is not HOST:PORT";
   const addrinfo hints = {.ai_flags = AI_PASSIVE, .ai_socktype = SOCK_STREAM};
   addrinfo* found = nullptr;
-  const int error = getaddrinfo(host.c_str(), address.c_str() + colon + 1, &hints, &found);
+  const int error =
+      getaddrinfo(parsed->host.c_str(), std::to_string(*parsed->port).c_str(), &hints, &found);
   if (error != 0) return gai_strerror(error);
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, freeaddrinfo);
   return whyNotBind(*found);

@@ -8,6 +8,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+
+#include "base/host_port.h"
+#include "base/str_cat.h"
 
 namespace viewloom {
 namespace {
@@ -25,11 +29,6 @@ void add(const in6_addr& address, InterfaceAddresses& found) {
   if (IN6_IS_ADDR_LINKLOCAL(&address) || IN6_IS_ADDR_LOOPBACK(&address)) return;
   if (inet_ntop(AF_INET6, &address, text.data(), text.size()) == nullptr) return;
   found.ipv6.push_back(std::string("[") + text.data() + "]");
-}
-
-bool isLoopback(const std::string& host) {
-  return host == "localhost" || host.ends_with(".localhost") || host.starts_with("127.") ||
-         host == "[::1]";
 }
 
 }  // namespace
@@ -53,13 +52,12 @@ InterfaceAddresses interfaceAddresses() {
 
 std::vector<std::string> reachableAddresses(const std::string& listening,
                                             const InterfaceAddresses& interfaces) {
-  const size_t colon = listening.rfind(':');
-  if (listening.starts_with("unix:") || colon == std::string::npos) return {};
-  const std::string host = listening.substr(0, colon);
-  const std::string port = listening.substr(colon);
-  if (isLoopback(host)) return {};
-  const bool takes_ipv6 = host == "[::]";
-  if (host != "0.0.0.0" && !takes_ipv6) return {listening};
+  const std::optional<HostPort> parsed = parseHostPort(listening);
+  if (listening.starts_with("unix:") || !parsed || !parsed->port) return {};
+  if (isLoopbackHost(parsed->host)) return {};
+  const bool takes_ipv6 = parsed->host == "::";
+  if (parsed->host != "0.0.0.0" && !takes_ipv6) return {listening};
+  const std::string port = strCat(":", *parsed->port);
   std::vector<std::string> addresses;
   for (const std::string& address : interfaces.ipv4) addresses.push_back(address + port);
   if (!takes_ipv6) return addresses;

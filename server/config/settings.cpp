@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "base/host_port.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -32,13 +33,8 @@ std::optional<bool> parseBool(std::string_view text) {
 
 // "127.0.0.1:8080", "[::1]:8080", "localhost:0".
 bool isHostPort(std::string_view text) {
-  const size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos || colon == 0) return false;
-  const std::string_view host = text.substr(0, colon);
-  const bool bracketed = host.front() == '[' && host.back() == ']';
-  if (!bracketed && host.find(':') != std::string_view::npos) return false;
-  const std::optional<uint64_t> port = parseCount(text.substr(colon + 1));
-  return port && *port <= 65535;
+  const std::optional<HostPort> parsed = parseHostPort(text);
+  return parsed && parsed->port;
 }
 
 bool isOfHostNames(char c) {

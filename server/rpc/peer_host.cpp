@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/peer_host.h"
 
+#include "base/host_port.h"
+
 namespace viewloom {
 namespace {
 
@@ -21,10 +23,6 @@ std::string unescaped(std::string_view text) {
   return result;
 }
 
-bool isThisMachine(std::string_view host) {
-  return host.empty() || host == "::1" || host.starts_with("127.");
-}
-
 }  // namespace
 
 std::string peerHost(std::string_view peer) {
@@ -32,12 +30,11 @@ std::string peerHost(std::string_view peer) {
   const std::string_view scheme = peer.substr(0, scheme_end);
   std::string host;
   if (scheme == "ipv4" || scheme == "ipv6") {
-    const std::string address = unescaped(peer.substr(scheme_end + 1));
-    host = address.substr(0, address.rfind(':'));
-    if (host.starts_with('[')) host = host.substr(1, host.size() - 2);
+    const auto address = parseHostPort(unescaped(peer.substr(scheme_end + 1)));
+    if (address) host = address->host;
     if (host.starts_with(kMappedIpv4)) host.erase(0, kMappedIpv4.size());
   }
-  return isThisMachine(host) ? "this machine" : host;
+  return host.empty() || isLoopbackHost(host) ? "this machine" : host;
 }
 
 }  // namespace viewloom

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/light_of_codes.h"
+#include "base/srgb.h"
 
 namespace viewloom {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 constexpr uint32_t kRootSteps = 4096;
 
 uint8_t codeOfLight(double light) {
-  const double srgb = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-  return uint8_t(std::lround(255 * srgb));
+  return uint8_t(std::lround(255 * srgbFromLinear(light)));
 }
 
 // By the root of light, in the middle of each step.

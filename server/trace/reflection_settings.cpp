@@ -6,6 +6,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/srgb.h"
 #include "frame/cube_map.h"
 
 namespace viewloom {
@@ -15,8 +16,7 @@ namespace {
 constexpr uint32_t kFaceShift = abi::kRecordFaceShift - abi::kRecordSourceShift;
 
 float linearFromCode(uint32_t code) {
-  const float srgb = float(code & 0xff) / 255;
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
+  return float(linearFromSrgb((code & 0xff) / 255.0));
 }
 
 // One of a job's walks: which source it is of, and which face of that.

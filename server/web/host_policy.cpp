@@ -2,10 +2,11 @@
 #include "web/host_policy.h"
 
 #include <algorithm>
-#include <boost/asio/ip/address.hpp>
+#include <optional>
 #include <utility>
 
 #include "absl/strings/ascii.h"
+#include "base/host_port.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -17,19 +18,6 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-// "localhost:8080" → "localhost", "[::1]:8080" → "::1".
-std::string withoutPort(std::string_view host) {
-  if (host.starts_with('[')) return std::string(host.substr(1, host.find(']') - 1));
-  return std::string(host.substr(0, host.find(':')));
-}
-
-bool isLoopback(const std::string& name) {
-  if (name == "localhost" || name.ends_with(".localhost")) return true;
-  boost::system::error_code error;
-  const auto address = boost::asio::ip::make_address(name, error);
-  return !error && address.is_loopback();
-}
-
 }  // namespace
 
 HostPolicy::HostPolicy(bool loopback, std::vector<std::string> allowed_hosts)
@@ -37,10 +25,11 @@ HostPolicy::HostPolicy(bool loopback, std::vector<std::string> allowed_hosts)
 
 absl::Status HostPolicy::checkHost(std::string_view host) const {
   if (!loopback_) return absl::OkStatus();
-  const std::string name = lowerCase(withoutPort(host));
+  const std::optional<HostPort> parsed = parseHostPort(host);
+  const std::string name = parsed ? lowerCase(parsed->host) : "";
   const bool allowed = std::any_of(allowed_hosts_.begin(), allowed_hosts_.end(),
                                    [&](const auto& other) { return lowerCase(other) == name; });
-  if (allowed || isLoopback(name)) return absl::OkStatus();
+  if (allowed || isLoopbackHost(name)) return absl::OkStatus();
   return fieldError(absl::StatusCode::kPermissionDenied, "host",
                     strCat("got \"", std::string(host),
                            "\", accepted on loopback are localhost, loopback addresses and "

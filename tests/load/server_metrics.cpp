@@ -6,8 +6,13 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "base/host_port.h"
 
 namespace viewloom::load {
 namespace {
@@ -15,19 +20,15 @@ namespace {
 namespace http = boost::beast::http;
 using boost::asio::ip::tcp;
 
-struct HostPort {
-  std::string host;
-  std::string port;
-};
-
+// Of "http://HOST:PORT/...".
 HostPort parseUrl(const std::string& url) {
   constexpr std::string_view kScheme = "http://";
-  const size_t colon = url.rfind(':');
-  if (url.rfind(kScheme, 0) != 0 || colon < kScheme.size()) {
-    throw std::runtime_error("no address of a web server: " + url);
+  if (url.starts_with(kScheme)) {
+    const std::string_view rest = std::string_view(url).substr(kScheme.size());
+    const std::optional<HostPort> parsed = parseHostPort(rest.substr(0, rest.find('/')));
+    if (parsed && parsed->port) return *parsed;
   }
-  const std::string port = url.substr(colon + 1, url.find('/', colon) - colon - 1);
-  return {url.substr(kScheme.size(), colon - kScheme.size()), port};
+  throw std::runtime_error("no address of a web server: " + url);
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ std::map<std::string, double> readServerMetrics(const std::string& url) {
   const HostPort address = parseUrl(url);
   boost::asio::io_context context;
   boost::beast::tcp_stream stream(context);
-  stream.connect(tcp::resolver(context).resolve(address.host, address.port));
+  stream.connect(tcp::resolver(context).resolve(address.host, std::to_string(*address.port)));
   http::request<http::empty_body> request(http::verb::get, "/metrics", 11);
   request.set(http::field::host, address.host);
   request.keep_alive(false);

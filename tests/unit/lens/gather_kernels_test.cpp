@@ -16,6 +16,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "support/srgb_transfer.h"
+
 namespace viewloom {
 namespace {
 
@@ -125,13 +127,13 @@ glm::dvec3 lightOf(uint32_t rgba) {
   glm::dvec3 light;
   for (int c = 0; c < 3; ++c) {
     const double srgb = double(rgba >> (8 * c) & 255) / 255;
-    light[c] = srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+    light[c] = linearFrom(srgb);
   }
   return light;
 }
 
 double codeOf(double light) {
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+  return 255 * srgbFrom(light);
 }
 
 // What a ray of a px sees of the sheets, one after the other, if it meets one.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Addresses as people write them: "localhost", "127.0.0.1:8080", "[::1]:8080".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace viewloom {
+
+struct HostPort {
+  std::string host;              // without the brackets of an IPv6 address; never empty
+  std::optional<uint16_t> port;  // empty where none is given
+
+  std::string text() const;  // as it is written, with brackets where they are needed
+};
+
+// HOST, HOST:PORT, [IPV6] or [IPV6]:PORT, with a port of 0..65535; nothing where it is neither.
+std::optional<HostPort> parseHostPort(std::string_view text);
+
+// Whether a host, without port and brackets, is a name or an address of the loopback interface.
+bool isLoopbackHost(std::string_view host);
+
+}  // namespace viewloom
