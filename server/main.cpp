@@ -9,35 +9,21 @@
 #include "commands/command.h"
 #include "commands/serve.h"
 #include "config/read_config.h"
-#include "config/settings.h"
+#include "config/setting_options.h"
 #include "gpu/device_error.h"
 #include "usage/command_line.h"
 
 namespace {
 
-// Every setting as a flag: --grpc.address, --device, ...
-void addSettings(const viewloom::usage::Command& app, viewloom::ConfigSources& sources) {
-  app.add("--config", sources.file, "Settings as TOML; see deploy/viewloomd.example.toml");
-  viewloom::Config defaults;
-  for (const viewloom::Setting& setting : viewloom::settingsOf(defaults)) {
-    const std::string key(setting.key);
-    app.addTaken(
-           "--" + key, [&sources, key](const std::string& text) { sources.flags[key] = text; },
-           viewloom::acceptedText(setting))
-        .group("Settings");
-  }
-}
-
 int run(int argc, char** argv) {
   const viewloom::usage::CommandLine app(
       "Computes the views of light-field displays from pictures with depth.", "viewloomd");
   app.version(VIEWLOOM_VERSION);
+  app.footer("To render files or to time this machine: viewloom render, viewloom bench.");
   viewloom::ConfigSources sources{.file = {}, .environment = viewloom::processEnvironment()};
-  addSettings(app, sources);
+  viewloom::addSettingOptions(app, sources);
   viewloom::RunCommand run_command = viewloom::serve;
   viewloom::addServeCommand(app, run_command);
-  viewloom::addRenderCommand(app, run_command);
-  viewloom::addBenchCommand(app, run_command);
   viewloom::addDoctorCommand(app, run_command);
   const std::optional<int> code = app.parse(argc, argv);
   if (code) return *code;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "usage/command_line.h"
+
 namespace viewloom::cli {
 
 enum ExitCode : int {
@@ -20,5 +22,10 @@ struct CommonOptions {
 
 // A subcommand after its options are parsed; returns the exit code.
 using RunCommand = std::function<int(const CommonOptions&)>;
+
+struct NamedCommand {
+  usage::Command syntax;
+  RunCommand run;
+};
 
 }  // namespace viewloom::cli

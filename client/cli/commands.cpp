@@ -12,11 +12,11 @@
 
 namespace viewloom::cli {
 
-std::vector<std::pair<usage::Command, RunCommand>> addCommands(const usage::Command& app) {
-  std::vector<std::pair<usage::Command, RunCommand>> commands;
+std::vector<NamedCommand> addCommands(const usage::Command& app) {
+  std::vector<NamedCommand> commands;
   const auto add = [&](const char* name, const char* description, auto add_command) {
     const usage::Command command = app.addCommand(name, description);
-    commands.emplace_back(command, add_command(command));
+    commands.push_back({command, add_command(command)});
   };
   add("publish",
       "Send the synthetic scene, a test pattern, image files, manifests or a recording as a stream",

@@ -2,7 +2,6 @@
 // The subcommands of `viewloom`.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "cli/command.h"
@@ -11,6 +10,6 @@
 namespace viewloom::cli {
 
 // Adds them all, with what each runs.
-std::vector<std::pair<usage::Command, RunCommand>> addCommands(const usage::Command& app);
+std::vector<NamedCommand> addCommands(const usage::Command& app);
 
 }  // namespace viewloom::cli

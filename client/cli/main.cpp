@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "lib/channel.h"
+#include "offline/offline_commands.h"
 #include "usage/command_line.h"
 
 namespace viewloom::cli {
@@ -27,15 +28,16 @@ int run(int argc, char** argv) {
       .environment("VIEWLOOM_SERVER_ADDRESS")
       .showDefault();
 
-  const std::vector<std::pair<usage::Command, RunCommand>> commands = addCommands(app);
+  std::vector<NamedCommand> commands = addCommands(app);
+  for (NamedCommand& command : addOfflineCommands(app)) commands.push_back(std::move(command));
   if (argc <= 1) {
     std::fputs(app.help().c_str(), stdout);
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
   catchInterrupts();
-  for (const auto& [command, run_command] : commands) {
-    if (command.wasNamed()) return run_command(common);
+  for (const NamedCommand& command : commands) {
+    if (command.syntax.wasNamed()) return command.run(common);
   }
   return kExitUsage;
 }

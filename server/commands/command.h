@@ -15,9 +15,6 @@ using RunCommand = std::function<int(const Config& config)>;
 
 // Each adds its subcommand and options to `app`; `chosen` is set when the command line names it.
 void addServeCommand(const usage::Command& app, RunCommand& chosen);
-// Returns 1 when its input is refused.
-void addRenderCommand(const usage::Command& app, RunCommand& chosen);
-void addBenchCommand(const usage::Command& app, RunCommand& chosen);
 // Returns 1 when something must be put right before the server can run.
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen);
 

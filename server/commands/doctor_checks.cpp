@@ -3,14 +3,19 @@
 
 #include <sys/resource.h>
 
+#include <cstring>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "base/host_port.h"
 #include "base/str_cat.h"
 #include "commands/listen_probe.h"
-#include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
 #include "gpu/device_error.h"
 
@@ -52,9 +57,39 @@ Finding judgeChosen(const DeviceInfo& info) {
   return {Verdict::kFine, "device", strCat("would use ", info.name), ""};
 }
 
-bool isLoopback(const std::string& address) {
-  return address.starts_with("127.") || address.starts_with("localhost:") ||
-         address.starts_with("[::1]:") || address.starts_with("unix:");
+// A grey wall at 2 m with a brighter square 1 m before it.
+FramePtr smallScene() {
+  constexpr SizePx kSize_px = {64, 48};
+  constexpr float kWall_m = 2, kSquare_m = 1;
+  SourceFormat source;
+  source.camera.intrinsics = {.focal_px = glm::dvec2(kSize_px.width), .principal_px = {32, 24}};
+  source.layers.push_back(
+      {.color = {.kind = PlaneKind::kColor, .size_px = kSize_px},
+       .depth = {
+           .kind = PlaneKind::kDepth, .encoding = PlaneEncoding::kDepthF32, .size_px = kSize_px}});
+  std::vector<uint8_t> color;
+  std::vector<float> depth_m;
+  for (uint32_t y = 0; y < kSize_px.height; ++y) {
+    for (uint32_t x = 0; x < kSize_px.width; ++x) {
+      const bool is_square = x / 16 == 1 && y / 16 == 1;
+      const uint8_t grey = is_square ? 200 : 100;
+      color.insert(color.end(), {grey, grey, grey, 255});
+      depth_m.push_back(is_square ? kSquare_m : kWall_m);
+    }
+  }
+  std::vector<uint8_t> depth(depth_m.size() * sizeof(float));
+  std::memcpy(depth.data(), depth_m.data(), depth.size());
+  const auto frame = std::make_shared<Frame>();
+  frame->format.number = 1;
+  frame->format.sources.push_back(std::move(source));
+  frame->sources.push_back({{.color = std::make_shared<std::vector<uint8_t>>(std::move(color)),
+                             .depth = std::make_shared<std::vector<uint8_t>>(std::move(depth))}});
+  return frame;
+}
+
+bool isForThisMachine(const std::string& address) {
+  const std::optional<HostPort> parsed = parseHostPort(address);
+  return address.starts_with("unix:") || (parsed && isLoopbackHost(parsed->host));
 }
 
 std::vector<Finding> checkPort(const std::string& address, const std::string& setting) {
@@ -67,7 +102,7 @@ std::vector<Finding> checkPort(const std::string& address, const std::string& se
         {Verdict::kProblem, "port", strCat(setting, " ", address, " cannot be taken: ", refusal),
          strCat("stop what listens there, or choose another address with --", setting)});
   }
-  if (!isLoopback(address)) {
+  if (!isForThisMachine(address)) {
     findings.push_back({Verdict::kAdvice, "port",
                         strCat(setting, " ", address,
                                " is open to the network, without encryption "
@@ -99,7 +134,7 @@ std::vector<Finding> checkDevices(const Config& config) {
 }
 
 std::vector<Finding> checkTrace(const Config& config) try {
-  const FramePtr frame = makeSyntheticFrame({.size_px = {64, 48}, .layer_count = 2, .camera = {}});
+  const FramePtr frame = smallScene();
   const auto spec =
       completeDisplaySpec({.kind = QuiltSpec{.columns = 2, .rows = 2, .size_px = {128, 96}}});
   if (!spec.ok()) throw std::runtime_error(std::string(spec.status().message()));

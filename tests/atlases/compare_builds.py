@@ -6,7 +6,7 @@
 BEFORE and AFTER are build folders on this machine: bits differ from machine to machine. The commit
 before is built in a worktree of its own (`git worktree add ../before HEAD~1`). Each build
 publishes the scenes of scenes.py with its own client to its own server, which is then asked for
-the displays of displays.py. Also compared: pictures between frames, as `viewloomd render` writes
+the displays of displays.py. Also compared: pictures between frames, as `viewloom render` writes
 them, what a server says of an atlas (its layout, coverage, shares), and why it refuses one.
 
 Ends with 1 where anything differs, and says by how much where it knows the samples."""

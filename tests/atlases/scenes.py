@@ -34,7 +34,7 @@ def published(folder):
 
 
 def rendered(folder):
-    """Arguments of `viewloomd render`: two frames of a camera that moves to the right past things
+    """Arguments of `viewloom render`: two frames of a camera that moves to the right past things
     that move, too."""
     return ["--frame", str(folder / "newest.json"), "--before", str(folder / "before.json")]
 

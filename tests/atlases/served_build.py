@@ -32,6 +32,10 @@ class ServedBuild:
     def __init__(self, folder):
         self._server = folder / "server" / "viewloomd"
         self._client = folder / "client" / "cli" / "viewloom"
+        # Builds of older commits have the command in the server.
+        client_help = subprocess.run([self._client, "--help"], capture_output=True, text=True,
+                                     check=True).stdout
+        self._renders = self._client if "\n  render " in client_help else self._server
         self._publishers = []
         self._process = subprocess.Popen(
             [self._server, "serve", "--grpc.address", "127.0.0.1:0", "--http.address",
@@ -71,12 +75,12 @@ class ServedBuild:
             call.cancel()
 
     def render(self, folder, display, arguments):
-        """The pictures that `viewloomd render` writes, as planes."""
+        """The pictures that `viewloom render` writes, as planes."""
         folder.mkdir(parents=True)
         described = folder / "display.json"
         described.write_text(json.dumps(display), encoding="utf-8")
         run = subprocess.run(
-            [self._server, "render", "--display", described, "--out", folder / "out", *arguments],
+            [self._renders, "render", "--display", described, "--out", folder / "out", *arguments],
             capture_output=True, text=True, timeout=PATIENCE_S)
         if run.returncode:
             return Answer({}, {"refused": run.stderr})

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "metrics/metrics.h"
 #include "bench/failed_pipeline.h"
+#include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
 
 namespace viewloom::bench {

@@ -18,10 +18,10 @@
 #include "bench/bare_stream.h"
 #include "bench/measured_process.h"
 #include "bench/report.h"
-#include "commands/median.h"
 #include "e2e/test_server.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
+#include "offline/median.h"
 
 namespace viewloom::bench {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "base/log.h"
 #include "bench/report.h"
-#include "commands/median.h"
 #include "commands/offline_renderer.h"
+#include "offline/median.h"
 
 namespace viewloom::bench {
 namespace {

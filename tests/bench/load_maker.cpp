@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "commands/stage_bench.h"
 #include "gpu/walk_under_test.h"
+#include "offline/stage_bench.h"
 
 namespace viewloom::bench {
 namespace {

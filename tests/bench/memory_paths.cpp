@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "commands/median.h"
 #include "gpu/command_recorder.h"
 #include "gpu/compute_pass.h"
 #include "gpu/timeline.h"
+#include "offline/median.h"
 #include "shaders/memory_paths.h"
 
 namespace viewloom {

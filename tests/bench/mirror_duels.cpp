@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "commands/median.h"
 #include "gpu/commands.h"
 #include "gpu/mirror_stage.h"
+#include "offline/median.h"
 
 namespace viewloom::bench {
 namespace {

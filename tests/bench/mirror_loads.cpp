@@ -67,9 +67,8 @@ std::vector<MirrorView> mirrorViews() {
 }
 
 ReflectionSpec MirrorScene::effect() const {
-  return {.bounce_count = bounce_count,
-          .sample_count = kSamples,
-          .environment_rgb = kEnvironment_rgb};
+  return {
+      .bounce_count = bounce_count, .sample_count = kSamples, .environment_rgb = kEnvironment_rgb};
 }
 
 std::vector<glm::vec3> MirrorScene::truthOf(const truth::Instant& instant,

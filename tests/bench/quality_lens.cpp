@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/lens_scene.h"
-#include "commands/median.h"
+#include "offline/median.h"
 #include "scoring/image_score.h"
 #include "shared/lens_abi.h"
 #include "support/truth/picture_frame.h"

@@ -42,8 +42,7 @@ constexpr double kAllGainMin_db = 0.5;
 // all but perfectly what its rays pass behind, and others guess, too: seen 5.1 and 3.2, and no less
 // than 42.2 and 46.7.
 constexpr double kLossMax_db = 1.5;
-const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 6},
-                                                          {"rough floor", 4}};
+const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 6}, {"rough floor", 4}};
 const std::map<std::string, double> kGuessedMin_db = {{"mirror floor", 41.5}, {"rough floor", 46}};
 
 struct Range {

@@ -9,7 +9,7 @@
 
 #include "bench/moving_frames.h"
 #include "commands/offline_renderer.h"
-#include "commands/shown_frame.h"
+#include "offline/shown_frame.h"
 #include "pipeline/tracked_frame.h"
 #include "support/truth/picture_frame.h"
 #include "temporal/camera_track.h"

@@ -12,7 +12,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "base/str_cat.h"
-#include "commands/manifest_frame.h"
+#include "offline/manifest_frame.h"
 #include "scoring/score_transfer.h"
 #include "support/data_sets.h"
 

@@ -16,11 +16,11 @@
 
 #include "base/log.h"
 #include "bench/report.h"
-#include "commands/manifest_frame.h"
-#include "commands/median.h"
-#include "commands/stage_bench.h"
-#include "retime/frame_retimer.h"
 #include "messages/display_from_proto.h"
+#include "offline/manifest_frame.h"
+#include "offline/median.h"
+#include "offline/stage_bench.h"
+#include "retime/frame_retimer.h"
 
 namespace viewloom::bench {
 namespace {

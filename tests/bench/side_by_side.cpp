@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/true_views.h"
-#include "commands/median.h"
+#include "offline/median.h"
 
 namespace viewloom::bench {
 namespace {

@@ -17,12 +17,12 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "metrics/metrics.h"
 #include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"
 #include "e2e/test_frames.h"
 #include "load/percentiles.h"
+#include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
 
 namespace viewloom::bench {

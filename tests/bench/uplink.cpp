@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report.h"
-#include "commands/median.h"
 #include "decode/plane_decoder.h"
 #include "lib/compress_frame.h"
+#include "offline/median.h"
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom::bench {

@@ -121,15 +121,15 @@ TEST_F(RenderTest, refusesBadInputByFileAndField) {
 TEST_F(RenderTest, opensADisplayByTheNameOfItsDevice) {
   const std::string files =
       strCat("render --frame ", folder_.string(), "/frame.json --out ", folder_.string(), "/out");
-  const FinishedRun run = runViewloomd(files + " --preset near_eye_2013");
+  const FinishedRun run = runViewloom(files + " --preset near_eye_2013");
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_GT(Json::parse(run.output).at("coverage").at("hit"), 0.5);
-  const FinishedRun mistyped = runViewloomd(files + " --preset near_eye_2031");
+  const FinishedRun mistyped = runViewloom(files + " --preset near_eye_2031");
   EXPECT_EQ(mistyped.exit_code, 1);
   EXPECT_THAT(mistyped.errors,
-              AllOf(HasSubstr("viewloomd render: --preset: there is no \"near_eye_2031\""),
+              AllOf(HasSubstr("viewloom render: --preset: there is no \"near_eye_2031\""),
                     HasSubstr("did you mean \"near_eye_2013\"?")));
-  EXPECT_EQ(runViewloomd(files).exit_code, 2) << "no display at all";
+  EXPECT_EQ(runViewloom(files).exit_code, 2) << "no display at all";
 }
 
 // Files of half a kilobyte stand for a disk that is full.
@@ -193,7 +193,7 @@ TEST(Doctor, namesADeviceThatDoesNotExist) {
 }
 
 TEST(Bench, reportsEveryStageAsJson) {
-  const FinishedRun run = runViewloomd("bench --repeat 1 --seconds 0.5 --cone 2");
+  const FinishedRun run = runViewloom("bench --repeat 1 --seconds 0.5 --cone 2");
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   const Json report = Json::parse(run.output);
   for (const char* stage : {"upload", "build", "trace", "encode_one_thread"}) {

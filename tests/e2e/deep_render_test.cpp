@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `viewloomd render` on deep files, against what their samples show.
+// `viewloom render` on deep files, against what their samples show.
 #include <unistd.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "deep/tidy_pixel.h"
-#include "e2e/run_viewloomd.h"
+#include "e2e/run_program.h"
 #include "files/png_image.h"
 #include "support/deep_composite.h"
 #include "support/deep_exr_writer.h"
@@ -103,8 +103,8 @@ class DeepRenderTest : public testing::Test {
                              {"tileSize", {{"width", kWidth}, {"height", kHeight}}},
                              {"cameras", {camera(0), camera(kEye_m)}}}}});
     const std::string prefix = folder_.string() + "/";
-    const FinishedRun run = runViewloomd("render --frame " + prefix + "frame.json --display " +
-                                         prefix + "display.json --out " + prefix + "out");
+    const FinishedRun run = runViewloom("render --frame " + prefix + "frame.json --display " +
+                                        prefix + "display.json --out " + prefix + "out");
     EXPECT_EQ(run.exit_code, 0) << run.errors;
     return Json::parse(run.output).at("deep").at(0);
   }
@@ -188,8 +188,8 @@ TEST_F(DeepRenderTest, refusesADeepFileByFieldAndFile) {
   write("frame.json", {{"sources", {{{"deep", {{"file", "none.exr"}, {"layers", 9}}}}}}});
   write("display.json", Json::object());
   const std::string prefix = folder_.string() + "/";
-  const FinishedRun run = runViewloomd("render --frame " + prefix + "frame.json --display " +
-                                       prefix + "display.json --out " + prefix + "out");
+  const FinishedRun run = runViewloom("render --frame " + prefix + "frame.json --display " +
+                                      prefix + "display.json --out " + prefix + "out");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.errors, testing::HasSubstr("frame.json.sources[0].deep.layers: is 9"));
 }

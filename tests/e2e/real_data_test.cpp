@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `viewloomd render` on pictures and depth that others made, against the true other views. The data
+// `viewloom render` on pictures and depth that others made, against the true other views. The data
 // lies beside the source tree; without it the tests are skipped.
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "e2e/run_viewloomd.h"
+#include "e2e/run_program.h"
 #include "files/file_bytes.h"
 #include "files/png_writer.h"
 #include "support/data_sets.h"
@@ -54,7 +54,7 @@ class RealDataTest : public testing::Test {
     std::ofstream(folder_ / name) << json.dump();
   }
 
-  // The report of a successful `viewloomd render` of one view of the set.
+  // The report of a successful `viewloom render` of one view of the set.
   Json render(const DataSet& set, const TrueView& view, const std::vector<uint8_t>& covered,
               const std::string& flags) {
     v1::TruthManifest truth;
@@ -71,9 +71,9 @@ class RealDataTest : public testing::Test {
 
     const std::string prefix = folder_.string() + "/";
     const FinishedRun run =
-        runViewloomd("render --frame " + prefix + "frame.json --display " + prefix +
-                     "display.json --out " + prefix + "out --compare " + prefix +
-                     "truth.json --covered-mask " + prefix + "covered.png " + flags);
+        runViewloom("render --frame " + prefix + "frame.json --display " + prefix +
+                    "display.json --out " + prefix + "out --compare " + prefix +
+                    "truth.json --covered-mask " + prefix + "covered.png " + flags);
     EXPECT_EQ(run.exit_code, 0) << run.errors;
     return Json::parse(run.output).at("views").at(0);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloomd render of what lies between frames, and after them: displays with an output rate.
+// viewloom render of what lies between frames, and after them: displays with an output rate.
 #include <algorithm>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloomd render with each effect of a display: what it changes, px by px, and what it leaves.
+// viewloom render with each effect of a display: what it changes, px by px, and what it leaves.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder with a scene in it, for viewloomd render: a noisy wall at 2 m with a noisy square at 1 m
+// A folder with a scene in it, for viewloom render: a noisy wall at 2 m with a noisy square at 1 m
 // before it, and a display that sees it from the source's own place and from 0.1 m to the right.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "base/str_cat.h"
-#include "e2e/run_viewloomd.h"
+#include "e2e/run_program.h"
 #include "files/file_bytes.h"
 #include "files/png_image.h"
 #include "files/png_writer.h"
@@ -89,8 +89,8 @@ class RenderTest : public testing::Test {
   FinishedRun render(const std::string& frame, const std::string& display,
                      const std::string& flags) {
     const std::string prefix = folder_.string() + "/";
-    return runViewloomd("render --frame " + prefix + frame + " --display " + prefix + display +
-                        " --out " + prefix + "out " + flags);
+    return runViewloom("render --frame " + prefix + frame + " --display " + prefix + display +
+                       " --out " + prefix + "out " + flags);
   }
 
   // Of one view, as it was rendered last.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fidelity/own_views.h"
 
-#include "commands/manifest_frame.h"
 #include "fidelity/value_or_throw.h"
+#include "offline/manifest_frame.h"
 
 namespace viewloom::fidelity {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "commands/rendered_view.h"
 #include "fidelity/coarse_depth.h"
 #include "gpu/device.h"
+#include "offline/rendered_view.h"
 #include "support/data_sets.h"
 
 namespace viewloom::fidelity {

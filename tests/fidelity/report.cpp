@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "commands/score_json.h"
+#include "offline/score_json.h"
 
 namespace viewloom::fidelity {
 namespace {

@@ -15,7 +15,7 @@ namespace viewloom::fidelity {
 //             "methods": {"viewloom", "splat", "sheet", "cut mesh": scores by the mask},
 //             "viewloom_by_own_classes": scores}],
 //  "row_flicker": {method: 1/255}, "column_flicker": the same, where there are such views}
-// Scores are those of commands/score_json.h.
+// Scores are those of offline/score_json.h.
 nlohmann::ordered_json trialJson(const Trial& trial, const TrialReport& report);
 
 // A row per view and method.

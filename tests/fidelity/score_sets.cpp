@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "commands/truth_image.h"
 #include "fidelity/flicker.h"
 #include "fidelity/own_views.h"
 #include "fidelity/value_or_throw.h"
+#include "offline/truth_image.h"
 
 namespace viewloom::fidelity {
 namespace {

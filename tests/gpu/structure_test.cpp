@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "commands/effective_nodes.h"
 #include "gpu/structure_checks.h"
 #include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
+#include "offline/effective_nodes.h"
 
 namespace viewloom {
 namespace {

@@ -22,7 +22,7 @@ struct InvZImage {
 InvZImage forwardMap(const InvZImage& source, const Intrinsics& source_camera, const Camera& view,
                      SizePx view_size_px);
 
-// 255 where the map is known, 0 elsewhere: what `viewloomd render --covered-mask` takes.
+// 255 where the map is known, 0 elsewhere: what `viewloom render --covered-mask` takes.
 std::vector<uint8_t> coveredMask(const InvZImage& mapped);
 
 }  // namespace viewloom::test

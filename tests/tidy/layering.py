@@ -25,7 +25,7 @@ LAYERS = {
     "server/core/messages": (["base", "frame", "display"], ["absl", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
     "server/metrics": (["base"], ["prometheus"]),
-    "server/config": (["base"], ["absl", "toml++"]),
+    "server/config": (["base", "usage"], ["absl", "toml++"]),
     "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
     "server/gpu": (["base"], ["absl", "vulkan"]),
     "server/structure": (["base", "frame", "gpu", SHADERS_SHARED], ["absl", "glm"]),
@@ -41,7 +41,6 @@ LAYERS = {
     "server/encode": (["base", "jpeg", "frame", "display", SHADERS_SHARED],
                       ["absl", "jpeg", "png", "zstd"]),
     "server/publish": (["base", "frame", "display", BAND], ["absl"]),
-    "server/scoring": (["base", "frame"], ["absl"]),
     "server/pipeline": (["base", "frame", "config", "decode", "display", "gpu", "structure",
                          "trace", "sweep", "lens", "retime", "temporal", "encode", "publish",
                          "metrics", SHADERS_SHARED],
@@ -68,6 +67,7 @@ LAYERS = {
     "client/show": (["base", "frame/size.h", "calibration", "eyes", "lib", "files/file_bytes.h",
                      "text"],
                     ["absl", "epoxy", "grpc", "protobuf", "sdl"]),
+    "client/scoring": (["base", "frame"], ["absl"]),
     "client/bridge": (["base"], ["absl", "boost", "nlohmann"]),
     "client/cli": (["base", "bridge", "calibration", "display", "messages", "frame", "eyes", "lib",
                     "files", "inputs", "inspect", "patterns", "photos", "recording", "show",
@@ -80,8 +80,9 @@ LAYERS = {
     "shaders/show": ([SHADERS_SHARED], []),
 }
 
-# These join the stages, so they may include everything (main.cpp, service and their parts).
-COMPOSITION = ("server/main.cpp", "server/service", "server/commands")
+# These join the stages, so they may include everything; those of the server nothing of the client.
+COMPOSITION = ("server/main.cpp", "server/service", "server/commands", "client/cli/main.cpp",
+               "client/offline")
 
 # What must stay free of what it judges.
 INDEPENDENT = {
@@ -153,6 +154,8 @@ def _judge(tree, path, target):
     for folder, forbidden in INDEPENDENT.items():
         if path.startswith(folder + "/") and included and owner(included, forbidden):
             return f"{folder} judges {owner(included, forbidden)} and must not include {target}"
+    if path.startswith("server/") and included and included.startswith("client/"):
+        return f"the server knows no client, not {target}"
     if STANDS_FOR.get(target, path) != path:
         return f"{STANDS_FOR[target]} stands for {target}"
     if path.startswith(COMPOSITION):

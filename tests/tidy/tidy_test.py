@@ -44,6 +44,10 @@ class Layers(unittest.TestCase):
         self.assertEqual(self.broken("client/lib/a.cpp", '"rpc/peer.h"', server__rpc__peer=1),
                          ["layers"])
 
+    def test_the_server_knows_no_client(self):
+        self.assertEqual(self.broken("server/service.cpp", '"lib/channel.h"',
+                                     client__lib__channel=1), ["layers"])
+
     def test_rpc_never_sees_the_gpu(self):
         self.assertEqual(self.broken("server/rpc/a.cpp", '"gpu/device.h"', server__gpu__device=1),
                          ["layers"])

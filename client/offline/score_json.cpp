@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/score_json.h"
+#include "offline/score_json.h"
 
 #include <cmath>
 

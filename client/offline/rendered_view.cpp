@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/rendered_view.h"
+#include "offline/rendered_view.h"
 
 #include "encode/encoded_band.h"
 

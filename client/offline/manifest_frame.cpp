@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/manifest_frame.h"
+#include "offline/manifest_frame.h"
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/truth_image.h"
+#include "offline/truth_image.h"
 
 #include <cstring>
 

@@ -9,7 +9,7 @@
 
 #include "base/status.h"
 #include "commands/offline_renderer.h"
-#include "commands/truth_image.h"
+#include "offline/truth_image.h"
 
 namespace viewloom {
 
@@ -21,7 +21,7 @@ struct CompareOptions {
   std::vector<std::filesystem::path> covered_masks;
 };
 
-// [{"view", "by_renderer", "by_mask"}]: scores (commands/score_json.h) by the renderer's own
+// [{"view", "by_renderer", "by_mask"}]: scores (offline/score_json.h) by the renderer's own
 // classes and, where there is one, by the given mask. Needs linear and mask.
 absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
                                                     const CompareOptions& options);

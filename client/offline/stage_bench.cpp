@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/stage_bench.h"
+#include "offline/stage_bench.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +12,14 @@
 #include "base/byte_pool.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "commands/effective_nodes.h"
-#include "commands/median.h"
 #include "display/atlas_layout.h"
 #include "encode/band_encoder.h"
 #include "gpu/barrier.h"
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/timeline.h"
+#include "offline/effective_nodes.h"
+#include "offline/median.h"
 #include "structure/structure_builder.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/compare_views.h"
+#include "offline/compare_views.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/str_cat.h"
-#include "commands/rendered_view.h"
-#include "commands/score_json.h"
 #include "files/frame_manifest.h"
+#include "offline/rendered_view.h"
+#include "offline/score_json.h"
 #include "scoring/inner_part.h"
 
 namespace viewloom {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloomd render: one frame from files, on one display, to picture files.
+#include "offline/render_command.h"
+
 #include <unistd.h>
 
 #include <csignal>
@@ -12,16 +13,16 @@
 
 #include "base/printable.h"
 #include "base/str_cat.h"
-#include "commands/atlas_pictures.h"
-#include "commands/command.h"
-#include "commands/compare_views.h"
-#include "commands/manifest_frame.h"
 #include "commands/offline_renderer.h"
-#include "commands/shown_frame.h"
 #include "display/named_display.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
 #include "frame/timing_text.h"
+#include "offline/atlas_pictures.h"
+#include "offline/compare_views.h"
+#include "offline/engine_settings.h"
+#include "offline/manifest_frame.h"
+#include "offline/shown_frame.h"
 #include "usage/command_line.h"
 
 namespace viewloom {
@@ -199,7 +200,7 @@ int render(const RenderArguments& arguments, const Config& config) {
   std::signal(SIGXFSZ, SIG_IGN);
   const absl::StatusOr<Json> json = makeReport(arguments, config.device);
   if (!json.ok()) {
-    std::cerr << "viewloomd render: "
+    std::cerr << "viewloom render: "
               << printable({json.status().message().data(), json.status().message().size()}, true)
               << "\n";
     return kExitRefused;
@@ -211,11 +212,11 @@ int render(const RenderArguments& arguments, const Config& config) {
 
 }  // namespace
 
-void addRenderCommand(const usage::Command& app, RunCommand& chosen) {
+namespace cli {
+
+RunCommand addRenderCommand(const usage::Command& command) {
   const auto arguments = std::make_shared<RenderArguments>();
   CompareOptions& compare = arguments->compare;
-  const usage::Command command = app.addCommand(
-      "render", "Renders a frame from files to picture files; prints a report as JSON");
   command.add("--frame", arguments->frame, "Manifest of the frame, JSON").required();
   const usage::Option later =
       command.add("--later", arguments->later_s,
@@ -241,9 +242,10 @@ void addRenderCommand(const usage::Command& app, RunCommand& chosen) {
       .add("--covered-mask", compare.covered_masks,
            "8-bit grey PNG per true view: 255 covered, 0 hidden, between outside")
       .needs(truth);
-  command.onChosen([arguments, &chosen] {
-    chosen = [arguments](const Config& config) { return render(*arguments, config); };
-  });
+  return withEngineSettings(
+      command, {"device", "validation", "log."},
+      [arguments](const Config& config) { return render(*arguments, config); });
 }
 
+}  // namespace cli
 }  // namespace viewloom

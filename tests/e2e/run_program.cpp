@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "e2e/run_viewloomd.h"
+#include "e2e/run_program.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,19 +19,27 @@ std::string textOf(const std::filesystem::path& path) {
   return text.str();
 }
 
-}  // namespace
-
-FinishedRun runViewloomd(const std::string& arguments) {
+FinishedRun run(const std::string& program, const std::string& arguments) {
   const std::filesystem::path base =
-      std::filesystem::temp_directory_path() / ("viewloomd_" + std::to_string(getpid()));
+      std::filesystem::temp_directory_path() / ("viewloom_run_" + std::to_string(getpid()));
   const std::string out = base.string() + ".out";
   const std::string err = base.string() + ".err";
   const std::string command =
-      "'" VIEWLOOMD_PATH "' " + arguments + " > '" + out + "' 2> '" + err + "'";
+      "'" + program + "' " + arguments + " > '" + out + "' 2> '" + err + "'";
   const int status = std::system(command.c_str());
   return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
           .output = textOf(out),
           .errors = textOf(err)};
+}
+
+}  // namespace
+
+FinishedRun runViewloomd(const std::string& arguments) {
+  return run(VIEWLOOMD_PATH, arguments);
+}
+
+FinishedRun runViewloom(const std::string& arguments) {
+  return run(VIEWLOOM_PATH, arguments);
 }
 
 }  // namespace viewloom::test

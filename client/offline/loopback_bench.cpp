@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/loopback_bench.h"
+#include "offline/loopback_bench.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/atlas_pictures.h"
+#include "offline/atlas_pictures.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs viewloomd to its end, as a person would type it.
+// Runs a program to its end, as a person would type it.
 #pragma once
 
 #include <string>
@@ -14,5 +14,6 @@ struct FinishedRun {
 
 // `arguments` as for a shell.
 FinishedRun runViewloomd(const std::string& arguments);
+FinishedRun runViewloom(const std::string& arguments);
 
 }  // namespace viewloom::test

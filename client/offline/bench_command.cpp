@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloomd bench: what this machine does with the synthetic scene on a Looking Glass Portrait.
+#include "offline/bench_command.h"
+
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 #include <vector>
 
 #include "base/log.h"
-#include "commands/atlas_pictures.h"
-#include "commands/command.h"
-#include "commands/loopback_bench.h"
-#include "commands/manifest_frame.h"
-#include "commands/stage_bench.h"
 #include "messages/display_from_proto.h"
+#include "offline/atlas_pictures.h"
+#include "offline/engine_settings.h"
+#include "offline/loopback_bench.h"
+#include "offline/manifest_frame.h"
+#include "offline/stage_bench.h"
 #include "synthetic/synthetic_wire_frame.h"
 #include "usage/command_line.h"
 
@@ -158,12 +159,10 @@ int bench(const BenchArguments& arguments, const Config& config) {
 
 }  // namespace
 
-void addBenchCommand(const usage::Command& app, RunCommand& chosen) {
+namespace cli {
+
+RunCommand addBenchCommand(const usage::Command& command) {
   const auto arguments = std::make_shared<BenchArguments>();
-  const usage::Command command = app.addCommand(
-      "bench",
-      "Times this machine on the synthetic scene, 1920x1080 in two layers, as a Portrait "
-      "quilt; prints JSON");
   command.add("--repeat", arguments->repetition_count, "Repetitions of each stage")
       .between(1, 1000);
   command.add("--seconds", arguments->seconds, "Length of the run through gRPC")
@@ -172,9 +171,10 @@ void addBenchCommand(const usage::Command& app, RunCommand& chosen) {
       .add("--cone", arguments->cone_deg,
            "Angle between the outermost views, degrees: how far rays travel sets the cost")
       .between(0.01, 140.0);
-  command.onChosen([arguments, &chosen] {
-    chosen = [arguments](const Config& config) { return bench(*arguments, config); };
-  });
+  return withEngineSettings(
+      command, {"device", "validation", "log.", "limits.", "pipeline."},
+      [arguments](const Config& config) { return bench(*arguments, config); });
 }
 
+}  // namespace cli
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/effective_nodes.h"
+#include "offline/effective_nodes.h"
 
 #include <algorithm>
 

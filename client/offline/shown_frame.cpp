@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/shown_frame.h"
+#include "offline/shown_frame.h"
 
 #include <cmath>
 #include <memory>
