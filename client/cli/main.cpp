@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/heap.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -48,6 +49,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // gRPC's log is for its developers: what matters to users comes as an error.
   setenv("GRPC_VERBOSITY", "NONE", 0);
+  viewloom::keepFreedMemory();
   try {
     return viewloom::cli::run(argc, argv);
   } catch (const std::exception& error) {

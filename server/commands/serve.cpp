@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/heap.h"
 #include "base/log.h"
 #include "commands/command.h"
 #include "commands/reachable_addresses.h"
@@ -66,6 +67,7 @@ void sayReach(const std::string& grpc_address, const std::string& http_url) {
 int serve(const Config& config) {
   // gRPC's log is for its developers: what matters to users comes as an error.
   setenv("GRPC_VERBOSITY", "NONE", 0);
+  keepFreedMemory();
   const sigset_t stop_signals = blockStopSignals();
   const SteadyClock clock;
   std::atomic<bool> has_failed = false;

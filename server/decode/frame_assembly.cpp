@@ -53,9 +53,11 @@ absl::StatusOr<std::span<uint8_t>> FrameAssembly::beginChunk(uint32_t plane_inde
         "chunk.data", strCat("has ", size_bytes, " bytes, the plane of ", declared_bytes, " lacks ",
                              declared_bytes - collected_bytes_));
   }
-  if (!filling_) filling_ = pool_.take(declared_bytes);
+  if (!filling_) filling_ = pool_.takeUncleared(declared_bytes);
   begun_bytes_ = size_bytes;
-  filling_->resize(collected_bytes_ + size_bytes);
+  if (const uint64_t end = collected_bytes_ + size_bytes; filling_->size() < end) {
+    filling_->resize(end);
+  }
   return std::span<uint8_t>(*filling_).subspan(collected_bytes_, size_bytes);
 }
 
@@ -63,7 +65,7 @@ void FrameAssembly::endChunk() {
   VIEWLOOM_CHECK(begun_bytes_ > 0);
   collected_bytes_ += std::exchange(begun_bytes_, 0);
   if (collected_bytes_ < plane_bytes_[current_plane_]) return;
-  collected_bytes_ = 0;
+  filling_->resize(std::exchange(collected_bytes_, 0));
   planes_.push_back(std::exchange(filling_, nullptr));
   ++current_plane_;
 }

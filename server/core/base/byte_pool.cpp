@@ -66,18 +66,18 @@ BytePool::BytePool(size_t kept_count, size_t kept_bytes_max) : shelf_(std::make_
 }
 
 BytePool::Buffer BytePool::take(size_t capacity_bytes) {
-  Buffer buffer = takeFitting(capacity_bytes);
+  Buffer buffer = takeUncleared(capacity_bytes);
   buffer->clear();
   return buffer;
 }
 
 BytePool::Buffer BytePool::takeAsLeft(size_t size_bytes) {
-  Buffer buffer = takeFitting(size_bytes);
+  Buffer buffer = takeUncleared(size_bytes);
   buffer->resize(size_bytes);
   return buffer;
 }
 
-BytePool::Buffer BytePool::takeFitting(size_t capacity_bytes) {
+BytePool::Buffer BytePool::takeUncleared(size_t capacity_bytes) {
   auto buffer = shelf_->takeFitting(capacity_bytes);
   if (!buffer) {
     buffer = std::make_unique<std::vector<uint8_t>>();

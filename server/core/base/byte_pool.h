@@ -29,10 +29,12 @@ class BytePool {
   Buffer take(size_t capacity_bytes);
   // The same, of `size_bytes`, for one who writes them all: they are what they were left as, or 0.
   Buffer takeAsLeft(size_t size_bytes);
+  // The same, of the size that it was left at: for one who writes piece by piece and grows it where
+  // it is too small, so that it is not filled with 0 first.
+  Buffer takeUncleared(size_t capacity_bytes);
 
  private:
   struct Shelf;
-  Buffer takeFitting(size_t capacity_bytes);
 
   std::shared_ptr<Shelf> shelf_;
 };
