@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/built_frame.h"
-#include "e2e/test_frames.h"
 #include "encode/band_encoder.h"
 #include "offline/median.h"
+#include "support/test_frames.h"
 
 namespace viewloom {
 namespace {

@@ -17,8 +17,8 @@
 #include "bench/built_frame.h"
 #include "bench/display_loads.h"
 #include "bench/report.h"
-#include "e2e/test_frames.h"
 #include "offline/median.h"
+#include "support/test_frames.h"
 
 namespace viewloom::bench {
 namespace {

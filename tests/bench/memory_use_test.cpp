@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/bench_views.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 #include "synthetic/synthetic_frame.h"
 
 namespace viewloom::bench {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom::bench {
 namespace {

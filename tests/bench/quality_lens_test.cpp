@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/gathering_places.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom::bench {
 namespace {

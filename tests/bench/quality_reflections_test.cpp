@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bench/quality_reflections.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

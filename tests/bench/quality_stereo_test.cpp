@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/quality_time.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -14,7 +14,7 @@
 #include "bench/bare_work.h"
 #include "bench/eye_service.h"
 #include "bench/report.h"
-#include "e2e/test_frames.h"
+#include "support/test_frames.h"
 
 namespace viewloom::bench {
 namespace {

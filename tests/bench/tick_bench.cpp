@@ -20,10 +20,10 @@
 #include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"
-#include "e2e/test_frames.h"
 #include "load/percentiles.h"
 #include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
+#include "support/test_frames.h"
 
 namespace viewloom::bench {
 namespace {

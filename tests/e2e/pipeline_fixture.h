@@ -13,9 +13,9 @@
 #include "base/clock.h"
 #include "base/str_cat.h"
 #include "e2e/collecting_subscriber.h"
-#include "e2e/test_frames.h"
-#include "gpu/test_device.h"
 #include "pipeline/pipeline.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 
 namespace viewloom::test {
 

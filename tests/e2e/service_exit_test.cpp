@@ -12,10 +12,10 @@
 
 #include "e2e/server_process.h"
 #include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
 #include "lib/atlas_assembler.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
+#include "support/test_device.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
 namespace viewloom::test {

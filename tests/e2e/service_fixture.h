@@ -10,10 +10,10 @@
 
 #include "base/clock.h"
 #include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "service.h"
+#include "support/test_device.h"
 
 namespace viewloom::test {
 

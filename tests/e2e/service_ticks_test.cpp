@@ -9,10 +9,10 @@
 #include "base/clock.h"
 #include "e2e/atlas_viewer.h"
 #include "e2e/wire_frames.h"
-#include "gpu/test_device.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "service.h"
+#include "support/test_device.h"
 
 namespace viewloom::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "fidelity/report.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom::fidelity {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <utility>
 
-#include "e2e/test_frames.h"
 #include "gpu/command_recorder.h"
 #include "gpu/timeline.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
+#include "support/test_frames.h"
 
 namespace viewloom {
 

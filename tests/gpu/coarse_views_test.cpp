@@ -7,9 +7,9 @@
 #include <string>
 
 #include "commands/offline_renderer.h"
-#include "gpu/test_device.h"
 #include "gpu/true_view.h"
 #include "oracle/scene_generator.h"
+#include "support/test_device.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 

@@ -6,10 +6,10 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
 #include "support/srgb_transfer.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

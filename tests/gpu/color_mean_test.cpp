@@ -7,9 +7,9 @@
 #include <random>
 
 #include "gpu/sweep_under_test.h"
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

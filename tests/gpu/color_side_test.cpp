@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

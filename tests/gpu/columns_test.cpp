@@ -10,9 +10,9 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/scene_generator.h"
+#include "support/test_device.h"
 #include "sweep/depth_columns.h"
 #include "sweep/sweep_source.h"
 

@@ -9,8 +9,8 @@
 #include "gpu/buffer.h"
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
-#include "gpu/test_device.h"
 #include "shaders/scale_floats.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

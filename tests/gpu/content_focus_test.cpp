@@ -5,9 +5,9 @@
 
 #include "display/atlas_layout.h"
 #include "display/depth_budget.h"
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/test_device.h"
 #include "sweep/sweep_source.h"
 
 namespace viewloom {

@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "gpu/cube_under_test.h"
-#include "gpu/test_device.h"
 #include "shared/fault.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

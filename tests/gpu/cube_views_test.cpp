@@ -8,10 +8,10 @@
 #include <string>
 
 #include "frame/cube_map.h"
-#include "gpu/test_device.h"
 #include "gpu/true_view.h"
 #include "gpu/world_views.h"
 #include "shared/fault.h"
+#include "support/test_device.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 

@@ -6,9 +6,9 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "support/depth_reference.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "gpu/buffer.h"
 #include "gpu/device_error.h"
-#include "gpu/test_device.h"
 #include "gpu/vulkan.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -9,8 +9,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "e2e/test_frames.h"
 #include "scoring/image_score.h"
+#include "support/test_frames.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
 #include "synthetic/synthetic_frame.h"

@@ -2,9 +2,9 @@
 // Exact flat things, one before the other: their distance is no step of depth.
 #include <cmath>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
+#include "support/test_device.h"
 #include "sweep/sweep_source.h"
 
 namespace viewloom {

@@ -9,9 +9,9 @@
 #include <random>
 
 #include "gpu/built_structure.h"
-#include "gpu/test_device.h"
 #include "lens/host_structure.h"
 #include "lens/open_rays.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "gpu/judge_views.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <string>
 
-#include "gpu/test_device.h"
 #include "gpu/true_view.h"
 #include "gpu/world_views.h"
+#include "support/test_device.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device with memory of its own, into which planes are copied and bands out of it, answers as one
 // whose memory is the CPU's.
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

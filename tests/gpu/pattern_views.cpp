@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "e2e/test_frames.h"
+#include "support/test_frames.h"
 
 namespace viewloom {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "commands/offline_renderer.h"
-#include "gpu/test_device.h"
 #include "patterns/pattern.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 

@@ -2,7 +2,7 @@
 // Atlases swept as Y'CbCr are judged by the same atlas in RGB and libjpeg-turbo's conversion.
 #include <gtest/gtest.h>
 
-#include "e2e/test_frames.h"
+#include "support/test_frames.h"
 #include "support/ycbcr_planes.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"

@@ -3,10 +3,10 @@
 // conversion.
 #include <algorithm>
 
-#include "e2e/test_frames.h"
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/scene_generator.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 #include "support/ycbcr_planes.h"
 
 namespace viewloom {

@@ -7,9 +7,9 @@
 
 #include "gpu/judge_views.h"
 #include "gpu/structure_checks.h"
-#include "gpu/test_device.h"
 #include "oracle/analytic_scenes.h"
 #include "shared/fault.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

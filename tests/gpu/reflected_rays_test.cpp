@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "gpu/followed_mirrors.h"
-#include "gpu/test_device.h"
 #include "shared/fault.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "gpu/world_views.h"
+#include "support/test_device.h"
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/picture_frame.h"
 #include "trace/reflection_settings.h"

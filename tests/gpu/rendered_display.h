@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "commands/offline_renderer.h"
-#include "e2e/test_frames.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 
 namespace viewloom {
 

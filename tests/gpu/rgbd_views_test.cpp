@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "display/rgbd.h"
-#include "e2e/test_frames.h"
 #include "gpu/judge_views.h"
-#include "gpu/test_device.h"
 #include "oracle/analytic_scenes.h"
 #include "oracle/surface_behind.h"
 #include "shared/histogram.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
 

@@ -13,8 +13,8 @@
 #include <glm/packing.hpp>
 
 #include "gpu/seen_mirrors.h"
-#include "gpu/test_device.h"
 #include "support/srgb_transfer.h"
+#include "support/test_device.h"
 #include "trace/albedos.h"
 
 namespace viewloom {

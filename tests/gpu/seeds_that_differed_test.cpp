@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "gpu/judge_seed.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

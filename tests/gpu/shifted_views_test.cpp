@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "commands/offline_renderer.h"
-#include "gpu/test_device.h"
 #include "gpu/true_view.h"
+#include "support/test_device.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 

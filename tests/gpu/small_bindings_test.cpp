@@ -2,7 +2,7 @@
 // Arrays that are larger than bindings: what is then written, or also read, by address is the same.
 #include "gpu/judge_views.h"
 #include "gpu/structure_checks.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "gpu/cube_beside_sources.h"
 #include "gpu/sources_under_test.h"
-#include "gpu/test_device.h"
 #include "shared/fault.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "decode/frame_intake.h"
 #include "gpu/buffer.h"
-#include "gpu/test_device.h"
 #include "pipeline/pipeline.h"
 #include "support/large_allocations.h"
+#include "support/test_device.h"
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/zstd_samples.h"
 

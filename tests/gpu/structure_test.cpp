@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "gpu/structure_checks.h"
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "offline/effective_nodes.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

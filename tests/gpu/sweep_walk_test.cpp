@@ -7,8 +7,8 @@
 
 #include "calibration/calibration.h"
 #include "commands/offline_renderer.h"
-#include "e2e/test_frames.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
 

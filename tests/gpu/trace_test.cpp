@@ -3,8 +3,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "gpu/judge_views.h"
-#include "gpu/test_device.h"
 #include "oracle/analytic_scenes.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

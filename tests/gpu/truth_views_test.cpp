@@ -6,8 +6,8 @@
 #include <string>
 
 #include "commands/offline_renderer.h"
-#include "gpu/test_device.h"
 #include "gpu/true_view.h"
+#include "support/test_device.h"
 #include "support/truth/known.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gpu/seen_mirrors.h"
-#include "gpu/test_device.h"
 #include "support/srgb_transfer.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

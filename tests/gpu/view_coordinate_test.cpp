@@ -9,9 +9,9 @@
 #include "gpu/buffer.h"
 #include "gpu/command_recorder.h"
 #include "gpu/compute_pass.h"
-#include "gpu/test_device.h"
 #include "gpu/timeline.h"
 #include "shaders/view_coordinates.h"
+#include "support/test_device.h"
 
 namespace viewloom {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "commands/offline_renderer.h"
 #include "display/views_outside.h"
-#include "e2e/test_frames.h"
 #include "encode/encoded_band.h"
-#include "gpu/test_device.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
 
 namespace viewloom {
 namespace {

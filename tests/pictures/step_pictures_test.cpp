@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "gpu/test_device.h"
 #include "pictures/step_pictures.h"
 #include "pictures/svg.h"
+#include "support/test_device.h"
 
 namespace viewloom::pictures {
 namespace {

@@ -10,10 +10,10 @@
 #include "bench/gpu/copy_contestant.h"
 #include "bench/gpu/test_loads.h"
 #include "gpu/barrier.h"
-#include "gpu/test_device.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
 #include "structure/structure_layout.h"
+#include "support/test_device.h"
 
 namespace viewloom::bench {
 namespace {

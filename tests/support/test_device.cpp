@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gpu/test_device.h"
+#include "support/test_device.h"
 
 #include <dlfcn.h>
 

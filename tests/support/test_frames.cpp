@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "e2e/test_frames.h"
+#include "support/test_frames.h"
 
 #include <cstring>
 #include <utility>
