@@ -6,9 +6,8 @@ namespace viewloom {
 
 // Lets the C library keep what is freed for what comes next. Left to itself, glibc gives the memory
 // of each received message back to the system and fetches it again for the next one, page by page:
-// of a server that receives 10 frames of 33 MB a second, three quarters of the CPU time
-// (tests/performance.md). Call once, before other threads begin. Does nothing with other C
-// libraries.
+// of a server that receives frames, most of the CPU time (tests/performance.md). Call once, before
+// other threads begin. Does nothing with other C libraries.
 void keepFreedMemory();
 
 }  // namespace viewloom
