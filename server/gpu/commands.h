@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is recorded for the device: copies, and what the barriers and passes of this folder add.
+// A recording for the device: copies, and what the barriers and passes of this folder add.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace viewloom {
 
-// As a size: all that lies behind the offset.
+// The size that stands for all that lies behind the offset.
 inline constexpr uint64_t kToTheEnd = UINT64_MAX;
 
 struct CopiedBytes {

@@ -15,7 +15,7 @@ namespace viewloom {
 // Owner decides when it is free, as of a slot. Thread-safety: as StructureSlot.
 class FrameStructure {
  public:
-  // Of all parts of a frame. Throws, as isOutOfDeviceMemory() tells, when the device cannot hold
+  // Structures of all parts of a frame. Throws (isOutOfDeviceMemory) when the device cannot hold
   // it.
   FrameStructure(const Device& device, const FrameBuildMemory& build_memory);
   // Shares no memory with others.

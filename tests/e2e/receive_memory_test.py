@@ -14,9 +14,9 @@ import viewloomd  # takes its argument
 
 CLIENT = sys.argv.pop(1)
 PAGE_BYTES = 4096
-# What comes before counts as warming up, and so much is measured.
+# Frames that warm the server up, and frames that are measured.
 WARM_UP_FRAMES, MEASURED_FRAMES = 10, 30
-# Of the pages that a frame fills, so many may be new ones. With memory given back after every
+# The share of the pages a frame fills that may be new ones. With memory given back after every
 # message it was 0.4 to 0.8; kept, 0.01 to 0.02.
 NEW_SHARE_MAX = 0.1
 

@@ -20,7 +20,7 @@ namespace {
 namespace http = boost::beast::http;
 using boost::asio::ip::tcp;
 
-// Of "http://HOST:PORT/...".
+// The address in "http://HOST:PORT/...".
 HostPort parseUrl(const std::string& url) {
   constexpr std::string_view kScheme = "http://";
   if (url.starts_with(kScheme)) {

@@ -15,7 +15,7 @@ SHADERS_SHARED = "shaders/shared"
 # Folder: (what of ours it may include beside itself, which third parties). An entry of the first
 # list is a folder or a single header.
 LAYERS = {
-    # What server and client share.
+    # Libraries that server and client share.
     "server/core/base": ([], ["absl", "spdlog"]),
     "server/core/jpeg": ([], ["jpeg"]),
     "server/core/frame": (["base"], ["absl", "glm"]),

@@ -50,7 +50,7 @@ class Option {
   // Where the command line does not name it, this variable of the environment is taken.
   Option environment(const std::string& variable) const;
 
-  // What is accepted.
+  // Values that are accepted.
   Option between(int min, int max) const;
   Option between(uint32_t min, uint32_t max) const;
   Option between(double min, double max) const;
