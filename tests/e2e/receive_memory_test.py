@@ -17,7 +17,7 @@ PAGE_BYTES = 4096
 # Frames that warm the server up, and frames that are measured.
 WARM_UP_FRAMES, MEASURED_FRAMES = 10, 30
 # The share of the pages a frame fills that may be new ones. With memory given back after every
-# message it was 0.4 to 0.8; kept, 0.01 to 0.02.
+# message it was 0.4 to 0.8; kept, 0.003 to 0.02.
 NEW_SHARE_MAX = 0.1
 
 
