@@ -10,7 +10,6 @@
 #include "commands/serve.h"
 #include "config/read_config.h"
 #include "config/setting_options.h"
-#include "gpu/device_error.h"
 #include "usage/command_line.h"
 
 namespace {
@@ -38,8 +37,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "viewloomd: %s\n",
-                 viewloom::printable(viewloom::deviceErrorText(error), true).c_str());
+    std::fprintf(stderr, "viewloomd: %s\n", viewloom::printable(error.what(), true).c_str());
     return viewloom::usage::kExitUsage;
   }
 }

@@ -11,8 +11,7 @@
 #include "base/host_port.h"
 #include "base/log.h"
 #include "decode/frame_intake.h"
-#include "gpu/device.h"
-#include "pipeline/pipeline.h"
+#include "engine_room.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "rpc/rpc_server.h"
@@ -76,11 +75,10 @@ struct Service::Parts {
   void drain();
 
   Metrics metrics;
-  Device device;
   StreamDirectory directory;
   Broadcaster broadcaster;
   BytePool planes;
-  Pipeline pipeline;
+  const std::unique_ptr<EngineRoom> engine_room;
   FrameIntake intake;
   std::optional<HttpServer> http;
   std::optional<RpcServer> rpc;
@@ -90,24 +88,25 @@ struct Service::Parts {
 
 Service::Parts::Parts(const Config& config, const Clock& clock,
                       std::function<void(const std::exception& error)> on_failure)
-    : device({.select = config.device, .validation = config.validation}),
-      directory(clock, config.limits.streams_max),
+    : directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits)),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
-      pipeline({.device = device,
-                .clock = clock,
-                .metrics = metrics,
-                .broadcaster = broadcaster,
-                .directory = directory,
-                .on_failure = std::move(on_failure)},
-               {.encode_thread_count = threadCount(config.pipeline.encode_threads),
-                .structure_slots_per_stream = config.pipeline.structure_slots,
-                .trace_slot_count = config.pipeline.trace_slots,
-                .atlas_limits = atlasLimits(config.limits)}),
-      intake(pipeline, clock, planes,
+      engine_room(openEngineRoom(config, atlasLimits(config.limits),
+                                 threadCount(config.pipeline.encode_threads),
+                                 {.clock = clock,
+                                  .metrics = metrics,
+                                  .broadcaster = broadcaster,
+                                  .directory = directory,
+                                  .on_failure = std::move(on_failure)})),
+      intake(*engine_room, clock, planes,
              {.thread_count = threadCount(config.pipeline.decode_threads),
               .on_replaced = [this] { metrics.replaced[HandOver::kDecode].add(); }}) {
-  log(LogLevel::kInfo, "device: ", device.info().name, " (", device.info().driver, ")");
+  const EngineRoomDescription made = engine_room->description();
+  if (made.device.empty()) {
+    log(LogLevel::kInfo, "no engines: atlases are handed out, none are made");
+  } else {
+    log(LogLevel::kInfo, "device: ", made.device, " (", made.driver, ")");
+  }
   connect();
   if (config.http.enabled) openHttp(config, clock);
   openRpc(config, clock);
@@ -116,16 +115,16 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
 // What travels against the data: demand, and room for new streams.
 void Service::Parts::connect() {
   broadcaster.onDemandChange([this](const std::string& stream) {
-    pipeline.serveDisplays(stream);
+    engine_room->serveDisplays(stream);
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
-  broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
+  broadcaster.onEyesMove([this](const ActiveDisplay& display) { engine_room->serveEyes(display); });
   broadcaster.onEyesServed([this](const std::string& stream) {
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
   directory.onRoomNeeded([this](const std::string& stream) {
     if (broadcaster.subscriberCount(stream) > 0) return false;
-    pipeline.forgetStream(stream);
+    engine_room->forgetStream(stream);
     return true;
   });
 }
@@ -136,10 +135,11 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {
+  const EngineRoomDescription made = engine_room->description();
   const ServerDescription description{.version = VIEWLOOM_VERSION,
-                                      .device = device.info().name,
-                                      .driver = device.info().driver,
-                                      .is_software = device.info().is_software,
+                                      .device = made.device,
+                                      .driver = made.driver,
+                                      .is_software = made.is_software,
                                       .frame_limits = frameLimits(config.limits),
                                       .atlas_limits = atlasLimits(config.limits),
                                       .stream_count_max = config.limits.streams_max,
@@ -161,7 +161,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
 void Service::Parts::drain() {
   if (rpc) rpc->drain();
   intake.close();
-  pipeline.drain();
+  engine_room->drain();
   broadcaster.drain();
   const std::jthread viewers_leave([this] {
     if (http) http->drain();
@@ -184,8 +184,8 @@ std::string Service::httpUrl() const {
 const Metrics& Service::metrics() const {
   return parts_->metrics;
 }
-const Device& Service::device() const {
-  return parts_->device;
+const EngineRoom& Service::engineRoom() const {
+  return *parts_->engine_room;
 }
 void Service::drain() {
   parts_->drain();

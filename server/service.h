@@ -9,12 +9,12 @@
 #include <string>
 
 #include "base/clock.h"
-#include "metrics/metrics.h"
 #include "config/config.h"
+#include "metrics/metrics.h"
 
 namespace viewloom {
 
-class Device;
+class EngineRoom;
 
 // Serves from its construction on. Throws std::runtime_error, with the remedy, when it cannot
 // start. Thread-safety: none but that of const methods; failures are told from the thread that
@@ -33,7 +33,7 @@ class Service {
   // "http://127.0.0.1:8080/"; empty = no web server.
   std::string httpUrl() const;
   const Metrics& metrics() const;
-  const Device& device() const;
+  const EngineRoom& engineRoom() const;
 
   // Takes no more frames, finishes the atlases that have begun, lets receivers take them for two
   // seconds, ends. Whoever subscribes gets whole atlases or none.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/status.h"
-#include "commands/offline_renderer.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/status.h"
-#include "commands/offline_renderer.h"
 #include "offline/truth_image.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

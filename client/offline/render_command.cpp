@@ -13,7 +13,6 @@
 
 #include "base/printable.h"
 #include "base/str_cat.h"
-#include "commands/offline_renderer.h"
 #include "display/named_display.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
@@ -24,6 +23,7 @@
 #include "offline/manifest_frame.h"
 #include "offline/shown_frame.h"
 #include "usage/command_line.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 namespace {

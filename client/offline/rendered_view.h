@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "commands/offline_renderer.h"
 #include "scoring/class_scores.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

@@ -8,9 +8,9 @@
 #include "base/status.h"
 #include "base/str_cat.h"
 #include "base/worker_pool.h"
+#include "picture/display_sources.h"
 #include "pipeline/tracked_frame.h"
 #include "temporal/display_instant.h"
-#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {

@@ -10,7 +10,7 @@
 #include "display/display_spec.h"
 #include "frame/frame.h"
 #include "gpu/device.h"
-#include "trace/trace_job.h"
+#include "picture/trace_job.h"
 
 namespace viewloom {
 

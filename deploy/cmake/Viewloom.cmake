@@ -36,7 +36,7 @@ endif()
 #   common   the standard library, absl::StatusOr and GLM: all folders that name no other set
 #   kernels  the same, for folders that compute with vectors
 #   grpc     and gRPC with Protobuf: proto/
-#   vulkan   and Vulkan-Hpp: server/gpu/
+#   vulkan   and Vulkan-Hpp: server/engine/walk/gpu/
 #   beast    and Boost.Beast: server/web/
 #   gtest    and GoogleTest: tests/
 # Builds that prove that each file includes what it uses do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
@@ -57,7 +57,8 @@ function(viewloom_precompile set)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${set}_headers.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "// All that this library has are its precompiled headers.\n")
   add_library(viewloom_${set}_headers OBJECT ${source})
-  target_include_directories(viewloom_${set}_headers PRIVATE ${PROJECT_SOURCE_DIR}/server)
+  target_include_directories(viewloom_${set}_headers PRIVATE ${PROJECT_SOURCE_DIR}/server
+    ${PROJECT_SOURCE_DIR}/server/engine/walk)
   target_link_libraries(viewloom_${set}_headers PRIVATE viewloom_options ${ARG_LINK})
   target_precompile_headers(viewloom_${set}_headers PRIVATE ${viewloom_common_headers} ${ARG_HEADERS})
 endfunction()
@@ -65,8 +66,9 @@ viewloom_precompile(common)
 viewloom_precompile(kernels LINK viewloom_kernel_options)
 
 # viewloom_add_library(<folder> SOURCES ... HEADERS ... [LINK ...] [PRECOMPILED <set>] [VECTORS]): static
-# library viewloom_<folder>. Includes are written from server/core, server/ and client/. VECTORS: it
-# computes with vectors (viewloom_kernel_options).
+# library viewloom_<folder>. Includes are written from server/core,
+# server/engine/walk, server/engine, server/ and client/. VECTORS: it computes with vectors
+# (viewloom_kernel_options).
 function(viewloom_add_library folder)
   cmake_parse_arguments(ARG "VECTORS" "PRECOMPILED" "SOURCES;HEADERS;LINK" ${ARGN})
   set(target viewloom_${folder})
@@ -99,8 +101,8 @@ function(viewloom_add_library folder)
       list(REMOVE_ITEM paired ${header})
     endif()
   endforeach()
-  set(roots ${PROJECT_SOURCE_DIR}/server/core ${PROJECT_SOURCE_DIR}/server
-    ${PROJECT_SOURCE_DIR}/client)
+  set(roots ${PROJECT_SOURCE_DIR}/server/core ${PROJECT_SOURCE_DIR}/server/engine/walk
+    ${PROJECT_SOURCE_DIR}/server/engine ${PROJECT_SOURCE_DIR}/server ${PROJECT_SOURCE_DIR}/client)
   target_include_directories(${target} ${scope} ${roots})
   # A file set takes no root within another.
   foreach(root IN LISTS roots ITEMS ${PROJECT_SOURCE_DIR}/tests)

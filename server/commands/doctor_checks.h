@@ -22,10 +22,10 @@ struct Finding {
   std::string remedy;   // what to do about it; empty when fine
 };
 
-// Vulkan devices: which there are, which lack what, which one would be taken, and its limits.
-std::vector<Finding> checkDevices(const Config& config);
-// Builds and traces a small scene on the device that would be taken.
-std::vector<Finding> checkTrace(const Config& config);
+bool hasProblem(const std::vector<Finding>& findings);
+
+// Whether atlases can be made: devices, and a small scene. A server without engines says so.
+std::vector<Finding> checkEngines(const Config& config);
 // Whether each listening address can be taken, and whether it is for this machine alone.
 std::vector<Finding> checkPorts(const Config& config);
 // Cores, and how many connections the system lets a process have.

@@ -30,14 +30,13 @@ int doctor(const Config& config) {
     for (const Finding& finding : findings) {
       std::cout << wordOf(finding.verdict) << printable(finding.subject) << "  "
                 << printable(finding.what, true) << "\n";
-      has_problem |= finding.verdict == Verdict::kProblem;
       if (finding.remedy.empty()) continue;
       std::cout << "        -> " << printable(finding.remedy) << "\n";
     }
+    has_problem |= hasProblem(findings);
   };
   tell(checkHost());
-  tell(checkDevices(config));
-  if (!has_problem) tell(checkTrace(config));
+  tell(checkEngines(config));
   tell(checkPorts(config));
   std::cout << (has_problem ? "viewloomd cannot run yet\n" : "viewloomd can run\n");
   return has_problem ? kExitProblem : 0;

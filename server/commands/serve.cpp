@@ -16,7 +16,6 @@
 #include "base/log.h"
 #include "commands/command.h"
 #include "commands/reachable_addresses.h"
-#include "gpu/device_error.h"
 #include "service.h"
 #include "usage/command_line.h"
 
@@ -73,7 +72,7 @@ int serve(const Config& config) {
   std::atomic<bool> has_failed = false;
   Service service(config, clock, [&](const std::exception& error) {
     has_failed = true;
-    log(LogLevel::kError, "the server cannot go on: ", deviceErrorText(error));
+    log(LogLevel::kError, "the server cannot go on: ", error.what());
     kill(getpid(), SIGTERM);  // wakes the wait below
   });
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),

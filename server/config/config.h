@@ -34,6 +34,7 @@ struct PipelineConfig {
   uint32_t encode_threads = 0;
   uint32_t structure_slots = 2;  // of each stream
   uint32_t trace_slots = 3;
+  bool warm_up = true;  // compile kernels of likely displays before they are asked for
 };
 
 struct LogConfig {
@@ -42,6 +43,7 @@ struct LogConfig {
 
 struct Config {
   std::string device;  // part of a device's name, or its index; empty = a real GPU, else lavapipe
+  std::string kernel_folder = "auto";  // auto = the user's cache; empty = none
   bool validation = false;
   GrpcConfig grpc{};
   HttpConfig http{};

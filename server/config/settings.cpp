@@ -105,6 +105,7 @@ std::vector<Setting> settingsOf(Config& config) {
   PipelineConfig& pipeline = config.pipeline;
   return {
       {"device", "", TextSetting{&config.device}},
+      {"kernel_folder", "", TextSetting{&config.kernel_folder}},
       {"validation", "", BoolSetting{&config.validation}},
       {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
       {"grpc.keepalive_s", "s", CountSetting{&config.grpc.keepalive_s, 1, 3600}},
@@ -122,6 +123,7 @@ std::vector<Setting> settingsOf(Config& config) {
       {"pipeline.encode_threads", "", CountSetting{&pipeline.encode_threads, 0, 64}},
       {"pipeline.structure_slots", "", CountSetting{&pipeline.structure_slots, 2, 16}},
       {"pipeline.trace_slots", "", CountSetting{&pipeline.trace_slots, 2, 16}},
+      {"pipeline.warm_up", "", BoolSetting{&pipeline.warm_up}},
       {"log.level", "", TextSetting{&config.log.level, Form::kLogLevel}},
   };
 }

@@ -94,7 +94,8 @@ void AtlasPublisher::publish(AtlasRun& run) {
   const int64_t now_ns = links_.clock.nowNs();
   const StageTimes times = stageTimes(run, now_ns);
   if (run.job.tick) links_.metrics.observeOutputDelay(now_ns - run.job.tick->due_ns);
-  const Coverage coverage = run.coverage();
+  const RayCounts counts = run.counts();
+  const Coverage& coverage = counts.coverage;
   count(links_.metrics, run, times, coverage);
   const std::optional<DepthBudget> budget =
       depthBudget(*run.picture->layout, run.job.structure->stats, run.job.structure->depths);
@@ -121,7 +122,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     atlas->encoding = output.display->encoding;
     atlas->times = times;
     atlas->coverage = coverage;
-    atlas->reflections = run.reflections();
+    atlas->reflections = counts.reflections;
     atlas->method = run.method;
     atlas->stats = run.job.structure->stats;
     atlas->taking = run.job.structure->taking;

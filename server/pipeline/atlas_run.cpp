@@ -28,54 +28,30 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
     : job(std::move(atlas_job)), picture(std::move(resolved)), display_pose(pose) {
   // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
   const bool is_one_image = picture->layout->image_count == 1;
-  direct_color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
+  planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
+  uint32_t strip_row_count = 0;
   for (ActiveDisplayPtr& display : displays) {
-    if (directForm(display->encoding) != direct_color) direct_color = ColorForm::kRgba;
+    if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;
     planes.depth |= display->encoding.with_depth || display->encoding.with_depth_codes;
     planes.mask |= display->encoding.with_mask;
     outputs.push_back(makeOutput(std::move(display), *picture->layout));
     // 8 MCU rows are 64 or 128 px, so every output's bands tile a strip of the highest.
     strip_row_count = std::max(strip_row_count, outputs.back().band_row_count);
   }
-  strips_left_ = stripCount();
+  strips = AtlasStrips(*picture->layout, strip_row_count);
+  strips_left_ = strips.count();
 }
 
-uint32_t AtlasRun::stripsPerImage() const {
-  return ceilDivide(picture->layout->imageSize().height, strip_row_count);
-}
-
-uint32_t AtlasRun::stripCount() const {
-  return picture->layout->image_count * stripsPerImage();
-}
-
-uint32_t AtlasRun::firstRow(uint32_t strip) const {
-  return imageOf(strip) * picture->layout->imageSize().height + rowInImage(strip);
-}
-
-uint32_t AtlasRun::rowCount(uint32_t strip) const {
-  return std::min(strip_row_count, picture->layout->imageSize().height - rowInImage(strip));
-}
-
-TraceSlotShape AtlasRun::stripShape() const {
-  return slotShape(*picture, strip_row_count, planes);
-}
-
-void AtlasRun::noteTraced(const Coverage& strip_coverage, int64_t now_ns,
-                          const ReflectionCounts& strip_reflections) {
+void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  coverage_.add(strip_coverage);
-  reflections_.add(strip_reflections);
+  counts_.coverage.add(strip_counts.coverage);
+  counts_.reflections.add(strip_counts.reflections);
   traced_ns_ = std::max(traced_ns_, now_ns);
 }
 
-Coverage AtlasRun::coverage() const {
+RayCounts AtlasRun::counts() const {
   std::lock_guard lock(mutex_);
-  return coverage_;
-}
-
-ReflectionCounts AtlasRun::reflections() const {
-  std::lock_guard lock(mutex_);
-  return reflections_;
+  return counts_;
 }
 
 int64_t AtlasRun::tracedNs() const {

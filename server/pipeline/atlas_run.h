@@ -11,12 +11,11 @@
 
 #include "base/trace_method.h"
 #include "encode/encoded_band.h"
+#include "engine/engine.h"
 #include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/resident_structure.h"
-#include "pipeline/strip_trace.h"
 #include "publish/broadcaster.h"
-#include "trace/trace_slot.h"
 
 namespace viewloom {
 
@@ -31,9 +30,11 @@ struct AtlasOutput {
 
 // Rays that an atlas is walked by before others go first: a large quilt's.
 inline constexpr uint64_t kTurnRays = uint64_t{1} << 24;
+// Time of worker threads that an atlas takes before others go first: that of most atlases.
+inline constexpr int64_t kTurn_ns = 50'000'000;
 
-// Traced in strips of strip_row_count rows, each of one image, all displays of the picture at once.
-// Thread-safety: what follows next_strip is the trace loop's; strips are noted from any thread.
+// Made in strips, for all displays of the picture at once.
+// Thread-safety: what follows begun_ns is the picture loop's; strips are noted from any thread.
 class AtlasRun {
  public:
   // `displays` share the job's picture and want its atlas, seen from `pose`.
@@ -45,18 +46,13 @@ class AtlasRun {
   // are then, and no other display waits for more than one of them. So do displays with a rate.
   bool isWaitedFor() const { return isTracked() || job.tick; }
 
-  uint32_t stripCount() const;
-  uint32_t imageOf(uint32_t strip) const { return strip / stripsPerImage(); }
-  // In its image, and in the atlas.
-  uint32_t rowInImage(uint32_t strip) const { return strip % stripsPerImage() * strip_row_count; }
-  uint32_t firstRow(uint32_t strip) const;
-  uint32_t rowCount(uint32_t strip) const;
-  TraceSlotShape stripShape() const;
   // It has had more of the device than most atlases need: others go first, or take turns with it.
   bool isLong() const { return !isTracked() && submitted_rays >= kTurnRays; }
+  // The same of the worker threads.
+  bool isLongWork() const { return !isTracked() && worked_ns >= kTurn_ns; }
 
-  void noteTraced(const Coverage& strip_coverage, int64_t now_ns,
-                  const ReflectionCounts& strip_reflections = {});
+  // Strips are made: what all of them have seen, together.
+  void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
@@ -65,28 +61,24 @@ class AtlasRun {
   const Pose display_pose;  // in the world
   EyePosesPtr eyes;         // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
-  ColorForm direct_color;  // as all outputs take it most directly, or kRgba
-  TraceOutputs planes;     // that some output wants; colour is settled once its rays are submitted
+  // That some output wants: colour as all outputs take it most directly, until it is being made;
+  // then as the engine gives it.
+  TraceOutputs planes;
+  AtlasStrips strips;
   TraceMethod method = TraceMethod::kWalk;
-  uint32_t strip_row_count = 0;
   int64_t begun_ns = 0;
-  uint32_t next_strip = 0;
-  // Of a walk: the next part of that strip, and the slot that the parts before it are in.
-  uint32_t next_part = 0;
-  std::shared_ptr<StripTrace> trace;
+  PlanPtr plan;                    // of the picture, by the loop's engine
+  std::unique_ptr<Making> making;  // from when there was room until the last step
   uint64_t submitted_rays = 0;
+  int64_t worked_ns = 0;  // by worker threads, EncodeQueue's
 
-  Coverage coverage() const;
-  ReflectionCounts reflections() const;
+  RayCounts counts() const;
   int64_t tracedNs() const;
 
  private:
-  uint32_t stripsPerImage() const;
-
   std::atomic<uint32_t> strips_left_;
   mutable std::mutex mutex_;
-  Coverage coverage_;
-  ReflectionCounts reflections_;
+  RayCounts counts_;
   int64_t traced_ns_ = 0;  // when the last strip was seen done
 };
 

@@ -9,6 +9,11 @@ void BegunRuns::remove(const AtlasRun& run) {
   std::erase_if(runs_, [&](const AtlasRunPtr& begun) { return begun.get() == &run; });
 }
 
+void BegunRuns::clear() {
+  for (const AtlasRunPtr& run : runs_) run->making = nullptr;
+  runs_.clear();
+}
+
 bool BegunRuns::hasTracked() const {
   return std::any_of(runs_.begin(), runs_.end(),
                      [](const AtlasRunPtr& run) { return run->isTracked(); });
@@ -33,8 +38,9 @@ AtlasRunPtr BegunRuns::inTurn(const AtlasRun& first) const {
 }
 
 AtlasRunPtr BegunRuns::inSlot() const {
-  const auto run = std::find_if(runs_.begin(), runs_.end(),
-                                [](const AtlasRunPtr& begun) { return begun->trace != nullptr; });
+  const auto run = std::find_if(runs_.begin(), runs_.end(), [](const AtlasRunPtr& begun) {
+    return begun->making && begun->making->holdsRoom();
+  });
   return run == runs_.end() ? nullptr : *run;
 }
 

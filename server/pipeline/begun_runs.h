@@ -9,12 +9,13 @@
 
 namespace viewloom {
 
-// Thread-safety: none; the trace loop's.
+// Thread-safety: none; the picture loop's.
 class BegunRuns {
  public:
   void add(AtlasRunPtr run) { runs_.push_back(std::move(run)); }
   void remove(const AtlasRun& run);
-  void clear() { runs_.clear(); }
+  // Lets go of them, and of what their making holds.
+  void clear();
   bool isEmpty() const { return runs_.empty(); }
 
   bool hasTracked() const;
@@ -22,7 +23,7 @@ class BegunRuns {
   AtlasRunPtr soonest() const;
   // Of those that would have to wait for the first, the one whose turn it is, if it is that.
   AtlasRunPtr inTurn(const AtlasRun& first) const;
-  // One that parts have been traced of and holds a slot, if there is one.
+  // One that parts have been made of and holds memory, if there is one.
   AtlasRunPtr inSlot() const;
   // A part of it was submitted.
   void note(AtlasRun& run, uint64_t ray_count);

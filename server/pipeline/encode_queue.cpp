@@ -14,34 +14,10 @@ constexpr std::chrono::microseconds kLookout{100};
 
 }  // namespace
 
-void EncodeQueue::push(TracedStrip strip) {
-  std::unique_lock lock(mutex_);
-  room_.wait(lock, [this] { return is_closed_ || strips_.size() < strip_count_max_; });
-  if (is_closed_) return;
-  const auto later = std::find_if(strips_.begin(), strips_.end(), [&](const TracedStrip& other) {
-    return other.run->picture->gathers_on_host && goesFirst(*strip.run, *other.run);
-  });
-  strips_.insert(later, std::move(strip));
-  noteFilled();
-}
-
-void EncodeQueue::push(SweepRunPtr sweep) {
+void EncodeQueue::push(StripBatchPtr batch) {
   std::lock_guard lock(mutex_);
   if (is_closed_) return;
-  const auto later = std::find_if(sweeps_.begin(), sweeps_.end(), [&](const SweepRunPtr& other) {
-    return goesFirst(*sweep->run(), *other->run());
-  });
-  sweeps_.insert(later, std::move(sweep));
-  noteFilled();
-}
-
-void EncodeQueue::resume(TracedStrip strip) {
-  std::lock_guard lock(mutex_);
-  // What stands before those goes, too: that is only packed.
-  const auto sooner = std::find_if(strips_.rbegin(), strips_.rend(), [&](const auto& other) {
-    return goesFirst(*other.run, *strip.run);
-  });
-  strips_.insert(sooner.base(), std::move(strip));
+  batches_.push_back(std::move(batch));
   noteFilled();
 }
 
@@ -52,11 +28,11 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   std::unique_lock lock(mutex_);
   std::optional<EncodeTask> task;
   while (!(task = take())) {
-    if (is_closed_ && sweeps_.empty()) return std::nullopt;
+    if (is_closed_ && batches_.empty()) return std::nullopt;
     waitForMore(lock);
   }
-  const bool is_more = nextSweep() || !strips_.empty();
-  const bool is_over = is_closed_ && sweeps_.empty() && strips_.empty();
+  const bool is_more = next() != nullptr;
+  const bool is_over = is_closed_ && batches_.empty();
   lock.unlock();
   if (is_over)
     filled_.notify_all();
@@ -86,72 +62,67 @@ void EncodeQueue::noteFilled() {
 }
 
 std::optional<EncodeTask> EncodeQueue::take() {
-  if (const SweepRunPtr sweep = nextSweep()) return EncodeTask{{}, takePart(sweep)};
-  if (strips_.empty()) return std::nullopt;
-  EncodeTask task{std::move(strips_.front()), {}};
-  strips_.pop_front();
-  room_.notify_one();
+  StripBatchPtr batch = next();
+  if (!batch) return std::nullopt;
+  EncodeTask task{.batch = batch};
+  if (batch->next_piece < batch->work->shape.piece_count) {
+    task.index = batch->next_piece++;
+    return task;
+  }
+  task.is_strip = true;
+  task.index = batch->next_strip++;
+  if (batch->next_strip == batch->work->shape.strip_count) std::erase(batches_, batch);
   return task;
 }
 
-// The sweep that the next part is of: the first that has one to hand out, or the first of others
-// if that is their turn. nullptr = a strip goes before it, or it is the turn of that, or there is
-// none.
-SweepRunPtr EncodeQueue::nextSweep() const {
-  SweepRunPtr first, other;
-  for (const SweepRunPtr& sweep : sweeps_) {
-    if (!sweep->hasPart()) continue;
-    if (!first) first = sweep;
-    if (sweep->run()->isTracked()) continue;
-    other = sweep;
-    break;
+template <typename Counts>
+StripBatchPtr EncodeQueue::first(const Counts& counts) const {
+  StripBatchPtr first;
+  for (const StripBatchPtr& batch : batches_) {
+    if (!batch->hasPart() || !counts(*batch->run)) continue;
+    if (!first || goesFirstAtWork(*batch->run, *first->run)) first = batch;
   }
-  const AtlasRunPtr strip = strips_.empty() ? nullptr : strips_.front().run;
-  const bool is_sweep = first && (!strip || goesFirst(*first->run(), *strip));
-  const AtlasRunPtr next = is_sweep ? first->run() : strip;
-  if (next && next->isTracked() && turn_.isOver()) {
-    if (other) return other;
-    if (strip && !strip->isTracked()) return nullptr;
-  }
-  return is_sweep ? first : nullptr;
+  return first;
 }
 
-SweepPart EncodeQueue::takePart(const SweepRunPtr& sweep) {
-  SweepPart part{.sweep = sweep};
-  if (sweep->next_piece < sweep->pieceCount()) {
-    part.index = sweep->next_piece++;
-    return part;
+// The batch that the next part is of: the first that has one to hand out, or the first of those
+// that would wait for it, if that is their turn. nullptr = there is none. Batches of one atlas keep
+// their order.
+StripBatchPtr EncodeQueue::next() const {
+  const StripBatchPtr first_of_all = first([](const AtlasRun&) { return true; });
+  if (!first_of_all || first_of_all->run->isLongWork()) return first_of_all;
+  StripBatchPtr other;
+  if (first_of_all->run->isTracked()) {
+    if (eyes_turn_.isOver()) other = first([](const AtlasRun& run) { return !run.isTracked(); });
+  } else if (short_turn_.isOver()) {
+    other = first([](const AtlasRun& run) { return run.isLongWork(); });
   }
-  part.is_strip = true;
-  part.index = sweep->next_strip++;
-  if (sweep->next_strip == sweep->run()->stripCount()) std::erase(sweeps_, sweep);
-  return part;
+  return other ? other : first_of_all;
 }
 
-void EncodeQueue::noteSwept(SweepRun& sweep) {
+void EncodeQueue::noteMade(StripBatch& batch) {
   std::lock_guard lock(mutex_);
-  if (++sweep.swept_count == sweep.pieceCount()) noteFilled();
+  if (++batch.made_count == batch.work->shape.piece_count) noteFilled();
 }
 
-void EncodeQueue::noteServed(bool is_tracked, int64_t duration_ns) {
+void EncodeQueue::noteServed(AtlasRun& run, int64_t duration_ns) {
   std::lock_guard lock(mutex_);
-  turn_.note(is_tracked, duration_ns);
+  eyes_turn_.note(run.isTracked(), duration_ns);
+  if (!run.isTracked()) short_turn_.note(!run.isLongWork(), duration_ns);
+  run.worked_ns += duration_ns;
 }
 
 void EncodeQueue::close() {
   std::lock_guard lock(mutex_);
   is_closed_ = true;
-  room_.notify_all();
   ++fill_count_;
   filled_.notify_all();
 }
 
 void EncodeQueue::clear() {
-  std::deque<TracedStrip> strips;  // let go after the lock
-  std::vector<SweepRunPtr> sweeps;
+  std::vector<StripBatchPtr> batches;  // let go after the lock
   std::lock_guard lock(mutex_);
-  strips.swap(strips_);
-  sweeps.swap(sweeps_);
+  batches.swap(batches_);
   ++fill_count_;
   filled_.notify_all();
 }

@@ -139,6 +139,16 @@ void JobQueue::forgetEyes(const std::string& picture_key) {
   });
 }
 
+std::optional<AtlasJob> JobQueue::withdraw(const std::string& picture_key) {
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.job.picture_key == picture_key;
+  });
+  if (found == waiting_.end()) return std::nullopt;
+  AtlasJob job = std::move(found->job);
+  waiting_.erase(found);
+  return job;
+}
+
 std::vector<AtlasJob> JobQueue::clear() {
   std::vector<AtlasJob> jobs;
   for (Waiting& waiting : std::exchange(waiting_, {})) jobs.push_back(std::move(waiting.job));

@@ -55,7 +55,7 @@ inline constexpr uint32_t kRoundsPassed = 3;
 // its poses are at hand, and after n more in any case. So none is passed over more than
 // (kRoundsPassed + 2) * n - 1 times: the n - 1 others may be as late.
 //
-// Thread-safety: none; the trace loop's.
+// Thread-safety: none.
 class JobQueue {
  public:
   // Of two jobs for the same picture the one with the newer structure stays and takes the sooner
@@ -83,6 +83,8 @@ class JobQueue {
   // An atlas on its way is seen by the newest eyes: a job for these alone is none any more, and
   // nobody is to wait for what it would.
   void forgetEyes(const std::string& picture_key);
+  // Takes the job of the picture that has not begun, if there is one.
+  std::optional<AtlasJob> withdraw(const std::string& picture_key);
   // Forgets the jobs that have not begun.
   std::vector<AtlasJob> clear();
 

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "display/depth_budget.h"
-#include "lens/band_gatherer.h"
-#include "trace/display_sources.h"
+#include "picture/display_sources.h"
 
 namespace viewloom {
 namespace {
@@ -28,7 +27,9 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                                              const ResidentStructure& source, const Aim& aim,
                                              const EyePosesPtr& eyes) {
   VIEWLOOM_RETURN_IF_ERROR(validateSourcesOf(display.spec, aim.sources));
-  Entry& entry = entries_[display.picture_key];
+  const std::shared_ptr<Entry> kept = entryOf(display.picture_key);
+  Entry& entry = *kept;
+  std::lock_guard lock(entry.mutex);
   const bool keeps_mirrors = haveMirrors(entry.aim.sources) == haveMirrors(aim.sources);
   const bool is_aimed =
       (aim.standsInOnly() && entry.aim.standsInOnly() && keeps_mirrors) || aim == entry.aim;
@@ -38,8 +39,7 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
     if (entry.focal_distance_m) entry.layout = nullptr;
     entry.focal_distance_m.reset();
   }
-  bool is_new = entry.layout == nullptr || entry.defaults != source.defaults ||
-                entry.eyes != eyes || entry.is_in_reach != source.is_in_reach;
+  bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
   if (is_new) {
     VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
   }
@@ -57,12 +57,17 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
                       std::make_shared<TraceJob>(
                           makeTraceJob(entry.layout, display.spec, aim.display_pose, aim.sources)));
   }
-  settleGathering(source.is_in_reach, *entry.jobs.front());
   entry.defaults = source.defaults;
   entry.eyes = eyes;
   entry.aim = aim;
-  entry.is_in_reach = source.is_in_reach;
   return entry.jobs.front();
+}
+
+std::shared_ptr<PictureCache::Entry> PictureCache::entryOf(const std::string& picture_key) {
+  std::lock_guard lock(mutex_);
+  std::shared_ptr<Entry>& entry = entries_[picture_key];
+  if (!entry) entry = std::make_shared<Entry>();
+  return entry;
 }
 
 absl::Status PictureCache::layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
@@ -92,6 +97,7 @@ bool PictureCache::moveFocus(const DisplaySpec& spec, const ResidentStructure& s
 }
 
 void PictureCache::keepOnly(const std::vector<ActiveDisplayPtr>& displays) {
+  std::lock_guard lock(mutex_);
   std::erase_if(entries_, [&](const auto& entry) {
     return std::none_of(displays.begin(), displays.end(), [&](const ActiveDisplayPtr& display) {
       return display->picture_key == entry.first;

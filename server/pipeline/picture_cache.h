@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views of each picture as the tracer takes them. Layouts stay as long as a display, its eyes,
+// The views of each picture as engines take them. Layouts stay as long as a display, its eyes,
 // its focal plane and its stream ask for nothing else; views are aimed anew when a camera moves, in
 // memory that is there.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "display/atlas_layout.h"
 #include "display/focus_follower.h"
+#include "picture/trace_job.h"
 #include "pipeline/resident_structure.h"
 #include "publish/broadcaster.h"
-#include "trace/trace_job.h"
 
 namespace viewloom {
-
-using PicturePtr = std::shared_ptr<const TraceJob>;
 
 // What a display sees, and from where.
 struct Aim {
@@ -32,7 +31,7 @@ struct Aim {
   bool operator==(const Aim&) const = default;
 };
 
-// Thread-safety: none; the GPU loop's. Pictures may be let go on any thread.
+// Thread-safety: all methods may be called from any thread; pictures may be let go on any.
 class PictureCache {
  public:
   explicit PictureCache(AtlasLimits limits) : limits_(limits) {}
@@ -46,6 +45,7 @@ class PictureCache {
 
  private:
   struct Entry {
+    std::mutex mutex;  // guards what follows
     StreamDefaults defaults;
     uint64_t taking_count = 0;  // ResidentStructure::taking
     EyePosesPtr eyes;
@@ -54,15 +54,16 @@ class PictureCache {
     std::shared_ptr<const AtlasLayout> layout;    // of all that
     std::vector<std::shared_ptr<TraceJob>> jobs;  // the last aimed is in front
     Aim aim;                                      // of the last
-    bool is_in_reach = false;                     // ResidentStructure::is_in_reach
   };
 
+  std::shared_ptr<Entry> entryOf(const std::string& picture_key);
   absl::Status layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
                       const EyePosesPtr& eyes, Entry& entry) const;
   static bool moveFocus(const DisplaySpec& spec, const ResidentStructure& source, Entry& entry);
 
   const AtlasLimits limits_;
-  std::map<std::string, Entry> entries_;  // by picture_key
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Entry>> entries_;  // by picture_key; guarded by mutex_
 };
 
 }  // namespace viewloom

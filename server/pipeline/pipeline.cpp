@@ -2,20 +2,20 @@
 #include "pipeline/pipeline.h"
 
 #include <atomic>
+#include <deque>
 #include <set>
 #include <string_view>
 #include <utility>
 
-#include "display/rgbd.h"
+#include "picture/ray_count.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
-#include "pipeline/gpu_loop.h"
+#include "pipeline/picture_loop.h"
 #include "pipeline/retime_loop.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/tick_loop.h"
-#include "pipeline/trace_loop.h"
 #include "pipeline/turns.h"
 
 namespace viewloom {
@@ -24,32 +24,6 @@ namespace {
 // An atlas is due after the time that its rays should take, so that a small one overtakes a large
 // one.
 constexpr int64_t kDueNsPerRay = 10;
-
-int64_t rayCount(const QuiltSpec& quilt) {
-  return int64_t(quilt.size_px.area());
-}
-int64_t rayCount(const StereoSpec& stereo) {
-  return 2 * int64_t(stereo.eye_size_px.area());
-}
-int64_t rayCount(const CamerasSpec& cameras) {
-  const size_t count = cameras.grid ? cameras.grid->count() : cameras.cameras.size();
-  return int64_t(count * cameras.tile_size_px.area());
-}
-int64_t rayCount(const LenticularSpec& lenticular) {
-  return 3 * int64_t(lenticular.calibration->screen_px.area());
-}
-int64_t rayCount(const IntegralSpec& integral) {
-  return int64_t(integral.panel_px.area());
-}
-int64_t rayCount(const RgbdSpec& rgbd) {
-  const TileGrid grid = tileGrid(rgbd);
-  return int64_t(grid.width_px * grid.height_px);
-}
-int64_t rayCount(const DisplaySpec& spec) {
-  const int64_t px_count = std::visit([](const auto& kind) { return rayCount(kind); }, spec.kind);
-  const uint32_t of_lens = spec.lens ? spec.lens->walked_count : 1;
-  return px_count * std::max(spec.filter.sample_count, of_lens);
-}
 
 using OnFailure = std::function<void(const std::exception&)>;
 
@@ -66,21 +40,22 @@ struct Pipeline::Loops {
       : on_failure(std::move(given_links.on_failure)),
         links(withFailure(std::move(given_links),
                           [this](const std::exception& error) { fail(error); })),
-        timeline(links.device),
-        builder(links.device),
-        publisher(links,
-                  [this](const AtlasRun& run) {
-                    traces.noteComplete(run);
-                    gpu_wake_up.ring();
-                  }),
-        encoders(links, timeline, publisher, options.encode_thread_count,
-                 kSlotRingCount * options.trace_slot_count),
+        engine_wake_ups(links.engines.all.size()),
+        publisher(links, [this](const AtlasRun& run) { noteComplete(run); }),
+        encoders(links, publisher, options.encode_thread_count),
+        board(links.clock, links.engines.all.size()),
         pictures(options.atlas_limits),
-        traces(links, timeline, builder, encoders, publisher, pictures, options.trace_slot_count,
-               [this] { gpu_wake_up.ring(); }),
-        streams(options.structure_slots_per_stream, [this] { structure_wake_up.ring(); }),
-        gpu(links, timeline, builder, traces, gpu_wake_up),
-        frames(links, gpu),
+        plans(links.engines),
+        desk{board,
+             pictures,
+             plans,
+             served,
+             publisher,
+             encoders,
+             [this](size_t engine) { engine_wake_ups[engine].ring(); }},
+        streams(links.engines, options.structure_slots_per_stream,
+                [this] { structure_wake_up.ring(); }),
+        frames(links),
         retimes(links.metrics,
                 [this](AtlasJob job, const DisplaySpec& spec) { retime(std::move(job), spec); }),
         ticks(links, [this](const AtlasJob& job,
@@ -88,7 +63,14 @@ struct Pipeline::Loops {
         structures(links, streams, frames, structure_wake_up,
                    [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
                      serve(stream, ticket);
-                   }) {}
+                   }) {
+    for (size_t engine = 0; engine < links.engines.all.size(); ++engine) {
+      links.engines.all[engine]->connect(
+          {.on_room = [this, engine] { engine_wake_ups[engine].ring(); },
+           .on_failure = links.on_failure});
+      loops.push_back(std::make_unique<PictureLoop>(links, desk, engine, engine_wake_ups[engine]));
+    }
+  }
 
   // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
   // the resident structure's frame, if that has not been reported.
@@ -98,6 +80,10 @@ struct Pipeline::Loops {
   bool offerTrace(AtlasJob job, const DisplaySpec& spec);
   // Makes what the tick shows, unless there is no room, and has it traced.
   void retime(AtlasJob job, const DisplaySpec& spec);
+  // Wakes those whom it concerns. False: there was nothing new.
+  bool offer(AtlasJob job);
+  void noteComplete(const AtlasRun& run);
+  void ringEngines();
   // Of an atlas that is wanted from now on.
   int64_t deadlineNs(const DisplaySpec& spec) const;
   void fail(const std::exception& error);
@@ -105,18 +91,19 @@ struct Pipeline::Loops {
   const OnFailure on_failure;
   const PipelineLinks links;
   WakeUp structure_wake_up;
-  WakeUp gpu_wake_up;
+  std::deque<WakeUp> engine_wake_ups;
   std::atomic<bool> is_draining = false;
   std::atomic<bool> has_failed = false;
-  Timeline timeline;
-  StructureBuilder builder;
   AtlasPublisher publisher;
   EncodePool encoders;
+  JobBoard board;
   PictureCache pictures;
-  TraceLoop traces;
+  PlanCache plans;
+  ServedDisplays served;
+  const PictureDesk desk;
+  std::vector<std::unique_ptr<PictureLoop>> loops;  // one an engine
   StreamTable streams;
-  GpuLoop gpu;
-  FrameBuilder frames;
+  const FrameBuilder frames;
   RetimeLoop retimes;  // gives back to the next
   TickLoop ticks;
   StructureLoop structures;
@@ -124,8 +111,25 @@ struct Pipeline::Loops {
 
 void Pipeline::Loops::fail(const std::exception& error) {
   if (has_failed.exchange(true)) return;  // what follows from the first failure
-  gpu.abandon();
+  for (const auto& loop : loops) loop->abandon();
   on_failure(error);
+}
+
+bool Pipeline::Loops::offer(AtlasJob job) {
+  const JobBoard::Offered offered = board.offer(std::move(job));
+  if (offered.replaced) links.metrics.replaced[HandOver::kTrace].add();
+  if (offered.is_news) engine_wake_ups[offered.engine].ring();
+  return offered.is_news;
+}
+
+// The next of its picture may begin, whichever engine makes it.
+void Pipeline::Loops::noteComplete(const AtlasRun& run) {
+  if (run.isWaitedFor()) board.finish(run.job.picture_key);
+  ringEngines();
+}
+
+void Pipeline::Loops::ringEngines() {
+  for (WakeUp& wake_up : engine_wake_ups) wake_up.ring();
 }
 
 void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& ticket) {
@@ -137,21 +141,20 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   std::set<std::string_view> offered;
   for (const ActiveDisplayPtr& display : displays) {
     if (display->spec.temporal || !offered.insert(display->picture_key).second) continue;
-    traces.offer({.picture_key = display->picture_key,
-                  .structure = resident,
-                  .deadline_ns = deadlineNs(display->spec),
-                  .ticket = ticket,
-                  .is_tracked = isTracked(display->spec),
-                  .poses = display->eyes ? display->eyes->times() : PoseTimes{},
-                  .asked_ns = links.clock.nowNs()});
+    offer({.picture_key = display->picture_key,
+           .structure = resident,
+           .deadline_ns = deadlineNs(display->spec),
+           .ticket = ticket,
+           .is_tracked = isTracked(display->spec),
+           .poses = display->eyes ? display->eyes->times() : PoseTimes{},
+           .asked_ns = links.clock.nowNs()});
   }
   ticks.offer(stream.name, newest, ticket);
-  gpu_wake_up.ring();
 }
 
 bool Pipeline::Loops::offerTick(const AtlasJob& job, const ActiveDisplayPtr& display) {
-  if (isRetimed(job)) return !traces.isBusy(job.picture_key) && retimes.offer(job, display);
-  // Before the trace loop is asked: what was retimed goes there next.
+  if (isRetimed(job)) return !board.isBusy(job.picture_key) && retimes.offer(job, display);
+  // Before the board is asked: what was retimed goes there next.
   return !retimes.isBusy(job) && offerTrace(job, display->spec);
 }
 
@@ -166,9 +169,9 @@ void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
 bool Pipeline::Loops::offerTrace(AtlasJob job, const DisplaySpec& spec) {
   job.deadline_ns = deadlineNs(spec);
   job.asked_ns = links.clock.nowNs();
-  const bool is_taken = traces.offerUnlessBusy(job);
-  if (is_taken) gpu_wake_up.ring();
-  return is_taken;
+  const std::optional<JobBoard::Offered> offered = board.offerUnlessBusy(job);
+  if (offered) engine_wake_ups[offered->engine].ring();
+  return offered.has_value();
 }
 
 int64_t Pipeline::Loops::deadlineNs(const DisplaySpec& spec) const {
@@ -181,6 +184,9 @@ Pipeline::Pipeline(PipelineLinks links, const PipelineOptions& options)
 
 Pipeline::~Pipeline() {
   drain();
+  for (const auto& engine : loops_->links.engines.all) {
+    engine->connect({.on_room = [] {}, .on_failure = [](const std::exception&) {}});
+  }
 }
 
 void Pipeline::offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) {
@@ -212,15 +218,15 @@ void Pipeline::serveEyes(const ActiveDisplay& display) {
   if (!stream) return;
   const ResidentPtr resident = stream->resident();
   if (!resident) return;
-  const bool is_new = loops_->traces.offer({.picture_key = display.picture_key,
-                                            .structure = resident,
-                                            .deadline_ns = loops_->deadlineNs(display.spec),
-                                            .is_for_eyes = true,
-                                            .is_tracked = true,
-                                            .poses = display.eyes->times(),
-                                            .asked_ns = loops_->links.clock.nowNs()});
-  // Thousands of poses a second would each take a core from those who answer them.
-  if (is_new) loops_->gpu_wake_up.ring();
+  // Only what is new wakes a loop: thousands of poses a second would each take a core from those
+  // who answer them.
+  loops_->offer({.picture_key = display.picture_key,
+                 .structure = resident,
+                 .deadline_ns = loops_->deadlineNs(display.spec),
+                 .is_for_eyes = true,
+                 .is_tracked = true,
+                 .poses = display.eyes->times(),
+                 .asked_ns = loops_->links.clock.nowNs()});
 }
 
 void Pipeline::drain() {
@@ -228,9 +234,11 @@ void Pipeline::drain() {
   loops_->structures.stop();
   loops_->ticks.stop();
   loops_->retimes.stop();
-  loops_->gpu.stop();
+  for (const auto& loop : loops_->loops) loop->stop();
+  for (const auto& engine : loops_->links.engines.all) engine->drain();
   loops_->encoders.stop();
-  loops_->traces.dropAll();
+  for (const auto& loop : loops_->loops) loop->dropAll();
+  loops_->board.clear();
   loops_->publisher.dropAll();
   loops_->streams.clear();
 }

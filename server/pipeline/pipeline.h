@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames in, atlases out: the structure loop and the trace loop with everything between them.
+// Frames in, atlases out: the structure loop and the loops of the engines with everything between
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +8,22 @@
 #include <string>
 
 #include "display/atlas_layout.h"
-#include "frame/frame_sink.h"
 #include "pipeline/pipeline_links.h"
+#include "publish/atlas_maker.h"
 
 namespace viewloom {
 
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
   uint32_t structure_slots_per_stream = 2;  // >= 2: one is traced while the next is built
-  uint32_t trace_slot_count = 3;            // strips on their way at once; swept atlases
   AtlasLimits atlas_limits;
 };
 
-// Memory is bounded by streams x structure_slots_per_stream and by trace_slot_count; frames of the
-// same shape and displays of the same size reuse it. What builds alone need is shared by the slots
-// of a stream.
+// Memory is bounded by streams x structure_slots_per_stream and by what engines have on their way;
+// frames of the same shape and displays of the same size reuse it. What preparing frames alone
+// needs is shared by the slots of a stream.
 // Thread-safety: all methods may be called from any thread.
-class Pipeline final : public FrameSink {
+class Pipeline final : public AtlasMaker {
  public:
   Pipeline(PipelineLinks links, const PipelineOptions& options);
   // Drains.
@@ -32,16 +32,14 @@ class Pipeline final : public FrameSink {
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   void forgetStream(const std::string& stream) override;
 
-  // The displays of a stream changed: those without an atlas of its newest structure get one.
-  void serveDisplays(const std::string& stream);
+  void serveDisplays(const std::string& stream) override;
 
   // The eyes before a tracked display have moved: it is served from what is resident, once its last
   // atlas is done. However often, no more than one job waits. One that ticks is served when it
   // does.
-  void serveEyes(const ActiveDisplay& display);
+  void serveEyes(const ActiveDisplay& display) override;
 
-  // Takes no more frames, finishes and publishes the atlases that have begun, reports every frame.
-  void drain();
+  void drain() override;
 
  private:
   struct Loops;

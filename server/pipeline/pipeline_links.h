@@ -6,15 +6,15 @@
 #include <functional>
 
 #include "base/clock.h"
+#include "engine/engines.h"
 #include "metrics/metrics.h"
-#include "gpu/device.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 
 namespace viewloom {
 
 struct PipelineLinks {
-  const Device& device;
+  const Engines& engines;
   const Clock& clock;
   const Metrics& metrics;
   Broadcaster& broadcaster;

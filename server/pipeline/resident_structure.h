@@ -2,7 +2,6 @@
 // The structure of one frame, ready to be traced, and what is known of that frame.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,11 +9,11 @@
 
 #include "display/atlas_layout.h"
 #include "display/taken_defaults.h"
+#include "engine/engines.h"
 #include "frame/depth_spread.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
-#include "pipeline/structure_build.h"
-#include "trace/trace_job.h"
+#include "picture/trace_job.h"
 
 namespace viewloom {
 
@@ -24,9 +23,9 @@ class StreamRetimer;
 // has submitted a trace of it holds it until the device is done.
 struct ResidentStructure {
   std::string stream;
-  std::shared_ptr<StructureBuild> build;
-  bool is_in_reach = false;  // of the CPU, once it can be walked (lens/host_structure.h)
-  uint64_t serial = 0;       // counts the structures of the server, from 1
+  // Immutable but for the forms that engines prepare when they first need them, each on its thread.
+  std::shared_ptr<const FrameForms> forms;
+  uint64_t serial = 0;  // counts the structures of the server, from 1
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;      // the publisher's clock
   std::vector<SeenSource> sources;  // a display without a place in the world stands in the first
@@ -38,8 +37,6 @@ struct ResidentStructure {
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration
   int64_t built_at_ns = 0;
-  // Set when a display needs the walk, so that the stream's next frame is built for it.
-  std::shared_ptr<std::atomic<bool>> stream_is_walked;
   // Where surfaces of the frame move by themselves: the frame, and who makes structures of it for
   // other times. Else nullptr.
   FramePtr moving_frame;

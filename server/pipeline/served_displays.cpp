@@ -14,8 +14,9 @@ bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
 
 }  // namespace
 
-UnservedDisplays ServedDisplays::take(const AtlasJob& job,
+UnservedDisplays ServedDisplays::find(const AtlasJob& job,
                                       const std::vector<ActiveDisplayPtr>& all) {
+  std::lock_guard lock(mutex_);
   const uint64_t serial = job.structure->serial;
   std::erase_if(served_, [&](const auto& entry) {
     return std::none_of(all.begin(), all.end(),
@@ -26,19 +27,27 @@ UnservedDisplays ServedDisplays::take(const AtlasJob& job,
     if (display->picture_key != job.picture_key) continue;
     // A tracked display is the only one of its picture.
     if (display->eyes) unserved.eyes = display->eyes->newest();
-    Served& served = served_[display->id];
+    const Served& served = served_[display->id];
     const bool is_newer = serial > served.serial && !job.is_for_eyes;
     const bool has_moved =
         serial == served.serial && (unserved.eyes != served.eyes || hasMoved(job, served.shown));
     if (!is_newer && !has_moved) continue;
-    served = {serial, unserved.eyes, {}};
-    if (job.tick) served.shown = job.tick->shown;
     unserved.displays.push_back(display);
   }
   return unserved;
 }
 
+void ServedDisplays::note(const AtlasJob& job, const UnservedDisplays& served) {
+  std::lock_guard lock(mutex_);
+  for (const ActiveDisplayPtr& display : served.displays) {
+    Served& last = served_[display->id];
+    last = {job.structure->serial, served.eyes, {}};
+    if (job.tick) last.shown = job.tick->shown;
+  }
+}
+
 void ServedDisplays::noteEyes(const ActiveDisplay& display, EyePosesPtr eyes) {
+  std::lock_guard lock(mutex_);
   served_[display.id].eyes = std::move(eyes);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -18,14 +19,16 @@ struct UnservedDisplays {
   EyePosesPtr eyes;
 };
 
-// Thread-safety: none; the trace loop's.
+// Thread-safety: all methods may be called from any thread.
 class ServedDisplays {
  public:
   // Of all that there are, the displays of the picture that have not got this structure, or a newer
   // one; or have got it, but not as the newest eyes see it, or not from where its camera is by now.
-  // From now on they have. A structure that they have not got comes with a job of its own.
-  UnservedDisplays take(const AtlasJob& job, const std::vector<ActiveDisplayPtr>& all);
-  // A display was taken, and is seen by newer eyes after all.
+  // A structure that they have not got comes with a job of its own.
+  UnservedDisplays find(const AtlasJob& job, const std::vector<ActiveDisplayPtr>& all);
+  // From now on these have got what the job shows.
+  void note(const AtlasJob& job, const UnservedDisplays& served);
+  // A display has got it, and is seen by newer eyes after all.
   void noteEyes(const ActiveDisplay& display, EyePosesPtr eyes);
 
  private:
@@ -36,7 +39,8 @@ class ServedDisplays {
     std::optional<ShownInstant> shown;  // at a tick
   };
 
-  std::map<uint64_t, Served> served_;  // by display, as last begun
+  std::mutex mutex_;
+  std::map<uint64_t, Served> served_;  // by display, as last begun; guarded by mutex_
 };
 
 }  // namespace viewloom

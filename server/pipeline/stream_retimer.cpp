@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "base/log.h"
-#include "gpu/device_error.h"
 
 namespace viewloom {
 
-StreamRetimer::StreamRetimer(const PipelineLinks& links, FrameBuilder& builder)
+StreamRetimer::StreamRetimer(const PipelineLinks& links, const FrameBuilder& builder)
     : links_(links),
       builder_(builder),
+      preparers_(links.engines),
       carried_{Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr},
                Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr}} {}
 
@@ -24,10 +24,9 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
   last.structure = nullptr;  // its slot may serve again
   try {
     last.structure = build(*structure, carried_ns, guesses, last.retimer);
-  } catch (const std::exception& error) {
-    if (!isOutOfDeviceMemory(error)) throw;
+  } catch (const EngineOutOfMemory& error) {
     log(LogLevel::kWarning, "stream ", structure->stream,
-        ": shown without pictures between its frames: ", deviceErrorText(error));
+        ": shown without pictures between its frames: ", error.what());
     return structure;
   }
   last.serial = structure->serial;
@@ -41,14 +40,12 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   const int64_t started_ns = links_.clock.nowNs();
   const FramePtr frame = retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns), guesses);
   const int64_t retimed_ns = links_.clock.nowNs();
-  std::shared_ptr<StructureBuild> slot =
-      builder_.takeSlot(slots_, build_memory_, *frame, *is_walked_);
+  std::shared_ptr<FrameForms> slot = builder_.takeSlot(slots_, preparers_, frame);
   if (!slot) return nullptr;
   auto carried = std::make_shared<ResidentStructure>(structure);
-  carried->stream_is_walked = is_walked_;
   carried->moving_frame = nullptr;
   carried->retimer = nullptr;
-  builder_.build(frame, std::move(slot), *carried);
+  builder_.build(*frame, std::move(slot), *carried);
   carried->build_ns += retimed_ns - started_ns;
   // What came with the frame, rather than what was made of it.
   carried->stats.bad_samples_count = structure.stats.bad_samples_count;

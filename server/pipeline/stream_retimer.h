@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <memory>
 
 #include "pipeline/frame_builder.h"
@@ -17,7 +16,7 @@ namespace viewloom {
 // kSlotCount structures. Thread-safety: none; the retime loop has one job of a stream at a time.
 class StreamRetimer {
  public:
-  StreamRetimer(const PipelineLinks& links, FrameBuilder& builder);
+  StreamRetimer(const PipelineLinks& links, const FrameBuilder& builder);
 
   // Which of the two newest frames a structure is of.
   enum class Which : uint8_t { kNewest, kBefore };
@@ -44,11 +43,9 @@ class StreamRetimer {
                     FrameRetimer& retimer);
 
   const PipelineLinks& links_;
-  FrameBuilder& builder_;
-  SlotPool<StructureBuild> slots_{kSlotCount, [] {}};
-  FrameBuildMemory build_memory_;
-  // A display of the stream needed the walk since the last one was built.
-  std::shared_ptr<std::atomic<bool>> is_walked_ = std::make_shared<std::atomic<bool>>(false);
+  const FrameBuilder& builder_;
+  SlotPool<FrameForms> slots_{kSlotCount, [] {}};
+  StreamPreparers preparers_;
   std::array<Carried, 2> carried_;
 };
 

@@ -2,7 +2,6 @@
 // The streams that have frames: what waits of each, and its newest structure.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,10 +11,10 @@
 #include <vector>
 
 #include "base/latest_mailbox.h"
+#include "base/slot_pool.h"
 #include "display/taken_defaults.h"
 #include "pipeline/frame_ticket.h"
 #include "pipeline/resident_structure.h"
-#include "pipeline/slot_pool.h"
 #include "temporal/camera_track.h"
 
 namespace viewloom {
@@ -34,15 +33,20 @@ struct StreamInstant {
   ResidentPtr before = nullptr;
 };
 
+// Structures that an engine but the first may hold on to while the first goes on with newer ones:
+// that of an atlas on its way, which may take seconds, and that of the next.
+inline constexpr uint32_t kHeldByFurtherEngine = 2;
+
 // Thread-safety: inbox, slots, newest(), setNewest() and setMotion() from any thread; the other
 // fields are the structure loop's.
 class PipelineStream {
  public:
-  PipelineStream(std::string stream_name, uint32_t least_slot_count,
+  PipelineStream(std::string stream_name, const Engines& engines, uint32_t least_slot_count,
                  std::function<void()> on_slot_return)
       : name(std::move(stream_name)),
-        slot_count(least_slot_count),
-        slots(least_slot_count, std::move(on_slot_return)) {}
+        slot_count(uint32_t(least_slot_count + kHeldByFurtherEngine * (engines.all.size() - 1))),
+        slots(slot_count, std::move(on_slot_return)),
+        preparers(engines) {}
 
   // Its structure is nullptr before the first frame was built.
   StreamInstant newest() const;
@@ -53,16 +57,14 @@ class PipelineStream {
   const std::string name;
   const uint32_t slot_count;  // without the structure before the newest
   LatestMailbox<OfferedFrame> inbox;
-  SlotPool<StructureBuild> slots;
+  SlotPool<FrameForms> slots;
+  StreamPreparers preparers;               // of those slots
   FramePtr resident_frame;                 // of which the resident structure was made
   std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
   uint64_t session = 0;                    // of the publisher, as the newest frame says
   TakenDefaults defaults;                  // of the frames that were resident
   CameraTrack track;                       // of the session's frames, resident or equal to it
-  FrameBuildMemory build_memory;           // of its slots: the loop builds them one after the other
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
-  // A display of the stream needed the walk since the last frame came: the next is built for it.
-  std::shared_ptr<std::atomic<bool>> is_walked = std::make_shared<std::atomic<bool>>(false);
 
  private:
   mutable std::mutex mutex_;
@@ -75,7 +77,8 @@ using PipelineStreamPtr = std::shared_ptr<PipelineStream>;
 class StreamTable {
  public:
   // Each stream may hold so many structures: one is traced while the next is uploaded and built.
-  StreamTable(uint32_t slots_per_stream, std::function<void()> on_slot_return);
+  StreamTable(const Engines& engines, uint32_t slots_per_stream,
+              std::function<void()> on_slot_return);
 
   PipelineStreamPtr open(const std::string& name);
   // nullptr when no frame of it has come.
@@ -86,6 +89,7 @@ class StreamTable {
   void clear();
 
  private:
+  const Engines& engines_;
   const uint32_t slots_per_stream_;
   const std::function<void()> on_slot_return_;
   mutable std::mutex mutex_;

@@ -8,7 +8,6 @@
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "frame/same_content.h"
-#include "gpu/device_error.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/tracked_frame.h"
 
@@ -38,7 +37,7 @@ ResidentStructure describe(const Frame& frame) {
 }  // namespace
 
 StructureLoop::StructureLoop(const PipelineLinks& links, StreamTable& streams,
-                             FrameBuilder& builder, WakeUp& wake_up, OnResident on_resident)
+                             const FrameBuilder& builder, WakeUp& wake_up, OnResident on_resident)
     : links_(links),
       streams_(streams),
       builder_(builder),
@@ -78,12 +77,11 @@ bool StructureLoop::serve(PipelineStream& stream) {
     if (dropUnchanged(stream)) return true;
   }
   if (!stream.next) return false;
-  std::shared_ptr<StructureBuild> slot;
+  std::shared_ptr<FrameForms> slot;
   try {
-    slot = takeSlot(stream, *stream.next->frame);
-  } catch (const std::exception& error) {
-    if (!isOutOfDeviceMemory(error)) throw;
-    const std::string problem = deviceErrorText(error);
+    slot = takeSlot(stream, stream.next->frame);
+  } catch (const EngineOutOfMemory& error) {
+    const std::string problem = error.what();
     log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", problem);
     stream.next->ticket->noteRefused(problem);
     stream.next.reset();
@@ -101,9 +99,8 @@ void StructureLoop::followSession(PipelineStream& stream) {
 }
 
 // The frame is compared with the resident one, not with the last: that may have been replaced or
-// refused. That a display needs the walk stays noted for the next build. A camera that stood since
-// the last frame moves no more: only then is there something to tell. The first frame of a new
-// session is built where the defaults are to be taken from it.
+// refused. A camera that stood since the last frame moves no more: only then is there something to
+// tell. The first frame of a new session is built where the defaults are to be taken from it.
 bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   const ResidentPtr resident = stream.resident();
   if (!resident || !haveSameContent(*stream.resident_frame, *stream.next->frame)) return false;
@@ -127,19 +124,18 @@ bool StructureLoop::isInterpolated(const PipelineStream& stream) const {
   });
 }
 
-std::shared_ptr<StructureBuild> StructureLoop::takeSlot(PipelineStream& stream,
-                                                        const Frame& frame) const {
+std::shared_ptr<FrameForms> StructureLoop::takeSlot(PipelineStream& stream,
+                                                    const FramePtr& frame) const {
   stream.slots.setCountMax(stream.slot_count + (isInterpolated(stream) ? 1 : 0));
-  return builder_.takeSlot(stream.slots, stream.build_memory, frame, *stream.is_walked);
+  return builder_.takeSlot(stream.slots, stream.preparers, frame);
 }
 
 void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
-                          std::shared_ptr<StructureBuild> slot) {
+                          std::shared_ptr<FrameForms> slot) {
   auto structure = std::make_shared<ResidentStructure>(describe(*offered.frame));
   structure->stream = stream.name;
   structure->serial = ++last_serial_;
-  builder_.build(offered.frame, std::move(slot), *structure);
-  structure->stream_is_walked = stream.is_walked;
+  builder_.build(*offered.frame, std::move(slot), *structure);
   takeDefaults(stream, offered, *structure);
   if (movesByItself(*offered.frame)) {
     if (!stream.retimer) stream.retimer = std::make_shared<StreamRetimer>(links_, builder_);
@@ -147,7 +143,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
     structure->retimer = stream.retimer;
   }
 
-  count(*structure);
+  count(*structure, *offered.frame);
   const CameraMotion& motion = stream.track.add(trackedFrame(
       *offered.frame, stream.resident_frame.get(), structure->stats, structure->built_at_ns));
   // A camera that stands has seen nothing else a frame ago.
@@ -179,7 +175,7 @@ void StructureLoop::takeDefaults(PipelineStream& stream, const OfferedFrame& off
   if (has_moved) offered.ticket->say(note);
 }
 
-void StructureLoop::count(const ResidentStructure& structure) const {
+void StructureLoop::count(const ResidentStructure& structure, const Frame& frame) const {
   const FrameTimes& times = structure.times;
   links_.metrics.structures_built.add();
   links_.metrics.observeStage(Stage::kReceive, times.last_chunk_ns - times.first_chunk_ns);
@@ -188,7 +184,7 @@ void StructureLoop::count(const ResidentStructure& structure) const {
   links_.metrics.observeStage(Stage::kBuild, structure.build_ns);
   links_.directory.noteResident(structure.stream, structure.frame_number,
                                 structure.defaults.source_size_px,
-                                structure.build->shapes.front().layerCount(), structure.stats);
+                                uint32_t(frame.sources.front().size()), structure.stats);
 }
 
 }  // namespace viewloom

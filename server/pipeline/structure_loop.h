@@ -12,16 +12,16 @@
 
 namespace viewloom {
 
-// One thread: takes a frame, unless it is the resident one once more, gives it the forms that
-// displays need (those of the walk are built by the GPU loop), makes it resident. It uploads while
-// the GPU loop traces what is resident already. Thread-safety: stop() from one thread, once.
+// One thread: takes a frame, unless it is the resident one once more, gives it the form that its
+// first engine takes it in, makes it resident. Meanwhile pictures are made of what is resident
+// already. Thread-safety: stop() from one thread, once.
 class StructureLoop {
  public:
   // `on_resident` is called on the loop's thread; the ticket is of the structure's frame.
   using OnResident = std::function<void(const PipelineStream& stream, FrameTicketPtr ticket)>;
 
   // `wake_up` is rung when a frame was offered or a slot came back.
-  StructureLoop(const PipelineLinks& links, StreamTable& streams, FrameBuilder& builder,
+  StructureLoop(const PipelineLinks& links, StreamTable& streams, const FrameBuilder& builder,
                 WakeUp& wake_up, OnResident on_resident);
   ~StructureLoop() { stop(); }
 
@@ -34,15 +34,15 @@ class StructureLoop {
   static void followSession(PipelineStream& stream);
   bool dropUnchanged(PipelineStream& stream) const;
   bool isInterpolated(const PipelineStream& stream) const;
-  std::shared_ptr<StructureBuild> takeSlot(PipelineStream& stream, const Frame& frame) const;
-  void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<StructureBuild> slot);
+  std::shared_ptr<FrameForms> takeSlot(PipelineStream& stream, const FramePtr& frame) const;
+  void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<FrameForms> slot);
   static void takeDefaults(PipelineStream& stream, const OfferedFrame& offered,
                            ResidentStructure& structure);
-  void count(const ResidentStructure& structure) const;
+  void count(const ResidentStructure& structure, const Frame& frame) const;
 
   const PipelineLinks& links_;
   StreamTable& streams_;
-  FrameBuilder& builder_;
+  const FrameBuilder& builder_;
   WakeUp& wake_up_;
   const OnResident on_resident_;
   uint64_t last_serial_ = 0;

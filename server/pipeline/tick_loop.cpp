@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/thread_name.h"
+#include "picture/display_sources.h"
 #include "temporal/display_instant.h"
-#include "trace/display_sources.h"
 
 namespace viewloom {
 namespace {

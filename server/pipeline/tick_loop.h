@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "pipeline/job_queue.h"
 #include "pipeline/pipeline_links.h"
 #include "pipeline/stream_table.h"
-#include "pipeline/trace_loop.h"
 #include "pipeline/wake_up.h"
 #include "temporal/output_clock.h"
 

@@ -27,6 +27,12 @@ inline bool goesFirstOnDevice(const AtlasRun& a, const AtlasRun& b) {
   return goesFirst(a, b);
 }
 
+// The same at the worker threads.
+inline bool goesFirstAtWork(const AtlasRun& a, const AtlasRun& b) {
+  if (a.isLongWork() != b.isLongWork()) return b.isLongWork();
+  return goesFirst(a, b);
+}
+
 // The turn of those who go first. While others wait, they get a part of the work for every
 // kFirstPerOther parts: so no display stands still. Work in any unit, as it was done.
 // Thread-safety: none.

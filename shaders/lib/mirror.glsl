@@ -123,8 +123,8 @@ struct Reflected {
 };
 
 // By how much an error in 1/Z moves the picture of a ray that comes from an eye (m): the larger of
-// what it does at both ends of the ray (server/trace/trace_job.h; |r x b| grows and falls with the
-// distance to a point).
+// what it does at both ends of the ray (server/picture/trace_job.h; |r x b| grows and falls with
+// the distance to a point).
 float largestCross(Pinhole pinhole, Ray ray, vec3 eye) {
   const vec3 from = metricPoint(pinhole, vec3(ray.start.xy, 1.0));
   const vec3 to = metricPoint(pinhole, vec3(ray.start.xy + ray.extent.xy, 1.0));

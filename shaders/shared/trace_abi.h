@@ -20,7 +20,7 @@ struct ViewParams {
   vec3 direction_dx;
   vec3 direction_dy;
   // Largest error in inv_z that moves the picture by the display's tolerance, for an eye in the
-  // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/trace/trace_job.h.
+  // source's plane (1/m); times (1 - inv_z * eye.z)^2 elsewhere. See server/picture/trace_job.h.
   float inv_z_tolerance;
   uint is_used;  // 0: no view stands here
   uint shows;    // kShows... flags: else the colour of the first surface
@@ -229,7 +229,7 @@ struct AveragePush {
 };
 
 VIEWLOOM_ABI_CONST uint kBindingUnfinished = 25u;  // storage: IncompleteHead, and uints
-VIEWLOOM_ABI_CONST uint kBindingMeans = 14u;  // storage, written: uint per texel of all layers
+VIEWLOOM_ABI_CONST uint kBindingMeans = 14u;       // storage, written: uint per texel of all layers
 
 // One of several samples of a band's px, added to the sums of those before; the last one makes px
 // of the sums.

@@ -21,7 +21,7 @@ layout(constant_id = kOwnConstants + 3u) const bool kLanesAreViews = true;
 layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
 // Rays of the whole atlas as makePlainRay takes them; else as makeAnyRay does.
 layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
-// All eyes are in the source's plane, or as good as that (server/trace/trace_job.h).
+// All eyes are in the source's plane, or as good as that (server/picture/trace_job.h).
 layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
 // Several sources: each answers on its own, and merge_sources.comp makes px of the answers.
 layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;

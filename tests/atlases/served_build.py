@@ -74,6 +74,11 @@ class ServedBuild:
             ended.set()
             call.cancel()
 
+    def watch(self, stream, display, encoding, on_atlas):
+        """Calls on_atlas() after each atlas, on a thread, until stop() of what it returns."""
+        return Watching(self._displays, {"stream": stream, "display": display,
+                                         "encoding": encoding, "wait_for_stream": True}, on_atlas)
+
     def render(self, folder, display, arguments):
         """The pictures that `viewloom render` writes, as planes."""
         folder.mkdir(parents=True)
@@ -93,6 +98,35 @@ class ServedBuild:
             process.terminate()
             process.wait(PATIENCE_S)
         self._process.stdout.close()
+
+
+class Watching:
+    """A viewer that goes on."""
+
+    def __init__(self, displays, opened, on_atlas):
+        self._ended = threading.Event()
+        self._call = displays.StreamAtlases(self._messages(opened))
+        self._thread = threading.Thread(target=self._run, args=(on_atlas,))
+        self._thread.start()
+
+    def _messages(self, opened):
+        yield service.StreamAtlasesRequest(
+            open=json_format.ParseDict(opened, service.OpenDisplay()))
+        self._ended.wait()
+
+    def _run(self, on_atlas):
+        try:
+            for message in self._call:
+                if message.WhichOneof("message") == "end":
+                    on_atlas()
+        except grpc.RpcError as error:
+            if not self._ended.is_set():
+                raise RuntimeError(f"{error.code().name}: {error.details()}") from error
+
+    def stop(self):
+        self._ended.set()
+        self._call.cancel()
+        self._thread.join()
 
 
 def _first_atlas(call, awaits_eyes):

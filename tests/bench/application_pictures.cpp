@@ -17,9 +17,9 @@
 #include "base/worker_pool.h"
 #include "bench/knob_loads.h"
 #include "bench/moving_frames.h"
-#include "commands/offline_renderer.h"
 #include "gpu/device.h"
 #include "retime/frame_retimer.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::bench {
 namespace {

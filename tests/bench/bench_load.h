@@ -9,7 +9,7 @@
 
 #include "frame/frame.h"
 #include "frame/surface_steps.h"
-#include "trace/trace_job.h"
+#include "picture/trace_job.h"
 
 namespace viewloom::bench {
 

@@ -17,6 +17,7 @@
 
 #include "base/clock.h"
 #include "bench/failed_pipeline.h"
+#include "engine/make_engines.h"
 #include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
 
@@ -129,7 +130,8 @@ class EyeBench {
   EyeBench(const Device& device, const std::vector<FramePtr>& frames, const EyeLoad& load)
       : frames_(frames),
         load_(load),
-        pipeline_({.device = device,
+        engines_(makeEngines(device)),
+        pipeline_({.engines = engines_,
                    .clock = clock_,
                    .metrics = metrics_,
                    .broadcaster = broadcaster_,
@@ -221,6 +223,7 @@ class EyeBench {
   Metrics metrics_;
   Broadcaster broadcaster_{{}};
   StreamDirectory directory_{clock_, 1};
+  const Engines engines_;
   Pipeline pipeline_;
   std::vector<Viewer> viewers_;
   Viewer quilt_;

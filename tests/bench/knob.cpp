@@ -13,8 +13,8 @@
 
 #include "base/log.h"
 #include "bench/report.h"
-#include "commands/offline_renderer.h"
 #include "offline/median.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::bench {
 namespace {

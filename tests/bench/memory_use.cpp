@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "gpu/timeline.h"
-#include "pipeline/strip_trace.h"
-#include "pipeline/structure_build.h"
+#include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
 #include "support/heap_meter.h"
+#include "sweep/sweep_source.h"
+#include "sweep/view_sweeper.h"
 #include "trace/view_tracer.h"
+#include "walk/strip_traces.h"
 
 namespace viewloom::bench {
 namespace {
@@ -41,6 +43,15 @@ TraceSlotShape stripShape(const TraceJob& job) {
           .row_count_max = std::min(bandRowCount(EncodingSpec{}), atlas_px.height),
           .tile_count_max = uint32_t(job.tiles.size())};
 }
+
+// A frame on the device, with the commands that build it.
+struct WalkedForm {
+  WalkedForm(const Device& device, const FrameBuildMemory& build_memory)
+      : structure(device, build_memory), recorder(device) {}
+
+  FrameStructure structure;
+  CommandRecorder recorder;
+};
 
 // The walk's share of the server, with slots of its own for one frame.
 class Walk {

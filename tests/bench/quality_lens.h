@@ -6,10 +6,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "commands/offline_renderer.h"
 #include "display/lens.h"
 #include "frame/size.h"
 #include "gpu/device.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::bench {
 

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/moving_frames.h"
-#include "commands/offline_renderer.h"
 #include "offline/shown_frame.h"
 #include "pipeline/tracked_frame.h"
 #include "support/truth/picture_frame.h"
 #include "temporal/camera_track.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::bench {
 namespace {

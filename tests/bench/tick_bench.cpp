@@ -20,6 +20,7 @@
 #include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"
+#include "engine/make_engines.h"
 #include "load/percentiles.h"
 #include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
@@ -138,7 +139,8 @@ Figures serve(const Device& device, double moving_share, const Arguments& argume
   Metrics metrics;
   Broadcaster broadcaster{{}};
   StreamDirectory directory{clock, 2};
-  Pipeline pipeline({.device = device,
+  const Engines engines = makeEngines(device);
+  Pipeline pipeline({.engines = engines,
                      .clock = clock,
                      .metrics = metrics,
                      .broadcaster = broadcaster,

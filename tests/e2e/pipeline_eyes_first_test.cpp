@@ -61,8 +61,7 @@ class PipelineEyesFirstTest : public PipelineFixture {
   // The one thread that packs is held up within the first atlas of this display.
   void holdWithin(const DisplaySpec& spec, EyeTrackPtr eyes, uint32_t slot_count) {
     server_ = std::make_unique<Server>(
-        device(), PipelineOptions{.encode_thread_count = 1, .trace_slot_count = slot_count},
-        &clock_);
+        device(), ServerOptions{.encode_thread_count = 1, .trace_slot_count = slot_count}, &clock_);
     server_->offer(syntheticFrame(1));
     const auto first = std::make_shared<FirstAtlas>("first", log_);
     waitUntilBegun(subscribe(smallQuilt({64, 40}), first));

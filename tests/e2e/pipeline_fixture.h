@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/str_cat.h"
 #include "e2e/collecting_subscriber.h"
+#include "engine/make_engines.h"
 #include "pipeline/pipeline.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
@@ -55,20 +56,26 @@ class ReportLog {
   std::vector<FrameReport> reports_;
 };
 
+struct ServerOptions {
+  uint32_t encode_thread_count = 2;
+  uint32_t trace_slot_count = EngineOptions{}.trace_slot_count;
+};
+
 class PipelineFixture : public GpuTest {
  protected:
   struct Server {
     // By its own clock, or another.
-    explicit Server(const Device& device, PipelineOptions options = {},
+    explicit Server(const Device& device, ServerOptions options = {},
                     const Clock* other_clock = nullptr)
-        : pipeline(
-              {.device = device,
+        : engines(makeEngines(device, {.trace_slot_count = options.trace_slot_count})),
+          pipeline(
+              {.engines = engines,
                .clock = other_clock != nullptr ? *other_clock : clock,
                .metrics = metrics,
                .broadcaster = broadcaster,
                .directory = directory,
                .on_failure = [](const std::exception& error) { ADD_FAILURE() << error.what(); }},
-              options) {
+              {.encode_thread_count = options.encode_thread_count}) {
       broadcaster.onDemandChange(
           [this](const std::string& stream) { pipeline.serveDisplays(stream); });
       broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
@@ -79,6 +86,7 @@ class PipelineFixture : public GpuTest {
     Broadcaster broadcaster{{}};
     StreamDirectory directory{clock, 16};
     ReportLog reports;
+    Engines engines;
     Pipeline pipeline;
 
     void offer(FramePtr frame, const std::string& stream = "scene", uint64_t session = 1) {

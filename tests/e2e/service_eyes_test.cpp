@@ -30,7 +30,7 @@ TEST_F(ServiceEyesTest, showsWhatFixedEyesInTheirPlaceWouldSee) {
     const Atlas fixed = fixedAt(eyes.left, eyes.right);
     EXPECT_EQ(colorOf(atlas), colorOf(fixed));
     EXPECT_EQ(atlas.header.method(), fixed.header.method());
-    if (service_->device().info().is_software) {
+    if (service_->engineRoom().description().is_software) {
       EXPECT_EQ(atlas.header.method(), eyes.method);
     }
     ASSERT_EQ(atlas.layout->views_size(), 2);

@@ -35,7 +35,7 @@ class ServiceFixture : public DeviceNeededTest {
 
   void TearDown() override {
     if (IsSkipped()) return;
-    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+    EXPECT_EQ(service_->engineRoom().deviceMessageCount(), 0u);
   }
 
   // A frame of "scene", by a publisher that has left.

@@ -61,7 +61,7 @@ class ServiceTicksTest : public DeviceNeededTest {
   void TearDown() override {
     publisher_.reset();
     if (IsSkipped()) return;
-    EXPECT_EQ(service_->device().validationLog().messageCount(), 0u);
+    EXPECT_EQ(service_->engineRoom().deviceMessageCount(), 0u);
   }
 
   // The camera goes on by a step with each.

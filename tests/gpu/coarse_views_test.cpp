@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "commands/offline_renderer.h"
 #include "gpu/true_view.h"
 #include "oracle/scene_generator.h"
 #include "support/test_device.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 namespace {

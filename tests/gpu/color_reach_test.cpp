@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "trace/trace_job.h"
+#include "picture/trace_job.h"
 
 namespace viewloom {
 namespace {

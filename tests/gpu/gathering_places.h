@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "commands/offline_renderer.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

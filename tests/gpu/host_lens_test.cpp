@@ -4,7 +4,7 @@
 
 #include "gpu/built_structure.h"
 #include "gpu/through_lens.h"
-#include "trace/display_sources.h"
+#include "picture/display_sources.h"
 
 namespace viewloom {
 namespace {
@@ -118,7 +118,7 @@ TEST_F(HostLens, isTheSameInPieces) {
   ASSERT_TRUE(layout.ok()) << layout.status();
   const auto shared = std::make_shared<AtlasLayout>(*layout);
   TraceJob job = makeTraceJob(shared, *completed, Pose{}, std::span(&seen, 1));
-  settleGathering(isInReach(device(), structure.firstPart().shape()), job);
+  job.gathers_on_host = gathersOnHost(isInReach(device(), structure.firstPart().shape()), job);
   ASSERT_TRUE(job.gathers_on_host);
 
   const HostStructure host = hostStructure(structure.firstPart());

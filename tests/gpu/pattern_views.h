@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "commands/offline_renderer.h"
 #include "patterns/pattern.h"
 #include "support/test_device.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

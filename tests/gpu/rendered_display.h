@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "commands/offline_renderer.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "decode/frame_intake.h"
+#include "engine/make_engines.h"
 #include "gpu/buffer.h"
 #include "pipeline/pipeline.h"
 #include "support/large_allocations.h"
@@ -144,8 +145,9 @@ class SteadyState : public GpuTest {
   void SetUp() override {
     GpuTest::SetUp();
     if (IsSkipped()) return;
+    engines_ = makeEngines(device());
     const PipelineLinks links{
-        device(),     clock_,     metrics_,
+        engines_,     clock_,     metrics_,
         broadcaster_, directory_, [](const std::exception& error) { FAIL() << error.what(); }};
     pipeline_ = std::make_unique<Pipeline>(links, PipelineOptions{});
     broadcaster_.onDemandChange([this](const std::string& s) { pipeline_->serveDisplays(s); });
@@ -171,6 +173,7 @@ class SteadyState : public GpuTest {
   StreamDirectory directory_{clock_, 4};
   BytePool pool_{kPooledBuffers};
   ReportBox box_;
+  Engines engines_;
   std::unique_ptr<Pipeline> pipeline_;
   std::unique_ptr<FrameIntake> intake_;
   std::unique_ptr<StreamDirectory::Claim> claim_;

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "calibration/calibration.h"
-#include "commands/offline_renderer.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 namespace {

@@ -7,9 +7,9 @@
 #include <iosfwd>
 #include <vector>
 
-#include "commands/offline_renderer.h"
 #include "scoring/image_score.h"
 #include "support/truth/picture.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

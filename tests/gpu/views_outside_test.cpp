@@ -6,11 +6,11 @@
 #include <cmath>
 #include <optional>
 
-#include "commands/offline_renderer.h"
 #include "display/views_outside.h"
 #include "encode/encoded_band.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 namespace {

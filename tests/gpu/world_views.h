@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "commands/offline_renderer.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom {
 

@@ -11,6 +11,8 @@ from tree import Finding
 
 BAND = "encode/encoded_band.h"
 SHADERS_SHARED = "shaders/shared"
+ENGINE = "engine/engine.h"
+WALK = "engine/walk"
 
 # Folder: (what of ours it may include beside itself, which third parties). An entry of the first
 # list is a folder or a single header.
@@ -27,23 +29,31 @@ LAYERS = {
     "server/metrics": (["base"], ["prometheus"]),
     "server/config": (["base", "usage"], ["absl", "toml++"]),
     "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
-    "server/gpu": (["base"], ["absl", "vulkan"]),
-    "server/structure": (["base", "frame", "gpu", SHADERS_SHARED], ["absl", "glm"]),
-    "server/trace": (["base", "frame", "calibration", "display", "gpu", "structure",
-                      SHADERS_SHARED], ["absl", "glm"]),
-    "server/sweep": (["base", "frame", "display", "trace/trace_job.h", "trace/ray_sources.h",
-                      SHADERS_SHARED],
-                     ["absl", "glm", "highway"]),
-    "server/lens": (["base", "frame", "display", "structure", "trace", "sweep/vectors_inl.h",
-                     SHADERS_SHARED], ["glm", "highway"]),
-    "server/retime": (["base", "frame", "sweep", SHADERS_SHARED], ["glm", "highway"]),
+    "server/picture": (["base", "frame", "calibration", "display", SHADERS_SHARED],
+                       ["absl", "glm"]),
+    # The interface of engines; make_engines, which knows them all, is above them.
+    "server/engine": (["base", "frame", "display", "picture"], ["absl"]),
+    "server/engine/sweep": (["base", "frame", "display", "picture", ENGINE, SHADERS_SHARED],
+                            ["absl", "glm", "highway"]),
+    "server/engine/walk": (["base", "frame", "display", "picture", ENGINE, SHADERS_SHARED],
+                           ["absl"]),
+    "server/engine/walk/gpu": (["base"], ["absl", "vulkan"]),
+    "server/engine/walk/structure": (["base", "frame", WALK + "/gpu", SHADERS_SHARED],
+                                     ["absl", "glm"]),
+    "server/engine/walk/trace": (["base", "frame", "display", "picture", WALK + "/gpu",
+                                  WALK + "/structure", SHADERS_SHARED], ["absl", "glm"]),
+    "server/engine/walk/lens": (["base", "frame", "display", "picture", WALK + "/structure",
+                                 WALK + "/trace", "engine/sweep/vectors_inl.h", SHADERS_SHARED],
+                                ["glm", "highway"]),
+    "server/retime": (["base", "frame", "engine/sweep", SHADERS_SHARED], ["glm", "highway"]),
     "server/temporal": (["base", "frame", "display"], ["absl", "glm"]),
     "server/encode": (["base", "jpeg", "frame", "display", SHADERS_SHARED],
                       ["absl", "jpeg", "png", "zstd"]),
     "server/publish": (["base", "frame", "display", BAND], ["absl"]),
-    "server/pipeline": (["base", "frame", "config", "decode", "display", "gpu", "structure",
-                         "trace", "sweep", "lens", "retime", "temporal", "encode", "publish",
-                         "metrics", SHADERS_SHARED],
+    # How an engine makes a picture is nobody else's business.
+    "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", ENGINE,
+                         "engine/engines.h", "retime", "temporal", "encode", "publish", "metrics",
+                         SHADERS_SHARED],
                         ["absl", "glm"]),
     "server/rpc": (["base", "frame", "decode", "display", "messages", "metrics", BAND, "publish"],
                    ["absl", "grpc", "protobuf"]),
@@ -81,13 +91,13 @@ LAYERS = {
 }
 
 # These join the stages, so they may include everything; those of the server nothing of the client.
-COMPOSITION = ("server/main.cpp", "server/service", "server/commands", "client/cli/main.cpp",
-               "client/offline")
+COMPOSITION = ("server/main.cpp", "server/service", "server/commands", "server/engine_room",
+               "server/engine_checks", "server/empty_engine_room", "server/engine/make_engines",
+               "client/cli/main.cpp", "client/offline")
 
 # What must stay free of what it judges.
 INDEPENDENT = {
-    "tests/oracle": ["server/structure", "server/trace", "server/gpu", "server/pipeline",
-                     "shaders"],
+    "tests/oracle": ["server/engine", "server/picture", "server/pipeline", "shaders"],
 }
 
 THIRD_PARTY = [
@@ -109,10 +119,11 @@ SYSTEM = re.compile(r"[a-z_0-9]+(\.h)?|c?x?xabi\.h|(sys|arpa|netinet|net|linux)/
 
 # Compiled at build time (shaders/CMakeLists.txt), for those who run them.
 EMBEDDED_SHADER = re.compile(r"shaders/[a-z_0-9]+\.h")
-RUN_SHADERS = ("server/structure", "server/trace")
+RUN_SHADERS = ("server/engine/walk/structure", "server/engine/walk/trace")
 
 INCLUDE = re.compile(r'\s*#\s*include\s+([<"])([^>"]+)[>"]')
-ROOTS = ("server/core", "server", "client", "shaders", "tests", "")
+ROOTS = ("server/core", "server/engine/walk", "server/engine", "server", "client", "shaders",
+         "tests", "")
 
 
 def owner(path, folders):

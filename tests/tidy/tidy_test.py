@@ -27,7 +27,7 @@ class Layers(unittest.TestCase):
         return [rule for _, rule in rules_broken(layering.check, files)]
 
     def test_an_include_downwards_is_allowed(self):
-        self.assertEqual(self.broken("server/trace/a.cpp", '"base/check.h"',
+        self.assertEqual(self.broken("server/engine/walk/trace/a.cpp", '"base/check.h"',
                                      server__core__base__check=1), [])
 
     def test_an_include_upwards_is_found(self):
@@ -98,7 +98,7 @@ class UserTexts(unittest.TestCase):
         for path, text in (("client/cli/a.cpp", 'json["trace"] = 1;\n'),
                            ("client/cli/a.cpp", '// "traced here"\n'),
                            ("server/rpc/a.cpp", 'log(LogLevel::kInfo, name);\nx("a slot");\n'),
-                           ("server/trace/a.cpp", 'pass("trace the views");\n')):
+                           ("server/engine/walk/trace/a.cpp", 'pass("trace the views");\n')):
             self.assertEqual(self.broken(path, text), [], text)
 
 

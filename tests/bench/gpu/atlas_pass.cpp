@@ -10,8 +10,8 @@
 namespace viewloom::bench {
 namespace {
 
-// As viewloom's own (server/trace/view_tracer.cpp), but twice as many px: rivals gain 3 to 8 % by
-// that on lavapipe.
+// As viewloom's own (server/engine/walk/trace/view_tracer.cpp), but twice as many px: rivals gain 3
+// to 8 % by that on lavapipe.
 constexpr uint32_t kColumnsForViewLanes = 5;
 constexpr uint32_t kPixelsWithViewLanes = 16;
 constexpr uint32_t kPixelsWithPixelLanes = 1;

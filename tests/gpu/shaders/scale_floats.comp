@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplies floats that are reached by address; proves the plumbing of server/gpu.
+// Multiplies floats that are reached by address; proves the plumbing of server/engine/walk/gpu.
 #version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/slot_pool.h"
+#include "base/slot_pool.h"
 
 #include <gtest/gtest.h>
 

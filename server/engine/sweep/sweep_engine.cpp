@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_engine.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "sweep/sweep_plan.h"
+#include "sweep/sweep_source.h"
+
+namespace viewloom {
+namespace {
+
+// Of tracked displays one is swept at a time, by all threads: the eyes of those that wait behind it
+// are taken when it is their turn.
+constexpr size_t kAtlasesForEyes = 1;
+// So short that an atlas that is due sooner need not wait, long enough that threads seldom meet.
+constexpr uint32_t kRowsPerPiece = 16;
+
+class SweptFrame final : public PreparedFrame {
+ public:
+  explicit SweptFrame(WorkerPool& workers) : workers_(workers) {}
+
+  void take(FramePtr frame) override { frame_ = std::move(frame); }
+  void reserve() override {}
+  int64_t prepare(const Clock&) override {
+    if (frame_) source_.prepare(std::move(frame_), workers_);
+    return 0;
+  }
+  FrameMeasures measures() const override {
+    return {.stats = source_.measured().stats, .depths = source_.measured().depths};
+  }
+  const SweepSource& source() const { return source_; }
+
+ private:
+  WorkerPool& workers_;
+  FramePtr frame_;      // that is not prepared yet
+  SweepSource source_;  // keeps the last frame that was prepared until the next one is
+};
+
+class SweptFramePreparer final : public FramePreparer {
+ public:
+  explicit SweptFramePreparer(WorkerPool& workers) : workers_(workers) {}
+  std::unique_ptr<PreparedFrame> make() override { return std::make_unique<SweptFrame>(workers_); }
+
+ private:
+  WorkerPool& workers_;
+};
+
+const SweepSource& sourceOf(const PreparedFrame& frame) {
+  return static_cast<const SweptFrame&>(frame).source();
+}
+
+struct PictureSweep final : Plan {
+  PictureSweep(SweepPlan swept_plan, double source_inv_z_max)
+      : plan(std::move(swept_plan)), inv_z_max(source_inv_z_max) {}
+
+  bool holdsFor(const PreparedFrame& frame) const override {
+    return sourceOf(frame).measured().stats.inv_z_max == inv_z_max;
+  }
+
+  const SweepPlan plan;
+  const double inv_z_max;  // of the source, 1/m
+};
+
+// The whole atlas at once: its rows lie all over it.
+class AtlasSweep final : public StripWork {
+ public:
+  AtlasSweep(AtlasOrder order, TraceOutputs planes, std::shared_ptr<SweptAtlas> atlas,
+             std::shared_ptr<SweeperShelf> sweepers)
+      : StripWork({.strip_count = order.strips.count(), .piece_count = pieceCount(planOf(order))}),
+        order_(std::move(order)),
+        planes_(planes),
+        atlas_(std::move(atlas)),
+        sweepers_(std::move(sweepers)) {
+    atlas_->begin(*order_.picture, planes_);
+  }
+
+  static const SweepPlan& planOf(const AtlasOrder& order) {
+    return static_cast<const PictureSweep&>(*order.plan).plan;
+  }
+
+  void makePiece(uint32_t piece) override {
+    const SweepPlan& plan = planOf(order_);
+    const SweepSource& source = sourceOf(*order_.frames.front());
+    const uint32_t first = piece * kRowsPerPiece;
+    std::unique_ptr<ViewSweeper> sweeper = sweepers_->take();
+    const Coverage coverage = sweeper->sweepRows(
+        {.job = order_.picture.get(),
+         .plan = &plan,
+         .source = source.rowSource(),
+         .inv_z_max = float(source.measured().stats.inv_z_max)},
+        first, std::min(kRowsPerPiece, plan.rowCount() - first), planes_, *atlas_);
+    sweepers_->putBack(std::move(sweeper));
+    std::lock_guard lock(mutex_);
+    counts_.coverage.add(coverage);
+  }
+
+  RayCounts counts() const override {
+    std::lock_guard lock(mutex_);
+    return counts_;
+  }
+
+  StripPlanes planes(uint32_t strip) const override {
+    const SizePx size_px = order_.picture->layout->size_px;
+    const BandRows rows = order_.strips.rowsOf(strip);
+    const auto rowsOf = [&]<typename T>(const std::vector<T>& plane) {
+      if (plane.empty()) return std::span<const T>();
+      return std::span<const T>(plane).subspan(size_t{rows.first_row} * size_px.width,
+                                               size_t{rows.row_count} * size_px.width);
+    };
+    return {.rgba = atlas_->color,
+            .ycbcr = atlas_->ycbcr,
+            .color_px = size_px,
+            .first_row = rows.first_row,
+            .depth = rowsOf(atlas_->depth),
+            .mask = rowsOf(atlas_->mask)};
+  }
+
+ private:
+  static uint32_t pieceCount(const SweepPlan& plan) {
+    return (plan.rowCount() + kRowsPerPiece - 1) / kRowsPerPiece;
+  }
+
+  const AtlasOrder order_;
+  const TraceOutputs planes_;
+  const std::shared_ptr<SweptAtlas> atlas_;  // holding it keeps it from reuse
+  const std::shared_ptr<SweeperShelf> sweepers_;
+  mutable std::mutex mutex_;
+  RayCounts counts_;  // guarded by mutex_
+};
+
+// Hands everything on in its only step.
+class SweepMaking final : public Making {
+ public:
+  SweepMaking(AtlasOrder order, std::shared_ptr<SweptAtlas> atlas,
+              std::shared_ptr<SweeperShelf> sweepers, HandOn hand_on)
+      : planes_(order.planes), hand_on_(std::move(hand_on)) {
+    planes_.color = AtlasSweep::planOf(order).colorForm(planes_.color);
+    work_ = std::make_unique<AtlasSweep>(std::move(order), planes_, std::move(atlas),
+                                         std::move(sweepers));
+  }
+
+  const TraceOutputs& planes() const override { return planes_; }
+  bool holdsRoom() const override { return work_ != nullptr; }
+  MakingStep step() override {
+    hand_on_(std::move(work_));
+    return {.is_last = true};
+  }
+
+ private:
+  TraceOutputs planes_;
+  const HandOn hand_on_;
+  StripWorkPtr work_;
+};
+
+}  // namespace
+
+std::unique_ptr<ViewSweeper> SweeperShelf::take() {
+  std::lock_guard lock(mutex_);
+  if (free_.empty()) return std::make_unique<ViewSweeper>();
+  std::unique_ptr<ViewSweeper> sweeper = std::move(free_.back());
+  free_.pop_back();
+  return sweeper;
+}
+
+void SweeperShelf::putBack(std::unique_ptr<ViewSweeper> sweeper) {
+  std::lock_guard lock(mutex_);
+  free_.push_back(std::move(sweeper));
+}
+
+SweepEngine::SweepEngine(uint32_t atlas_count_max, WorkerPool& workers)
+    : workers_(workers),
+      sweepers_(std::make_shared<SweeperShelf>()),
+      atlases_(atlas_count_max, [this] { events_.on_room(); }),
+      atlases_for_eyes_(kAtlasesForEyes, [this] { events_.on_room(); }) {}
+
+bool SweepEngine::takes(const Frame& frame) const {
+  return canSweep(frame);
+}
+
+std::unique_ptr<FramePreparer> SweepEngine::preparer() {
+  return std::make_unique<SweptFramePreparer>(workers_);
+}
+
+PlanPtr SweepEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) const {
+  const double inv_z_max = sourceOf(frame).measured().stats.inv_z_max;
+  std::optional<SweepPlan> plan = SweepPlan::make(*picture, inv_z_max);
+  if (!plan) return nullptr;
+  return std::make_shared<PictureSweep>(*std::move(plan), inv_z_max);
+}
+
+std::unique_ptr<Making> SweepEngine::begin(AtlasOrder order, HandOn hand_on) {
+  SlotPool<SweptAtlas>& pool = order.is_for_eyes ? atlases_for_eyes_ : atlases_;
+  std::shared_ptr<SweptAtlas> atlas = pool.take([](const SweptAtlas&) { return true; },
+                                                [] { return std::make_unique<SweptAtlas>(); });
+  if (!atlas) return nullptr;
+  return std::make_unique<SweepMaking>(std::move(order), std::move(atlas), sweepers_,
+                                       std::move(hand_on));
+}
+
+}  // namespace viewloom

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/compute_pass.h"
+
+#include <array>
+#include <vector>
+
+#include "base/check.h"
+#include "gpu/vulkan.h"
+
+namespace viewloom {
+namespace {
+
+vk::DescriptorType typeOf(DescriptorKind kind) {
+  switch (kind) {
+    case DescriptorKind::kTexels:
+      return vk::DescriptorType::eUniformTexelBuffer;
+    case DescriptorKind::kUniform:
+      return vk::DescriptorType::eUniformBuffer;
+    case DescriptorKind::kStorage:
+      break;
+  }
+  return vk::DescriptorType::eStorageBuffer;
+}
+
+vk::raii::DescriptorSetLayout makeSlots(const Device& device,
+                                        std::span<const DescriptorSlot> descriptors) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (const DescriptorSlot& slot : descriptors) {
+    bindings.push_back({.binding = slot.binding,
+                        .descriptorType = typeOf(slot.kind),
+                        .descriptorCount = 1,
+                        .stageFlags = vk::ShaderStageFlagBits::eCompute});
+  }
+  return {device.handle(),
+          {.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
+           .bindingCount = static_cast<uint32_t>(bindings.size()),
+           .pBindings = bindings.data()}};
+}
+
+vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes,
+                                    vk::DescriptorSetLayout slots) {
+  VIEWLOOM_CHECK(push_bytes <= device.info().limits.push_bytes_max);
+  const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute,
+                                    .size = push_bytes};
+  return {device.handle(),
+          {.setLayoutCount = 1,
+           .pSetLayouts = &slots,
+           .pushConstantRangeCount = push_bytes > 0 ? 1u : 0u,
+           .pPushConstantRanges = &range}};
+}
+
+vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& options,
+                                vk::PipelineLayout layout) {
+  const vk::raii::ShaderModule module(
+      device.handle(), {.codeSize = options.spirv.size_bytes(), .pCode = options.spirv.data()});
+  std::vector<vk::SpecializationMapEntry> entries;
+  std::vector<uint32_t> values;
+  const auto specialise = [&](uint32_t id, uint32_t value) {
+    entries.push_back({.constantID = id,
+                       .offset = static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
+                       .size = sizeof(uint32_t)});
+    values.push_back(value);
+  };
+  for (uint32_t id = 0; id < options.specialization.size(); ++id) {
+    specialise(id, options.specialization[id]);
+  }
+  if (device.plantedFault() != 0) specialise(kFaultConstantId, device.plantedFault());
+  const vk::SpecializationInfo specialization{
+      .mapEntryCount = static_cast<uint32_t>(entries.size()),
+      .pMapEntries = entries.data(),
+      .dataSize = values.size() * sizeof(uint32_t),
+      .pData = values.data()};
+  const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute,
+                                                .module = *module,
+                                                .pName = "main",
+                                                .pSpecializationInfo = &specialization};
+  return {device.handle(), device.pipelineCache(),
+          vk::ComputePipelineCreateInfo{.stage = stage, .layout = layout}};
+}
+
+}  // namespace
+
+ComputePass::ComputePass(const Device& device, const ComputePassOptions& options)
+    : device_(&device),
+      push_bytes_(options.push_bytes),
+      slots_(hide(makeSlots(device, options.descriptors))),
+      layout_(hide(makeLayout(device, options.push_bytes, **slots_))),
+      pipeline_(hide(makePipeline(device, options, **layout_))) {
+  const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkPipeline>(**pipeline_));
+  device.setName(vk::ObjectType::ePipeline, raw_handle, options.debug_name);
+}
+
+void ComputePass::recordDescriptors(Commands commands,
+                                    std::span<const Descriptor> descriptors) const {
+  constexpr size_t kCountMax = 16;
+  VIEWLOOM_CHECK(descriptors.size() <= kCountMax);
+  std::array<vk::DescriptorBufferInfo, kCountMax> buffers;
+  std::array<vk::BufferView, kCountMax> views;
+  std::array<vk::WriteDescriptorSet, kCountMax> writes;
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    const Descriptor& descriptor = descriptors[i];
+    const bool is_texels = descriptor.kind == DescriptorKind::kTexels;
+    if (is_texels) views[i] = descriptor.texels->handle();
+    buffers[i] =
+        vk::DescriptorBufferInfo{.buffer = is_texels ? vk::Buffer() : descriptor.buffer->handle(),
+                                 .offset = descriptor.offset_bytes,
+                                 .range = descriptor.size_bytes};
+    writes[i] = vk::WriteDescriptorSet{.dstBinding = descriptor.binding,
+                                       .descriptorCount = 1,
+                                       .descriptorType = typeOf(descriptor.kind),
+                                       .pBufferInfo = is_texels ? nullptr : &buffers[i],
+                                       .pTexelBufferView = is_texels ? &views[i] : nullptr};
+  }
+  vk::CommandBuffer(commands.handle())
+      .pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, **layout_, 0,
+                            static_cast<uint32_t>(descriptors.size()), writes.data(),
+                            *device_->handle().getDispatcher());
+}
+
+void ComputePass::recordState(Commands commands, std::span<const std::byte> push) const {
+  VIEWLOOM_CHECK(push.size() == push_bytes_);
+  const vk::CommandBuffer recording(commands.handle());
+  recording.bindPipeline(vk::PipelineBindPoint::eCompute, **pipeline_);
+  if (!push.empty()) {
+    recording.pushConstants(**layout_, vk::ShaderStageFlagBits::eCompute, 0,
+                            static_cast<uint32_t>(push.size()), push.data());
+  }
+}
+
+void ComputePass::record(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
+                         uint32_t groups_y, uint32_t groups_z) const {
+  recordState(commands, push);
+  vk::CommandBuffer(commands.handle()).dispatch(groups_x, groups_y, groups_z);
+}
+
+void ComputePass::recordIndirect(Commands commands, std::span<const std::byte> push,
+                                 const Buffer& groups, uint64_t offset_bytes) const {
+  recordState(commands, push);
+  vk::CommandBuffer(commands.handle()).dispatchIndirect(groups.handle(), offset_bytes);
+}
+
+}  // namespace viewloom

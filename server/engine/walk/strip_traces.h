@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What strips of atlases occupy on the device on their way, with the commands that trace them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/slot_pool.h"
+#include "gpu/command_recorder.h"
+#include "trace/trace_slot.h"
+
+namespace viewloom {
+
+struct StripTrace {
+  StripTrace(const Device& device, const TraceSlotShape& shape)
+      : slot(device, shape), recorders{CommandRecorder(device), CommandRecorder(device)} {}
+
+  TraceSlot slot;
+  // Parts of a strip take turns: one is recorded while the device does the one before it.
+  std::array<CommandRecorder, 2> recorders;
+  std::array<uint64_t, 2> submitted = {};  // timeline values of their last submissions
+};
+
+// Slots are kept apart by the planes that they trace, and grow to the largest strip that was asked
+// for. The device must outlive it. Thread-safety: take() from one thread.
+class StripTraces {
+ public:
+  // So many with the same planes. `on_return` is called on any thread.
+  StripTraces(const Device& device, uint32_t slot_count_max,
+              const std::function<void()>& on_return);
+
+  // Holding it keeps it from reuse. nullptr: all are lent.
+  std::shared_ptr<StripTrace> take(const TraceSlotShape& shape);
+
+ private:
+  struct Ring {
+    TraceSlotShape largest;
+    SlotPool<StripTrace> slots;
+  };
+
+  const Device& device_;
+  std::vector<Ring> rings_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame as the walk takes it in: its structures on the device.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "engine/engine.h"
+#include "gpu/command_recorder.h"
+#include "gpu/timeline.h"
+#include "structure/frame_structure.h"
+#include "structure/structure_builder.h"
+
+namespace viewloom {
+
+// Builds structures on a device. Thread-safety: as Timeline and StructureBuilder.
+struct StructureWorks {
+  explicit StructureWorks(const Device& used_device)
+      : device(used_device), timeline(used_device), builder(used_device) {}
+
+  const Device& device;
+  Timeline timeline;
+  const StructureBuilder builder;
+};
+
+// What all builds of a stream share, one after the other.
+struct StreamBuilds {
+  std::mutex mutex;  // guards the memory, from the upload until the device is done
+  FrameBuildMemory memory;
+};
+
+class WalkedFrame final : public PreparedFrame {
+ public:
+  // `works` outlives it.
+  WalkedFrame(StructureWorks& works, std::shared_ptr<StreamBuilds> builds)
+      : works_(works), builds_(std::move(builds)) {}
+
+  void take(FramePtr frame) override;
+  void reserve() override;
+  int64_t prepare(const Clock& clock) override;
+  FrameMeasures measures() const override;
+
+  const std::vector<FrameShape>& shapes() const { return shapes_; }
+  // Once it is prepared.
+  const FrameStructure& structure() const { return form_->structure; }
+
+ private:
+  // On the device, with the commands that build it.
+  struct Form {
+    Form(const Device& device, const FrameBuildMemory& build_memory,
+         std::vector<FrameShape> part_shapes)
+        : structure(device, build_memory), recorder(device), shapes(std::move(part_shapes)) {}
+
+    FrameStructure structure;
+    CommandRecorder recorder;
+    const std::vector<FrameShape> shapes;
+  };
+
+  void makeRoom();
+  int64_t build(const Clock& clock);
+
+  StructureWorks& works_;
+  const std::shared_ptr<StreamBuilds> builds_;
+  FramePtr frame_;                  // that is not prepared yet
+  std::vector<FrameShape> shapes_;  // of its parts
+  std::optional<Form> form_;        // made when it is first needed
+};
+
+}  // namespace viewloom

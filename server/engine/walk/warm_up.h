@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes small pictures that nobody sees, so that the kernels of likely displays are compiled before
+// anybody waits for them.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "display/display_spec.h"
+#include "gpu/command_recorder.h"
+#include "structure/frame_structure.h"
+#include "trace/view_tracer.h"
+#include "walk/walked_frame.h"
+
+namespace viewloom {
+
+// Thread-safety: none; one thread at a time.
+class WarmUp {
+ public:
+  // All of it outlives it.
+  WarmUp(StructureWorks& works, ViewTracer& tracer);
+
+  // Makes the next one and waits for it; false: all are made.
+  bool makeNext();
+
+ private:
+  struct SmallPicture {
+    DisplaySpec spec;
+    TraceOutputs planes;
+  };
+
+  static std::vector<SmallPicture> likelyPictures();
+  void tellEnd() const;
+  void build();
+  void trace(const SmallPicture& picture);
+
+  StructureWorks& works_;
+  ViewTracer& tracer_;
+  CommandRecorder recorder_;
+  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::vector<SmallPicture> left_;  // the next is the last
+  std::vector<FramePtr> frames_;    // that are not built yet, likewise
+  std::vector<SeenSource> sources_;
+  std::unique_ptr<FrameStructure> structure_;  // of the last frame that was built
+};
+
+}  // namespace viewloom

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine_room.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "base/str_cat.h"
+#include "engine/make_engines.h"
+#include "gpu/device.h"
+#include "gpu/device_error.h"
+#include "pipeline/pipeline.h"
+
+namespace viewloom {
+namespace {
+
+// Where compiled kernels stay: what the service manager or the user's session has for that.
+std::string kernelFolder(const std::string& setting) {
+  if (setting != "auto") return setting;
+  if (const char* folder = std::getenv("CACHE_DIRECTORY")) return folder;
+  if (const char* folder = std::getenv("XDG_CACHE_HOME")) return strCat(folder, "/viewloom");
+  if (const char* folder = std::getenv("HOME")) return strCat(folder, "/.cache/viewloom");
+  return "";
+}
+
+using OnFailure = std::function<void(const std::exception& error)>;
+
+OnFailure inWords(OnFailure on_failure) {
+  return [on_failure = std::move(on_failure)](const std::exception& error) {
+    on_failure(std::runtime_error(deviceErrorText(error)));
+  };
+}
+
+class DeviceRoom final : public EngineRoom {
+ public:
+  DeviceRoom(const Config& config, const AtlasLimits& limits, uint32_t encode_thread_count,
+             EngineRoomLinks links)
+      : device_({.select = config.device,
+                 .kernel_folder = kernelFolder(config.kernel_folder),
+                 .validation = config.validation}),
+        engines_(makeEngines(device_, {.trace_slot_count = config.pipeline.trace_slots,
+                                       .warms_up = config.pipeline.warm_up})),
+        pipeline_({.engines = engines_,
+                   .clock = links.clock,
+                   .metrics = links.metrics,
+                   .broadcaster = links.broadcaster,
+                   .directory = links.directory,
+                   .on_failure = inWords(std::move(links.on_failure))},
+                  {.encode_thread_count = encode_thread_count,
+                   .structure_slots_per_stream = config.pipeline.structure_slots,
+                   .atlas_limits = limits}) {}
+
+  void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override {
+    pipeline_.offerFrame(origin, std::move(frame), std::move(report));
+  }
+  void forgetStream(const std::string& stream) override { pipeline_.forgetStream(stream); }
+  void serveDisplays(const std::string& stream) override { pipeline_.serveDisplays(stream); }
+  void serveEyes(const ActiveDisplay& display) override { pipeline_.serveEyes(display); }
+  void drain() override { pipeline_.drain(); }
+
+  EngineRoomDescription description() const override {
+    const DeviceInfo& info = device_.info();
+    return {.device = info.name, .driver = info.driver, .is_software = info.is_software};
+  }
+  uint64_t deviceMessageCount() const override { return device_.validationLog().messageCount(); }
+
+ private:
+  const Device device_;
+  const Engines engines_;
+  Pipeline pipeline_;
+};
+
+}  // namespace
+
+std::unique_ptr<EngineRoom> openEngineRoom(const Config& config, const AtlasLimits& limits,
+                                           uint32_t encode_thread_count,
+                                           EngineRoomLinks links) try {
+  return std::make_unique<DeviceRoom>(config, limits, encode_thread_count, std::move(links));
+} catch (const std::exception& error) {
+  throw std::runtime_error(deviceErrorText(error));
+}
+
+}  // namespace viewloom

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a service that makes atlases. A server that only hands out atlases that it is given
+// is linked with an empty one: then neither Vulkan nor any engine is in it.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/clock.h"
+#include "config/config.h"
+#include "display/atlas_layout.h"
+#include "metrics/metrics.h"
+#include "publish/atlas_maker.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
+
+namespace viewloom {
+
+// On what atlases are made, for users.
+struct EngineRoomDescription {
+  std::string device;  // empty: no atlases are made here
+  std::string driver;
+  bool is_software = false;  // the device is the CPU
+};
+
+class EngineRoom : public AtlasMaker {
+ public:
+  virtual EngineRoomDescription description() const = 0;
+  // Warnings and errors of the device's validation, so far.
+  virtual uint64_t deviceMessageCount() const = 0;
+};
+
+// What it works with and does not own. All of it outlives the room.
+struct EngineRoomLinks {
+  const Clock& clock;
+  const Metrics& metrics;
+  Broadcaster& broadcaster;
+  StreamDirectory& directory;
+  std::function<void(const std::exception& error)> on_failure;  // see Service
+};
+
+// Throws std::runtime_error, in words for users and with the remedy, when there is no device to
+// make atlases on. `encode_thread_count` >= 1.
+std::unique_ptr<EngineRoom> openEngineRoom(const Config& config, const AtlasLimits& limits,
+                                           uint32_t encode_thread_count, EngineRoomLinks links);
+
+}  // namespace viewloom

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/job_board.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewloom {
+
+// Jobs of one picture stay together, so that they follow each other.
+size_t JobBoard::engineOf(const std::string& picture_key) const {
+  for (size_t engine = 0; engine < lanes_.size(); ++engine) {
+    if (lanes_[engine].jobs.isBusy(picture_key)) return engine;
+  }
+  const auto planned = engines_.find(picture_key);
+  return planned == engines_.end() ? 0 : planned->second;
+}
+
+JobBoard::Offered JobBoard::offer(AtlasJob job) {
+  std::lock_guard lock(mutex_);
+  Offered offered{.engine = engineOf(job.picture_key)};
+  Lane& lane = lanes_[offered.engine];
+  const size_t count_before = lane.jobs.waitingCount();
+  offered.replaced = lane.jobs.push(std::move(job));
+  const bool is_awaited =
+      lane.eyes_wait_until_ns && !lane.jobs.eyesWaitUntilNs(clock_.nowNs()).has_value();
+  offered.is_news = lane.jobs.waitingCount() > count_before || is_awaited;
+  return offered;
+}
+
+std::optional<JobBoard::Offered> JobBoard::offerUnlessBusy(const AtlasJob& job) {
+  std::lock_guard lock(mutex_);
+  const size_t engine = engineOf(job.picture_key);
+  if (lanes_[engine].jobs.isBusy(job.picture_key)) return std::nullopt;
+  lanes_[engine].jobs.push(job);
+  return Offered{.engine = engine, .is_news = true, .replaced = std::nullopt};
+}
+
+bool JobBoard::isBusy(const std::string& picture_key) const {
+  std::lock_guard lock(mutex_);
+  return lanes_[engineOf(picture_key)].jobs.isBusy(picture_key);
+}
+
+std::optional<AtlasJob> JobBoard::begin(size_t engine, const BegunRuns& begun,
+                                        bool has_room_for_eyes) {
+  std::lock_guard lock(mutex_);
+  Lane& lane = lanes_[engine];
+  lane.eyes_wait_until_ns.reset();
+  const std::optional<int64_t> due_ns = lane.jobs.soonestDeadlineNs();
+  const AtlasRunPtr run = begun.soonest();
+  const bool is_due = due_ns && (!run || run->isLong() || *due_ns < run->job.deadline_ns);
+  const bool eyes_wait = run && !run->isTracked() && lane.jobs.hasTracked();
+  if (!is_due && !eyes_wait) return std::nullopt;
+  if (!lane.jobs.isSoonestTracked()) return lane.jobs.begin();
+  // One head at a time: who is next depends on the poses that there are when it is his turn.
+  if (!has_room_for_eyes) return std::nullopt;
+  const int64_t now_ns = clock_.nowNs();
+  lane.eyes_wait_until_ns = lane.jobs.eyesWaitUntilNs(now_ns);
+  if (lane.eyes_wait_until_ns) return std::nullopt;
+  return lane.jobs.beginTracked(now_ns);
+}
+
+std::optional<int64_t> JobBoard::eyesWaitUntilNs(size_t engine) const {
+  std::lock_guard lock(mutex_);
+  return lanes_[engine].eyes_wait_until_ns;
+}
+
+std::optional<AtlasJob> JobBoard::handOver(AtlasJob job, size_t from, size_t to) {
+  std::lock_guard lock(mutex_);
+  engines_[job.picture_key] = to;
+  lanes_[from].jobs.finish(job.picture_key);
+  std::optional<AtlasJob> newer = lanes_[from].jobs.withdraw(job.picture_key);
+  lanes_[to].jobs.push(std::move(job));
+  return newer ? lanes_[to].jobs.push(*std::move(newer)) : std::nullopt;
+}
+
+void JobBoard::finish(const std::string& picture_key) {
+  std::lock_guard lock(mutex_);
+  for (Lane& lane : lanes_) lane.jobs.finish(picture_key);
+}
+
+void JobBoard::forgetEyes(const std::string& picture_key) {
+  std::lock_guard lock(mutex_);
+  for (Lane& lane : lanes_) lane.jobs.forgetEyes(picture_key);
+}
+
+void JobBoard::keepOnly(const std::vector<ActiveDisplayPtr>& displays) {
+  std::lock_guard lock(mutex_);
+  std::erase_if(engines_, [&](const auto& planned) {
+    return std::ranges::none_of(displays, [&](const ActiveDisplayPtr& display) {
+      return display->picture_key == planned.first;
+    });
+  });
+}
+
+std::vector<AtlasJob> JobBoard::clear() {
+  std::lock_guard lock(mutex_);
+  std::vector<AtlasJob> jobs;
+  for (Lane& lane : lanes_) {
+    for (AtlasJob& job : lane.jobs.clear()) jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The jobs that wait, each for the engine that makes its picture.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "pipeline/begun_runs.h"
+#include "pipeline/job_queue.h"
+
+namespace viewloom {
+
+// Engines are known by their rank in Engines::all. Which one makes a picture shows when it is
+// planned; until then the first is asked. Thread-safety: all methods may be called from any thread.
+class JobBoard {
+ public:
+  JobBoard(const Clock& clock, size_t engine_count) : clock_(clock), lanes_(engine_count) {}
+
+  // What became of a job that was offered.
+  struct Offered {
+    size_t engine = 0;  // that it waits for
+    // None of the picture has waited so far, or eyes have waited for these poses. Else nothing new
+    // can begin: what one waits for wakes the engine's loop.
+    bool is_news = false;
+    std::optional<AtlasJob> replaced;  // of the same picture and an older structure
+  };
+  Offered offer(AtlasJob job);
+  // The same, of a tick: nothing while an atlas of its picture is on its way.
+  std::optional<Offered> offerUnlessBusy(const AtlasJob& job);
+  // An atlas of the picture waits or is on its way.
+  bool isBusy(const std::string& picture_key) const;
+
+  // The next job that an engine may begin: one that is due before everything that has begun there,
+  // or any where all that has is long, or one of eyes that wait where nobody's are served. None
+  // while eyes wait for newer poses: to begin a quilt would take longer.
+  std::optional<AtlasJob> begin(size_t engine, const BegunRuns& begun, bool has_room_for_eyes);
+  // Until when tracked displays of the engine rather wait for poses, as begin() found it.
+  std::optional<int64_t> eyesWaitUntilNs(size_t engine) const;
+  // A job that has begun turns out to be another engine's, and so are later ones of its picture.
+  // Returns what it replaces there.
+  std::optional<AtlasJob> handOver(AtlasJob job, size_t from, size_t to);
+  // The next of the picture may begin.
+  void finish(const std::string& picture_key);
+  // As JobQueue::forgetEyes.
+  void forgetEyes(const std::string& picture_key);
+  // Forgets which engines make pictures that none of these displays shows.
+  void keepOnly(const std::vector<ActiveDisplayPtr>& displays);
+  // Forgets the jobs that have not begun.
+  std::vector<AtlasJob> clear();
+
+ private:
+  struct Lane {
+    JobQueue jobs;
+    std::optional<int64_t> eyes_wait_until_ns;
+  };
+
+  size_t engineOf(const std::string& picture_key) const;
+
+  const Clock& clock_;
+  mutable std::mutex mutex_;               // guards what follows
+  std::vector<Lane> lanes_;                // one an engine
+  std::map<std::string, size_t> engines_;  // that pictures were planned for, but for the first
+};
+
+}  // namespace viewloom

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/picture_loop.h"
+
+#include <utility>
+
+#include "base/str_cat.h"
+#include "base/thread_name.h"
+#include "pipeline/job_aim.h"
+
+namespace viewloom {
+namespace {
+
+const char* threadName(TraceMethod method) {
+  return method == TraceMethod::kSweep ? "sweep" : "walk";
+}
+
+// The structures that the picture is made of.
+std::vector<const ResidentStructure*> structuresOf(const AtlasJob& job) {
+  std::vector<const ResidentStructure*> structures = {job.structure.get()};
+  if (job.before) structures.push_back(job.before.get());
+  return structures;
+}
+
+}  // namespace
+
+PictureLoop::PictureLoop(const PipelineLinks& links, const PictureDesk& desk, size_t engine,
+                         WakeUp& wake_up)
+    : links_(links),
+      desk_(desk),
+      rank_(engine),
+      engine_(*links.engines.all[engine]),
+      wake_up_(wake_up),
+      thread_([this](const std::stop_token& stop) {
+        nameThread(threadName(engine_.method()));
+        try {
+          run(stop);
+        } catch (const std::exception& error) {
+          links_.on_failure(error);
+        }
+      }) {}
+
+void PictureLoop::stop() {
+  thread_.request_stop();
+  wake_up_.ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PictureLoop::abandon() {
+  is_abandoned_ = true;
+  wake_up_.ring();
+}
+
+void PictureLoop::run(const std::stop_token& stop) {
+  while (!is_abandoned_) {
+    const bool may_begin = !stop.stop_requested();
+    if (makePart(may_begin)) continue;
+    if (!may_begin && begun_.isEmpty()) return;
+    if (may_begin && begun_.isEmpty() && engine_.workAhead()) continue;
+    const std::optional<int64_t> until_ns = desk_.board.eyesWaitUntilNs(rank_);
+    if (until_ns && may_begin) {
+      wake_up_.waitFor(links_.clock.napUntil(*until_ns));
+    } else {
+      wake_up_.wait();
+    }
+  }
+}
+
+bool PictureLoop::makePart(bool may_begin) {
+  if (may_begin) beginDueJobs();
+  const AtlasRunPtr run = begun_.soonest();
+  if (!run) return false;
+  const AtlasRunPtr other = begun_.inTurn(*run);
+  if (other && makePartOf(other)) return true;
+  if (makePartOf(run)) return true;
+  // There is no room for it: an atlas that holds some makes room.
+  const AtlasRunPtr holder = begun_.inSlot();
+  return holder && makePartOf(holder);
+}
+
+bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
+  if (!run->making && !beginMaking(run)) return false;
+  const MakingStep step = run->making->step();
+  if (!step.has_room) return false;
+  begun_.note(*run, step.ray_count);
+  if (step.is_last) finish(run);
+  return true;
+}
+
+// False while there is no room for it.
+bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
+  latchEyes(*run);
+  run->making = engine_.begin(orderOf(*run), [run, &encoders = desk_.encoders](StripWorkPtr work) {
+    encoders.push(std::make_shared<StripBatch>(run, std::move(work)));
+  });
+  if (!run->making) return false;
+  run->planes = run->making->planes();
+  return true;
+}
+
+AtlasOrder PictureLoop::orderOf(const AtlasRun& run) const {
+  AtlasOrder order{.picture = run.picture,
+                   .plan = run.plan,
+                   .frames = {},
+                   .strips = run.strips,
+                   .planes = run.planes,
+                   .is_for_eyes = run.isTracked()};
+  for (const ResidentStructure* structure : structuresOf(run.job)) {
+    order.frames.push_back(structure->forms->of(rank_));
+  }
+  return order;
+}
+
+// One head at a time: who is next depends on the poses that there are when it is his turn.
+bool PictureLoop::hasRoomForEyes() const {
+  return !begun_.hasTracked() && engine_.hasRoomForEyes();
+}
+
+void PictureLoop::beginDueJobs() {
+  while (auto job = desk_.board.begin(rank_, begun_, hasRoomForEyes())) {
+    const std::string picture_key = job->picture_key;
+    if (!begin(*job)) desk_.board.finish(picture_key);
+  }
+}
+
+bool PictureLoop::begin(AtlasJob& job) {
+  const std::vector<ActiveDisplayPtr> all = links_.broadcaster.displays("");
+  desk_.pictures.keepOnly(all);
+  desk_.plans.keepOnly(all);
+  desk_.board.keepOnly(all);
+  UnservedDisplays unserved = desk_.served.find(job, all);
+  std::vector<ActiveDisplayPtr>& displays = unserved.displays;
+  if (displays.empty()) return false;
+  const Aim aim = aimOf(*displays.front(), job);
+  const auto picture = desk_.pictures.get(*displays.front(), *job.structure, aim, unserved.eyes);
+  std::optional<PlannedPicture> planned;
+  if (picture.ok()) planned = desk_.plans.get(job, *picture);
+  if (planned && planned->engine != rank_) {
+    handOver(std::move(job), planned->engine);
+    return true;
+  }
+  desk_.served.note(job, unserved);
+  const absl::Status status = picture.ok() ? prepare(job, planned) : picture.status();
+  if (!status.ok()) {
+    for (const ActiveDisplayPtr& display : displays) {
+      links_.broadcaster.refuse(display->id, status);
+    }
+    return false;
+  }
+  for (const ActiveDisplayPtr& display : displays) {
+    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
+  }
+  auto run =
+      std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, std::move(displays));
+  run->eyes = std::move(unserved.eyes);
+  run->plan = planned->plan;
+  run->method = engine_.method();
+  run->begun_ns = links_.clock.nowNs();
+  desk_.publisher.begin(run);
+  begun_.add(std::move(run));
+  return true;
+}
+
+void PictureLoop::handOver(AtlasJob job, size_t engine) {
+  if (desk_.board.handOver(std::move(job), rank_, engine)) {
+    links_.metrics.replaced[HandOver::kTrace].add();
+  }
+  desk_.wake(engine);
+}
+
+// Structures that this engine was not asked for so far.
+absl::Status PictureLoop::prepare(const AtlasJob& job,
+                                  const std::optional<PlannedPicture>& planned) const {
+  if (!planned) {
+    return absl::FailedPreconditionError(
+        "no engine of this server makes such a picture of this stream's frames");
+  }
+  try {
+    for (const ResidentStructure* structure : structuresOf(job)) {
+      structure->forms->of(rank_)->prepare(links_.clock);
+    }
+  } catch (const EngineOutOfMemory& error) {
+    return absl::ResourceExhaustedError(strCat("this display cannot be served: ", error.what()));
+  }
+  return absl::OkStatus();
+}
+
+// The eyes as they are when its first rays go, which may have waited for room. Those that cannot be
+// served, or by another engine, have a job of their own.
+void PictureLoop::latchEyes(AtlasRun& run) {
+  if (!run.isTracked()) return;
+  const ActiveDisplayPtr& display = run.outputs.front().display;
+  EyePosesPtr newest = display->eyes->newest();
+  if (newest != run.eyes) {
+    const auto picture =
+        desk_.pictures.get(*display, *run.job.structure, aimOf(*display, run.job), newest);
+    if (!picture.ok()) return;
+    const std::optional<PlannedPicture> planned = desk_.plans.get(run.job, *picture);
+    if (!planned || planned->engine != rank_) return;
+    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
+    run.picture = *picture;
+    run.plan = planned->plan;
+    desk_.served.noteEyes(*display, newest);
+    run.eyes = std::move(newest);
+  }
+  run.begun_ns = links_.clock.nowNs();
+  // Those that have come since have a job, or will.
+  if (display->eyes->newest() == run.eyes) desk_.board.forgetEyes(run.job.picture_key);
+}
+
+// Everything of it has been handed on, or will be.
+void PictureLoop::finish(const AtlasRunPtr& run) {
+  run->making = nullptr;
+  if (!run->isWaitedFor()) desk_.board.finish(run->job.picture_key);
+  begun_.remove(*run);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes the frames of publishers and gives the Broadcaster atlases for those who watch.
+#pragma once
+
+#include <string>
+
+#include "frame/frame_sink.h"
+#include "publish/broadcaster.h"
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread.
+class AtlasMaker : public FrameSink {
+ public:
+  // The displays of a stream changed: those without an atlas of its newest frame get one.
+  virtual void serveDisplays(const std::string& stream) = 0;
+  // The eyes before a tracked display have moved.
+  virtual void serveEyes(const ActiveDisplay& display) = 0;
+  // Takes no more frames, finishes and publishes the atlases that have begun, reports every frame.
+  virtual void drain() = 0;
+};
+
+}  // namespace viewloom
