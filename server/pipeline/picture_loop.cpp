@@ -55,11 +55,10 @@ void PictureLoop::run(const std::stop_token& stop) {
     const bool may_begin = !stop.stop_requested();
     if (makePart(may_begin)) continue;
     if (!may_begin && begun_.isEmpty()) return;
-    if (may_begin && begun_.isEmpty() && engine_.workAhead()) continue;
     const std::optional<int64_t> until_ns = desk_.board.eyesWaitUntilNs(rank_);
     if (until_ns && may_begin) {
       wake_up_.waitFor(links_.clock.napUntil(*until_ns));
-    } else {
+    } else if (!may_begin || !begun_.isEmpty() || !engine_.workAhead()) {
       wake_up_.wait();
     }
   }

@@ -3,10 +3,11 @@
 #ifndef VIEWLOOM_LIB_MEMORY_GLSL_
 #define VIEWLOOM_LIB_MEMORY_GLSL_
 
+#include "shared/kernel_constants.h"
 #include "shared/structure_abi.h"
 
-layout(constant_id = 0) const bool kReadByAddress = false;
-layout(constant_id = 1) const bool kWriteByAddress = false;
+layout(constant_id = kIdReadsByAddress) const bool kReadByAddress = false;
+layout(constant_id = kIdWritesByAddress) const bool kWriteByAddress = false;
 
 layout(set = 0, binding = kBindingStructure) uniform usamplerBuffer structure_texels;
 layout(set = 0, binding = kBindingStructureHalves) uniform usamplerBuffer structure_halves;

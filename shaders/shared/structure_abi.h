@@ -64,11 +64,6 @@ VIEWLOOM_ABI_CONST uint kBindingBand = 10u;         // storage, written: uint pe
 VIEWLOOM_ABI_CONST uint kBindingStructureHalves = 11u;
 VIEWLOOM_ABI_CONST uint kBindingAnswers = 13u;  // storage: RayAnswer per px of each source
 
-// Specialisation constants that every kernel has, before its own.
-// 0: reads go by address: the structure is larger than a texel binding, and divided by layer.
-// 1: writes go by address: larger than a storage binding.
-VIEWLOOM_ABI_CONST uint kOwnConstants = 2u;
-
 // In the first word of a facet: no surface. Any other facet holds its inv_z there (never negative),
 // with the sign set when a link of its column leads from this layer or a deeper one to one before
 // this layer: a walk of this layer must look at such an edge.

@@ -8,7 +8,7 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
+layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };

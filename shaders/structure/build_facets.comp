@@ -7,7 +7,7 @@
 #include "lib/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kOwnConstants) const uint kLayerCount = 2u;
+layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };

@@ -10,9 +10,9 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kLayerCount = 2u;
-layout(constant_id = kOwnConstants + 1u) const uint kSampleType = kDepthSampleF32;
-layout(constant_id = kOwnConstants + 2u) const bool kHasRayDistance = false;
+layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
+layout(constant_id = kIdSampleType) const uint kSampleType = kDepthSampleF32;
+layout(constant_id = kIdHasRayDistance) const bool kHasRayDistance = false;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };

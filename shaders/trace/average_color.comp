@@ -12,10 +12,10 @@
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kFormat = kColorRgba8;  // of what is read
-layout(constant_id = kOwnConstants + 1u) const bool kIsAlongY = false;
-layout(constant_id = kOwnConstants + 2u) const int kTapCount = 1;  // to each side
-layout(constant_id = kOwnConstants + 3u) const int kStrip_px = 1;  // a power of two, at most 32
+layout(constant_id = kIdColorFormat) const uint kFormat = kColorRgba8;  // of what is read
+layout(constant_id = kIdIsAlongY) const bool kIsAlongY = false;
+layout(constant_id = kIdTapCount) const int kTapCount = 1;  // to each side
+layout(constant_id = kIdStripPx) const int kStrip_px = 1;  // a power of two, at most 32
 layout(push_constant, scalar) uniform Push { AveragePush push; };
 
 layout(set = 0, binding = kBindingMeans, scalar) writeonly buffer Means {

@@ -11,10 +11,10 @@
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWantLinear or nothing
-layout(constant_id = kOwnConstants + 1u) const uint kColorFormat = kColorRgba8;
-layout(constant_id = kOwnConstants + 2u) const bool kColorIsScaled = false;
-layout(constant_id = kOwnConstants + 3u) const bool kIsExact = false;
+layout(constant_id = kIdWanted) const uint kWanted = 0u;  // kWantLinear or nothing
+layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
+layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
+layout(constant_id = kIdIsExact) const bool kIsExact = false;
 const bool kIsLayered = false;
 const bool kSeesThrough = false;
 const bool kMeetsBacks = false;

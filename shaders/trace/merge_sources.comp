@@ -8,8 +8,8 @@
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWant... flags
-layout(constant_id = kOwnConstants + 1u) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kIdWanted) const uint kWanted = 0u;  // kWant... flags
+layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
 layout(push_constant, scalar) uniform Push {
   MergePush push;
 };

@@ -5,11 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "shared/kernel_constants.h"
 #include "shared/trace_abi.h"
 #include "shared/ycbcr.h"
 
 layout(local_size_x = kPackGroupSize) in;
-layout(constant_id = 0) const bool kIs420 = true;
+layout(constant_id = kIdIs420) const bool kIs420 = true;
 layout(push_constant, scalar) uniform Push {
   PackPush push;
 };

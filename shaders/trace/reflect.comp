@@ -9,10 +9,10 @@
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kColorFormat = kColorRgba8;
-layout(constant_id = kOwnConstants + 1u) const bool kColorIsScaled = false;
-layout(constant_id = kOwnConstants + 2u) const uint kRays = kRaysOfPinholes;
-layout(constant_id = kOwnConstants + 3u) const bool kThroughLens = false;
+layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
+layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
+layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
 const bool kRaysArePlain = false;
 // Rays begin behind the layers in front of their surface.
 const bool kSeesThrough = true;

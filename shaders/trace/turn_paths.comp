@@ -9,8 +9,8 @@
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kRays = kRaysOfPinholes;
-layout(constant_id = kOwnConstants + 1u) const bool kThroughLens = false;
+layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
 const bool kSeesThrough = true;
 const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {

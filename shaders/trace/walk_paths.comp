@@ -8,9 +8,9 @@
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kColorFormat = kColorRgba8;
-layout(constant_id = kOwnConstants + 1u) const bool kColorIsScaled = false;
-layout(constant_id = kOwnConstants + 2u) const bool kIsCubeFace = false;
+layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
+layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
+layout(constant_id = kIdIsCubeFace) const bool kIsCubeFace = false;
 const bool kRaysArePlain = false;
 const bool kSeesThrough = true;
 const bool kMeetsBacks = true;

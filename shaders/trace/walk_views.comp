@@ -13,31 +13,31 @@
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const uint kWanted = 0u;  // kWant... flags
-layout(constant_id = kOwnConstants + 1u) const uint kColorFormat = kColorRgba8;
-layout(constant_id = kOwnConstants + 2u) const uint kPixelsPerInvocation = 8u;
-layout(constant_id = kOwnConstants + 3u) const bool kLanesAreViews = true;
+layout(constant_id = kIdWanted) const uint kWanted = 0u;  // kWant... flags
+layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
+layout(constant_id = kIdPixelsPerInvocation) const uint kPixelsPerInvocation = 8u;
+layout(constant_id = kIdLanesAreViews) const bool kLanesAreViews = true;
 // Colour planes of another size than depth
-layout(constant_id = kOwnConstants + 4u) const bool kColorIsScaled = false;
+layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
 // Rays of the whole atlas as makePlainRay takes them; else as makeAnyRay does.
-layout(constant_id = kOwnConstants + 5u) const bool kRaysArePlain = true;
+layout(constant_id = kIdRaysArePlain) const bool kRaysArePlain = true;
 // All eyes are in the source's plane, or as good as that (server/picture/trace_job.h).
-layout(constant_id = kOwnConstants + 6u) const bool kEyesInPlane = true;
+layout(constant_id = kIdEyesInPlane) const bool kEyesInPlane = true;
 // Several sources: each answers on its own, and merge_sources.comp makes px of the answers.
-layout(constant_id = kOwnConstants + 7u) const bool kIsOneOfSeveral = false;
+layout(constant_id = kIdIsOneOfSeveral) const bool kIsOneOfSeveral = false;
 // A face of a cube map: join_faces.comp makes one answer of those of all six.
-layout(constant_id = kOwnConstants + 8u) const bool kIsCubeFace = false;
-layout(constant_id = kOwnConstants + 9u) const uint kRays = kRaysOfPinholes;
-layout(constant_id = kOwnConstants + 10u) const uint kShownBeside = 0u;  // kShows... of some tile
-layout(constant_id = kOwnConstants + 11u) const bool kThroughLens = false;
+layout(constant_id = kIdIsCubeFace) const bool kIsCubeFace = false;
+layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
+layout(constant_id = kIdShownBeside) const uint kShownBeside = 0u;  // kShows... of some tile
+layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
 // Of blocks that are not complete alone, an invocation a row of a block.
-layout(constant_id = kOwnConstants + 12u) const bool kIsOfBlocks = false;
+layout(constant_id = kIdIsOfBlocks) const bool kIsOfBlocks = false;
 // Px whose ray ends behind something are listed.
-layout(constant_id = kOwnConstants + 13u) const bool kListsHidden = false;
+layout(constant_id = kIdListsHidden) const bool kListsHidden = false;
 // Not 0: of such px alone, an invocation each, the mean of so many rays through a lens; alpha 0.
-layout(constant_id = kOwnConstants + 14u) const uint kRaysOfHidden = 0u;
+layout(constant_id = kIdRaysOfHidden) const uint kRaysOfHidden = 0u;
 // Of a software device, runs that were not finished are listed.
-layout(constant_id = kOwnConstants + 15u) const bool kListsUnfinished = false;
+layout(constant_id = kIdListsUnfinished) const bool kListsUnfinished = false;
 // Each px has an eye of its own, or several.
 const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens || kRaysOfHidden > 0u;
 const bool kIsLayered = kColorFormat == kColorRgba16f;

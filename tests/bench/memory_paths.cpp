@@ -15,6 +15,7 @@
 #include "gpu/timeline.h"
 #include "offline/median.h"
 #include "shaders/memory_paths.h"
+#include "shared/kernel_constants.h"
 
 namespace viewloom {
 namespace {
@@ -32,11 +33,12 @@ struct Push {
 };
 
 ComputePass makePass(const Device& device, uint32_t path) {
+  const KernelConstant constant{abi::kIdFree, path};
   static constexpr DescriptorSlot kSlots[] = {
       {0, DescriptorKind::kStorage}, {1, DescriptorKind::kTexels}, {2, DescriptorKind::kStorage}};
   return ComputePass(device, {.spirv = memory_paths_spirv,
                               .push_bytes = sizeof(Push),
-                              .specialization = {&path, 1},
+                              .constants = {&constant, 1},
                               .descriptors = kSlots,
                               .debug_name = "memory path"});
 }

@@ -10,6 +10,7 @@
 #include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
 #include "shaders/scale_floats.h"
+#include "shared/kernel_constants.h"
 #include "support/test_device.h"
 
 namespace viewloom {
@@ -34,11 +35,11 @@ std::span<float> floats(const Buffer& buffer) {
 
 class ComputePassTest : public GpuTest {
  protected:
-  ComputePass makeScalePass(std::vector<uint32_t> factor_and_offset) {
+  ComputePass makeScalePass(std::vector<KernelConstant> factor_and_offset) {
     return {device(),
             {.spirv = scale_floats_spirv,
              .push_bytes = sizeof(ScalePush),
-             .specialization = factor_and_offset,
+             .constants = factor_and_offset,
              .debug_name = "scale floats"}};
   }
 };
@@ -47,7 +48,7 @@ TEST_F(ComputePassTest, readsAndWritesMappedMemoryByAddress) {
   constexpr uint32_t kCount = 1000;  // not a multiple of the group size
   const Buffer source(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kUpload});
   const Buffer target(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kReadback});
-  const ComputePass pass = makeScalePass({3, 7});
+  const ComputePass pass = makeScalePass({{abi::kIdFree, 3}, {abi::kIdFree + 1, 7}});
   std::iota(floats(source).begin(), floats(source).end(), 0.0f);
 
   Timeline timeline(device());
@@ -65,7 +66,7 @@ TEST_F(ComputePassTest, reachesPast128MiB) {
   const auto count = static_cast<uint32_t>(kBytes / sizeof(float));
   const Buffer source(device(), {.size_bytes = kBytes, .intent = MemoryIntent::kUpload});
   const Buffer target(device(), {.size_bytes = kBytes, .intent = MemoryIntent::kReadback});
-  const ComputePass pass = makeScalePass({2, 0});
+  const ComputePass pass = makeScalePass({{abi::kIdFree, 2}, {abi::kIdFree + 1, 0}});
   floats(source).back() = 21.0f;
 
   Timeline timeline(device());
@@ -86,7 +87,7 @@ TEST_F(ComputePassTest, chainsPassesAndTransfersThroughBarriers) {
   const Buffer source(device(), {.size_bytes = kBytes, .intent = MemoryIntent::kUpload});
   const Buffer middle(device(), {.size_bytes = kBytes, .debug_name = "middle"});
   const Buffer target(device(), {.size_bytes = kBytes, .intent = MemoryIntent::kReadback});
-  const ComputePass times_two = makeScalePass({2, 0});
+  const ComputePass times_two = makeScalePass({{abi::kIdFree, 2}, {abi::kIdFree + 1, 0}});
   std::iota(floats(source).begin(), floats(source).end(), 0.0f);
 
   Timeline timeline(device());
@@ -110,7 +111,7 @@ TEST_F(ComputePassTest, chainsPassesAndTransfersThroughBarriers) {
 TEST_F(ComputePassTest, timesEachNamedPass) {
   if (device().timestampPeriodNs() <= 0) GTEST_SKIP() << "the device has no timestamps";
   const Buffer buffer(device(), {.size_bytes = 256});
-  const ComputePass pass = makeScalePass({1, 1});
+  const ComputePass pass = makeScalePass({{abi::kIdFree, 1}, {abi::kIdFree + 1, 1}});
   const ScalePush push{buffer.address(), buffer.address(), 64};
   GpuTimer timer(device(), 2);
   Timeline timeline(device());
@@ -142,6 +143,14 @@ TEST_F(ComputePassTest, reportsTimelineValuesInOrder) {
     EXPECT_GE(timeline.completedValue(), expected);
   }
   EXPECT_FALSE(timeline.wait(4, 1'000'000)) << "nothing signals 4";
+}
+
+// A kernel that is given a constant of another one would answer wrongly, and so would one that
+// lacks one of its own.
+TEST_F(ComputePassTest, takesExactlyTheConstantsOfTheKernel) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_DEATH(makeScalePass({{abi::kIdFree, 1}, {abi::kIdFree + 2, 1}}), "check failed");
+  EXPECT_DEATH(makeScalePass({{abi::kIdFree, 1}}), "check failed");
 }
 
 }  // namespace

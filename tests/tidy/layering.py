@@ -37,7 +37,7 @@ LAYERS = {
                             ["absl", "glm", "highway"]),
     "server/engine/walk": (["base", "frame", "display", "picture", ENGINE, SHADERS_SHARED],
                            ["absl"]),
-    "server/engine/walk/gpu": (["base"], ["absl", "vulkan"]),
+    "server/engine/walk/gpu": (["base", SHADERS_SHARED], ["absl", "vulkan"]),
     "server/engine/walk/structure": (["base", "frame", WALK + "/gpu", SHADERS_SHARED],
                                      ["absl", "glm"]),
     "server/engine/walk/trace": (["base", "frame", "display", "picture", WALK + "/gpu",

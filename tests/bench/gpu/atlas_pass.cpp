@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "gpu/barrier.h"
+#include "shared/kernel_constants.h"
 #include "structure/structure_layout.h"
 
 namespace viewloom::bench {
@@ -101,11 +102,13 @@ ComputePass AtlasPass::makePass(std::span<const uint32_t> spirv,
   const AtlasLayout& layout = *load_->job.layout;
   const bool has_fours =
       pixels_ % 4 == 0 && layout.tile_size_px.width % 4 == 0 && layout.size_px.width % 4 == 0;
-  static_assert(abi::kOwnConstants == 2);
-  const uint32_t constants[] = {0, 0, writes_inv_z, pixels_, lanes_are_views_, has_fours};
+  const KernelConstant constants[] = {{abi::kIdFree, writes_inv_z},
+                                      {abi::kIdPixelsPerInvocation, pixels_},
+                                      {abi::kIdLanesAreViews, lanes_are_views_},
+                                      {abi::kIdFree + 1, has_fours}};
   return ComputePass(*device_, {.spirv = spirv,
                                 .push_bytes = sizeof(abi::RivalPush),
-                                .specialization = constants,
+                                .constants = constants,
                                 .descriptors = all,
                                 .debug_name = name});
 }

@@ -8,6 +8,7 @@
 #include "gpu/barrier.h"
 #include "shaders/build_boxes.h"
 #include "shaders/hiz_views.h"
+#include "shared/kernel_constants.h"
 
 namespace viewloom::bench {
 namespace {
@@ -37,9 +38,10 @@ uint64_t boxStride(SizePx size_px) {
 }
 
 ComputePass makeBuild(const Device& device, uint32_t from_inv_z) {
+  const KernelConstant constant{abi::kIdFree, from_inv_z};
   return ComputePass(device, {.spirv = build_boxes_spirv,
                               .push_bytes = sizeof(abi::BoxesPush),
-                              .specialization = {&from_inv_z, 1},
+                              .constants = {&constant, 1},
                               .descriptors = kBuildSlots,
                               .debug_name = "build boxes"});
 }

@@ -3,9 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
+#include "shared/kernel_constants.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kPath = 0u;  // 0 none, 1 address, 2 storage binding, 3 texels
+// 0 none, 1 address, 2 storage binding, 3 texels
+layout(constant_id = kIdFree) const uint kPath = 0u;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Words { uvec2 at[]; };
 layout(set = 0, binding = 0, scalar) readonly buffer Storage { uvec2 storage[]; };
 layout(set = 0, binding = 1) uniform usamplerBuffer texels;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/compute_pass.h"
 
+#include <algorithm>
 #include <array>
+#include <set>
 #include <vector>
 
 #include "base/check.h"
 #include "gpu/vulkan.h"
+#include "shared/kernel_constants.h"
 
 namespace viewloom {
 namespace {
@@ -20,6 +23,10 @@ vk::DescriptorType typeOf(DescriptorKind kind) {
       break;
   }
   return vk::DescriptorType::eStorageBuffer;
+}
+
+bool isOfMemory(uint32_t id) {
+  return id == abi::kIdReadsByAddress || id == abi::kIdWritesByAddress;
 }
 
 vk::raii::DescriptorSetLayout makeSlots(const Device& device,
@@ -49,6 +56,34 @@ vk::raii::PipelineLayout makeLayout(const Device& device, uint32_t push_bytes,
            .pPushConstantRanges = &range}};
 }
 
+// The constant_id of all constants of a kernel: each is decorated in its SPIR-V.
+std::set<uint32_t> constantsOf(std::span<const uint32_t> spirv) {
+  constexpr size_t kHeaderWords = 5;
+  constexpr uint32_t kOpDecorate = 71, kSpecId = 1;
+  std::set<uint32_t> ids;
+  for (size_t at = kHeaderWords; at < spirv.size();) {
+    const uint32_t word_count = spirv[at] >> 16;
+    const uint32_t opcode = spirv[at] & 0xffff;
+    VIEWLOOM_CHECK(word_count > 0 && at + word_count <= spirv.size());
+    if (opcode == kOpDecorate && word_count == 4 && spirv[at + 2] == kSpecId) {
+      ids.insert(spirv[at + 3]);
+    }
+    at += word_count;
+  }
+  return ids;
+}
+
+// A kernel that is given a constant of another one, or lacks one of its own, would answer wrongly.
+void checkConstants(const ComputePassOptions& options) {
+  std::set<uint32_t> left = constantsOf(options.spirv);
+  left.erase(kFaultConstantId);
+  for (const KernelConstant& constant : options.constants) {
+    const bool is_known = left.erase(constant.id) == 1;
+    VIEWLOOM_CHECK(is_known || isOfMemory(constant.id));
+  }
+  VIEWLOOM_CHECK(std::ranges::all_of(left, isOfMemory));
+}
+
 vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& options,
                                 vk::PipelineLayout layout) {
   const vk::raii::ShaderModule module(
@@ -61,9 +96,8 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
                        .size = sizeof(uint32_t)});
     values.push_back(value);
   };
-  for (uint32_t id = 0; id < options.specialization.size(); ++id) {
-    specialise(id, options.specialization[id]);
-  }
+  checkConstants(options);
+  for (const KernelConstant& constant : options.constants) specialise(constant.id, constant.value);
   if (device.plantedFault() != 0) specialise(kFaultConstantId, device.plantedFault());
   const vk::SpecializationInfo specialization{
       .mapEntryCount = static_cast<uint32_t>(entries.size()),

@@ -14,10 +14,17 @@
 
 namespace viewloom {
 
+// A value that a kernel is specialised to (shaders/shared/kernel_constants.h); of a bool, 0 or 1.
+struct KernelConstant {
+  uint32_t id = 0;
+  uint32_t value = 0;
+};
+
 struct ComputePassOptions {
   std::span<const uint32_t> spirv;
   uint32_t push_bytes = 0;  // at most DeviceLimits::push_bytes_max, a multiple of 4
-  std::span<const uint32_t> specialization = {};  // values of constant_id 0, 1, ...
+  // All that the kernel has; the two of lib/memory.glsl may be left out, and then are false.
+  std::span<const KernelConstant> constants = {};
   std::span<const DescriptorSlot> descriptors = {};
   const char* debug_name = "";
 };

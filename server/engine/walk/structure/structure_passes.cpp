@@ -15,6 +15,7 @@
 #include "shaders/settle_tolerance.h"
 #include "shaders/smooth_columns.h"
 #include "shared/cube_abi.h"
+#include "shared/kernel_constants.h"
 #include "shared/structure_abi.h"
 
 namespace viewloom {
@@ -31,23 +32,24 @@ constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kT
 
 // `own`: the specialisation constants of this pass.
 ComputePass makePass(const Device& device, const StructureVariant& variant,
-                     std::span<const uint32_t> spirv, std::initializer_list<uint32_t> own,
+                     std::span<const uint32_t> spirv, std::initializer_list<KernelConstant> own,
                      const char* name) {
-  static_assert(abi::kOwnConstants == 2);
-  std::vector<uint32_t> constants = {variant.reads_by_address, variant.writes_by_address};
+  std::vector<KernelConstant> constants = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                           {abi::kIdWritesByAddress, variant.writes_by_address}};
   constants.insert(constants.end(), own);
   return ComputePass(device, {.spirv = spirv,
                               .push_bytes = sizeof(abi::BuildPush),
-                              .specialization = constants,
+                              .constants = constants,
                               .descriptors = kSlots,
                               .debug_name = name});
 }
 
 ComputePass makeApronPass(const Device& device, std::span<const uint32_t> spirv, const char* name) {
-  constexpr uint32_t kByAddress[] = {1, 1};
+  constexpr KernelConstant kByAddress[] = {{abi::kIdReadsByAddress, 1},
+                                           {abi::kIdWritesByAddress, 1}};
   return ComputePass(device, {.spirv = spirv,
                               .push_bytes = sizeof(abi::ApronPush),
-                              .specialization = kByAddress,
+                              .constants = kByAddress,
                               .descriptors = kSlots,
                               .debug_name = name});
 }
@@ -59,12 +61,12 @@ StructurePasses::StructurePasses(const Device& device, const StructureVariant& v
       settle_range(makePass(device, variant, settle_range_spirv, {}, "settle range")),
       measure_range(makePass(device, variant, measure_range_spirv, {}, "measure range")),
       settle_tolerance(makePass(device, variant, settle_tolerance_spirv, {}, "settle tolerance")),
-      smooth_columns(
-          makePass(device, variant, smooth_columns_spirv, {variant.layer_count}, "smooth columns")),
-      build_facets(
-          makePass(device, variant, build_facets_spirv, {variant.layer_count}, "build facets")),
-      build_blocks(
-          makePass(device, variant, build_blocks_spirv, {variant.layer_count}, "build blocks")),
+      smooth_columns(makePass(device, variant, smooth_columns_spirv,
+                              {{abi::kIdLayerCount, variant.layer_count}}, "smooth columns")),
+      build_facets(makePass(device, variant, build_facets_spirv,
+                            {{abi::kIdLayerCount, variant.layer_count}}, "build facets")),
+      build_blocks(makePass(device, variant, build_blocks_spirv,
+                            {{abi::kIdLayerCount, variant.layer_count}}, "build blocks")),
       build_level(makePass(device, variant, build_level_spirv, {}, "build level")),
       flatten_entries(makePass(device, variant, flatten_entries_spirv, {}, "flatten entries")) {}
 
@@ -74,7 +76,9 @@ ApronPasses::ApronPasses(const Device& device)
 
 ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant) {
   return makePass(device, variant.structure, prepare_columns_spirv,
-                  {variant.structure.layer_count, variant.sample_type, variant.has_ray_distance},
+                  {{abi::kIdLayerCount, variant.structure.layer_count},
+                   {abi::kIdSampleType, variant.sample_type},
+                   {abi::kIdHasRayDistance, variant.has_ray_distance}},
                   "prepare columns");
 }
 

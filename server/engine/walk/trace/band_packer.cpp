@@ -3,6 +3,7 @@
 
 #include "gpu/barrier.h"
 #include "shaders/pack_band.h"
+#include "shared/kernel_constants.h"
 #include "shared/trace_abi.h"
 
 namespace viewloom {
@@ -27,11 +28,11 @@ const ComputePass& BandPacker::pass(ColorForm form) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = passes_[form];
   if (!made) {
-    const uint32_t is_420 = form == ColorForm::kYcbcr420;
+    const KernelConstant is_420{abi::kIdIs420, form == ColorForm::kYcbcr420};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = pack_band_spirv,
                                                             .push_bytes = sizeof(abi::PackPush),
-                                                            .specialization = {&is_420, 1},
+                                                            .constants = {&is_420, 1},
                                                             .descriptors = kSlots,
                                                             .debug_name = "pack band"});
   }

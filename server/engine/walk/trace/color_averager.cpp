@@ -3,6 +3,7 @@
 
 #include "gpu/barrier.h"
 #include "shaders/average_color.h"
+#include "shared/kernel_constants.h"
 #include "shared/trace_abi.h"
 #include "trace/band_params.h"
 
@@ -76,13 +77,16 @@ void ColorAverager::recordAlong(Commands commands, const StructureSlot& structur
 const ComputePass& ColorAverager::pass(const Variant& variant) {
   std::unique_ptr<ComputePass>& made = passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, variant.writes_by_address,
-                                  variant.format,           variant.is_along_y,
-                                  variant.tap_count,        variant.strip_px};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                        {abi::kIdWritesByAddress, variant.writes_by_address},
+                                        {abi::kIdColorFormat, variant.format},
+                                        {abi::kIdIsAlongY, variant.is_along_y},
+                                        {abi::kIdTapCount, variant.tap_count},
+                                        {abi::kIdStripPx, variant.strip_px}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = average_color_spirv,
                                                             .push_bytes = sizeof(abi::AveragePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kSlots,
                                                             .debug_name = "average color"});
   }

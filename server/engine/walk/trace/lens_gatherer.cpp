@@ -4,6 +4,7 @@
 #include "gpu/barrier.h"
 #include "shaders/gather_lens.h"
 #include "shaders/list_met.h"
+#include "shared/kernel_constants.h"
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
 
@@ -61,11 +62,11 @@ const ComputePass& LensGatherer::listPass(bool reads_by_address) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = list_passes_[reads_by_address];
   if (!made) {
-    const uint32_t constants[] = {reads_by_address, 0};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, reads_by_address}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = list_met_spirv,
                                                             .push_bytes = sizeof(abi::GatherPush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kListSlots,
                                                             .debug_name = "list met sheets"});
   }
@@ -76,13 +77,15 @@ const ComputePass& LensGatherer::gatherPass(const Variant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = gather_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, 0,
-                                  variant.wanted,           variant.color_format,
-                                  variant.color_is_scaled,  variant.is_exact};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                        {abi::kIdWanted, variant.wanted},
+                                        {abi::kIdColorFormat, variant.color_format},
+                                        {abi::kIdColorIsScaled, variant.color_is_scaled},
+                                        {abi::kIdIsExact, variant.is_exact}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = gather_lens_spirv,
                                                             .push_bytes = sizeof(abi::GatherPush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kGatherSlots,
                                                             .debug_name = "gather lens"});
   }

@@ -7,6 +7,7 @@
 #include "shaders/join_faces.h"
 #include "shaders/merge_sources.h"
 #include "shared/cube_abi.h"
+#include "shared/kernel_constants.h"
 #include "trace/band_params.h"
 #include "trace/face_rays.h"
 #include "trace/view_tracer.h"
@@ -26,11 +27,11 @@ const ComputePass& ViewTracer::mergePass(uint32_t wanted, uint32_t rays) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = merge_passes_[{wanted, rays}];
   if (!made) {
-    const uint32_t constants[] = {0, 0, wanted, rays};
+    const KernelConstant constants[] = {{abi::kIdWanted, wanted}, {abi::kIdRays, rays}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = merge_sources_spirv,
                                                             .push_bytes = sizeof(abi::MergePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kMergeSlots,
                                                             .debug_name = "merge sources"});
   }

@@ -4,6 +4,7 @@
 #include "shaders/merge_paths.h"
 #include "shaders/turn_paths.h"
 #include "shaders/walk_paths.h"
+#include "shared/kernel_constants.h"
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
 
@@ -49,11 +50,13 @@ const ComputePass& PathReflector::turnPass(const TurnVariant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = turn_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, 0, variant.rays, variant.through_lens};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                        {abi::kIdRays, variant.rays},
+                                        {abi::kIdThroughLens, variant.through_lens}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = turn_paths_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kTurnSlots,
                                                             .debug_name = "turn paths"});
   }
@@ -64,12 +67,14 @@ const ComputePass& PathReflector::walkPass(const WalkVariant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = walk_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {variant.reads_by_address, 0, variant.color_format,
-                                  variant.color_is_scaled, variant.is_cube_face};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                        {abi::kIdColorFormat, variant.color_format},
+                                        {abi::kIdColorIsScaled, variant.color_is_scaled},
+                                        {abi::kIdIsCubeFace, variant.is_cube_face}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_paths_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kWalkSlots,
                                                             .debug_name = "walk paths"});
   }

@@ -7,6 +7,7 @@
 #include "picture/ray_sources.h"
 #include "shaders/add_reflections.h"
 #include "shaders/reflect.h"
+#include "shared/kernel_constants.h"
 #include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"
@@ -39,13 +40,15 @@ const ComputePass& Reflector::reflectPass(const Variant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = reflect_passes_[variant];
   if (!made) {
-    const uint32_t constants[] = {
-        variant.reads_by_address, 0, variant.color_format, variant.color_is_scaled, variant.rays,
-        variant.through_lens};
+    const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                        {abi::kIdColorFormat, variant.color_format},
+                                        {abi::kIdColorIsScaled, variant.color_is_scaled},
+                                        {abi::kIdRays, variant.rays},
+                                        {abi::kIdThroughLens, variant.through_lens}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = reflect_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kReflectSlots,
                                                             .debug_name = "reflect"});
   }

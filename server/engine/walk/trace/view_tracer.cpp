@@ -9,6 +9,7 @@
 #include "gpu/barrier.h"
 #include "picture/ray_sources.h"
 #include "shaders/walk_views.h"
+#include "shared/kernel_constants.h"
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
 #include "trace/met_blocks.h"
@@ -72,29 +73,28 @@ const ComputePass& ViewTracer::pass(const Variant& variant) {
   std::lock_guard lock(mutex_);
   std::unique_ptr<ComputePass>& made = passes_[variant];
   if (!made) {
-    static_assert(abi::kOwnConstants == 2);
-    const uint32_t constants[] = {variant.reads_by_address,
-                                  0,
-                                  variant.wanted,
-                                  variant.color_format,
-                                  variant.pixels_per_invocation,
-                                  variant.lanes_are_views,
-                                  variant.color_is_scaled,
-                                  variant.rays_are_plain,
-                                  variant.eyes_in_plane,
-                                  variant.is_one_of_several,
-                                  variant.is_cube_face,
-                                  variant.rays,
-                                  variant.shown_beside,
-                                  variant.through_lens,
-                                  variant.is_of_blocks,
-                                  variant.lists_hidden,
-                                  variant.rays_of_hidden,
-                                  variant.lists_unfinished};
+    const KernelConstant constants[] = {
+        {abi::kIdReadsByAddress, variant.reads_by_address},
+        {abi::kIdWanted, variant.wanted},
+        {abi::kIdColorFormat, variant.color_format},
+        {abi::kIdPixelsPerInvocation, variant.pixels_per_invocation},
+        {abi::kIdLanesAreViews, variant.lanes_are_views},
+        {abi::kIdColorIsScaled, variant.color_is_scaled},
+        {abi::kIdRaysArePlain, variant.rays_are_plain},
+        {abi::kIdEyesInPlane, variant.eyes_in_plane},
+        {abi::kIdIsOneOfSeveral, variant.is_one_of_several},
+        {abi::kIdIsCubeFace, variant.is_cube_face},
+        {abi::kIdRays, variant.rays},
+        {abi::kIdShownBeside, variant.shown_beside},
+        {abi::kIdThroughLens, variant.through_lens},
+        {abi::kIdIsOfBlocks, variant.is_of_blocks},
+        {abi::kIdListsHidden, variant.lists_hidden},
+        {abi::kIdRaysOfHidden, variant.rays_of_hidden},
+        {abi::kIdListsUnfinished, variant.lists_unfinished}};
     made = std::make_unique<ComputePass>(*device_,
                                          ComputePassOptions{.spirv = walk_views_spirv,
                                                             .push_bytes = sizeof(abi::TracePush),
-                                                            .specialization = constants,
+                                                            .constants = constants,
                                                             .descriptors = kSlots,
                                                             .debug_name = "walk views"});
   }

@@ -53,23 +53,23 @@ class ViewTracer {
  private:
   // What the pipeline is specialised to.
   struct Variant {
-    uint32_t reads_by_address;
+    bool reads_by_address;
     uint32_t wanted;  // abi::kWant... flags
     uint32_t color_format;
     uint32_t pixels_per_invocation;
-    uint32_t lanes_are_views;
-    uint32_t color_is_scaled;
-    uint32_t rays_are_plain;
-    uint32_t eyes_in_plane;
-    uint32_t is_one_of_several;
-    uint32_t is_cube_face;
+    bool lanes_are_views;
+    bool color_is_scaled;
+    bool rays_are_plain;
+    bool eyes_in_plane;
+    bool is_one_of_several;
+    bool is_cube_face;
     uint32_t rays;          // abi::kRaysOf...
     uint32_t shown_beside;  // abi::kShows... flags that some tile has
-    uint32_t through_lens;
-    uint32_t is_of_blocks;
-    uint32_t lists_hidden;
+    bool through_lens;
+    bool is_of_blocks;
+    bool lists_hidden;
     uint32_t rays_of_hidden;
-    uint32_t lists_unfinished;
+    bool lists_unfinished;
 
     auto operator<=>(const Variant&) const = default;
   };

@@ -6,9 +6,10 @@
 #include "lib/extensions.glsl"
 
 #include "boxes.glsl"
+#include "shared/kernel_constants.h"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = 0) const bool kFromInvZ = true;
+layout(constant_id = kIdFree) const bool kFromInvZ = true;
 layout(push_constant, scalar) uniform Push {
   BoxesPush push;
 };

@@ -6,11 +6,11 @@
 #include "rival_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-layout(constant_id = kOwnConstants + 0u) const
+layout(constant_id = kIdFree) const
     bool kWritesInvZ = false;  // of the hits, instead of colour
-layout(constant_id = kOwnConstants + 1u) const uint kPixelsPerInvocation = 8u;
-layout(constant_id = kOwnConstants + 2u) const bool kLanesAreViews = true;
-layout(constant_id = kOwnConstants + 3u) const
+layout(constant_id = kIdPixelsPerInvocation) const uint kPixelsPerInvocation = 8u;
+layout(constant_id = kIdLanesAreViews) const bool kLanesAreViews = true;
+layout(constant_id = kIdFree + 1u) const
     bool kStoresFours = true;  // tiles are whole fours of px wide
 
 layout(push_constant, scalar) uniform Push {
