@@ -7,6 +7,9 @@ cd "$(dirname "$0")/.."
 # A machine without a Vulkan device must not pass by skipping: lavapipe is always there.
 export VIEWLOOM_REQUIRE_GPU=1
 export CTEST_OUTPUT_ON_FAILURE=1
+# Servers of tests live for seconds: to compile kernels that nobody asks for would take the cores from
+# the tests.
+export VIEWLOOM_PIPELINE_WARM_UP=false
 jobs="$(nproc)"
 
 minutes() { printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); }

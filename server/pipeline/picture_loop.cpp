@@ -45,13 +45,8 @@ void PictureLoop::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void PictureLoop::abandon() {
-  is_abandoned_ = true;
-  wake_up_.ring();
-}
-
 void PictureLoop::run(const std::stop_token& stop) {
-  while (!is_abandoned_) {
+  while (!desk_.is_abandoned) {
     const bool may_begin = !stop.stop_requested();
     if (makePart(may_begin)) continue;
     if (!may_begin && begun_.isEmpty()) return;
@@ -126,7 +121,7 @@ bool PictureLoop::begin(AtlasJob& job) {
   desk_.pictures.keepOnly(all);
   desk_.plans.keepOnly(all);
   desk_.board.keepOnly(all);
-  UnservedDisplays unserved = desk_.served.find(job, all);
+  UnservedDisplays unserved = desk_.served.find(job);
   std::vector<ActiveDisplayPtr>& displays = unserved.displays;
   if (displays.empty()) return false;
   const Aim aim = aimOf(*displays.front(), job);

@@ -29,10 +29,12 @@ struct PictureDesk {
   EncodePool& encoders;
   // Wakes the loop of an engine: there is a job for it.
   std::function<void(size_t engine)> wake;
+  // Whatever has begun, loops end at once: an engine has failed.
+  const std::atomic<bool>& is_abandoned;
 };
 
 // One thread. What one engine waits for, a device that is busy or has kernels to compile, keeps no
-// other from its work. Thread-safety: abandon() from any thread; stop() from one, once.
+// other from its work. Thread-safety: stop() from one thread, once.
 class PictureLoop {
  public:
   // `engine`: rank in Engines::all.
@@ -42,8 +44,6 @@ class PictureLoop {
 
   // Finishes the atlases that have begun, and no others.
   void stop();
-  // Ends at once, whatever has begun: the engine has failed.
-  void abandon();
   // Forgets what will not be finished, once the loop has ended.
   void dropAll() { begun_.clear(); }
 
@@ -71,7 +71,6 @@ class PictureLoop {
   Engine& engine_;
   BegunRuns begun_;  // the thread's
   WakeUp& wake_up_;
-  std::atomic<bool> is_abandoned_ = false;
   std::jthread thread_;  // last: it uses all of the above
 };
 

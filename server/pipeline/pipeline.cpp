@@ -46,13 +46,15 @@ struct Pipeline::Loops {
         board(links.clock, links.engines.all.size()),
         pictures(options.atlas_limits),
         plans(links.engines),
+        served(links.broadcaster),
         desk{board,
              pictures,
              plans,
              served,
              publisher,
              encoders,
-             [this](size_t engine) { engine_wake_ups[engine].ring(); }},
+             [this](size_t engine) { engine_wake_ups[engine].ring(); },
+             has_failed},
         streams(links.engines, options.structure_slots_per_stream,
                 [this] { structure_wake_up.ring(); }),
         frames(links),
@@ -111,7 +113,7 @@ struct Pipeline::Loops {
 
 void Pipeline::Loops::fail(const std::exception& error) {
   if (has_failed.exchange(true)) return;  // what follows from the first failure
-  for (const auto& loop : loops) loop->abandon();
+  ringEngines();                          // they see it and end
   on_failure(error);
 }
 

@@ -14,9 +14,10 @@ bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
 
 }  // namespace
 
-UnservedDisplays ServedDisplays::find(const AtlasJob& job,
-                                      const std::vector<ActiveDisplayPtr>& all) {
+UnservedDisplays ServedDisplays::find(const AtlasJob& job) {
   std::lock_guard lock(mutex_);
+  // Under the lock: what an older list lacks may have been served since.
+  const std::vector<ActiveDisplayPtr> all = broadcaster_.displays("");
   const uint64_t serial = job.structure->serial;
   std::erase_if(served_, [&](const auto& entry) {
     return std::none_of(all.begin(), all.end(),

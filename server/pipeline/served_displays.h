@@ -22,10 +22,12 @@ struct UnservedDisplays {
 // Thread-safety: all methods may be called from any thread.
 class ServedDisplays {
  public:
-  // Of all that there are, the displays of the picture that have not got this structure, or a newer
-  // one; or have got it, but not as the newest eyes see it, or not from where its camera is by now.
+  explicit ServedDisplays(const Broadcaster& broadcaster) : broadcaster_(broadcaster) {}
+
+  // The displays of the picture that have not got this structure, or a newer one; or have got it,
+  // but not as the newest eyes see it, or not from where its camera is by now.
   // A structure that they have not got comes with a job of its own.
-  UnservedDisplays find(const AtlasJob& job, const std::vector<ActiveDisplayPtr>& all);
+  UnservedDisplays find(const AtlasJob& job);
   // From now on these have got what the job shows.
   void note(const AtlasJob& job, const UnservedDisplays& served);
   // A display has got it, and is seen by newer eyes after all.
@@ -39,6 +41,7 @@ class ServedDisplays {
     std::optional<ShownInstant> shown;  // at a tick
   };
 
+  const Broadcaster& broadcaster_;
   std::mutex mutex_;
   std::map<uint64_t, Served> served_;  // by display, as last begun; guarded by mutex_
 };

@@ -34,7 +34,8 @@ struct StreamInstant {
 };
 
 // Structures that an engine but the first may hold on to while the first goes on with newer ones:
-// that of an atlas on its way, which may take seconds, and that of the next.
+// that of an atlas on its way, which may take seconds, and that of the next. Where it holds more,
+// the stream waits.
 inline constexpr uint32_t kHeldByFurtherEngine = 2;
 
 // Thread-safety: inbox, slots, newest(), setNewest() and setMotion() from any thread; the other

@@ -16,7 +16,8 @@ constexpr char kStream[] = "head";
 }  // namespace
 
 ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_px)
-    : pipeline_({.device = device,
+    : engines_(makeEngines(device)),
+      pipeline_({.engines = engines_,
                  .clock = clock_,
                  .metrics = metrics_,
                  .broadcaster = broadcaster_,

@@ -5,9 +5,10 @@
 #include <memory>
 
 #include "base/clock.h"
-#include "metrics/metrics.h"
 #include "e2e/collecting_subscriber.h"
+#include "engine/make_engines.h"
 #include "frame/frame.h"
+#include "metrics/metrics.h"
 #include "pipeline/pipeline.h"
 #include "publish/broadcaster.h"
 
@@ -30,6 +31,7 @@ class ServedHead {
   Metrics metrics_;
   Broadcaster broadcaster_{{}};
   StreamDirectory directory_{clock_, 1};
+  const Engines engines_;
   Pipeline pipeline_;
   const EyeTrackPtr eyes_ = std::make_shared<EyeTrack>();
   const std::shared_ptr<test::CollectingSubscriber> subscriber_ =

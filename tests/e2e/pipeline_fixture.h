@@ -59,6 +59,7 @@ class ReportLog {
 struct ServerOptions {
   uint32_t encode_thread_count = 2;
   uint32_t trace_slot_count = EngineOptions{}.trace_slot_count;
+  AtlasLimits atlas_limits = {};
 };
 
 class PipelineFixture : public GpuTest {
@@ -75,7 +76,8 @@ class PipelineFixture : public GpuTest {
                .broadcaster = broadcaster,
                .directory = directory,
                .on_failure = [](const std::exception& error) { ADD_FAILURE() << error.what(); }},
-              {.encode_thread_count = options.encode_thread_count}) {
+              {.encode_thread_count = options.encode_thread_count,
+               .atlas_limits = options.atlas_limits}) {
       broadcaster.onDemandChange(
           [this](const std::string& stream) { pipeline.serveDisplays(stream); });
       broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });

@@ -126,7 +126,8 @@ TEST_F(PipelineOrderTest, tellsOfAFailureOnceAndStillDrainsWithEveryFrameReporte
   ReportLog reports;
   std::promise<std::string> failure;
   {
-    Pipeline pipeline({.device = device(),
+    const Engines engines = makeEngines(device());
+    Pipeline pipeline({.engines = engines,
                        .clock = clock,
                        .metrics = metrics,
                        .broadcaster = broadcaster,

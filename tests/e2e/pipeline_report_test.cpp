@@ -61,7 +61,7 @@ TEST_F(PipelineReportTest, countsEveryRayOfEachDisplayThatGotTheFrame) {
 }
 
 TEST_F(PipelineReportTest, refusesADisplayOverTheLimitsAndServesTheOthers) {
-  PipelineOptions options;
+  ServerOptions options;
   options.atlas_limits.side_px_max = 256;
   Server server(device(), options);
   const Viewer small = watch(server, smallQuilt({200, 120}));

@@ -11,7 +11,7 @@ using testing::SizeIs;
 
 class PipelineSourcesTest : public PipelineFixture {
  protected:
-  AtlasPtr atlasOf(const FramePtr& frame, PipelineOptions options = {}) {
+  AtlasPtr atlasOf(const FramePtr& frame, ServerOptions options = {}) {
     Server server(device(), options);
     const Viewer viewer =
         watch(server, smallQuilt({400, 300}), {.with_depth = true, .with_mask = true});

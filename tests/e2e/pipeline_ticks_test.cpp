@@ -134,9 +134,8 @@ TEST_F(PipelineTicksTest, stopsWithACameraThatStandsFromNowOn) {
 }
 
 TEST_F(PipelineTicksTest, showsWhatLiesBetweenTwoFramesByAskingBoth) {
-  PipelineOptions options;
-  ASSERT_EQ(options.structure_slots_per_stream, 2u);
-  Server server(device(), options);
+  ASSERT_EQ(PipelineOptions{}.structure_slots_per_stream, 2u);
+  Server server(device());
   DisplaySpec spec = ticking();
   spec.temporal->mode = TemporalMode::kInterpolate;
   const Viewer viewer = watch(server, spec);

@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "e2e/wire_frames.h"
+#include "engine_room.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 #include "service.h"

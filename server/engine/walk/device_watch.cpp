@@ -30,7 +30,7 @@ void DeviceWatch::whenDone(uint64_t value, std::function<void()> then) {
 
 void DeviceWatch::drain() {
   std::unique_lock lock(mutex_);
-  told_.wait(lock, [this] { return has_failed_ || (awaited_.empty() && !is_telling_); });
+  told_.wait(lock, [this] { return awaited_.empty() && !is_telling_; });
 }
 
 void DeviceWatch::run(const std::stop_token& stop) {
@@ -42,9 +42,12 @@ void DeviceWatch::run(const std::stop_token& stop) {
       std::lock_guard lock(mutex_);
       has_failed_ = true;
       dropped.swap(awaited_);
-      told_.notify_all();
     }
     on_failure_(error);
+    dropped.clear();
+    std::lock_guard lock(mutex_);
+    is_telling_ = false;  // those who drain may go now
+    told_.notify_all();
   }
 }
 

@@ -32,11 +32,13 @@ class StripTraces {
   StripTraces(const Device& device, uint32_t slot_count_max,
               const std::function<void()>& on_return);
 
-  // Holding it keeps it from reuse. nullptr: all are lent.
-  std::shared_ptr<StripTrace> take(const TraceSlotShape& shape);
+  // Those for eyes are no others: tracked displays wait for nobody else's strips. Holding it keeps
+  // it from reuse. nullptr: all are lent.
+  std::shared_ptr<StripTrace> take(const TraceSlotShape& shape, bool is_for_eyes);
 
  private:
   struct Ring {
+    bool is_for_eyes = false;
     TraceSlotShape largest;
     SlotPool<StripTrace> slots;
   };

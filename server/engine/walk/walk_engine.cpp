@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include "base/log.h"
+#include "gpu/device_error.h"
+
 namespace viewloom {
 namespace {
 
@@ -44,15 +47,21 @@ PlanPtr WalkEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) 
 
 bool WalkEngine::workAhead() {
   if (!warm_up_) return false;
-  if (warm_up_->makeNext()) return true;
+  try {
+    if (warm_up_->makeNext()) return true;
+    works_.device.keepKernels();
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error)) throw;
+    log(LogLevel::kWarning, "kernels are not compiled ahead: ", deviceErrorText(error));
+  }
   warm_up_.reset();
-  works_.device.keepKernels();
   return false;
 }
 
 std::unique_ptr<Making> WalkEngine::begin(AtlasOrder order, HandOn hand_on) {
   order.planes.color = tracer_.colorForm(order.planes.color);
-  std::shared_ptr<StripTrace> trace = strips_.take(WalkMaking::stripShape(order));
+  std::shared_ptr<StripTrace> trace =
+      strips_.take(WalkMaking::stripShape(order), order.is_for_eyes);
   if (!trace) return nullptr;
   const WalkTools tools{.timeline = works_.timeline,
                         .tracer = tracer_,

@@ -131,7 +131,7 @@ TraceSlotShape WalkMaking::stripShape(const AtlasOrder& order) {
 }
 
 MakingStep WalkMaking::step() {
-  if (!trace_) trace_ = tools_.strips.take(stripShape(order_));
+  if (!trace_) trace_ = tools_.strips.take(stripShape(order_), order_.is_for_eyes);
   if (!trace_) return {.has_room = false};
   const BandRows rows = order_.strips.rowsOf(strip_);
   const BandParts parts(*picture_, rows);

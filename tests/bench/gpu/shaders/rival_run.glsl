@@ -4,6 +4,7 @@
 #define VIEWLOOM_BENCH_RIVAL_RUN_GLSL_
 
 #include "rival_abi.h"
+#include "shared/kernel_constants.h"
 
 layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kIdFree) const
