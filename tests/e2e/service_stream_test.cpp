@@ -153,7 +153,7 @@ TEST_F(ServiceStreamTest, namesItsThreadsAfterTheirStages) {
   // gRPC names its own. Threads name themselves once they run, which may be after the service says
   // that it serves.
   const auto all = testing::IsSupersetOf(
-      {"rpc ticker", "http", "decode", "build", "gpu", "ticks", "encode", "worker"});
+      {"rpc ticker", "http", "decode", "build", "walk", "device", "ticks", "encode", "worker"});
   const auto give_up = std::chrono::steady_clock::now() + kGiveUpAfter;
   while (!testing::Matches(all)(threadNames()) && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
