@@ -33,7 +33,7 @@ class EngineRoom : public AtlasMaker {
   virtual uint64_t deviceMessageCount() const = 0;
 };
 
-// What it works with and does not own. All of it outlives the room.
+// Neighbours of the room. All of them outlive it.
 struct EngineRoomLinks {
   const Clock& clock;
   const Metrics& metrics;

@@ -33,7 +33,7 @@ class EngineOutOfMemory : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What is known of a frame once it is prepared.
+// Measurements of a prepared frame.
 struct FrameMeasures {
   SourceStats stats;   // of the first source
   DepthSpread depths;  // likewise
@@ -84,7 +84,7 @@ struct StripPlanes {
   std::span<const uint8_t> mask;   // uint8_t[rows of the strip][width], RayClass
 };
 
-// What rays of an atlas, or a part of it, have seen.
+// Counts of the rays of an atlas, or of a part of it, by what they saw.
 struct RayCounts {
   Coverage coverage;
   ReflectionCounts reflections;
@@ -129,7 +129,7 @@ struct AtlasOrder {
   bool is_for_eyes = false;  // of a tracked display
 };
 
-// What a step did.
+// Result of Making::step().
 struct MakingStep {
   bool has_room = true;    // else nothing: all memory is lent (EngineEvents::on_room)
   uint64_t ray_count = 0;  // that were submitted to a device
@@ -140,14 +140,14 @@ struct MakingStep {
 class Making {
  public:
   virtual ~Making() = default;
-  // As the planes of its strips are: colour in the form that was asked for, or kRgba.
+  // Planes of its strips: colour in the form that was asked for, or kRgba.
   virtual const TraceOutputs& planes() const = 0;
   // Whether it has begun a strip, and so holds memory that others may wait for.
   virtual bool holdsRoom() const = 0;
   virtual MakingStep step() = 0;
 };
 
-// What an engine tells those who use it.
+// Calls that an engine makes to its user.
 struct EngineEvents {
   std::function<void()> on_room;  // memory came back; called on any thread, must not throw
   std::function<void(const std::exception& error)> on_failure;  // nothing more will be handed on

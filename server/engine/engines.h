@@ -13,7 +13,7 @@ namespace viewloom {
 // The preferred engine comes first: it makes what it can. Outlives those who use it.
 struct Engines {
   std::vector<std::unique_ptr<Engine>> all;
-  // Of the pipeline, for work on whole frames; engines share it.
+  // Threads for work on whole frames; the pipeline and the engines share them.
   std::unique_ptr<WorkerPool> workers;
 
   // The first engine that takes such frames, or all.size().

@@ -8,7 +8,7 @@
 
 namespace viewloom {
 
-// Of a complete spec. Rays that are gathered or mirrored are not counted.
+// The spec is complete. Rays that are gathered or mirrored are not counted.
 int64_t rayCount(const DisplaySpec& spec);
 
 }  // namespace viewloom

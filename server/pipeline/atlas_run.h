@@ -61,8 +61,8 @@ class AtlasRun {
   const Pose display_pose;  // in the world
   EyePosesPtr eyes;         // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
-  // That some output wants: colour as all outputs take it most directly, until it is being made;
-  // then as the engine gives it.
+  // Planes that some output wants. Colour has the form that all outputs take most directly; once
+  // the atlas is being made, the form that the engine gives.
   TraceOutputs planes;
   AtlasStrips strips;
   TraceMethod method = TraceMethod::kWalk;

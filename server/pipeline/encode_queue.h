@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What encode threads do next: pieces of atlases to make, and strips to pack.
+// Work that waits for encode threads: pieces of atlases to make, and strips to pack.
 #pragma once
 
 #include <atomic>

@@ -21,7 +21,7 @@ class JobBoard {
  public:
   JobBoard(const Clock& clock, size_t engine_count) : clock_(clock), lanes_(engine_count) {}
 
-  // What became of a job that was offered.
+  // Outcome of an offer.
   struct Offered {
     size_t engine = 0;  // that it waits for
     // None of the picture has waited so far, or eyes have waited for these poses. Else nothing new

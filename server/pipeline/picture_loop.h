@@ -19,7 +19,7 @@
 
 namespace viewloom {
 
-// What the loops of all engines share.
+// Parts that the loops of all engines share.
 struct PictureDesk {
   JobBoard& board;
   PictureCache& pictures;

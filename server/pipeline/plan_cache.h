@@ -26,7 +26,7 @@ class PlanCache {
  public:
   explicit PlanCache(const Engines& engines) : engines_(engines) {}
 
-  // Of the job's picture, as it is aimed for it. nullopt: no engine can make it.
+  // Plans the job's picture, as it is aimed for the job. nullopt: no engine can make it.
   std::optional<PlannedPicture> get(const AtlasJob& job, const PicturePtr& picture);
   // Forgets the plans of pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);

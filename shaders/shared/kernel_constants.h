@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels are specialised to, by constant_id: one list for all of them, C++ and GLSL. A
-// constant means the same in every kernel that has it. ComputePass checks that a kernel is given
-// what it has.
+// Constants that kernels are specialised to, by constant_id: one list for C++ and GLSL. A constant
+// means the same in every kernel that has it. ComputePass checks that a kernel is given what it
+// has.
 #ifndef VIEWLOOM_SHADERS_SHARED_KERNEL_CONSTANTS_H_
 #define VIEWLOOM_SHADERS_SHARED_KERNEL_CONSTANTS_H_
 
@@ -38,7 +38,7 @@ VIEWLOOM_ABI_CONST uint kIdIs420 = 22u;    // bool: chroma of 4:2:0, else 4:4:4
 VIEWLOOM_ABI_CONST uint kIdLayerCount = 23u;      // uint
 VIEWLOOM_ABI_CONST uint kIdSampleType = 24u;      // uint: kDepthSample..., of all layers
 VIEWLOOM_ABI_CONST uint kIdHasRayDistance = 25u;  // bool: some layer states distances along rays
-// Of kernels outside the product, from here on.
+// From here on: constants of kernels outside the product.
 VIEWLOOM_ABI_CONST uint kIdFree = 40u;
 
 VIEWLOOM_ABI_END

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server finds of the kernels that an earlier one has kept.
+// Kernels that an earlier server has kept, as a later one finds them.
 #include "gpu/kernel_cache.h"
 
 #include <gtest/gtest.h>

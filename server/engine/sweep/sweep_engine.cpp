@@ -11,8 +11,8 @@
 namespace viewloom {
 namespace {
 
-// Of tracked displays one is swept at a time, by all threads: the eyes of those that wait behind it
-// are taken when it is their turn.
+// All threads sweep one tracked display at a time. The eyes of the next display are taken when its
+// turn comes.
 constexpr size_t kAtlasesForEyes = 1;
 // So short that an atlas that is due sooner need not wait, long enough that threads seldom meet.
 constexpr uint32_t kRowsPerPiece = 16;

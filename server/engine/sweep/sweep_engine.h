@@ -27,8 +27,8 @@ class SweeperShelf {
 
 class SweepEngine final : public Engine {
  public:
-  // As many atlases of displays that are not tracked are made at a time. `workers` prepare frames,
-  // and outlive it.
+  // `atlas_count_max`: atlases of untracked displays that are made at a time. `workers` prepare
+  // frames, and outlive the engine.
   SweepEngine(uint32_t atlas_count_max, WorkerPool& workers);
 
   TraceMethod method() const override { return TraceMethod::kSweep; }

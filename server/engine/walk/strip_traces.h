@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What strips of atlases occupy on the device on their way, with the commands that trace them.
+// Device memory of strips on their way, with the commands that trace them.
 #pragma once
 
 #include <array>

@@ -38,7 +38,7 @@ class GathererShelf {
   std::vector<std::unique_ptr<BandGatherer>> free_;
 };
 
-// What atlases are walked with. All of it outlives them.
+// Tools that atlases are walked with. All of them outlive the atlases.
 struct WalkTools {
   Timeline& timeline;
   ViewTracer& tracer;
@@ -57,7 +57,7 @@ class WalkMaking final : public Making {
   // Waits until the device is no more than two parts behind.
   MakingStep step() override;
 
-  // What the strips of such an atlas take.
+  // Shape of the slots that the strips of such an atlas take.
   static TraceSlotShape stripShape(const AtlasOrder& order);
 
  private:

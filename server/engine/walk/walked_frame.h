@@ -25,7 +25,7 @@ struct StructureWorks {
   const StructureBuilder builder;
 };
 
-// What all builds of a stream share, one after the other.
+// Memory that all builds of a stream share, one after the other.
 struct StreamBuilds {
   std::mutex mutex;  // guards the memory, from the upload until the device is done
   FrameBuildMemory memory;

@@ -19,7 +19,7 @@ constexpr SizePx kSource_px{64, 48};
 // (trace/color_averager.h).
 constexpr SizePx kEye_px = kSource_px;
 constexpr SizePx kTile_px{kSource_px.width / 4, kSource_px.height / 4};
-// As many as have kernels of their own (trace/px_runs.cpp).
+// Enough columns for the kernels of quilts (trace/px_runs.cpp).
 constexpr uint32_t kColumns = 8;
 
 using DisplayKind = decltype(DisplaySpec::kind);

@@ -149,7 +149,7 @@ uint32_t computeFamily(const vk::raii::PhysicalDevice& device) {
   throw std::runtime_error("the Vulkan device has no compute queue; choose another with --device");
 }
 
-// Of this device with this driver: each has a file of its own.
+// Each pair of device and driver has a file of its own.
 std::string kernelFileName(const vk::raii::PhysicalDevice& device) {
   std::string name = "kernels-";
   for (const uint8_t byte : device.getProperties().pipelineCacheUUID) {
