@@ -3,6 +3,7 @@
 system for hardly any. Arguments: viewloomd, viewloom."""
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -14,8 +15,9 @@ import viewloomd  # takes its argument
 
 CLIENT = sys.argv.pop(1)
 PAGE_BYTES = 4096
-# Frames that warm the server up, and frames that are measured.
-WARM_UP_FRAMES, MEASURED_FRAMES = 10, 30
+# Frames that warm the server up, and frames that are measured: in parts, whose median counts. On a
+# busy machine the server may once hold more frames than before, and that memory is new once.
+WARM_UP_FRAMES, PART_FRAMES, PARTS = 10, 8, 5
 # The share of the pages a frame fills that may be new ones. With memory given back after every
 # message it was 0.4 to 0.8; kept, 0.003 to 0.02.
 NEW_SHARE_MAX = 0.1
@@ -64,14 +66,19 @@ class ReceiveMemory(unittest.TestCase):
         self.addCleanup(replayed.wait, viewloomd.PATIENCE_S)
         self.addCleanup(replayed.terminate)
         self.wait_for(start)
+        shares = [self.new_share(start + (part + 1) * PART_FRAMES) for part in range(PARTS)]
+        self.assertLess(statistics.median(shares), NEW_SHARE_MAX)
+
+    def new_share(self, frames_end):
+        """The share of new pages in the frames from now to `frames_end` since the start."""
         before, (pages_before, cpu_before_s) = self.received(), self.usage()
-        self.wait_for(start + MEASURED_FRAMES)
+        self.wait_for(frames_end)
         after, (pages, cpu_s) = self.received(), self.usage()
         frames, received_bytes = after[0] - before[0], after[1] - before[1]
         share = (pages - pages_before) * PAGE_BYTES / received_bytes
         print(f"{frames:.0f} frames of {received_bytes / frames / 1e6:.1f} MB: {share:.4f} of "
               f"their pages were new; {1000 * (cpu_s - cpu_before_s) / frames:.1f} ms of CPU each")
-        self.assertLess(share, NEW_SHARE_MAX)
+        return share
 
 
 if __name__ == "__main__":
