@@ -2,6 +2,7 @@
 #include "lib/heartbeat_writer.h"
 
 #include "lib/retry_loop.h"
+#include "messages/wire_message.h"
 
 namespace viewloom {
 namespace {
@@ -14,7 +15,7 @@ constexpr uint32_t kHeartbeatTicks = 4;  // a heartbeat a second
 HeartbeatWriter::HeartbeatWriter(Call& call)
     : call_(call), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-bool HeartbeatWriter::write(const v1::PublishFramesRequest& message) {
+bool HeartbeatWriter::write(const grpc::ByteBuffer& message) {
   std::lock_guard lock(mutex_);
   const bool was_written = call_.Write(message);
   idle_tick_count_ = 0;
@@ -28,8 +29,9 @@ void HeartbeatWriter::finish() {
 }
 
 void HeartbeatWriter::run(const std::stop_token& stop) {
-  v1::PublishFramesRequest heartbeat;
-  heartbeat.mutable_heartbeat();
+  v1::PublishFramesRequest request;
+  request.mutable_heartbeat();
+  const grpc::ByteBuffer heartbeat = bytesFromMessage(request);
   while (!stop.stop_requested()) {
     RetryLoop::sleepUntilStopped(stop, kTick_ns);
     if (stop.stop_requested() || ++idle_tick_count_ < kHeartbeatTicks) continue;

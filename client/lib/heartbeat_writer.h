@@ -7,22 +7,24 @@
 #include <mutex>
 #include <thread>
 
+#include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/sync_stream.h>
 
-#include "viewloom/v1/ingest_service.pb.h"
+#include "viewloom/v1/ingest_service.grpc.pb.h"
 
 namespace viewloom {
 
 // Thread-safety: write() from one thread; the heartbeats come from a thread of its own.
 class HeartbeatWriter {
  public:
-  using Call = grpc::ClientReaderWriter<v1::PublishFramesRequest, v1::PublishFramesResponse>;
+  // Its messages go serialised, so that chunks share the bytes of their planes.
+  using Call = grpc::ClientReaderWriter<grpc::ByteBuffer, v1::PublishFramesResponse>;
 
   // The call has its settings. It must outlive the writer.
   explicit HeartbeatWriter(Call& call);
 
   // False when the call is broken.
-  bool write(const v1::PublishFramesRequest& message);
+  bool write(const grpc::ByteBuffer& message);
   // Sends the last heartbeat, if one is under way, and tells the server that nothing follows.
   void finish();
 

@@ -10,6 +10,7 @@
 #include "lib/channel.h"
 #include "lib/frame_messages.h"
 #include "lib/server_clock.h"
+#include "messages/wire_message.h"
 
 namespace viewloom {
 namespace {
@@ -27,7 +28,7 @@ Publisher::Publisher(std::shared_ptr<grpc::Channel> channel, PublisherOptions op
                      PublisherCallbacks callbacks)
     : options_(withSession(std::move(options))),
       callbacks_(std::move(callbacks)),
-      stub_(v1::IngestService::NewStub(std::move(channel))) {
+      channel_(std::move(channel)) {
   thread_ = std::jthread([this](const std::stop_token& stop) {
     RetryLoop loop(options_.backoff, callbacks_.on_connection);
     absl::Status status = loop.run(stop, [&] { return runCall(stop); });
@@ -86,6 +87,16 @@ PublisherCounts Publisher::counts() const {
   return counts_;
 }
 
+// As the stub of the service would; that one takes no messages which are serialised already.
+std::unique_ptr<Publisher::Call> Publisher::openCall(grpc::ClientContext& context) const {
+  constexpr const char* kMethod = "/viewloom.v1.IngestService/PublishFrames";
+  const grpc::internal::RpcMethod method(kMethod, grpc::internal::RpcMethod::BIDI_STREAMING,
+                                         channel_);
+  using Factory =
+      grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::PublishFramesResponse>;
+  return std::unique_ptr<Call>(Factory::Create(channel_.get(), method, &context));
+}
+
 CallEnd Publisher::runCall(const std::stop_token& stop) {
   {
     std::lock_guard lock(mutex_);
@@ -98,12 +109,12 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
   }
   grpc::ClientContext context;
   const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
-  const std::unique_ptr<Call> call = stub_->PublishFrames(&context);
-  v1::PublishFramesRequest settings;
-  settings.mutable_settings()->set_stream(options_.stream);
-  settings.mutable_settings()->set_session_id(options_.session_id);
-  settings.mutable_settings()->set_sends_heartbeats(true);
-  call->Write(settings);  // a failure shows in Finish
+  const std::unique_ptr<Call> call = openCall(context);
+  v1::PublishFramesRequest request;
+  request.mutable_settings()->set_stream(options_.stream);
+  request.mutable_settings()->set_session_id(options_.session_id);
+  request.mutable_settings()->set_sends_heartbeats(true);
+  call->Write(bytesFromMessage(request));  // a failure shows in Finish
   SilenceWatch silence([&] { context.TryCancel(); });
   {
     const std::jthread reader([&] { readAnswers(*call, silence); });
@@ -191,10 +202,10 @@ void Publisher::sendFrames(HeartbeatWriter& writer, const std::stop_token& stop)
 
 bool Publisher::sendFrame(HeartbeatWriter& writer, const WireFrame& frame,
                           const std::stop_token& stop) {
-  const auto send = [&](const v1::PublishFramesRequest& message) {
+  const auto send = [&](const FrameMessage& message) {
     const int64_t begun_ns = steadyNowNs();
-    if (stop.stop_requested() || !writer.write(message)) return false;
-    if (message.chunk().data().size() == chunk_size_.bytes()) {
+    if (stop.stop_requested() || !writer.write(bytesOf(message))) return false;
+    if (message.data.size() == chunk_size_.bytes()) {
       chunk_size_.note(steadyNowNs() - begun_ns);
     }
     return true;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
 
 #include "base/status.h"
 #include "lib/chunk_size.h"
@@ -73,7 +74,9 @@ class Publisher {
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  // Never blocks. The frame takes the place of one that still waits.
+  // Never blocks. The frame takes the place of one that still waits. Its planes are not copied:
+  // they are shared, and must not change, until the last of their bytes has gone or the call is
+  // over.
   void offer(WireFrame frame);
   // Whether a frame waits to be sent.
   bool isWaiting() const;
@@ -89,10 +92,10 @@ class Publisher {
   PublisherCounts counts() const;
 
  private:
-  using Stub = v1::IngestService::Stub;
   using Call = HeartbeatWriter::Call;
 
   CallEnd runCall(const std::stop_token& stop);
+  std::unique_ptr<Call> openCall(grpc::ClientContext& context) const;
   void readAnswers(Call& call, SilenceWatch& silence);
   void takeAnswer(const v1::PublishFramesResponse& answer);
   void sendFrames(HeartbeatWriter& writer, const std::stop_token& stop);
@@ -102,7 +105,7 @@ class Publisher {
 
   const PublisherOptions options_;
   const PublisherCallbacks callbacks_;
-  const std::unique_ptr<Stub> stub_;
+  const std::shared_ptr<grpc::Channel> channel_;
 
   mutable std::mutex mutex_;
   mutable std::condition_variable_any changed_;

@@ -9,6 +9,8 @@
 
 namespace viewloom {
 
+// Whoever holds a frame shares its planes, and so do messages under way: bytes that were offered
+// must not change, and need not be kept.
 struct WireFrame {
   v1::FrameHeader header;
   std::vector<SharedBytes> planes;  // in the header's order: sources, layers, planes

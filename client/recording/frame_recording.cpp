@@ -7,6 +7,7 @@
 
 #include "base/str_cat.h"
 #include "lib/frame_messages.h"
+#include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
 namespace {
@@ -40,8 +41,8 @@ absl::Status FrameRecorder::add(const WireFrame& frame) {
   const int64_t now_ns = clock_.nowNs();
   if (!start_ns_) start_ns_ = now_ns;
   absl::Status status;
-  takeFrameMessages(frame, [&](const v1::PublishFramesRequest& message) {
-    status = writer_->add(now_ns - *start_ns_, message);
+  takeFrameMessages(frame, [&](const FrameMessage& message) {
+    status = writer_->add(now_ns - *start_ns_, message.head, message.data);
     return status.ok();
   });
   VIEWLOOM_RETURN_IF_ERROR(status);

@@ -37,11 +37,19 @@ absl::StatusOr<std::unique_ptr<RecordingWriter>> RecordingWriter::create(std::fi
 }
 
 absl::Status RecordingWriter::add(int64_t time_ns, const google::protobuf::MessageLite& message) {
-  const std::string bytes = message.SerializeAsString();
-  VIEWLOOM_CHECK(!bytes.empty() && bytes.size() <= kRecordBytesMax);
+  return add(time_ns, message.SerializeAsString(), {});
+}
+
+absl::Status RecordingWriter::add(int64_t time_ns, std::string_view head,
+                                  std::span<const uint8_t> data) {
+  const size_t byte_count = head.size() + data.size();
+  VIEWLOOM_CHECK(byte_count > 0 && byte_count <= kRecordBytesMax);
   VIEWLOOM_CHECK(time_ns >= last_time_ns_);
-  absl::Status written = out_->write(recordHead(time_ns, bytes.size()));
-  if (written.ok()) written = out_->write(bytes);
+  absl::Status written = out_->write(recordHead(time_ns, byte_count));
+  if (written.ok()) written = out_->write(head);
+  if (written.ok()) {
+    written = out_->write({reinterpret_cast<const char*>(data.data()), data.size()});
+  }
   if (written.ok()) last_time_ns_ = time_ns;
   if (written.ok() || whole_bytes_ == 0) return written;
   return absl::FailedPreconditionError(

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
+#include <span>
+#include <string_view>
 
 #include <google/protobuf/message_lite.h>
 
@@ -24,6 +25,8 @@ class RecordingWriter {
   // Expects a message that is not empty, and times that do not go back. FAILED_PRECONDITION when
   // the disk takes no more.
   absl::Status add(int64_t time_ns, const google::protobuf::MessageLite& message);
+  // The same of a serialised message: its beginning, and the bytes that follow.
+  absl::Status add(int64_t time_ns, std::string_view head, std::span<const uint8_t> data);
   // What was added so far stays whatever comes.
   void markWhole();
   // Drops what is not whole, ends the file and renames it, also after add() failed: what was whole

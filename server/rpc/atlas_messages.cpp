@@ -5,22 +5,15 @@
 #include <span>
 #include <utility>
 
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-#include <google/protobuf/wire_format_lite.h>
-
 #include "base/check.h"
+#include "messages/wire_message.h"
 #include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
-#include "rpc/wire_message.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {
 namespace {
-
-using google::protobuf::internal::WireFormatLite;
-using google::protobuf::io::CodedOutputStream;
 
 v1::AtlasPlane planeToProto(AtlasPlane plane) {
   switch (plane) {
@@ -75,11 +68,6 @@ v1::DefaultsReason reasonToProto(DefaultsReason reason) {
   return v1::DEFAULTS_REASON_UNSPECIFIED;
 }
 
-void writeBytesTag(CodedOutputStream& output, int field_number, size_t byte_count) {
-  output.WriteTag(WireFormatLite::MakeTag(field_number, WireFormatLite::WIRETYPE_LENGTH_DELIMITED));
-  output.WriteVarint32(static_cast<uint32_t>(byte_count));
-}
-
 // Whether the data of two bands that follow each other, joined, are those of one (BandEncoding).
 bool areOneJoined(const EncodedBand& band, const EncodedBand& next) {
   const bool is_same_plane = band.image_index == next.image_index && band.plane == next.plane;
@@ -88,23 +76,8 @@ bool areOneJoined(const EncodedBand& band, const EncodedBand& next) {
          band.encoding != BandEncoding::kZstd;
 }
 
-// All of a StreamAtlasesResponse that holds this band, up to the bytes of its data, which come last
-// because data is the band's highest field.
-std::string prefixOf(const v1::Band& band_without_data, size_t data_bytes) {
-  std::string band = band_without_data.SerializeAsString();
-  {
-    google::protobuf::io::StringOutputStream stream(&band);  // appends
-    CodedOutputStream output(&stream);
-    writeBytesTag(output, v1::Band::kDataFieldNumber, data_bytes);
-  }
-  std::string prefix;
-  {
-    google::protobuf::io::StringOutputStream stream(&prefix);
-    CodedOutputStream output(&stream);
-    writeBytesTag(output, v1::StreamAtlasesResponse::kBandFieldNumber, band.size() + data_bytes);
-  }
-  return prefix + band;
-}
+constexpr DataFields kBandData{.part = v1::StreamAtlasesResponse::kBandFieldNumber,
+                               .data = v1::Band::kDataFieldNumber};
 
 }  // namespace
 
@@ -197,7 +170,7 @@ grpc::ByteBuffer AtlasMessages::nextPiece() {
   proto.set_encoding(bandEncodingToProto(first.encoding));
   proto.set_offset_bytes(static_cast<uint32_t>(offset_bytes_));
   proto.set_last_piece(last_piece);
-  std::vector<grpc::Slice> slices{grpc::Slice(prefixOf(proto, data_bytes))};
+  std::vector<grpc::Slice> slices{grpc::Slice(headOfMessage(proto, kBandData, data_bytes))};
   for (const EncodedBand& band : bands) {
     const size_t count = std::min(band.bytes->size() - offset_bytes_, kPieceBytesMax);
     slices.push_back(sliceOf(band.bytes, offset_bytes_, count));

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "rpc/wire_message.h"
+#include "messages/wire_message.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {

@@ -2,8 +2,8 @@
 // What a WatchCall writes, and when.
 #include <utility>
 
+#include "messages/wire_message.h"
 #include "rpc/watch_call.h"
-#include "rpc/wire_message.h"
 
 namespace viewloom {
 

@@ -8,7 +8,7 @@
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
-#include "rpc/wire_message.h"
+#include "messages/wire_message.h"
 #include "viewloom/v1/ingest_service.grpc.pb.h"
 
 namespace viewloom::bench {

@@ -24,7 +24,7 @@ LAYERS = {
     "server/core/calibration": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "nlohmann"]),
     "server/core/display": (["base", "frame", "calibration", SHADERS_SHARED],
                             ["absl", "glm", "nlohmann"]),
-    "server/core/messages": (["base", "frame", "display"], ["absl", "protobuf"]),
+    "server/core/messages": (["base", "frame", "display"], ["absl", "grpc", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
     "server/metrics": (["base"], ["prometheus"]),
     "server/config": (["base", "usage"], ["absl", "toml++"]),

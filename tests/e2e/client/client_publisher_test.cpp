@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <chrono>
 #include <future>
+#include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "e2e/client/publish_scripts.h"
@@ -165,6 +168,75 @@ TEST(ClientPublisher, canBeDestroyedWhileTheServerDoesNotRead) {
     is_stalling.get_future().wait();
   }
   client_is_gone.set_value();
+}
+
+// Larger than what sockets and windows of HTTP/2 hold, so that a server that does not read stops
+// it.
+WireFrame makeLargeFrame() {
+  WireFrame frame;
+  constexpr size_t kLarge_bytes = size_t{64} << 20;
+  frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(kLarge_bytes, uint8_t{7}));
+  frame.header.add_sources()->add_layers()->add_planes()->set_bytes_count(kLarge_bytes);
+  return frame;
+}
+
+// Waits: gRPC may end a call on threads of its own.
+bool isLetGo(const std::weak_ptr<const std::vector<uint8_t>>& plane) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::nanoseconds(kLong_ns);
+  while (!plane.expired()) {
+    if (std::chrono::steady_clock::now() > give_up) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+TEST(ClientPublisher, keepsPlanesUnderWayUntilItIsDestroyedAndNoLonger) {
+  std::promise<void> has_header, client_is_gone;
+  const auto serve = [&](PublishStream& stream, int) {
+    accept(stream);
+    v1::PublishFramesRequest request;
+    readMessage(stream, request);
+    has_header.set_value();
+    client_is_gone.get_future().wait();
+    return grpc::Status::OK;
+  };
+  ScriptedServer server(serve, noWatching);
+  WireFrame frame = makeLargeFrame();
+  const std::weak_ptr<const std::vector<uint8_t>> plane = frame.planes[0];
+  {
+    Publisher publisher = makePublisher(server);
+    publisher.offer(std::move(frame));
+    has_header.get_future().wait();
+    EXPECT_FALSE(plane.expired());
+  }
+  client_is_gone.set_value();
+  EXPECT_TRUE(isLetGo(plane));
+}
+
+TEST(ClientPublisher, letsGoOfPlanesWhoseConnectionIsLost) {
+  std::promise<void> has_header;
+  const auto serve = [&](PublishStream& stream, int call) {
+    std::vector<ReceivedFrame> received;
+    if (!accept(stream)) return grpc::Status::OK;
+    if (call > 1) return takeAll(stream, received);
+    v1::PublishFramesRequest request;
+    readMessage(stream, request);
+    has_header.set_value();
+    while (stream.Read(&request)) {  // until the server goes down
+    }
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "down");
+  };
+  ScriptedServer server(serve, noWatching);
+  Publisher publisher = makePublisher(server);
+  WireFrame frame = makeLargeFrame();
+  const std::weak_ptr<const std::vector<uint8_t>> plane = frame.planes[0];
+  publisher.offer(std::move(frame));
+  has_header.get_future().wait();
+  publisher.offer(makeFrame(2));  // instead of the frame under way
+  server.stop();
+  server.start();
+  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
+  EXPECT_TRUE(isLetGo(plane));
 }
 
 }  // namespace

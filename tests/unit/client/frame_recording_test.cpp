@@ -14,6 +14,7 @@
 #include "lib/frame_messages.h"
 #include "support/large_allocations.h"
 #include "unit/client/test_files.h"
+#include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
 namespace {
@@ -112,12 +113,17 @@ std::string head(uint32_t version = 1, uint32_t kind = 1) {
   return "VIEWLOOM" + number(version, 4) + number(kind, 4);
 }
 
+// As the library of Protocol Buffers writes them; no plane is longer than a chunk.
 std::vector<std::string> messagesOf(const WireFrame& frame) {
-  std::vector<std::string> messages;
-  takeFrameMessages(frame, [&](const v1::PublishFramesRequest& message) {
-    messages.push_back(message.SerializeAsString());
-    return true;
-  });
+  v1::PublishFramesRequest header;
+  *header.mutable_header() = frame.header;
+  std::vector<std::string> messages{header.SerializeAsString()};
+  for (size_t plane = 0; plane < frame.planes.size(); ++plane) {
+    v1::PublishFramesRequest request;
+    request.mutable_chunk()->set_plane_index(static_cast<uint32_t>(plane));
+    request.mutable_chunk()->set_data(frame.planes[plane]->data(), frame.planes[plane]->size());
+    messages.push_back(request.SerializeAsString());
+  }
   return messages;
 }
 
@@ -190,8 +196,8 @@ TEST_F(FrameRecordingTest, endsBehindTheLastWholeMessageOfItsOwner) {
   const fs::path file = folder_.path() / "part.vlr";
   auto writer = RecordingWriter::create(file, RecordingKind::kFrames);
   ASSERT_TRUE(writer.ok());
-  takeFrameMessages(makeFrame(1), [&](const v1::PublishFramesRequest& message) {
-    return (*writer)->add(0, message).ok();
+  takeFrameMessages(makeFrame(1), [&](const FrameMessage& message) {
+    return (*writer)->add(0, message.head, message.data).ok();
   });
   (*writer)->markWhole();
   v1::PublishFramesRequest header;

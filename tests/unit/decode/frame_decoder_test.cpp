@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include <string>
 #include <vector>
 
@@ -82,6 +84,23 @@ TEST_F(FrameDecoderTest, makesRgbOpaqueRgba) {
   EXPECT_EQ(planes.color_encoding, PlaneEncoding::kRgba8);
   EXPECT_EQ(*planes.color, (Bytes{1,  2,  3,  255, 4,  5,  6,  255, 7,  8,  9,  255,
                                   11, 12, 13, 255, 14, 15, 16, 255, 17, 18, 19, 255}));
+}
+
+TEST_F(FrameDecoderTest, makesEveryRowOfRgbRgbaHoweverLongItIs) {
+  for (uint32_t width = 1; width <= 9; ++width) {
+    OneLayer frame;
+    frame.layer.color.encoding = PlaneEncoding::kRgb8;
+    frame.layer.color.size_px = frame.layer.depth.size_px = {width, 2};
+    frame.depth = Bytes(size_t{4} * width);
+    frame.color = Bytes(size_t{6} * width);
+    std::iota(frame.color.begin(), frame.color.end(), uint8_t{200});
+    Bytes expected;
+    for (size_t i = 0; i < frame.color.size(); ++i) {
+      expected.push_back(frame.color[i]);
+      if (i % 3 == 2) expected.push_back(255);
+    }
+    EXPECT_EQ(*decoded(frame).color, expected) << width;
+  }
 }
 
 TEST_F(FrameDecoderTest, keepsHalfFloatColour) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rpc/wire_message.h"
+#include "messages/wire_message.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/wire_message.h"
+#include "messages/wire_message.h"
 
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/wire_format_lite.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include "base/check.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
+namespace {
+
+// Appends the tag and the length of a field whose `byte_count` bytes follow.
+void appendTag(std::string& bytes, int field, size_t byte_count) {
+  using google::protobuf::internal::WireFormatLite;
+  google::protobuf::io::StringOutputStream stream(&bytes);
+  google::protobuf::io::CodedOutputStream output(&stream);
+  output.WriteTag(WireFormatLite::MakeTag(field, WireFormatLite::WIRETYPE_LENGTH_DELIMITED));
+  output.WriteVarint32(static_cast<uint32_t>(byte_count));
+}
+
+}  // namespace
 
 grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message) {
   const size_t byte_count = message.ByteSizeLong();
@@ -33,6 +48,15 @@ grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {
   // gRPC asks for a mutable pointer but only reads through it.
   return grpc::Slice(const_cast<uint8_t*>(bytes->data() + offset), count, release,
                      new SharedBytes(bytes));
+}
+
+std::string headOfMessage(const google::protobuf::MessageLite& part_without_data, DataFields fields,
+                          size_t data_bytes) {
+  std::string part = part_without_data.SerializeAsString();
+  appendTag(part, fields.data, data_bytes);
+  std::string head;
+  appendTag(head, fields.part, part.size() + data_bytes);
+  return head + part;
 }
 
 }  // namespace viewloom
