@@ -88,7 +88,7 @@ void addSurface(const LayerFormat& layer, const SurfacePlanes& planes,
                 const glm::dquat& world_from_camera, BytePool& pool, LayerPlanes& to) {
   VIEWLOOM_CHECK(planes.specular != nullptr);
   const size_t count = layer.depth.size_px.area();
-  BytePool::Buffer packed = pool.take(count * sizeof(abi::SurfaceTexel));
+  BytePool::Buffer packed = pool.takeUncleared(count * sizeof(abi::SurfaceTexel));
   packed->resize(count * sizeof(abi::SurfaceTexel));
   auto* const texels = reinterpret_cast<abi::SurfaceTexel*>(packed->data());
   const size_t specular_bytes = planes.specular->size() / count;

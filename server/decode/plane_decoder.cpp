@@ -16,7 +16,7 @@ absl::StatusOr<SharedBytes> PlaneDecoder::inflate(const PlaneFormat& plane,
           ? ZstdInflater::contentBytesUpTo(*wire, jpegBytesMax(plane.size_px.area()))
           : ZstdInflater::contentBytes(*wire, uncompressedBytes(plane));
   if (!content_bytes.ok()) return content_bytes.status();
-  BytePool::Buffer inflated = pool_.take(*content_bytes);
+  BytePool::Buffer inflated = pool_.takeUncleared(*content_bytes);
   VIEWLOOM_RETURN_IF_ERROR(zstd_.inflate(*wire, *content_bytes, *inflated));
   return SharedBytes(std::move(inflated));
 }
@@ -28,12 +28,12 @@ absl::StatusOr<SharedBytes> PlaneDecoder::decode(const PlaneFormat& plane, Share
     wire = *std::move(inflated);
   }
   if (plane.compression == PlaneCompression::kPredictedZstd) {
-    BytePool::Buffer restored = pool_.take(decodedBytes(plane));
+    BytePool::Buffer restored = pool_.takeUncleared(decodedBytes(plane));
     restorePredicted(*wire, plane.size_px, *restored);
     return SharedBytes(std::move(restored));
   }
   if (isPacked(plane)) return wire;
-  BytePool::Buffer packed = pool_.take(decodedBytes(plane));
+  BytePool::Buffer packed = pool_.takeUncleared(decodedBytes(plane));
   if (plane.encoding == PlaneEncoding::kJpeg) {
     VIEWLOOM_RETURN_IF_ERROR(jpeg_.decode(*wire, plane.size_px, *packed));
   } else {

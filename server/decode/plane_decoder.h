@@ -23,7 +23,7 @@ class PlaneDecoder {
  private:
   absl::StatusOr<SharedBytes> inflate(const PlaneFormat& plane, const SharedBytes& wire);
 
-  BytePool& pool_;
+  BytePool& pool_;  // decoders write whole buffers, which need not be cleared before
   ZstdInflater zstd_;
   JpegDecoder jpeg_;
 };
