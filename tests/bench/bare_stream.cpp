@@ -2,6 +2,7 @@
 #include "bench/bare_stream.h"
 
 #include <algorithm>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <grpcpp/server_builder.h>
 
 #include "messages/wire_message.h"
+#include "viewloom/v1/display_service.grpc.pb.h"
 #include "viewloom/v1/ingest_service.grpc.pb.h"
 
 namespace viewloom::bench {
@@ -16,11 +18,16 @@ namespace {
 
 constexpr size_t kMessage_bytes = size_t{1} << 20;
 
-class DroppingCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
+using RawReactor = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
+
+grpc::ByteBuffer shortMessage() {
+  const grpc::Slice slice("done", 4);
+  return {&slice, 1};
+}
+
+class TakingCall final : public RawReactor {
  public:
-  explicit DroppingCall(uint64_t answered_bytes) : answered_bytes_(answered_bytes) {
-    StartRead(&incoming_);
-  }
+  explicit TakingCall(uint64_t frame_bytes) : frame_bytes_(frame_bytes) { StartRead(&incoming_); }
 
   void OnReadDone(bool ok) override {
     if (!ok) {
@@ -29,13 +36,12 @@ class DroppingCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
     }
     byte_count_ += incoming_.Length();
     incoming_.Clear();
-    if (byte_count_ < answered_bytes_) {
+    if (byte_count_ < frame_bytes_) {
       StartRead(&incoming_);
       return;
     }
     byte_count_ = 0;
-    const grpc::Slice answer("done", 4);
-    outgoing_ = grpc::ByteBuffer(&answer, 1);
+    outgoing_ = shortMessage();
     StartWrite(&outgoing_);
   }
   void OnWriteDone(bool ok) override {
@@ -44,34 +50,93 @@ class DroppingCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   void OnDone() override { delete this; }
 
  private:
-  const uint64_t answered_bytes_;
+  const uint64_t frame_bytes_;
   uint64_t byte_count_ = 0;
+  grpc::ByteBuffer incoming_;
+  grpc::ByteBuffer outgoing_;
+};
+
+class GivingCall final : public RawReactor {
+ public:
+  GivingCall(uint64_t frame_bytes, SharedBytes piece)
+      : frame_bytes_(frame_bytes), piece_(std::move(piece)) {
+    StartRead(&incoming_);
+  }
+
+  void OnReadDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    if (!ok) {
+      Finish(grpc::Status::OK);
+      return;
+    }
+    owed_bytes_ += frame_bytes_;
+    if (!writing_) writeNext();
+    StartRead(&incoming_);
+  }
+  void OnWriteDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    writing_ = false;
+    if (ok && owed_bytes_ > 0) writeNext();
+  }
+  void OnDone() override { delete this; }
+
+ private:
+  void writeNext() {
+    const uint64_t rest_bytes = owed_bytes_ % frame_bytes_;
+    const size_t size =
+        std::min<uint64_t>(rest_bytes == 0 ? frame_bytes_ : rest_bytes, kMessage_bytes);
+    const grpc::Slice slice = sliceOf(piece_, 0, size);
+    outgoing_ = grpc::ByteBuffer(&slice, 1);
+    owed_bytes_ -= size;
+    writing_ = true;
+    StartWrite(&outgoing_);
+  }
+
+  const uint64_t frame_bytes_;
+  const SharedBytes piece_;
+  std::mutex mutex_;
+  uint64_t owed_bytes_ = 0;
+  bool writing_ = false;
   grpc::ByteBuffer incoming_;
   grpc::ByteBuffer outgoing_;
 };
 
 }  // namespace
 
-class BareServer::Service final
+class BareServer::Taker final
     : public v1::IngestService::WithRawCallbackMethod_PublishFrames<v1::IngestService::Service> {
  public:
-  explicit Service(uint64_t answered_bytes) : answered_bytes_(answered_bytes) {}
+  explicit Taker(uint64_t frame_bytes) : frame_bytes_(frame_bytes) {}
 
  private:
-  grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* PublishFrames(
-      grpc::CallbackServerContext* /*context*/) override {
-    return new DroppingCall(answered_bytes_);
+  RawReactor* PublishFrames(grpc::CallbackServerContext* /*context*/) override {
+    return new TakingCall(frame_bytes_);
   }
 
-  const uint64_t answered_bytes_;
+  const uint64_t frame_bytes_;
 };
 
-BareServer::BareServer(uint64_t answered_bytes)
-    : service_(std::make_unique<Service>(answered_bytes)) {
+class BareServer::Giver final
+    : public v1::DisplayService::WithRawCallbackMethod_StreamAtlases<v1::DisplayService::Service> {
+ public:
+  explicit Giver(uint64_t frame_bytes) : frame_bytes_(frame_bytes) {}
+
+ private:
+  RawReactor* StreamAtlases(grpc::CallbackServerContext* /*context*/) override {
+    return new GivingCall(frame_bytes_, piece_);
+  }
+
+  const uint64_t frame_bytes_;
+  const SharedBytes piece_ = std::make_shared<const std::vector<uint8_t>>(kMessage_bytes);
+};
+
+BareServer::BareServer(uint64_t frame_bytes)
+    : taker_(std::make_unique<Taker>(frame_bytes)), giver_(std::make_unique<Giver>(frame_bytes)) {
   grpc::ServerBuilder builder;
   builder.SetMaxReceiveMessageSize(2 * int{kMessage_bytes});
   builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
-  builder.RegisterService(service_.get());
+  builder.RegisterService(taker_.get());
+  builder.RegisterService(giver_.get());
   server_ = builder.BuildAndStart();
   if (server_ == nullptr || port_ == 0) throw std::runtime_error("cannot listen on the loopback");
 }
@@ -84,13 +149,14 @@ std::string BareServer::address() const {
   return "127.0.0.1:" + std::to_string(port_);
 }
 
-BareClient::BareClient(std::shared_ptr<grpc::Channel> channel) : stub_(std::move(channel)) {
-  call_ = stub_.PrepareCall(&context_, "/viewloom.v1.IngestService/PublishFrames", &queue_);
+BareCall::BareCall(std::shared_ptr<grpc::Channel> channel, const std::string& method)
+    : stub_(std::move(channel)) {
+  call_ = stub_.PrepareCall(&context_, method, &queue_);
   call_->StartCall(this);
-  await(this);
+  await();
 }
 
-BareClient::~BareClient() {
+BareCall::~BareCall() {
   context_.TryCancel();
   queue_.Shutdown();
   void* tag = nullptr;
@@ -99,26 +165,47 @@ BareClient::~BareClient() {
   }
 }
 
-void BareClient::send(const std::vector<SharedBytes>& planes) {
+void BareCall::write(const grpc::ByteBuffer& message) {
+  call_->Write(message, this);
+  await();
+}
+
+size_t BareCall::read() {
+  grpc::ByteBuffer message;
+  call_->Read(&message, this);
+  await();
+  return message.Length();
+}
+
+void BareCall::await() {
+  void* done = nullptr;
+  bool ok = false;
+  if (!queue_.Next(&done, &ok) || !ok || done != this) {
+    throw std::runtime_error("the bare stream broke off");
+  }
+}
+
+BareSender::BareSender(std::shared_ptr<grpc::Channel> channel)
+    : call_(std::move(channel), "/viewloom.v1.IngestService/PublishFrames") {}
+
+void BareSender::send(const std::vector<SharedBytes>& planes) {
   for (const SharedBytes& plane : planes) {
     for (size_t offset = 0; offset < plane->size(); offset += kMessage_bytes) {
       const grpc::Slice slice =
           sliceOf(plane, offset, std::min(kMessage_bytes, plane->size() - offset));
-      call_->Write(grpc::ByteBuffer(&slice, 1), this);
-      await(this);
+      call_.write(grpc::ByteBuffer(&slice, 1));
     }
   }
-  grpc::ByteBuffer answer;
-  call_->Read(&answer, this);
-  await(this);
 }
 
-void BareClient::await(void* tag) {
-  void* done = nullptr;
-  bool ok = false;
-  if (!queue_.Next(&done, &ok) || !ok || done != tag) {
-    throw std::runtime_error("the bare stream broke off");
-  }
+BareReceiver::BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes)
+    : frame_bytes_(frame_bytes),
+      call_(std::move(channel), "/viewloom.v1.DisplayService/StreamAtlases") {}
+
+void BareReceiver::receive(int frame_count) {
+  for (int i = 0; i < frame_count; ++i) call_.write(shortMessage());
+  uint64_t rest_bytes = uint64_t(frame_count) * frame_bytes_;
+  while (rest_bytes > 0) rest_bytes -= call_.read();
 }
 
 }  // namespace viewloom::bench

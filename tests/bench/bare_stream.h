@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor of any gRPC stream: a call whose messages nobody reads into anything.
+// The floor of any gRPC stream, in either direction: calls whose messages nobody reads into
+// anything.
 #pragma once
 
 #include <cstdint>
@@ -15,38 +16,69 @@
 
 namespace viewloom::bench {
 
-// Takes calls of IngestService/PublishFrames, drops what comes, and answers every so many bytes
-// with one message.
+// Takes calls of IngestService/PublishFrames, drops what comes, and answers every `frame_bytes`
+// with one message. Takes calls of DisplayService/StreamAtlases, and answers every message with
+// `frame_bytes` in messages of 1 MiB that share their bytes.
 class BareServer {
  public:
-  explicit BareServer(uint64_t answered_bytes);
+  explicit BareServer(uint64_t frame_bytes);
   ~BareServer();
 
   std::string address() const;
 
  private:
-  class Service;
-  std::unique_ptr<Service> service_;
+  class Taker;
+  class Giver;
+  std::unique_ptr<Taker> taker_;
+  std::unique_ptr<Giver> giver_;
   std::unique_ptr<grpc::Server> server_;
   int port_ = 0;
 };
 
-// Sends bytes in messages of 1 MiB that share them, as fast as they go.
-class BareClient {
+// A call of either method, one message at a time.
+class BareCall {
  public:
-  explicit BareClient(std::shared_ptr<grpc::Channel> channel);
-  ~BareClient();
+  BareCall(std::shared_ptr<grpc::Channel> channel, const std::string& method);
+  ~BareCall();
+  BareCall(const BareCall&) = delete;
+  BareCall& operator=(const BareCall&) = delete;
 
-  // Returns when the server has answered.
-  void send(const std::vector<SharedBytes>& planes);
+  // Return when the message has gone, or come. Throw std::runtime_error where the call broke off.
+  void write(const grpc::ByteBuffer& message);
+  size_t read();
 
  private:
-  void await(void* tag);
+  void await();
 
   grpc::GenericStub stub_;
   grpc::ClientContext context_;
   grpc::CompletionQueue queue_;
   std::unique_ptr<grpc::GenericClientAsyncReaderWriter> call_;
+};
+
+// Sends bytes in messages of 1 MiB that share them, as fast as they go.
+class BareSender {
+ public:
+  explicit BareSender(std::shared_ptr<grpc::Channel> channel);
+
+  void send(const std::vector<SharedBytes>& planes);
+  // The server has all of a frame that was sent.
+  void awaitAnswer() { call_.read(); }
+
+ private:
+  BareCall call_;
+};
+
+// Asks for frames and drops their bytes as they come.
+class BareReceiver {
+ public:
+  explicit BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes);
+
+  void receive(int frame_count);
+
+ private:
+  const uint64_t frame_bytes_;
+  BareCall call_;
 };
 
 }  // namespace viewloom::bench

@@ -2,25 +2,24 @@
 #include "bench/ingest_bench.h"
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <random>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "base/heap.h"
 #include "bench/bare_stream.h"
+#include "bench/endless_atlases.h"
 #include "bench/measured_process.h"
 #include "bench/report.h"
+#include "bench/stream_ways.h"
 #include "e2e/test_server.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
 #include "offline/median.h"
 
 namespace viewloom::bench {
@@ -76,102 +75,6 @@ WireFrame noiseFrame(uint32_t width_px, uint32_t height_px) {
   return frame;
 }
 
-uint64_t byteCount(const WireFrame& frame) {
-  uint64_t count = 0;
-  for (const SharedBytes& plane : frame.planes) count += plane->size();
-  return count;
-}
-
-// One way of getting frames from here to there.
-class Way {
- public:
-  virtual ~Way() = default;
-  virtual void send(int frame_count) = 0;
-  // CPU time of the other side so far.
-  virtual double thereCpuTime_s() const = 0;
-};
-
-class Copies final : public Way {
- public:
-  explicit Copies(const WireFrame& frame) : frame_(frame), copy_(byteCount(frame)) {}
-
-  void send(int frame_count) override {
-    for (int i = 0; i < frame_count; ++i) {
-      size_t offset = 0;
-      for (const SharedBytes& plane : frame_.planes) {
-        std::memcpy(copy_.data() + offset, plane->data(), plane->size());
-        offset += plane->size();
-      }
-    }
-  }
-  double thereCpuTime_s() const override { return 0; }
-
- private:
-  const WireFrame& frame_;
-  std::vector<uint8_t> copy_;
-};
-
-class Bare final : public Way {
- public:
-  Bare(const WireFrame& frame, const MeasuredProcess& there)
-      : frame_(frame), there_(there), client_(makeChannel(there.address())) {}
-
-  void send(int frame_count) override {
-    for (int i = 0; i < frame_count; ++i) client_.send(frame_.planes);
-  }
-  double thereCpuTime_s() const override { return there_.cpuTime_s(); }
-
- private:
-  const WireFrame& frame_;
-  const MeasuredProcess& there_;
-  BareClient client_;
-};
-
-class Published final : public Way {
- public:
-  Published(const WireFrame& frame, const MeasuredProcess& there)
-      : frame_(frame),
-        there_(there),
-        publisher_(makeChannel(there.address()), {.stream = "noise", .backoff = {}},
-                   {.on_accepted = {},
-                    .on_report = [this](const v1::FrameReport& report) { note(report); },
-                    .on_wanted = {},
-                    .on_connection = {},
-                    .on_sent = {}}) {}
-
-  void send(int frame_count) override {
-    for (int i = 0; i < frame_count; ++i) {
-      std::unique_lock lock(mutex_);
-      // No frame takes the place of one that waits, here or there.
-      reported_.wait(lock, [&] { return offered_count_ == reported_count_; });
-      ++offered_count_;
-      lock.unlock();
-      publisher_.offer(frame_);
-    }
-    std::unique_lock lock(mutex_);
-    reported_.wait(lock, [&] { return offered_count_ == reported_count_; });
-    if (!refused_.empty()) throw std::runtime_error("a frame was refused: " + refused_);
-  }
-  double thereCpuTime_s() const override { return there_.cpuTime_s(); }
-
- private:
-  void note(const v1::FrameReport& report) {
-    const std::lock_guard lock(mutex_);
-    ++reported_count_;
-    if (report.outcome() == v1::FRAME_OUTCOME_REFUSED) refused_ = report.reason();
-    reported_.notify_all();
-  }
-
-  const WireFrame& frame_;
-  const MeasuredProcess& there_;
-  std::mutex mutex_;
-  std::condition_variable reported_;
-  int offered_count_ = 0;
-  int reported_count_ = 0;
-  std::string refused_;
-  Publisher publisher_;  // last: it calls back
-};
-
 struct Measured {
   std::vector<double> gb_per_s, here_ms, there_ms;
 };
@@ -190,47 +93,63 @@ void measureRound(Way& way, const Arguments& arguments, uint64_t frame_bytes, Me
 }
 
 void printTable(const Json& json) {
-  std::cout << "| way | GB/s | CPU of the publisher, ms a frame | of the server |\n"
+  std::cout << "| way | GB/s | CPU time of this side, ms a frame | of the server |\n"
             << "|---|---|---|---|\n";
   char row[160];
   for (const Json& way : json["ways"]) {
     std::snprintf(row, sizeof row, "| %s | %.2f | %.1f | %.1f |\n",
                   way["name"].get<std::string>().c_str(), way["gb_per_s"].get<double>(),
-                  way["publisher_ms"].get<double>(), way["server_ms"].get<double>());
+                  way["client_ms"].get<double>(), way["server_ms"].get<double>());
     std::cout << row;
   }
 }
 
+template <typename Server, typename... Arguments>
+MeasuredProcess processOf(Arguments... arguments) {
+  return MeasuredProcess([=] {
+    const auto server = std::make_shared<Server>(arguments...);
+    return MeasuredProcess::Running{.parts = server, .address = server->address()};
+  });
+}
+
+struct NamedWay {
+  const char* name;
+  uint64_t frame_bytes;
+  std::unique_ptr<Way> way;
+  Measured measured;
+};
+
 void measureAll(const Arguments& arguments) {
-  const WireFrame frame =
-      noiseFrame(kWidth_px / arguments.miniature, kHeight_px / arguments.miniature);
+  keepFreedMemory();  // as both programs do, and before the others fork
+  const uint32_t width_px = kWidth_px / arguments.miniature;
+  const uint32_t height_px = kHeight_px / arguments.miniature;
+  const WireFrame frame = noiseFrame(width_px, height_px);
   const uint64_t frame_bytes = byteCount(frame);
-  // Both before this process has threads.
-  const MeasuredProcess bare_server([&] {
-    const auto server = std::make_shared<BareServer>(frame_bytes);
-    return MeasuredProcess::Running{.parts = server, .address = server->address()};
-  });
-  const MeasuredProcess viewloom_server([] {
-    const auto server = std::make_shared<TestServer>();
-    return MeasuredProcess::Running{.parts = server, .address = server->address()};
-  });
-  Copies copies(frame);
-  Bare bare(frame, bare_server);
-  Published published(frame, viewloom_server);
-  const std::vector<std::pair<const char*, Way*>> ways{
-      {"memcpy", &copies}, {"bare gRPC", &bare}, {"viewloom", &published}};
-  std::vector<Measured> measured(ways.size());
+  const uint64_t atlas_bytes = uint64_t{3} * width_px * height_px;
+  // All before this process has threads.
+  const MeasuredProcess bare_taker = processOf<BareServer>(frame_bytes);
+  const MeasuredProcess taker = processOf<TestServer>();
+  const MeasuredProcess bare_giver = processOf<BareServer>(atlas_bytes);
+  const MeasuredProcess giver = processOf<EndlessAtlases>();
+  std::vector<NamedWay> ways;
+  const auto add = [&](const char* name, uint64_t bytes, std::unique_ptr<Way> way) {
+    ways.push_back({.name = name, .frame_bytes = bytes, .way = std::move(way), .measured = {}});
+  };
+  add("memcpy", frame_bytes, copyWay(frame));
+  add("frames in, gRPC alone", frame_bytes, bareSendingWay(frame, bare_taker));
+  add("frames in", frame_bytes, publishingWay(frame, taker));
+  add("atlases out, gRPC alone", atlas_bytes, bareReceivingWay(atlas_bytes, bare_giver));
+  add("atlases out", atlas_bytes, watchingWay(width_px, height_px, giver));
   for (int round = 0; round < arguments.round_count; ++round) {
-    for (size_t i = 0; i < ways.size(); ++i) {
-      measureRound(*ways[i].second, arguments, frame_bytes, measured[i]);
-    }
+    for (NamedWay& way : ways) measureRound(*way.way, arguments, way.frame_bytes, way.measured);
   }
-  Json json{{"date", today()}, {"frame_bytes", frame_bytes}, {"ways", Json::array()}};
-  for (size_t i = 0; i < ways.size(); ++i) {
-    json["ways"].push_back({{"name", ways[i].first},
-                            {"gb_per_s", medianOf(measured[i].gb_per_s)},
-                            {"publisher_ms", medianOf(measured[i].here_ms)},
-                            {"server_ms", medianOf(measured[i].there_ms)}});
+  Json json{{"date", today()}, {"ways", Json::array()}};
+  for (const NamedWay& way : ways) {
+    json["ways"].push_back({{"name", way.name},
+                            {"frame_bytes", way.frame_bytes},
+                            {"gb_per_s", medianOf(way.measured.gb_per_s)},
+                            {"client_ms", medianOf(way.measured.here_ms)},
+                            {"server_ms", medianOf(way.measured.there_ms)}});
   }
   if (arguments.prints_json) {
     std::cout << json.dump(2) << "\n";
@@ -244,7 +163,7 @@ void measureAll(const Arguments& arguments) {
 void addIngestCommand(const usage::Command& app) {
   const auto arguments = std::make_shared<Arguments>();
   const usage::Command command = app.addCommand(
-      "ingest", "Send frames of 3840x2160 to a server in another process, beside gRPC alone");
+      "ingest", "Frames of 3840x2160 into a server and atlases out of it, beside gRPC alone");
   command.addFlag("--json", arguments->prints_json, "Print one JSON object instead of a table");
   command.add("--rounds", arguments->round_count, "Rounds, for the medians").between(1, 1000);
   command.add("--frames", arguments->frame_count, "Frames a round").between(1, 100000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `viewloom-bench ingest`: what it costs to get a frame into a server, beside gRPC alone and beside
-// a copy of its bytes.
+// `viewloom-bench ingest`: what it costs to get a frame into a server and an atlas out of it,
+// beside gRPC alone and beside a copy of the bytes.
 #pragma once
 
 #include "usage/command_line.h"

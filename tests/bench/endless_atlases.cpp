@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/endless_atlases.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace viewloom::bench {
+namespace {
+
+constexpr size_t kRgbBytes = 3;
+// Between looks at whether an atlas has left; a frame of 25 MB takes a hundred times as long.
+constexpr std::chrono::microseconds kLook(200);
+
+std::vector<EncodedBand> bandsOf(const AtlasLayout& layout, const EncodingSpec& encoding) {
+  std::vector<EncodedBand> bands;
+  const uint32_t height_px = layout.size_px.height;
+  const uint32_t rows_per_band = bandRowCount(encoding);
+  for (uint32_t row = 0; row < height_px; row += rows_per_band) {
+    const uint32_t row_count = std::min(rows_per_band, height_px - row);
+    const size_t byte_count = size_t{layout.size_px.width} * row_count * kRgbBytes;
+    bands.push_back({.first_row = row,
+                     .row_count = row_count,
+                     .encoding = BandEncoding::kRaw,
+                     .bytes = std::make_shared<const std::vector<uint8_t>>(byte_count)});
+  }
+  return bands;
+}
+
+}  // namespace
+
+EndlessAtlases::EndlessAtlases() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void EndlessAtlases::run(const std::stop_token& stop) {
+  const Counter& sent = server_.metrics().atlases_sent[Transport::kGrpc];
+  uint64_t display_id = 0;
+  double published_count = 0;  // by `sent`, all of them counted
+  for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
+    const std::vector<ActiveDisplayPtr> displays = server_.broadcaster().displays("");
+    if (displays.empty()) continue;
+    const ActiveDisplay& display = *displays.front();
+    // A viewer that left may not have got its last atlas.
+    if (std::exchange(display_id, display.id) != display.id) published_count = sent.value();
+    if (sent.value() < published_count) continue;
+    publish(display);
+    ++published_count;
+  }
+}
+
+void EndlessAtlases::publish(const ActiveDisplay& display) {
+  const auto layout = std::make_shared<const AtlasLayout>(
+      makeAtlasLayout(display.spec, {.source_size_px = {1, 1}}).value());
+  if (bands_.empty()) bands_ = bandsOf(*layout, display.encoding);
+  server_.broadcaster().noteLayout(display.id, layout);
+  auto atlas = std::make_shared<EncodedAtlas>();
+  atlas->display_id = display.id;
+  atlas->sequence = server_.broadcaster().atlasCount(display.id) + 1;
+  atlas->frame_number = atlas->sequence;
+  atlas->layout = layout;
+  atlas->encoding = display.encoding;
+  atlas->bands = bands_;
+  server_.broadcaster().publish(std::move(atlas));
+}
+
+}  // namespace viewloom::bench
