@@ -8,7 +8,8 @@
 namespace viewloom {
 namespace {
 
-constexpr uint32_t kPlaneFlag = 0x80000000u;  // of a node's first word (shaders/lib/node.glsl)
+// In the first word of a node (shaders/lib/structure/node.glsl).
+constexpr uint32_t kPlaneFlag = 0x80000000u;
 
 struct LayerCells {
   std::span<const abi::uvec2> cells;

@@ -59,7 +59,8 @@ VIEWLOOM_ABI_CONST uint kMetComplete = 8u;
 // In place of a surface: nothing, and what is assumed where rays pass behind what is known.
 VIEWLOOM_ABI_CONST uint kMetBackground = 0xfffffffeu;
 VIEWLOOM_ABI_CONST uint kMetAssumed = 0xffffffffu;
-VIEWLOOM_ABI_CONST uint kBindingMet = 17u;   // storage: lib/met_surface.glsl, [sample][row][width]
+// storage: lib/walk/met_surface.glsl, [sample][row][width]
+VIEWLOOM_ABI_CONST uint kBindingMet = 17u;
 VIEWLOOM_ABI_CONST uint kBindingMetLists = 18u;  // storage: MetList per block
 // storage: vec2[kLensPatternArea_px]: where rays pass through the lens, by place in the pattern; of
 // the second stage, [point][kLensPatternArea_px]

@@ -106,7 +106,7 @@ VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
 struct ReflectedLight {
   // Red, green and blue in binary16; how far what is mirrored lies behind the surface, m (of all
   // rays the harmonic mean), and what weight the light has among that of others, 8 bits each
-  // (lib/reflected_light.glsl).
+  // (lib/mirrors/reflected_light.glsl).
   uvec2 light;
   // Of the light so much adds to the px, as square roots: 0..255 of red, green, blue; roughness.
   uint reflectance;

@@ -140,7 +140,7 @@ struct TraceExtras {
   Microlenses microlenses;
   LenticularEyes lenticular;
   DepthScale depth_scale;  // of tiles that show depth
-  Address met;             // uint[rows][width]: lib/met_surface.glsl; 0 = not wanted
+  Address met;             // uint[rows][width]: lib/walk/met_surface.glsl; 0 = not wanted
   uint sample_index;       // which of the rays of each px these are
 };
 
@@ -208,7 +208,7 @@ struct TracePush {
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
 VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin here, or paths of mirrors
-// Of runs that are listed as unfinished alone (lib/unfinished_runs.glsl).
+// Of runs that are listed as unfinished alone (lib/walk/unfinished_runs.glsl).
 VIEWLOOM_ABI_CONST uint kFillUnfinished = 0x4000000u;
 
 // What of a band is still to be walked, and how many groups of kTraceGroupSize invocations that

@@ -8,15 +8,15 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
-#include "lib/facet_row.glsl"
-#include "lib/links.glsl"
-#include "lib/node.glsl"
-#include "lib/plane_fit.glsl"
+#include "lib/structure/facet_row.glsl"
+#include "lib/structure/layer_count.glsl"
+#include "lib/structure/links.glsl"
+#include "lib/structure/node.glsl"
+#include "lib/structure/plane_fit.glsl"
 
 // Links of a row, and what they do to its facets.
 struct RowLinks {

@@ -4,15 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/fault.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/structure/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
-#include "lib/columns.glsl"
+#include "lib/structure/columns.glsl"
+#include "lib/structure/layer_count.glsl"
 
 float loadAt(uint layer, int x, int y) {
   const uint area = invZArea(push.width_px, push.height_px);
@@ -87,7 +87,8 @@ void buildLayer(Extent extent, uint layer, ivec2 pixel, Columns above_2, Columns
   storeRow(extent, layer, pixel, inv_z, slope_x, slope_y);
 }
 
-// One row of the block, between those above and below. Layers stand one by one: see lib/links.glsl.
+// One row of the block, between those above and below. Layers stand one by one: see
+// lib/structure/links.glsl.
 void buildRow(Extent extent, ivec2 pixel, Columns above_2, Columns above_1, Columns here,
               Columns below_1, Columns below_2) {
   Columns left;

@@ -4,9 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/cube_apron.glsl"
-#include "lib/srgb.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/structure/cube_apron.glsl"
+#include "lib/light/srgb.glsl"
+#include "lib/structure/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push {

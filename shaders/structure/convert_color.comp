@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
-#include "lib/srgb.glsl"
+#include "lib/light/srgb.glsl"
 #include "shared/tone_map.h"
 
 layout(local_size_x = kNodeGroupSize) in;

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/cube_apron.glsl"
+#include "lib/structure/cube_apron.glsl"
 #include "lib/fault.glsl"
 #include "lib/memory.glsl"
 

@@ -3,8 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-#include "lib/node.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/structure/node.glsl"
+#include "lib/structure/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };

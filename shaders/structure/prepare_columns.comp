@@ -8,9 +8,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
+#include "lib/structure/layer_count.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(constant_id = kIdSampleType) const uint kSampleType = kDepthSampleF32;
 layout(constant_id = kIdHasRayDistance) const bool kHasRayDistance = false;
 layout(push_constant, scalar) uniform Push {
@@ -91,7 +91,7 @@ void keep(inout Kept kept, vec4 inv_z) {
   kept.last = mix(kept.last, inv_z, stays);
 }
 
-// Four columns, side by side. Layers stand one by one: see lib/links.glsl.
+// Four columns, side by side. Layers stand one by one: see lib/structure/links.glsl.
 void sortColumns(inout vec4 column[kLayerCountMax], inout uint unsorted_count) {
   // A surface behind a gap counts as in order; one in front of an earlier surface does not.
   bvec4 is_unsorted = bvec4(false);

@@ -9,15 +9,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/fault.glsl"
-#include "lib/structure_access.glsl"
+#include "lib/structure/structure_access.glsl"
 
 layout(local_size_x = kNodeGroupSize) in;
-layout(constant_id = kIdLayerCount) const uint kLayerCount = 2u;
 layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
-#include "lib/columns.glsl"
+#include "lib/structure/columns.glsl"
+#include "lib/structure/layer_count.glsl"
 
 float loadSample(uint layer, int x, int y) {
   const uint area = invZArea(push.width_px, push.height_px);
@@ -118,7 +118,7 @@ void smoothLayer(Extent extent, uint layer, ivec2 pixel, Pairs pairs, vec4 inv_z
               invZIndex(invZPitch(push.width_px), uint(pixel.x), pixel.y), result);
 }
 
-// Layers stand one by one: see lib/links.glsl.
+// Layers stand one by one: see lib/structure/links.glsl.
 void smoothRow(Extent extent, ivec2 pixel) {
   const vec4 nearest = vec4(3.4e38);
   const vec4 farthest = vec4(kNoSurface);

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
-#include "lib/srgb.glsl"
+#include "lib/light/srgb.glsl"
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -19,7 +19,7 @@ layout(set = 0, binding = kBindingBand, scalar) buffer Band {
   uint band[];
 };
 
-#include "lib/reflected_light.glsl"
+#include "lib/mirrors/reflected_light.glsl"
 
 const int kRadiusMax_px = 3;
 // Of the blur of what is mirrored: further, px show different things.

@@ -22,8 +22,8 @@ layout(set = 0, binding = kBindingMeans, scalar) writeonly buffer Means {
   uint means[];
 };
 
-#include "lib/color.glsl"
-#include "lib/node.glsl"
+#include "lib/light/color.glsl"
+#include "lib/structure/node.glsl"
 
 const int kWindowPx = 2 * kTapCount + 1;
 const uint kLowEdge = kIsAlongY ? kEdgeTop : kEdgeLeft;

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "lib/memory.glsl"
-#include "lib/srgb.glsl"
+#include "lib/light/srgb.glsl"
 #include "shared/trace_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;

@@ -22,30 +22,25 @@ const bool kRaysArePlain = false;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;
 };
-layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
-  ViewParams views[];
-};
-layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
-  TraceExtras extras;
-};
+#include "lib/rays/views.glsl"
+#include "lib/rays/extras.glsl"
+#include "lib/lens/lens_points.glsl"
+
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];
 };
 layout(set = 0, binding = kBindingMetLists, scalar) readonly buffer MetLists {
   MetList lists[];
 };
-layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
-  vec2 lens_points[];
-};
 layout(set = 0, binding = kBindingSums, scalar) readonly buffer Sums {
   vec3 sums[];
 };
 
-#include "lib/lens.glsl"
-#include "lib/lens_rays.glsl"
-#include "lib/met_blocks.glsl"
-#include "lib/ray_light.glsl"
-#include "lib/ray_start.glsl"
+#include "lib/lens/lens.glsl"
+#include "lib/lens/lens_rays.glsl"
+#include "lib/rays/met_blocks.glsl"
+#include "lib/light/ray_light.glsl"
+#include "lib/walk/ray_start.glsl"
 
 // Rays that are compared with a sheet at a time.
 const uint kAtOnce = 4u;

@@ -24,7 +24,7 @@ float loadEntry(uint face) {
   return is_walked ? loadFace(face).entry_inv_z : kNeverPassed;
 }
 
-#include "lib/join_faces.glsl"
+#include "lib/sources/join_faces.glsl"
 
 void main() {
   if (gl_GlobalInvocationID.x >= push.answer_count) return;

@@ -14,9 +14,6 @@ layout(local_size_x = kTraceGroupSize) in;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;
 };
-layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
-  ViewParams views[];
-};
 layout(set = 0, binding = kBindingMet, scalar) readonly buffer Met {
   uint met[];
 };
@@ -28,8 +25,9 @@ layout(set = 0, binding = kBindingIncomplete, scalar) buffer Incomplete {
   uint incomplete_blocks[];
 };
 
-#include "lib/met_blocks.glsl"
-#include "lib/met_surface.glsl"
+#include "lib/rays/met_blocks.glsl"
+#include "lib/rays/views.glsl"
+#include "lib/walk/met_surface.glsl"
 
 // A new sheet: the surface itself where it is a node. A facet alone leans as its neighbours have
 // it, so the node around it counts, if that is a plane; else it is taken to face the source.

@@ -6,7 +6,7 @@
 #include "lib/extensions.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/memory.glsl"
-#include "lib/srgb.glsl"
+#include "lib/light/srgb.glsl"
 #include "shared/reflection_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
@@ -23,10 +23,10 @@ layout(set = 0, binding = kBindingReflected, scalar) writeonly buffer ReflectedB
   ReflectedLight reflected_band[];
 };
 
-#include "lib/load_answer.glsl"
-#include "lib/merge.glsl"
-#include "lib/reflected_light.glsl"
-#include "lib/reflection_counts.glsl"
+#include "lib/sources/load_answer.glsl"
+#include "lib/sources/merge.glsl"
+#include "lib/mirrors/reflected_light.glsl"
+#include "lib/mirrors/reflection_counts.glsl"
 
 bool isOf(uint sources, uint source) {
   return (sources >> source & 1u) != 0u;

@@ -13,12 +13,6 @@ layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
 layout(push_constant, scalar) uniform Push {
   MergePush push;
 };
-layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
-  ViewParams views[];
-};
-layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
-  TraceExtras extras;
-};
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];
 };
@@ -32,12 +26,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
   uint8_t at[];
 };
 
-#include "lib/class_counts.glsl"
-#include "lib/load_answer.glsl"
-#include "lib/merge.glsl"
-#include "lib/ray_source.glsl"
-#include "lib/srgb.glsl"
-#include "lib/tile_px.glsl"
+#include "lib/rays/extras.glsl"
+#include "lib/rays/views.glsl"
+#include "lib/walk/class_counts.glsl"
+#include "lib/sources/load_answer.glsl"
+#include "lib/sources/merge.glsl"
+#include "lib/rays/ray_source.glsl"
+#include "lib/light/srgb.glsl"
+#include "lib/rays/tile_px.glsl"
 
 void store(uint index, Merged merged, uint shows) {
   const bool shows_depth = (shows & kShowsDepth) != 0u;

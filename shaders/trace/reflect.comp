@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
 
-#include "lib/mirrored_walk.glsl"
+#include "lib/mirrors/mirrored_walk.glsl"
 
 Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
   return foundBy(scene, pinhole, from, reflected.ray, walkMirrored(scene, from, reflected));

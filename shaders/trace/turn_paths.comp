@@ -17,32 +17,23 @@ layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
 
-layout(set = 0, binding = kBindingViews, scalar) readonly buffer Views {
-  ViewParams views[];
-};
-layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
-  TraceExtras extras;
-};
-layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
-  ReflectionSettings settings;
-};
 layout(set = 0, binding = kBindingPaths, scalar) buffer Paths {
   ReflectedPath paths[];
-};
-layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
-  vec2 lens_points[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RecordsRef {
   RayRecord at[];
 };
 
-#include "lib/albedo.glsl"
-#include "lib/first_camera.glsl"
-#include "lib/mirrored_path.glsl"
-#include "lib/pushed_scene.glsl"
-#include "lib/px_view.glsl"
-#include "lib/reflected_light.glsl"
-#include "lib/tile_px.glsl"
+#include "lib/mirrors/albedo.glsl"
+#include "lib/mirrors/first_camera.glsl"
+#include "lib/mirrors/mirrored_path.glsl"
+#include "lib/mirrors/settings.glsl"
+#include "lib/rays/extras.glsl"
+#include "lib/rays/views.glsl"
+#include "lib/walk/pushed_scene.glsl"
+#include "lib/lens/px_view.glsl"
+#include "lib/mirrors/reflected_light.glsl"
+#include "lib/rays/tile_px.glsl"
 
 // What no reflected ray comes from.
 bool isBeside(TilePx at, RayRecord record, out Aim aim, out ViewParams view) {

@@ -18,12 +18,6 @@ layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
 
-layout(set = 0, binding = kBindingExtras, scalar) uniform Extras {
-  TraceExtras extras;
-};
-layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
-  ReflectionSettings settings;
-};
 layout(set = 0, binding = kBindingPaths, scalar) readonly buffer Paths {
   ReflectedPath paths[];
 };
@@ -31,12 +25,14 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
   RayAnswer answers[];
 };
 
-#include "lib/first_camera.glsl"
-#include "lib/mirrored_path.glsl"
-#include "lib/passed_body.glsl"
-#include "lib/pushed_scene.glsl"
-#include "lib/ray_light.glsl"
-#include "lib/ray_start.glsl"
+#include "lib/mirrors/first_camera.glsl"
+#include "lib/mirrors/mirrored_path.glsl"
+#include "lib/mirrors/passed_body.glsl"
+#include "lib/mirrors/settings.glsl"
+#include "lib/rays/extras.glsl"
+#include "lib/walk/pushed_scene.glsl"
+#include "lib/light/ray_light.glsl"
+#include "lib/walk/ray_start.glsl"
 
 // Where a ray starts as this source sees it.
 struct Beginning {

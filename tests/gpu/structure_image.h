@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A structure as read back from the device, and its packed words read by their documented format
-// alone (shaders/shared/structure_abi.h, shaders/lib/node.glsl, shaders/lib/facet.glsl): no code is
-// shared.
+// alone (shaders/shared/structure_abi.h, shaders/lib/structure): no code is shared.
 #pragma once
 
 #include <cstddef>

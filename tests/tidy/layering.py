@@ -13,6 +13,8 @@ BAND = "encode/encoded_band.h"
 SHADERS_SHARED = "shaders/shared"
 ENGINE = "engine/engine.h"
 WALK = "engine/walk"
+LIB = "shaders/lib"
+LIB_ROOT = [LIB + "/fault.glsl", LIB + "/memory.glsl"]
 
 # Folder: (what of ours it may include beside itself, which third parties). An entry of the first
 # list is a folder or a single header.
@@ -85,6 +87,15 @@ LAYERS = {
                    ["absl", "glm", "grpc", "protobuf", "jpeg", "nlohmann"]),
     "shaders/shared": ([], ["glm"]),
     "shaders/lib": ([SHADERS_SHARED], []),
+    "shaders/lib/structure": (LIB_ROOT + [SHADERS_SHARED], []),
+    "shaders/lib/rays": (LIB_ROOT + [SHADERS_SHARED], []),
+    "shaders/lib/walk": (LIB_ROOT + [LIB + "/structure", LIB + "/rays", SHADERS_SHARED], []),
+    "shaders/lib/sources": (LIB_ROOT + [SHADERS_SHARED], []),
+    "shaders/lib/light": (LIB_ROOT + [LIB + "/structure", LIB + "/rays", LIB + "/walk",
+                                      SHADERS_SHARED], []),
+    "shaders/lib/lens": (LIB_ROOT + [LIB + "/structure", LIB + "/rays", LIB + "/walk",
+                                     LIB + "/light", SHADERS_SHARED], []),
+    "shaders/lib/mirrors": (["shaders/lib", SHADERS_SHARED], []),
     "shaders/structure": (["shaders/lib", SHADERS_SHARED], []),
     "shaders/trace": (["shaders/lib", SHADERS_SHARED], []),
     "shaders/show": ([SHADERS_SHARED], []),

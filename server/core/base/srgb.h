@@ -2,8 +2,8 @@
 // The sRGB transfer curve (IEC 61966-2-1), for one channel.
 //
 // Two more forms of it are for many px at once and within a fraction of a code of this one:
-// shaders/lib/srgb.glsl for kernels, server/engine/walk/lens/block_light_inl.h for vectors of the
-// CPU.
+// shaders/lib/light/srgb.glsl for kernels, server/engine/walk/lens/block_light_inl.h for vectors of
+// the CPU.
 #pragma once
 
 #include <cmath>

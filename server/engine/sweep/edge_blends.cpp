@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
 // Texels between a px and the edge of what it shows: kEdgeColumnsMax of
-// shaders/lib/edge_blend.glsl.
+// shaders/lib/light/edge_blend.glsl.
 constexpr int32_t kEdgeReach = int32_t(abi::kEdgeColumnsMax) * kSubtexelSteps;
 
 // Notes the edges that lie between two px of the row, and where: swept.covering_count of them, in

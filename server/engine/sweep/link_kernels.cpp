@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// Each operation is rounded alone, as stepAt of shaders/lib/structure_access.glsl.
+// Each operation is rounded alone, as stepAt of shaders/lib/structure/structure_access.glsl.
 HWY_INLINE Vec stepAt(const StepRule& rule, Vec nearer) {
   return hn::Max(set(rule.least), hn::Mul(set(rule.share), hn::Sub(nearer, set(rule.from))));
 }

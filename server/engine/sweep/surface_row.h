@@ -14,7 +14,7 @@ namespace viewloom {
 template <typename T>
 using ByLayer = std::array<T, abi::kLayerCountMax>;
 
-// Positions among the texels of a row, and steps of colour: 1/256 px, as in lib/color.glsl.
+// Positions among the texels of a row, and steps of colour: 1/256 px, as in lib/light/color.glsl.
 inline constexpr int kSubtexelSteps = 256;
 
 // Straight pieces of the connected surfaces of a layer, each surface from left to right.

@@ -112,7 +112,7 @@ float SurfaceRowBuilder::goesOnInFront(uint32_t layer, Travel travel, uint32_t c
 }
 
 // What shows of rays that come from a column without a surface: of the first one further back, at
-// distances that double. As findFarSide in shaders/lib/far_side.glsl.
+// distances that double. As findFarSide in shaders/lib/walk/far_side.glsl.
 int32_t SurfaceRowBuilder::texelBeyondNothing(Travel travel, uint32_t column) const {
   const float near = inv_z_[0][column];
   const float deep = near - steps_.deep.at(near);

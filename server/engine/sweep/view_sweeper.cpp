@@ -34,7 +34,7 @@ size_t firstPixel(const AtlasLayout& layout, uint32_t tile, uint32_t tile_row) {
 }
 
 // How far mixed texels give way, as far as the view moves the nearest against the furthest, px of
-// the source: see cleanShare in shaders/lib/ray_light.glsl.
+// the source: see cleanShare in shaders/lib/light/ray_light.glsl.
 float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t width_px) {
   const float eye_px_m = view.eyeAt(0.5F * float(width_px - 1));
   return std::min(std::abs(eye_px_m) * picture.source.steps.inv_z_range, 1.0F);

@@ -3,9 +3,9 @@
 //
 // dda, hiz  a hit where a ray meets a sample, kappa thick and constant over its px (in viewloom a
 //           sample is a plane); colour is bilinear over the px within kappa of the one hit, of one
-//           layer (lib/color.glsl follows links, which also lead to other layers), in the same
-//           light. A px without a hit shows viewloom's fill, simplified: the surface before the
-//           first silhouette that the ray passed behind, or the image's border.
+//           layer (lib/light/color.glsl follows links, which also lead to other layers), in the
+//           same light. A px without a hit shows viewloom's fill, simplified: the surface before
+//           the first silhouette that the ray passed behind, or the image's border.
 // floor     viewloom's own colour of hits that are known beforehand
 // copy      the bytes that viewloom's build must read and write, moved
 #pragma once

@@ -22,7 +22,7 @@ layout(set = 0, binding = kBindingFollowed, scalar) writeonly buffer FollowedBan
   FollowedRay followed[];
 };
 
-#include "lib/mirrored_walk.glsl"
+#include "lib/mirrors/mirrored_walk.glsl"
 
 Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
   const Ray ray = reflected.ray;

@@ -16,7 +16,7 @@ static_assert(kSide_px == kLensPatternSide_px, "points of a block are those of t
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
-// As besideOf in shaders/lib/lens_rays.glsl.
+// As besideOf in shaders/lib/lens/lens_rays.glsl.
 float besideOf(uint32_t point, double step) {
   const double place = 0.5 + point * step;
   return float(place - std::floor(place) - 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of a structure as the CPU reads them: shaders/lib/node.glsl, shaders/lib/facet.glsl.
+// Cells of a structure as the CPU reads them: node.glsl and facet.glsl of shaders/lib/structure.
 #pragma once
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 namespace viewloom {
 
-// Blocks of px (shaders/lib/met_blocks.glsl) of a band.
+// Blocks of px (shaders/lib/rays/met_blocks.glsl) of a band.
 struct MetBlocks {
   uint32_t first_row = 0;  // of all rows of blocks
   uint32_t row_count = 0;

@@ -26,7 +26,8 @@ layout(push_constant, scalar) uniform Push {
   MarchKnobs knobs;
 };
 
-#include "lib/mirrored_px.glsl"
+#include "lib/mirrors/mirrored_px.glsl"
+#include "lib/mirrors/settings.glsl"
 
 // Where in the image a ray is looked at.
 struct March {

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 
-#include "lib/color.glsl"
+#include "lib/light/color.glsl"
 #include "rival_run.glsl"
 
 layout(set = 0, binding = kBindingHits) uniform usamplerBuffer hits;

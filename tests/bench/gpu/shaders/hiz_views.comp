@@ -19,7 +19,7 @@ const uint kStepsMax = 512u;  // of one layer
 const uint kLevelStart = 2u;
 
 // Layer l + 1 lies behind layer l: it is walked only from where the ray first was behind that one.
-// Rays are mirrored so that they go up along x and y, as in lib/walk.glsl.
+// Rays are mirrored so that they go up along x and y, as in lib/walk/walk.glsl.
 Found findHit(Ray ray, float bound) {
   const ivec2 size_px = sourceSize();
   const uvec2 padded_px = paddedSize(uvec2(size_px));
@@ -80,7 +80,7 @@ Found findHit(Ray ray, float bound) {
   return found;
 }
 
-// The largest inv_z where the rays of a run pass, as in lib/ray_start.glsl.
+// The largest inv_z where the rays of a run pass, as in lib/walk/ray_start.glsl.
 const uint kBoundLevel = 5u;
 const int kBoundCellsMax = 16;
 const float kBoundMargin = 16.0 / 8388608.0;

@@ -3,8 +3,8 @@
 #ifndef VIEWLOOM_BENCH_RIVAL_LIGHT_GLSL_
 #define VIEWLOOM_BENCH_RIVAL_LIGHT_GLSL_
 
-#include "lib/ray.glsl"
-#include "lib/srgb.glsl"
+#include "lib/rays/ray.glsl"
+#include "lib/light/srgb.glsl"
 #include "rival_run.glsl"
 
 layout(set = 0, binding = kBindingColor) uniform usamplerBuffer color_texels;
@@ -35,8 +35,8 @@ float weightIfLinked(float weight, float inv_z, float own) {
 }
 
 // Bilinear over the up to four px around the point that are no further from the px hit than kappa,
-// in the codes and with the positions of lib/color.glsl. A layer alone: links between layers are
-// viewloom's.
+// in the codes and with the positions of lib/light/color.glsl. A layer alone: links between layers
+// are viewloom's.
 vec3 codesAt(uint layer, ivec2 cell, vec2 point) {
   const vec2 offset = round((point - vec2(cell) - 0.5) * 256.0) / 256.0;
   const vec2 share = min(abs(offset), vec2(0.5));

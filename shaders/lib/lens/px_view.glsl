@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view from where the ray of a px passes its display. Parameters that the kernel sets:
+// kRays, kThroughLens.
+#ifndef VIEWLOOM_LIB_LENS_PX_VIEW_GLSL_
+#define VIEWLOOM_LIB_LENS_PX_VIEW_GLSL_
+
+#include "lib/lens/lens.glsl"
+#include "lib/lens/lens_points.glsl"
+#include "lib/rays/extras.glsl"
+#include "lib/rays/ray_source.glsl"
+
+// `px`: of the tile.
+ViewParams viewOfPx(ViewParams view, Aim aim, uvec2 px) {
+  if (kRays != kRaysOfPinholes) view = viewFrom(view, extras.eye_axes, aim.eye_m);
+  if (kThroughLens) view = viewThrough(view, lens_points[lensPatternIndex(px)]);
+  return view;
+}
+
+#endif  // VIEWLOOM_LIB_LENS_PX_VIEW_GLSL_
