@@ -47,7 +47,7 @@ std::string nameOf(const MarchOptions& options) {
   return name.str();
 }
 
-std::vector<Way> walksOf(Reflector& reflector) {
+std::vector<Way> walksOf(MirrorPass& mirror) {
   std::vector<Way> ways;
   for (const double tolerance_px : kTolerances_px) {
     std::ostringstream name;
@@ -55,7 +55,7 @@ std::vector<Way> walksOf(Reflector& reflector) {
     ways.push_back({.name = name.str(),
                     .tolerance_px = tolerance_px,
                     .record = [&](Commands commands, const ReflectedRows& rows) {
-                      reflector.record(commands, rows);
+                      mirror.record(commands, rows);
                     }});
   }
   return ways;
@@ -155,7 +155,7 @@ std::vector<MirrorDuel> mirrorDuels(const Device& device, const MirrorScene& mir
     MirrorStage stage(kernels, *frame, displayOf(view.camera, mirrors.effect()));
     MirrorDuel duel =
         duelOf(stage, mirrors.truthOf(instant, view.camera), heldBy(instant, stand, view.camera),
-               walksOf(kernels.reflector), marchesOf(rival), round_count);
+               walksOf(kernels.mirror), marchesOf(rival), round_count);
     duel.scene = mirrors.name;
     duel.view = view.name;
     duels.push_back(std::move(duel));

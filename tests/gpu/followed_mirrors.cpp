@@ -12,32 +12,20 @@
 #include "oracle/mirrored_ray.h"
 #include "oracle/passed_body.h"
 #include "shaders/follow_mirrors.h"
-#include "shared/lens_abi.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"
+#include "trace/mirrored_structure.h"
 
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
-                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
-                                     {abi::kBindingColor, DescriptorKind::kTexels},
-                                     {abi::kBindingSurface, DescriptorKind::kTexels},
-                                     {abi::kBindingMeasured, DescriptorKind::kUniform},
-                                     {abi::kBindingViews, DescriptorKind::kStorage},
-                                     {abi::kBindingExtras, DescriptorKind::kUniform},
-                                     {abi::kBindingReflection, DescriptorKind::kUniform},
-                                     {abi::kBindingAlbedos, DescriptorKind::kStorage},
-                                     {abi::kBindingLensPoints, DescriptorKind::kStorage},
-                                     {abi::kBindingReflected, DescriptorKind::kStorage},
-                                     {abi::kBindingFollowed, DescriptorKind::kStorage}};
 constexpr uint32_t kMirrorsAll = 0x00ffffff;  // abi::SurfaceTexel::light of a perfect mirror
 
 // What an error moves is seen from behind the mirror, further away than where rays start, which the
 // judge takes for their eye: there the same error is worth more px.
 constexpr double kNearerThanEye = 10;
 
-// As shaders/lib/mirrored_path.glsl and walk.glsl have them.
+// As shaders/lib/mirrors/mirrored_path.glsl and walk.glsl have them.
 constexpr double kSigmasOfSurface = 4;
 constexpr double kRoundingUlps = 16;
 constexpr double kUlp = 0x1p-23;
@@ -154,27 +142,21 @@ MirrorFollower::MirrorFollower(const Device& device)
     : device_(device),
       kernels_(device),
       albedos_(device),
-      pass_(device, {.spirv = follow_mirrors_spirv,
-                     .push_bytes = sizeof(abi::TracePush),
-                     .descriptors = kSlots,
-                     .debug_name = "follow mirrors"}) {}
+      pass_(device,
+            {.spirv = follow_mirrors_spirv,
+             .push_bytes = sizeof(abi::TracePush),
+             .descriptors = mirrorSlots({{abi::kBindingReflected, DescriptorKind::kStorage},
+                                         {abi::kBindingFollowed, DescriptorKind::kStorage}}),
+             .debug_name = "follow mirrors"}) {}
 
 std::vector<abi::FollowedRay> MirrorFollower::follow(MirrorStage& stage) {
   std::vector<abi::FollowedRay> followed(stage.layout().size_px.area());
   const uint64_t size_bytes = followed.size() * sizeof(abi::FollowedRay);
   const ReadablePlane rays(device_, size_bytes, "followed rays");
   stage.timedMs([&](Commands commands, const ReflectedRows& rows) {
-    const StructureSlot& structure = rows.structure;
-    std::vector<Descriptor> descriptors(rows.params.begin(), rows.params.end());
-    for (const Descriptor& descriptor :
-         {structure.measuredDescriptor(), wholeBuffer(abi::kBindingReflected, rows.reflected),
-          wholeBuffer(abi::kBindingFollowed, rays.target()), albedos_.descriptor(),
-          structure.structure().asTexels(abi::kBindingStructure),
-          structure.structure().asHalfTexels(abi::kBindingStructureHalves),
-          structure.color().asTexels(abi::kBindingColor),
-          structure.surface()->asTexels(abi::kBindingSurface)}) {
-      descriptors.push_back(descriptor);
-    }
+    std::vector<Descriptor> descriptors = mirrorDescriptors(rows.structure, rows.params, albedos_);
+    descriptors.push_back(wholeBuffer(abi::kBindingReflected, rows.reflected));
+    descriptors.push_back(wholeBuffer(abi::kBindingFollowed, rays.target()));
     commands.fill(rays.target(), 0);
     recordTransferToCompute(commands);
     pass_.recordDescriptors(commands, descriptors);

@@ -153,11 +153,11 @@ std::vector<float> MirrorStage::picture() {
   const Commands commands = recorder_.begin();
   commands.copy(before, linear_.target(), {.size_bytes = size_bytes});
   recordTransferToCompute(commands);
-  kernels_.reflector.recordAdd(commands, job_,
-                               {.rows = {0, layout().size_px.height},
-                                .reflected = reflected_,
-                                .rgba = rgba_,
-                                .linear_address = linear_.target().address()});
+  kernels_.mirrored_light.record(commands, job_,
+                                 {.rows = {0, layout().size_px.height},
+                                  .reflected = reflected_,
+                                  .rgba = rgba_,
+                                  .linear_address = linear_.target().address()});
   recordComputeToTransfer(commands);
   linear_.recordReadback(commands, size_bytes);
   recordTransferToHost(commands);

@@ -9,19 +9,21 @@
 #include "gpu/command_recorder.h"
 #include "gpu/commands.h"
 #include "structure/frame_structure.h"
-#include "trace/reflector.h"
+#include "trace/mirror_pass.h"
 #include "trace/view_tracer.h"
 
 namespace viewloom {
 
 // Compiled once for many stages. The device must outlive them.
 struct MirrorKernels {
-  explicit MirrorKernels(const Device& of) : device(of), builder(of), tracer(of), reflector(of) {}
+  explicit MirrorKernels(const Device& of)
+      : device(of), builder(of), tracer(of), mirror(of), mirrored_light(of) {}
 
   const Device& device;
   StructureBuilder builder;
   ViewTracer tracer;
-  Reflector reflector;
+  MirrorPass mirror;
+  MirroredLightPass mirrored_light;
 };
 
 // Of one source. Thread-safety: none.

@@ -11,7 +11,7 @@
 namespace viewloom::bench {
 namespace {
 
-// As viewloom's own (server/engine/walk/trace/view_tracer.cpp), but twice as many px: rivals gain 3
+// As viewloom's own (server/engine/walk/trace/walk_pass.cpp), but twice as many px: rivals gain 3
 // to 8 % by that on lavapipe.
 constexpr uint32_t kColumnsForViewLanes = 5;
 constexpr uint32_t kPixelsWithViewLanes = 16;

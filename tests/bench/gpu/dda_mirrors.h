@@ -5,7 +5,7 @@
 #include "bench/gpu/shaders/rival_abi.h"
 #include "gpu/commands.h"
 #include "trace/albedos.h"
-#include "trace/reflector.h"
+#include "trace/mirror_pass.h"
 
 namespace viewloom::bench {
 
@@ -21,7 +21,7 @@ class DdaMirrors {
  public:
   explicit DdaMirrors(const Device& device);
 
-  // As Reflector::record, of rows whose structure reads by bindings, with opaque colour of the
+  // As MirrorPass::record, of rows whose structure reads by bindings, with opaque colour of the
   // depth's size in 8 bits.
   void record(Commands commands, const ReflectedRows& rows, const MarchOptions& options);
 

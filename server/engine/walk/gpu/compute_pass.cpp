@@ -122,6 +122,7 @@ ComputePass::ComputePass(const Device& device, const ComputePassOptions& options
       pipeline_(hide(makePipeline(device, options, **layout_))) {
   const auto raw_handle = reinterpret_cast<uint64_t>(static_cast<VkPipeline>(**pipeline_));
   device.setName(vk::ObjectType::ePipeline, raw_handle, options.debug_name);
+  device.noteKernel();
 }
 
 void ComputePass::recordDescriptors(Commands commands,

@@ -75,6 +75,9 @@ class Device {
   void submit(const vk::SubmitInfo2& submission) const;
 
   const vk::raii::PipelineCache& pipelineCache() const;
+  // Kernels that were compiled so far, whether or not the cache had them.
+  uint64_t kernelCount() const { return kernel_count_; }
+  void noteKernel() const { ++kernel_count_; }
   // Writes the kernels that are compiled so far to the folder.
   void keepKernels() const;
 
@@ -95,6 +98,7 @@ class Device {
   std::unique_ptr<Handles> handles_;
   mutable std::mutex queue_mutex_;   // guards the queue
   mutable std::mutex kernel_mutex_;  // guards the file of kernels
+  mutable std::atomic<uint64_t> kernel_count_ = 0;
 };
 
 }  // namespace viewloom

@@ -36,6 +36,11 @@ bool LayeredBuffer::mustDivide(const Device& device, const LayeredBufferOptions&
          total_bytes / least_texel_bytes > limits.texel_count_max;
 }
 
+bool LayeredBuffer::fitsStorage(const Device& device, const LayeredBufferOptions& options) {
+  return !options.is_divided &&
+         options.layer_bytes * options.layer_count <= device.info().limits.storage_bytes_max;
+}
+
 uint64_t LayeredBuffer::address(uint32_t layer) const {
   return buffer(layer).address() + offsetBytes(layer);
 }

@@ -30,6 +30,8 @@ class LayeredBuffer {
 
   // Whether these arrays are too large for one buffer, or for one texel view.
   static bool mustDivide(const Device& device, const LayeredBufferOptions& options);
+  // Whether one storage descriptor reaches all of such arrays.
+  static bool fitsStorage(const Device& device, const LayeredBufferOptions& options);
 
   uint64_t address(uint32_t layer) const;
   // Where a layer lies, for copies.

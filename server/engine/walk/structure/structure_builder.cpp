@@ -186,32 +186,15 @@ void Recording::buildLevels() {
 }  // namespace
 
 StructureBuilder::StructureBuilder(const Device& device)
-    : device_(&device), convert_color_(makeConvertColor(device)) {}
-
-const StructurePasses& StructureBuilder::passesFor(const StructureVariant& variant) const {
-  std::lock_guard lock(mutex_);
-  std::unique_ptr<StructurePasses>& passes = passes_[variant];
-  if (!passes) passes = std::make_unique<StructurePasses>(*device_, variant);
-  return *passes;
-}
-
-const ComputePass& StructureBuilder::preparationFor(const PrepareVariant& variant) const {
-  std::lock_guard lock(mutex_);
-  std::unique_ptr<ComputePass>& pass = preparations_[variant];
-  if (!pass) pass = std::make_unique<ComputePass>(makePrepareColumns(*device_, variant));
-  return *pass;
-}
-
-const ApronPasses& StructureBuilder::apronPasses() const {
-  std::lock_guard lock(mutex_);
-  if (!apron_passes_) apron_passes_ = std::make_unique<ApronPasses>(*device_);
-  return *apron_passes_;
-}
+    : convert_color_(makeConvertColor(device)),
+      passes_(device, makeStructurePasses),
+      preparations_(device, makePrepareColumns),
+      apron_passes_(device, makeApronPasses) {}
 
 void StructureBuilder::recordColumns(Commands commands, const StructureSlot& slot,
                                      GpuTimer* timer) const {
-  Recording recording(commands, slot, passesFor(variantOf(slot)),
-                      preparationFor(preparationOf(slot)));
+  Recording recording(commands, slot, passes_.get(variantOf(slot)),
+                      preparations_.get(preparationOf(slot)));
   recordStage(commands, timer, "color", [&] {
     recordClear(commands, slot.measured());
     recordColor(commands, slot);
@@ -225,8 +208,8 @@ void StructureBuilder::recordColumns(Commands commands, const StructureSlot& slo
 
 void StructureBuilder::recordSurfaces(Commands commands, const StructureSlot& slot,
                                       GpuTimer* timer) const {
-  Recording recording(commands, slot, passesFor(variantOf(slot)),
-                      preparationFor(preparationOf(slot)));
+  Recording recording(commands, slot, passes_.get(variantOf(slot)),
+                      preparations_.get(preparationOf(slot)));
   recordStage(commands, timer, "facets", [&] { recording.buildFacets(); });
   recordStage(commands, timer, "blocks", [&] { recording.buildBlocks(); });
   recordStage(commands, timer, "levels", [&] { recording.buildLevels(); });
@@ -243,7 +226,7 @@ void StructureBuilder::record(Commands commands, const StructureSlot& slot, GpuT
 
 void StructureBuilder::recordCube(Commands commands, std::span<const StructureSlot* const> faces,
                                   const Buffer& face_list) const {
-  const ApronPasses& passes = apronPasses();
+  const ApronPasses& passes = apron_passes_.get({});
   const auto recordAprons = [&](const ComputePass& pass) {
     for (uint32_t face = 0; face < faces.size(); ++face) {
       const StructureSlot& slot = *faces[face];

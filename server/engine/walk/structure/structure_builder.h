@@ -2,13 +2,11 @@
 // Records the build of a structure: colour, columns, tolerance, facets, links, pyramid.
 #pragma once
 
-#include <map>
-#include <memory>
-#include <mutex>
 #include <span>
 
 #include "gpu/commands.h"
 #include "gpu/gpu_timer.h"
+#include "gpu/pass_map.h"
 #include "structure/structure_passes.h"
 #include "structure/structure_slot.h"
 
@@ -37,17 +35,12 @@ class StructureBuilder {
   void recordColumns(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
   // From those to what can be traced, and its stats in host memory.
   void recordSurfaces(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
-  const ApronPasses& apronPasses() const;
-  const StructurePasses& passesFor(const StructureVariant& variant) const;
-  const ComputePass& preparationFor(const PrepareVariant& variant) const;
   void recordColor(Commands commands, const StructureSlot& slot) const;
 
-  const Device* device_;
   ComputePass convert_color_;
-  mutable std::mutex mutex_;  // guards what follows
-  mutable std::map<StructureVariant, std::unique_ptr<StructurePasses>> passes_;
-  mutable std::map<PrepareVariant, std::unique_ptr<ComputePass>> preparations_;
-  mutable std::unique_ptr<ApronPasses> apron_passes_;
+  mutable PassMap<StructureVariant, StructurePasses> passes_;
+  mutable PassMap<PrepareVariant> preparations_;
+  mutable PassMap<std::monostate, ApronPasses> apron_passes_;
 };
 
 }  // namespace viewloom

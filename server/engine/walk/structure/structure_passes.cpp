@@ -56,23 +56,28 @@ ComputePass makeApronPass(const Device& device, std::span<const uint32_t> spirv,
 
 }  // namespace
 
-StructurePasses::StructurePasses(const Device& device, const StructureVariant& variant)
-    : measure_depth(makePass(device, variant, measure_depth_spirv, {}, "measure depth")),
-      settle_range(makePass(device, variant, settle_range_spirv, {}, "settle range")),
-      measure_range(makePass(device, variant, measure_range_spirv, {}, "measure range")),
-      settle_tolerance(makePass(device, variant, settle_tolerance_spirv, {}, "settle tolerance")),
-      smooth_columns(makePass(device, variant, smooth_columns_spirv,
-                              {{abi::kIdLayerCount, variant.layer_count}}, "smooth columns")),
-      build_facets(makePass(device, variant, build_facets_spirv,
-                            {{abi::kIdLayerCount, variant.layer_count}}, "build facets")),
-      build_blocks(makePass(device, variant, build_blocks_spirv,
-                            {{abi::kIdLayerCount, variant.layer_count}}, "build blocks")),
-      build_level(makePass(device, variant, build_level_spirv, {}, "build level")),
-      flatten_entries(makePass(device, variant, flatten_entries_spirv, {}, "flatten entries")) {}
+StructurePasses makeStructurePasses(const Device& device, const StructureVariant& variant) {
+  const auto make = [&](std::span<const uint32_t> spirv, const char* name) {
+    return makePass(device, variant, spirv, {}, name);
+  };
+  const auto makeOfColumns = [&](std::span<const uint32_t> spirv, const char* name) {
+    return makePass(device, variant, spirv, {{abi::kIdLayerCount, variant.layer_count}}, name);
+  };
+  return {.measure_depth = make(measure_depth_spirv, "measure depth"),
+          .settle_range = make(settle_range_spirv, "settle range"),
+          .measure_range = make(measure_range_spirv, "measure range"),
+          .settle_tolerance = make(settle_tolerance_spirv, "settle tolerance"),
+          .smooth_columns = makeOfColumns(smooth_columns_spirv, "smooth columns"),
+          .build_facets = makeOfColumns(build_facets_spirv, "build facets"),
+          .build_blocks = makeOfColumns(build_blocks_spirv, "build blocks"),
+          .build_level = make(build_level_spirv, "build level"),
+          .flatten_entries = make(flatten_entries_spirv, "flatten entries")};
+}
 
-ApronPasses::ApronPasses(const Device& device)
-    : fill_apron(makeApronPass(device, fill_apron_spirv, "fill apron")),
-      color_apron(makeApronPass(device, color_apron_spirv, "color apron")) {}
+ApronPasses makeApronPasses(const Device& device, const std::monostate&) {
+  return {.fill_apron = makeApronPass(device, fill_apron_spirv, "fill apron"),
+          .color_apron = makeApronPass(device, color_apron_spirv, "color apron")};
+}
 
 ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant) {
   return makePass(device, variant.structure, prepare_columns_spirv,

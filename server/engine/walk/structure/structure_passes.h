@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <variant>
 
 #include "gpu/compute_pass.h"
 #include "shared/structure_abi.h"
@@ -18,8 +19,6 @@ struct StructureVariant {
 };
 
 struct StructurePasses {
-  StructurePasses(const Device& device, const StructureVariant& variant);
-
   ComputePass measure_depth;
   ComputePass settle_range;
   ComputePass measure_range;
@@ -42,12 +41,12 @@ struct PrepareVariant {
 
 // Of cube maps: for any layers, reached by address.
 struct ApronPasses {
-  explicit ApronPasses(const Device& device);
-
   ComputePass fill_apron;
   ComputePass color_apron;
 };
 
+StructurePasses makeStructurePasses(const Device& device, const StructureVariant& variant);
+ApronPasses makeApronPasses(const Device& device, const std::monostate&);
 ComputePass makePrepareColumns(const Device& device, const PrepareVariant& variant);
 ComputePass makeConvertColor(const Device& device);
 

@@ -2,10 +2,11 @@
 #include "trace/trace_slot.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "base/check.h"
 #include "gpu/barrier.h"
 #include "shared/lens_abi.h"
-#include "shared/reflection_abi.h"
 #include "trace/px_runs.h"
 
 namespace viewloom {
@@ -48,6 +49,19 @@ uint64_t runCountMax(const TraceSlotShape& shape) {
   return shape.row_count_max * (shape.width_px / kRunPixelsMin + begun);
 }
 
+constexpr uint32_t kOpaqueBlack = 0xff000000;
+
+bool hasUnusedPixels(const TraceJob& job) {
+  const AtlasLayout& layout = *job.layout;
+  return job.hasEyesBeside() || layout.padding_right_px > 0 || layout.padding_top_px > 0 ||
+         layout.views.size() < size_t{layout.columns} * layout.rows;
+}
+
+// What no view covers is black; every plane is cleared, so that no byte of an older band is left.
+void recordClear(Commands commands, const ReadablePlane& plane, uint32_t value) {
+  if (!plane.isEmpty()) commands.fill(plane.target(), value);
+}
+
 template <typename T>
 std::span<const T> readAs(const ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<const T*>(plane.bytes().data()), plane.isEmpty() ? 0 : count};
@@ -76,48 +90,8 @@ AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint
   return answersLayout(width_px, row_count, walk_count + kPathAnswers);
 }
 
-static_assert(sizeof(abi::TraceExtras) <= kExtrasStride_bytes);
-
-uint64_t TraceSlot::tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count) {
-  const uint64_t tiles_bytes = tile_count * sizeof(abi::ViewParams);
-  const uint64_t stride = (tiles_bytes + kDescriptorAlignment_bytes - 1) /
-                          kDescriptorAlignment_bytes * kDescriptorAlignment_bytes;
-  return extrasOffset(part_count) + part * stride;
-}
-
-uint64_t TraceSlot::lensOffset(const TraceJob& job) {
-  const uint32_t part_count = job.sample_count * job.walk_count;
-  return tilesOffset(part_count, part_count, job.tileCount());
-}
-
-Descriptor TraceSlot::lensDescriptor(const TraceJob& job, uint32_t sample) const {
-  Descriptor points{.binding = abi::kBindingLensPoints,
-                    .kind = DescriptorKind::kStorage,
-                    .buffer = &params_,
-                    .size_bytes = kExtrasStride_bytes};
-  if (!job.hasLens()) return points;
-  constexpr uint64_t kPoint_bytes = uint64_t{kLensPatternArea_px} * sizeof(abi::vec2);
-  static_assert(kPoint_bytes % kDescriptorAlignment_bytes == 0);
-  const LensRays& lens = *job.layout->lens;
-  const uint32_t point = sample % lens.walked_count;
-  points.offset_bytes = lensOffset(job) + point * kPoint_bytes;
-  points.size_bytes = (lens.pointCount() - point) * kPoint_bytes;
-  return points;
-}
-
-ReadablePlane::ReadablePlane(const Device& device, uint64_t size_bytes, const char* name)
-    : readback_(device,
-                {.size_bytes = size_bytes, .intent = MemoryIntent::kReadback, .debug_name = name}),
-      is_direct_(device.info().shares_memory) {
-  if (!is_direct_) device_only_ = Buffer(device, {.size_bytes = size_bytes, .debug_name = name});
-}
-
-void ReadablePlane::recordReadback(Commands commands, uint64_t size_bytes) const {
-  if (isEmpty() || is_direct_) return;
-  commands.copy(device_only_, readback_, {.size_bytes = size_bytes});
-}
-
-TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_(shape) {
+TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape)
+    : shape_(shape), params_(device, shape) {
   const uint64_t area_px = uint64_t{shape.width_px} * shape.row_count_max;
   const SizePx largest_px = {shape.width_px, shape.row_count_max};
   color_ = ReadablePlane(device, colorBytesOf(largest_px, shape.outputs.color), "band color");
@@ -132,13 +106,6 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   records_ =
       planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
   counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
-  const uint32_t part_count = shape.sample_count * shape.walk_count;
-  const uint64_t params_bytes = tilesOffset(part_count, part_count, shape.tile_count_max) +
-                                uint64_t{shape.lens_point_count} * sizeof(abi::vec2);
-  upload_ = Buffer(
-      device,
-      {.size_bytes = params_bytes, .intent = MemoryIntent::kUpload, .debug_name = "trace upload"});
-  params_ = Buffer(device, {.size_bytes = params_bytes, .debug_name = "trace params"});
   if (shape.walk_count > 1) {
     answers_ =
         Buffer(device, {.size_bytes = answersBytes(shape), .debug_name = "answers of sources"});
@@ -166,9 +133,61 @@ TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape) : shape_
   if (shape.reflects) addReflections(device, area_px);
 }
 
+void TraceSlot::recordBegin(Commands commands, std::span<const StructureSlot* const> structures,
+                            const TraceJob& job, BandRows rows) {
+  const AtlasLayout& layout = *job.layout;
+  TraceSlotShape needed = slotShape(job, rows.row_count, shape_.outputs);
+  VIEWLOOM_CHECK(shape_.holds(needed));
+  VIEWLOOM_CHECK(structures.size() == job.walk_count);
+  band_px_ = {layout.size_px.width, rows.row_count};
+  params_.write(structures, job, planes());
+  params_.recordUpload(commands, job);
+  recordClear(commands, counters_, 0);
+  if (hasUnusedPixels(job)) {
+    commands.fill(sampleTarget(job), kOpaqueBlack);
+    // The second stage of a lens writes px of views alone.
+    if (job.mayGather()) commands.fill(rgba(), kOpaqueBlack);
+    for (const ReadablePlane* plane : {&depth_, &mask_, &linear_, &records_}) {
+      recordClear(commands, *plane, 0);
+    }
+  }
+  recordTransferToCompute(commands);
+}
+
+void TraceSlot::recordReadback(Commands commands) const {
+  const uint64_t area_px = band_px_.area();
+  recordComputeToTransfer(commands);
+  color_.recordReadback(commands, colorBytes());
+  depth_.recordReadback(commands, area_px * sizeof(float));
+  mask_.recordReadback(commands, area_px);
+  linear_.recordReadback(commands, area_px * 4 * sizeof(float));
+  records_.recordReadback(commands, area_px * sizeof(abi::RayRecord));
+  counters_.recordReadback(commands, kCounterCount * sizeof(uint32_t));
+  recordTransferToHost(commands);
+  recordComputeToHost(commands);
+}
+
+Descriptor TraceSlot::answersOf(uint32_t walk, const AnswersLayout& layout) const {
+  const uint64_t size_bytes = layout.stride * sizeof(abi::RayAnswer);
+  return {.binding = abi::kBindingBand,
+          .kind = DescriptorKind::kStorage,
+          .buffer = &answers_,
+          .offset_bytes = walk * size_bytes,
+          .size_bytes = size_bytes};
+}
+
 uint64_t TraceSlot::recordsAddress() const {
-  if (hits_.sizeBytes() > 0) return hits_.address();
-  return records_.isEmpty() ? 0 : records_.target().address();
+  return hits_.sizeBytes() > 0 ? hits_.address() : records_.address();
+}
+
+TracedPlanes TraceSlot::planes() const {
+  return {.depth = depth_.address(),
+          .mask = mask_.address(),
+          .linear = linear_.address(),
+          .records = recordsAddress(),
+          .counters = counters_.address(),
+          .met = shape_.met_count > 0 ? met_.address() : 0,
+          .met_stride_bytes = band_px_.area() * sizeof(uint32_t)};
 }
 
 void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
@@ -187,12 +206,15 @@ void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
                                .debug_name = "reflected light"});
 }
 
-Descriptor TraceSlot::reflectionDescriptor(uint32_t walk) const {
+Descriptor TraceSlot::writeReflectionSettings(uint32_t walk,
+                                              const abi::ReflectionSettings& settings) const {
+  const uint64_t offset_bytes = walk * kDescriptorAlignment_bytes;
+  std::memcpy(reflection_settings_.mapped().data() + offset_bytes, &settings, sizeof settings);
   return {.binding = abi::kBindingReflection,
           .kind = DescriptorKind::kUniform,
           .buffer = &reflection_settings_,
-          .offset_bytes = walk * kDescriptorAlignment_bytes,
-          .size_bytes = sizeof(abi::ReflectionSettings)};
+          .offset_bytes = offset_bytes,
+          .size_bytes = sizeof settings};
 }
 
 uint64_t TraceSlot::sizeBytes() const {
@@ -200,7 +222,7 @@ uint64_t TraceSlot::sizeBytes() const {
   for (const ReadablePlane* plane : {&color_, &depth_, &mask_, &linear_, &records_, &counters_}) {
     total_bytes += plane->bytes().size();
   }
-  return total_bytes + unpacked_.sizeBytes() + 2 * upload_.sizeBytes() + answers_.sizeBytes() +
+  return total_bytes + unpacked_.sizeBytes() + params_.sizeBytes() + answers_.sizeBytes() +
          sample_.sizeBytes() + sums_.sizeBytes() + met_.sizeBytes() + met_lists_.sizeBytes() +
          incomplete_.sizeBytes() + unfinished_.sizeBytes() + hits_.sizeBytes() +
          reflected_.sizeBytes() + reflection_settings_.sizeBytes() + paths_.sizeBytes();
@@ -219,7 +241,7 @@ std::span<float> TraceSlot::mutableLinear() {
 }
 
 std::span<const uint8_t> TraceSlot::ycbcr() const {
-  return readAs<uint8_t>(color_, shape_.outputs.color == ColorForm::kRgba ? 0 : colorBytes());
+  return readAs<uint8_t>(color_, isRgba() ? 0 : colorBytes());
 }
 
 uint64_t TraceSlot::colorBytes() const {

@@ -11,37 +11,17 @@
 #include "gpu/commands.h"
 #include "gpu/descriptor.h"
 #include "picture/trace_job.h"
+#include "shared/reflection_abi.h"
 #include "shared/trace_abi.h"
+#include "trace/readable_plane.h"
+#include "trace/trace_params.h"
 #include "trace/trace_slot_shape.h"
 
 namespace viewloom {
 
-// A plane that kernels write and the CPU reads. On a device whose memory is the CPU's, one buffer;
-// elsewhere a device buffer and the copy of it.
-class ReadablePlane {
- public:
-  ReadablePlane() = default;
-  ReadablePlane(const Device& device, uint64_t size_bytes, const char* name);
-
-  bool isEmpty() const { return readback_.sizeBytes() == 0; }
-  const Buffer& target() const { return is_direct_ ? readback_ : device_only_; }
-  // Makes what kernels wrote readable: a barrier, and a copy where one is needed.
-  void recordReadback(Commands commands, uint64_t size_bytes) const;
-  std::span<const std::byte> bytes() const { return readback_.mapped(); }
-  std::span<std::byte> mutableBytes() { return readback_.mapped(); }
-
- private:
-  Buffer device_only_;
-  Buffer readback_;
-  bool is_direct_ = true;
-};
-
 // Of rays by class, in sets (shaders/shared/trace_abi.h).
 inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCounterStride;
 
-// What descriptors of any device may begin at.
-inline constexpr uint64_t kDescriptorAlignment_bytes = 256;
-inline constexpr uint64_t kExtrasStride_bytes = 2 * kDescriptorAlignment_bytes;
 // What the answers of several walks take at most, unless a single row takes more: they are
 // merged before the next rows are traced.
 inline constexpr uint64_t kAnswersBytesMax = uint64_t{32} << 20;
@@ -76,41 +56,50 @@ class TraceSlot {
   Coverage coverage() const;
   ReflectionCounts reflections() const;
 
- private:
-  friend class ViewTracer;
+  // For the passes over the slot's band:
 
-  // Of abi::RayRecord per px; 0 = not wanted.
-  uint64_t recordsAddress() const;
-  void addReflections(const Device& device, uint64_t area_px);
-  // Of a walk; abi::ReflectionSettings.
-  Descriptor reflectionDescriptor(uint32_t walk) const;
-  uint64_t colorBytes() const;
-  uint64_t rgbaCount() const {
-    return shape_.outputs.color == ColorForm::kRgba ? band_px_.area() : 0;
-  }
-  uint64_t linearCount() const { return band_px_.area() * 4; }
-  // How often it stands at this place in the sets of counters.
-  uint32_t counted(uint32_t place) const;
+  // Makes it the slot of this band: writes what its rays are told, and clears planes that they do
+  // not fill. Later compute work sees it.
+  void recordBegin(Commands commands, std::span<const StructureSlot* const> structures,
+                   const TraceJob& job, BandRows rows);
+  // Makes the planes readable, once colour has the form that is read.
+  void recordReadback(Commands commands) const;
+
+  SizePx bandSize_px() const { return band_px_; }
+  const TraceParams& params() const { return params_; }
   // Where the walk stores colour.
-  const Buffer& rgba() const {
-    return shape_.outputs.color == ColorForm::kRgba ? color_.target() : unpacked_;
-  }
+  const Buffer& rgba() const { return isRgba() ? color_.target() : unpacked_; }
   // Where walks store colour of one sample of several.
   const Buffer& sampleTarget(const TraceJob& job) const {
     return job.sumsLight() ? sample_ : rgba();
   }
-  // uint32_t[rows][width] of a sample.
-  uint64_t metAddress(uint32_t sample) const {
-    return met_.address() + sample * band_px_.area() * sizeof(uint32_t);
-  }
-  // Of each walk of each sample in the parameters: its abi::TraceExtras, and after all of those its
-  // tiles. `part`: counts through the walks of the first sample, then of the next.
-  static uint64_t extrasOffset(uint32_t part) { return part * kExtrasStride_bytes; }
-  static uint64_t tilesOffset(uint32_t part, uint32_t part_count, size_t tile_count);
-  // After all tiles, AtlasLayout::lens_points.
-  static uint64_t lensOffset(const TraceJob& job);
-  // Of a sample's point and those after it; without a lens, of nothing that is read.
-  Descriptor lensDescriptor(const TraceJob& job, uint32_t sample) const;
+  const Buffer& colorTarget() const { return color_.target(); }
+  const Buffer& counters() const { return counters_.target(); }
+  uint64_t linearAddress() const { return linear_.address(); }
+  const Buffer& answers() const { return answers_; }
+  // Where one of several walks answers, at abi::kBindingBand.
+  Descriptor answersOf(uint32_t walk, const AnswersLayout& layout) const;
+  const Buffer& sums() const { return sums_; }
+  const Buffer& met() const { return met_; }
+  const Buffer& metLists() const { return met_lists_; }
+  const Buffer& incomplete() const { return incomplete_; }
+  const Buffer& unfinished() const { return unfinished_; }
+  const Buffer& paths() const { return paths_; }
+  const Buffer& reflected() const { return reflected_; }
+  // Of a walk, as the next submission sees it.
+  Descriptor writeReflectionSettings(uint32_t walk, const abi::ReflectionSettings& settings) const;
+
+ private:
+  bool isRgba() const { return shape_.outputs.color == ColorForm::kRgba; }
+  // Of abi::RayRecord per px; 0 = not wanted.
+  uint64_t recordsAddress() const;
+  TracedPlanes planes() const;
+  void addReflections(const Device& device, uint64_t area_px);
+  uint64_t colorBytes() const;
+  uint64_t rgbaCount() const { return isRgba() ? band_px_.area() : 0; }
+  uint64_t linearCount() const { return band_px_.area() * 4; }
+  // How often it stands at this place in the sets of counters.
+  uint32_t counted(uint32_t place) const;
 
   TraceSlotShape shape_;
   SizePx band_px_;  // of the band in it
@@ -121,8 +110,7 @@ class TraceSlot {
   ReadablePlane linear_;
   ReadablePlane records_;
   ReadablePlane counters_;
-  Buffer upload_;   // parameters
-  Buffer params_;   // the same, on the device
+  TraceParams params_;
   Buffer answers_;  // abi::RayAnswer, of several walks
   Buffer sample_;   // RGBA of one of several samples
   Buffer sums_;     // light of those before it

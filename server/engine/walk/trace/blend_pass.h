@@ -2,14 +2,12 @@
 // Makes px of bands out of several samples of each, in light.
 #pragma once
 
-#include <memory>
-#include <mutex>
+#include <vector>
 
 #include "display/ray_samples.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
-#include "gpu/compute_pass.h"
-#include "gpu/descriptor.h"
+#include "gpu/pass_map.h"
 
 namespace viewloom {
 
@@ -23,9 +21,12 @@ struct BlendTarget {
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
-class SampleBlender {
+class BlendPass {
  public:
-  explicit SampleBlender(const Device& device) : device_(&device) {}
+  explicit BlendPass(const Device& device) : pass_(device, makePass) {}
+
+  // Kernels that record() needs.
+  void addMissing(MissingKernels& missing) { pass_.addMissing({}, missing); }
 
   // Adds sample `index` of `samples`, which come in order. Each channel is the mean of those that
   // count for it. Waits for the compute work before it, and what follows may write the next one.
@@ -33,11 +34,9 @@ class SampleBlender {
               uint32_t index);
 
  private:
-  const ComputePass& pass();
+  static ComputePass makePass(const Device& device, const std::monostate&);
 
-  const Device* device_;
-  std::mutex mutex_;  // guards pass_
-  std::unique_ptr<ComputePass> pass_;
+  SinglePass pass_;
 };
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trace/sample_blender.h"
+#include "trace/blend_pass.h"
 
 #include <algorithm>
 
@@ -27,20 +27,16 @@ float weightOf(const std::vector<RaySample>& samples, uint32_t index, uint8_t ch
 
 }  // namespace
 
-const ComputePass& SampleBlender::pass() {
-  std::lock_guard lock(mutex_);
-  if (!pass_) {
-    pass_ = std::make_unique<ComputePass>(*device_,
-                                          ComputePassOptions{.spirv = blend_samples_spirv,
-                                                             .push_bytes = sizeof(abi::BlendPush),
-                                                             .descriptors = kSlots,
-                                                             .debug_name = "blend samples"});
-  }
-  return *pass_;
+ComputePass BlendPass::makePass(const Device& device, const std::monostate&) {
+  return {device,
+          {.spirv = blend_samples_spirv,
+           .push_bytes = sizeof(abi::BlendPush),
+           .descriptors = kSlots,
+           .debug_name = "blend samples"}};
 }
 
-void SampleBlender::record(Commands commands, const BlendTarget& target,
-                           const std::vector<RaySample>& samples, uint32_t index) {
+void BlendPass::record(Commands commands, const BlendTarget& target,
+                       const std::vector<RaySample>& samples, uint32_t index) {
   const abi::BlendPush push{
       .px_count = target.px_count,
       .is_first = index == 0,
@@ -51,7 +47,7 @@ void SampleBlender::record(Commands commands, const BlendTarget& target,
   const Descriptor bindings[] = {wholeBuffer(abi::kBindingSample, target.sample),
                                  wholeBuffer(abi::kBindingSums, target.sums),
                                  wholeBuffer(abi::kBindingBand, target.band)};
-  const ComputePass& blend = pass();
+  const ComputePass& blend = pass_.get({});
   recordComputeBarrier(commands);
   blend.recordDescriptors(commands, bindings);
   const uint32_t groups = groupCount(target.px_count);

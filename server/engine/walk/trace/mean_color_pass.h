@@ -2,21 +2,25 @@
 // Records the averaging of a source's colour for views with larger px, once a frame.
 #pragma once
 
+#include <array>
 #include <compare>
-#include <map>
-#include <memory>
 #include <mutex>
 
 #include "gpu/commands.h"
-#include "gpu/compute_pass.h"
+#include "gpu/pass_map.h"
 #include "structure/structure_slot.h"
 
 namespace viewloom {
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
-class ColorAverager {
+class MeanColorPass {
  public:
-  explicit ColorAverager(const Device& device) : device_(&device) {}
+  explicit MeanColorPass(const Device& device) : device_(device), passes_(device, makePass) {}
+
+  // How a walk takes colour that is averaged over a reach: abi::kColor...
+  static uint32_t formatOf(const StructureSlot& structure, const ColorReach& reach);
+  // Kernels that record() needs.
+  void addMissing(const StructureSlot& structure, const ColorReach& reach, MissingKernels& missing);
 
   // Colour as a walk takes it.
   struct Color {
@@ -38,20 +42,23 @@ class ColorAverager {
 
     auto operator<=>(const Variant&) const = default;
   };
+  // The planes that are averaged come in `format`.
   struct Axis {
     bool is_y;
     float reach_px;
-    const LayeredBuffer& from;
     uint32_t format;
-    const LayeredBuffer& to;
   };
 
-  void recordAlong(Commands commands, const StructureSlot& structure, const Axis& axis);
-  const ComputePass& pass(const Variant& variant);
+  static ComputePass makePass(const Device& device, const Variant& variant);
+  static std::array<Axis, 2> axesOf(const StructureSlot& structure, const ColorReach& reach);
+  Variant variantOf(const StructureSlot& structure, const Axis& axis) const;
+  uint32_t stripPx() const;
+  void recordAlong(Commands commands, const StructureSlot& structure, const ComputePass& average,
+                   const Axis& axis, const LayeredBuffer& from, const LayeredBuffer& to);
 
-  const Device* device_;
-  std::mutex mutex_;  // guards what follows, and the means of structures
-  std::map<Variant, std::unique_ptr<ComputePass>> passes_;
+  const Device& device_;
+  PassMap<Variant> passes_;
+  std::mutex mutex_;  // guards the means of structures
 };
 
 }  // namespace viewloom

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/mean_color_pass.h"
+
+#include "gpu/barrier.h"
+#include "shaders/average_color.h"
+#include "shared/kernel_constants.h"
+#include "shared/trace_abi.h"
+#include "structure/array_options.h"
+#include "trace/band_params.h"
+
+namespace viewloom {
+namespace {
+
+constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
+                                     {abi::kBindingColor, DescriptorKind::kTexels},
+                                     {abi::kBindingMeans, DescriptorKind::kStorage}};
+
+// Px of a strip share what they load, and what an invocation costs before it does anything; on
+// hardware neighbouring invocations would then load what lies apart.
+constexpr uint32_t kStripOnSoftware_px = 32;
+
+bool isAveraged(const StructureSlot& structure, const ColorReach& reach) {
+  return !reach.isNone() && structure.shape().canAverageColor();
+}
+
+}  // namespace
+
+ComputePass MeanColorPass::makePass(const Device& device, const Variant& variant) {
+  const KernelConstant constants[] = {{abi::kIdReadsByAddress, variant.reads_by_address},
+                                      {abi::kIdWritesByAddress, variant.writes_by_address},
+                                      {abi::kIdColorFormat, variant.format},
+                                      {abi::kIdIsAlongY, variant.is_along_y},
+                                      {abi::kIdTapCount, variant.tap_count},
+                                      {abi::kIdStripPx, variant.strip_px}};
+  return {device,
+          {.spirv = average_color_spirv,
+           .push_bytes = sizeof(abi::AveragePush),
+           .constants = constants,
+           .descriptors = kSlots,
+           .debug_name = "average color"}};
+}
+
+MeanColorPass::Variant MeanColorPass::variantOf(const StructureSlot& structure,
+                                                const Axis& axis) const {
+  const bool fits =
+      LayeredBuffer::fitsStorage(device_, meanColorOptions(device_, structure.shape()));
+  return {.reads_by_address = structure.readsByAddress(),
+          .writes_by_address = !fits,
+          .format = axis.format,
+          .is_along_y = axis.is_y,
+          .tap_count = tapCount(axis.reach_px),
+          .strip_px = stripPx()};
+}
+
+uint32_t MeanColorPass::stripPx() const {
+  return device_.info().is_software ? kStripOnSoftware_px : 1;
+}
+
+uint32_t MeanColorPass::formatOf(const StructureSlot& structure, const ColorReach& reach) {
+  return isAveraged(structure, reach) ? abi::kColorCodes11
+                                      : colorFormat(structure.shape().color_storage);
+}
+
+std::array<MeanColorPass::Axis, 2> MeanColorPass::axesOf(const StructureSlot& structure,
+                                                         const ColorReach& reach) {
+  return {Axis{true, reach.y_px, colorFormat(structure.shape().color_storage)},
+          Axis{false, reach.x_px, abi::kColorCodes11}};
+}
+
+void MeanColorPass::addMissing(const StructureSlot& structure, const ColorReach& reach,
+                               MissingKernels& missing) {
+  if (!isAveraged(structure, reach)) return;
+  for (const Axis& axis : axesOf(structure, reach)) {
+    passes_.addMissing(variantOf(structure, axis), missing);
+  }
+}
+
+MeanColorPass::Color MeanColorPass::record(Commands commands, const StructureSlot& structure,
+                                           const ColorReach& reach) {
+  const uint32_t format = formatOf(structure, reach);
+  if (!isAveraged(structure, reach)) return {structure.color(), format};
+  const auto [y, x] = axesOf(structure, reach);
+  const ComputePass& along_y_pass = passes_.get(variantOf(structure, y));  // not under the lock
+  const ComputePass& along_x_pass = passes_.get(variantOf(structure, x));
+  std::lock_guard lock(mutex_);
+  MeanColor& mean_color = structure.meanColor();
+  MeanColor::Planes& planes = mean_color.planesFor(reach);
+  if (planes.is_made) return {planes.means, format};
+  const LayeredBuffer& along_y = structure.meansAlongY();
+  // Others may have been made by way of the same memory before.
+  recordComputeBarrier(commands);
+  recordAlong(commands, structure, along_y_pass, y, structure.color(), along_y);
+  recordComputeBarrier(commands);
+  recordAlong(commands, structure, along_x_pass, x, along_y, planes.means);
+  recordComputeBarrier(commands);
+  planes.is_made = true;
+  return {planes.means, format};
+}
+
+void MeanColorPass::recordAlong(Commands commands, const StructureSlot& structure,
+                                const ComputePass& average, const Axis& axis,
+                                const LayeredBuffer& from, const LayeredBuffer& to) {
+  const uint32_t strip_px = stripPx();
+  const SizePx size_px = structure.shape().depth_px;
+  const uint32_t layer_count = structure.shape().layerCount();
+  abi::AveragePush push{.layers = {},
+                        .from = {},
+                        .to = {},
+                        .size_px = packSize(size_px),
+                        .last_weight = tapWeight(axis.reach_px, tapCount(axis.reach_px))};
+  for (uint32_t i = 0; i < layer_count; ++i) {
+    push.layers[i] = addressWords(structure.structure().address(i));
+    push.from[i] = addressWords(from.address(i));
+    push.to[i] = addressWords(to.address(i));
+  }
+  const Descriptor descriptors[] = {
+      structure.structure().asTexels(abi::kBindingStructure),
+      structure.structure().asHalfTexels(abi::kBindingStructureHalves),
+      from.asTexels(abi::kBindingColor), to.asStorage(abi::kBindingMeans)};
+  average.recordDescriptors(commands, descriptors);
+  const auto stripCount = [&](uint32_t length_px) { return (length_px + strip_px - 1) / strip_px; };
+  const SizePx strips = axis.is_y ? SizePx{size_px.width, stripCount(size_px.height)}
+                                  : SizePx{stripCount(size_px.width), size_px.height};
+  // A software device gives each core a run of groups: layers come first, as deeper ones cost less.
+  average.record(commands, push, layer_count, groupCount(strips.width), strips.height);
+}
+
+}  // namespace viewloom

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which kernels a picture needs is known before anything of it is recorded: exactly those that its
+// recording asks for.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "gpu/command_recorder.h"
+#include "gpu/timeline.h"
+#include "structure/frame_structure.h"
+#include "support/test_device.h"
+#include "support/test_frames.h"
+#include "trace/view_tracer.h"
+
+namespace viewloom {
+namespace {
+
+constexpr SizePx kSource_px{64, 48};
+constexpr SizePx kTile_px{32, 24};
+
+FramePtr mirroring(const Frame& frame) {
+  auto mirrors = std::make_shared<Frame>(frame);
+  for (size_t source = 0; source < mirrors->sources.size(); ++source) {
+    for (size_t layer = 0; layer < mirrors->sources[source].size(); ++layer) {
+      LayerFormat& format = mirrors->format.sources[source].layers[layer];
+      const SizePx size_px = format.depth.size_px;
+      format.others = {{.kind = PlaneKind::kSpecular, .size_px = size_px, .depth = {}}};
+      std::vector<uint8_t> bytes(size_px.area() * sizeof(abi::SurfaceTexel), 0xff);
+      mirrors->sources[source][layer].surface =
+          std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+    }
+  }
+  return mirrors;
+}
+
+DisplaySpec complete(DisplaySpec spec) {
+  return completeDisplaySpec(spec).value();
+}
+
+struct NamedDisplay {
+  const char* name;
+  DisplaySpec spec;
+};
+
+std::vector<NamedDisplay> displays() {
+  const Pose beside{.position_m = {0.02, 0.03, 0.05}};
+  const Fov fov{.left_rad = -0.4, .right_rad = 0.4, .up_rad = 0.3, .down_rad = -0.3};
+  const QuiltSpec quilt{.columns = 4, .rows = 2, .size_px = {4 * 16, 2 * 12}};
+  const StereoSpec eyes{.eye_size_px = kSource_px};
+  const CamerasSpec cameras{
+      .cameras = {{.pose = beside, .projection = fov}}, .tile_size_px = kTile_px, .columns = 1};
+  const IntegralSpec integral{
+      .panel_px = {64, 48}, .pixel_pitch_m = 1e-4, .lens_pitch_m = 1e-3, .focal_length_m = 3e-3};
+  const LensSpec lens{.aperture_radius_m = 0.03, .focus_distance_m = 2};
+  LensSpec walked = lens;
+  walked.walked_count = 4;
+  walked.gathered_count = 0;
+  LensSpec exact = lens;
+  exact.is_exact = true;
+  const ReflectionSpec reflection{.bounce_count = 1, .sample_count = 1};
+  return {
+      {"quilt", {.kind = quilt}},
+      {"quilt in the world", {.kind = quilt, .world_pose = beside}},
+      {"stereo", {.kind = eyes}},
+      {"cameras", {.kind = cameras}},
+      {"integral", {.kind = integral}},
+      {"lens", {.kind = quilt, .lens = lens}},
+      {"walked lens", {.kind = quilt, .lens = walked}},
+      {"exact lens in the world", {.kind = eyes, .world_pose = beside, .lens = exact}},
+      {"reflections", {.kind = eyes, .reflection = reflection}},
+      {"reflections through a lens", {.kind = quilt, .lens = walked, .reflection = reflection}}};
+}
+
+class MissingKernelsTest : public GpuTest {
+ protected:
+  // Every display of these frames, by kernels that nobody has compiled.
+  void expectExact(const FramePtr& frame) {
+    Timeline timeline(device());
+    CommandRecorder recorder(device());
+    const StructureBuilder builder(device());
+    FrameStructure structure(device(), shapesOf(*frame));
+    structure.upload(*frame);
+    structure.recordBuild(recorder.begin(), builder);
+    timeline.wait(recorder.submit(timeline));
+    // By turns, so that the device gathers and the host does, with each set of planes.
+    TraceOutputs planes{.color = ColorForm::kYcbcr420};
+    TraceOutputs others{.depth = true, .mask = true, .linear = true};
+    for (const NamedDisplay& display : displays()) {
+      SCOPED_TRACE(testing::Message() << display.name << (planes.depth ? ", all planes" : ""));
+      TraceJob job = jobOf(*frame, structure, display.spec);
+      expectExact(structure, job, planes);
+      std::swap(planes, others);
+      if (!job.hasSecondStage()) continue;
+      SCOPED_TRACE("the host gathers its lens");
+      job.gathers_on_host = true;
+      expectExact(structure, job, planes);
+    }
+  }
+
+ private:
+  static TraceJob jobOf(const Frame& frame, const FrameStructure& structure,
+                        const DisplaySpec& wanted) {
+    std::vector<SeenSource> sources;
+    for (const SourceFormat& source : frame.format.sources) sources.push_back(seenSource(source));
+    const DisplaySpec spec = complete(wanted);
+    const Camera& camera = sources.front().camera;
+    auto layout = makeAtlasLayout(spec, streamDefaults(camera.intrinsics, sources.front().size_px,
+                                                       structure.stats().front()));
+    return makeTraceJob(std::make_shared<AtlasLayout>(layout.value()), spec,
+                        displayPose(spec, camera), sources);
+  }
+
+  static uint64_t compiledSince(uint64_t before) { return device().kernelCount() - before; }
+
+  static void record(ViewTracer& tracer, const FrameStructure& structure, const TraceJob& job,
+                     const TraceOutputs& planes) {
+    const BandRows rows{0, job.layout->size_px.height};
+    TraceSlot slot(device(), slotShape(job, rows.row_count, planes));
+    CommandRecorder recorder(device());  // recorded, and never submitted
+    tracer.recordBand(recorder.begin(), structure.parts(), job, rows, slot, nullptr);
+  }
+
+  static void expectExact(const FrameStructure& structure, const TraceJob& job,
+                          const TraceOutputs& planes) {
+    ViewTracer tracer(device());
+    const uint64_t before = device().kernelCount();
+    for (const auto& [place, compile] : tracer.missing(structure.parts(), job, planes)) compile();
+    const uint64_t told = compiledSince(before);
+    EXPECT_TRUE(tracer.missing(structure.parts(), job, planes).empty());
+    record(tracer, structure, job, planes);
+    EXPECT_EQ(compiledSince(before), told) << "recording needed kernels that nobody had told of";
+    ViewTracer other(device());
+    const uint64_t other_before = device().kernelCount();
+    record(other, structure, job, planes);
+    EXPECT_EQ(compiledSince(other_before), told) << "kernels were told of that nobody needs";
+  }
+};
+
+TEST_F(MissingKernelsTest, ofOneSource) {
+  expectExact(mirroring(*test::syntheticFrame(1, kSource_px, 2)));
+}
+
+TEST_F(MissingKernelsTest, ofSeveralSources) {
+  expectExact(mirroring(*test::syntheticFrameFrom(1, {0, 0.2}, kSource_px)));
+}
+
+TEST_F(MissingKernelsTest, ofACubeMap) {
+  expectExact(test::syntheticCubeFrame(1, 32));
+}
+
+}  // namespace
+}  // namespace viewloom
