@@ -170,6 +170,9 @@ class Engine {
   // it is the first engine that takes it.
   virtual PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const = 0;
 
+  // Whether such an atlas can be made at once. If not, the engine prepares what it lacks, and calls
+  // `then` on any thread when that is there. Called by the thread of begin().
+  virtual bool isReady(const AtlasOrder& order, std::function<void()> then) = 0;
   // Whether the atlas of another tracked display could begin.
   virtual bool hasRoomForEyes() const = 0;
   // nullptr: all memory is lent (EngineEvents::on_room).
@@ -177,7 +180,7 @@ class Engine {
   // Does one piece of work that lets first pictures come sooner; false: there is none. Called by
   // the thread of begin() while nobody waits for it.
   virtual bool workAhead() = 0;
-  // Waits until everything is handed on.
+  // Waits until everything is handed on, and forgets who waits to be ready.
   virtual void drain() = 0;
 };
 

@@ -12,9 +12,10 @@ Engines makeEngines(const Device& device, const EngineOptions& options) {
     engines.all.push_back(
         std::make_unique<SweepEngine>(options.trace_slot_count, *engines.workers));
   }
-  engines.all.push_back(std::make_unique<WalkEngine>(
-      device,
-      WalkOptions{.strip_count_max = options.trace_slot_count, .warms_up = options.warms_up}));
+  engines.all.push_back(
+      std::make_unique<WalkEngine>(device, WalkOptions{.strip_count_max = options.trace_slot_count,
+                                                       .warms_up = options.warms_up,
+                                                       .compile_place = compilePlaceFor(device)}));
   return engines;
 }
 

@@ -73,6 +73,11 @@ std::optional<AtlasJob> JobBoard::handOver(AtlasJob job, size_t from, size_t to)
   return newer ? lanes_[to].jobs.push(*std::move(newer)) : std::nullopt;
 }
 
+std::optional<AtlasJob> JobBoard::putBack(AtlasJob job, size_t engine) {
+  std::lock_guard lock(mutex_);
+  return lanes_[engine].jobs.push(std::move(job));
+}
+
 void JobBoard::finish(const std::string& picture_key) {
   std::lock_guard lock(mutex_);
   for (Lane& lane : lanes_) lane.jobs.finish(picture_key);

@@ -44,6 +44,9 @@ class JobBoard {
   // A job that has begun turns out to be another engine's, and so are later ones of its picture.
   // Returns what it replaces there.
   std::optional<AtlasJob> handOver(AtlasJob job, size_t from, size_t to);
+  // A job that has begun cannot be made yet: it, or a newer one of its picture, begins after
+  // finish(). Returns what it replaces, or is replaced by.
+  std::optional<AtlasJob> putBack(AtlasJob job, size_t engine);
   // The next of the picture may begin.
   void finish(const std::string& picture_key);
   // As JobQueue::forgetEyes.

@@ -121,8 +121,8 @@ bool PictureLoop::begin(AtlasJob& job) {
   desk_.pictures.keepOnly(all);
   desk_.plans.keepOnly(all);
   desk_.board.keepOnly(all);
-  UnservedDisplays unserved = desk_.served.find(job);
-  std::vector<ActiveDisplayPtr>& displays = unserved.displays;
+  const UnservedDisplays unserved = desk_.served.find(job);
+  const std::vector<ActiveDisplayPtr>& displays = unserved.displays;
   if (displays.empty()) return false;
   const Aim aim = aimOf(*displays.front(), job);
   const auto picture = desk_.pictures.get(*displays.front(), *job.structure, aim, unserved.eyes);
@@ -132,26 +132,44 @@ bool PictureLoop::begin(AtlasJob& job) {
     handOver(std::move(job), planned->engine);
     return true;
   }
-  desk_.served.note(job, unserved);
   const absl::Status status = picture.ok() ? prepare(job, planned) : picture.status();
   if (!status.ok()) {
+    desk_.served.note(job, unserved);
     for (const ActiveDisplayPtr& display : displays) {
       links_.broadcaster.refuse(display->id, status);
     }
     return false;
   }
-  for (const ActiveDisplayPtr& display : displays) {
-    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
-  }
-  auto run =
-      std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, std::move(displays));
-  run->eyes = std::move(unserved.eyes);
+  auto run = std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, displays);
+  run->eyes = unserved.eyes;
   run->plan = planned->plan;
   run->method = engine_.method();
   run->begun_ns = links_.clock.nowNs();
+  if (!isReady(*run)) {
+    putBack(*run);
+    return true;
+  }
+  desk_.served.note(run->job, unserved);
+  for (const ActiveDisplayPtr& display : displays) {
+    links_.broadcaster.noteLayout(display->id, (*picture)->layout);
+  }
   desk_.publisher.begin(run);
   begun_.add(std::move(run));
   return true;
+}
+
+bool PictureLoop::isReady(const AtlasRun& run) {
+  return engine_.isReady(orderOf(run),
+                         [&board = desk_.board, &wake_up = wake_up_, key = run.job.picture_key] {
+                           board.finish(key);
+                           wake_up.ring();
+                         });
+}
+
+void PictureLoop::putBack(AtlasRun& run) {
+  if (desk_.board.putBack(std::move(run.job), rank_)) {
+    links_.metrics.replaced[HandOver::kTrace].add();
+  }
 }
 
 void PictureLoop::handOver(AtlasJob job, size_t engine) {
@@ -179,7 +197,7 @@ absl::Status PictureLoop::prepare(const AtlasJob& job,
 }
 
 // The eyes as they are when its first rays go, which may have waited for room. Those that cannot be
-// served, or by another engine, have a job of their own.
+// served, or by another engine, or not yet, have a job of their own.
 void PictureLoop::latchEyes(AtlasRun& run) {
   if (!run.isTracked()) return;
   const ActiveDisplayPtr& display = run.outputs.front().display;
@@ -190,6 +208,10 @@ void PictureLoop::latchEyes(AtlasRun& run) {
     if (!picture.ok()) return;
     const std::optional<PlannedPicture> planned = desk_.plans.get(run.job, *picture);
     if (!planned || planned->engine != rank_) return;
+    AtlasOrder order = orderOf(run);
+    order.picture = *picture;
+    order.plan = planned->plan;
+    if (!engine_.isReady(order, [] {})) return;
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
     run.picture = *picture;
     run.plan = planned->plan;

@@ -63,6 +63,10 @@ class PictureLoop {
   void latchEyes(AtlasRun& run);
   bool beginMaking(const AtlasRunPtr& run);
   AtlasOrder orderOf(const AtlasRun& run) const;
+  // Whether the engine makes it at once; else what it lacks is being prepared, and the picture may
+  // begin when that is there.
+  bool isReady(const AtlasRun& run);
+  void putBack(AtlasRun& run);
   void finish(const AtlasRunPtr& run);
 
   const PipelineLinks& links_;

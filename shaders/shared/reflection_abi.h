@@ -80,7 +80,7 @@ struct MergePathsPush {
   // A bit for each source.
   uint cube_maps;
   uint mirrors;
-  uint bounce;        // of the ray's mirrors, from 0
+  uint bounce;  // of the ray's mirrors, from 0
   uint bounce_count;
   uint sample_index;  // of the px's rays
   uint sample_count;  // of the px with the most

@@ -60,6 +60,8 @@ struct ServerOptions {
   uint32_t encode_thread_count = 2;
   uint32_t trace_slot_count = EngineOptions{}.trace_slot_count;
   AtlasLimits atlas_limits = {};
+  // Not empty: makes the engines, in place of makeEngines().
+  std::function<Engines(const Device& device)> make_engines = {};
 };
 
 class PipelineFixture : public GpuTest {
@@ -68,7 +70,9 @@ class PipelineFixture : public GpuTest {
     // By its own clock, or another.
     explicit Server(const Device& device, ServerOptions options = {},
                     const Clock* other_clock = nullptr)
-        : engines(makeEngines(device, {.trace_slot_count = options.trace_slot_count})),
+        : engines(options.make_engines
+                      ? options.make_engines(device)
+                      : makeEngines(device, {.trace_slot_count = options.trace_slot_count})),
           pipeline(
               {.engines = engines,
                .clock = other_clock != nullptr ? *other_clock : clock,

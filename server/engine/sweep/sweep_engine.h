@@ -36,6 +36,7 @@ class SweepEngine final : public Engine {
   bool takes(const Frame& frame) const override;
   std::unique_ptr<FramePreparer> preparer() override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
+  bool isReady(const AtlasOrder&, std::function<void()>) override { return true; }
   bool hasRoomForEyes() const override { return atlases_for_eyes_.hasRoom(); }
   std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) override;
   bool workAhead() override { return false; }

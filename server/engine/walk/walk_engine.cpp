@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/thread_name.h"
 #include "gpu/device_error.h"
 
 namespace viewloom {
@@ -22,7 +23,14 @@ class WalkedFramePreparer final : public FramePreparer {
   const std::shared_ptr<StreamBuilds> builds_;
 };
 
+// A picture needs one to three kernels that others do not have.
+constexpr uint32_t kCompileThreads = 2;
+
 }  // namespace
+
+CompilePlace compilePlaceFor(const Device& device) {
+  return device.info().is_software ? CompilePlace::kRecordingThread : CompilePlace::kOwnThreads;
+}
 
 WalkEngine::WalkEngine(const Device& device, const WalkOptions& options)
     : works_(device),
@@ -31,10 +39,27 @@ WalkEngine::WalkEngine(const Device& device, const WalkOptions& options)
       gatherers_(std::make_shared<GathererShelf>()),
       watch_(works_.timeline, [this](const std::exception& error) { events_.on_failure(error); }) {
   if (options.warms_up) warm_up_.emplace(works_, tracer_);
+  if (options.compile_place == CompilePlace::kRecordingThread) return;
+  compiler_.emplace(
+      kCompileThreads, [this](const std::exception& error) { events_.on_failure(error); },
+      options.before_each_kernel);
 }
 
 void WalkEngine::connect(EngineEvents events) {
   events_ = std::move(events);
+  if (compiler_ && warm_up_ && !warmer_.joinable()) startWarmer();
+}
+
+void WalkEngine::startWarmer() {
+  warmer_ = std::jthread([this](const std::stop_token& stop) {
+    nameThread("warm up");
+    try {
+      while (!stop.stop_requested() && warmNext(stop)) {
+      }
+    } catch (const std::exception& error) {
+      events_.on_failure(error);
+    }
+  });
 }
 
 std::unique_ptr<FramePreparer> WalkEngine::preparer() {
@@ -45,10 +70,17 @@ PlanPtr WalkEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) 
   return std::make_shared<WalkPlan>(works_.device, picture, static_cast<const WalkedFrame&>(frame));
 }
 
-bool WalkEngine::workAhead() {
-  if (!warm_up_) return false;
+bool WalkEngine::isReady(const AtlasOrder& order, std::function<void()> then) {
+  if (!compiler_) return true;
+  MissingKernels missing = WalkMaking::missingKernels(tracer_, order);
+  if (missing.empty()) return true;
+  compiler_->compile(std::move(missing), std::move(then));
+  return false;
+}
+
+bool WalkEngine::warmNext(const std::stop_token& stop) {
   try {
-    if (warm_up_->makeNext()) return true;
+    if (warm_up_->makeNext(stop)) return true;
     works_.device.keepKernels();
   } catch (const std::exception& error) {
     if (!isOutOfDeviceMemory(error)) throw;
@@ -56,6 +88,18 @@ bool WalkEngine::workAhead() {
   }
   warm_up_.reset();
   return false;
+}
+
+bool WalkEngine::workAhead() {
+  return !compiler_ && warm_up_ && warmNext({});
+}
+
+void WalkEngine::drain() {
+  warmer_.request_stop();
+  if (compiler_) compiler_->drain();
+  if (warmer_.joinable()) warmer_.join();
+  warm_up_.reset();
+  watch_.drain();
 }
 
 std::unique_ptr<Making> WalkEngine::begin(AtlasOrder order, HandOn hand_on) {

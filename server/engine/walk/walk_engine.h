@@ -2,12 +2,15 @@
 // Walks rays through structures on a Vulkan device (shaders/README.md): any picture of any frame.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "engine/engine.h"
 #include "trace/view_tracer.h"
 #include "walk/device_watch.h"
+#include "walk/kernel_compiler.h"
 #include "walk/strip_traces.h"
 #include "walk/walk_making.h"
 #include "walk/walked_frame.h"
@@ -15,9 +18,23 @@
 
 namespace viewloom {
 
+// Where kernels are compiled.
+enum class CompilePlace : uint8_t {
+  // By the thread that records them. Software devices compile a kernel when they come to its first
+  // dispatch, so no other thread could do it beforehand.
+  kRecordingThread,
+  // By threads of their own: a picture whose kernels are missing waits for them, and no other.
+  kOwnThreads
+};
+
+// On hardware by own threads.
+CompilePlace compilePlaceFor(const Device& device);
+
 struct WalkOptions {
   uint32_t strip_count_max = 3;  // with the same planes, on their way at once
   bool warms_up = false;
+  CompilePlace compile_place = CompilePlace::kRecordingThread;
+  std::function<void()> before_each_kernel = [] {};  // for tests: own threads call it
 };
 
 class WalkEngine final : public Engine {
@@ -30,19 +47,27 @@ class WalkEngine final : public Engine {
   bool takes(const Frame&) const override { return true; }
   std::unique_ptr<FramePreparer> preparer() override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
+  bool isReady(const AtlasOrder& order, std::function<void()> then) override;
   bool hasRoomForEyes() const override { return true; }
   std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) override;
   bool workAhead() override;
-  void drain() override { watch_.drain(); }
+  void drain() override;
 
  private:
+  // Does the next part of the warm-up; false: it is over.
+  bool warmNext(const std::stop_token& stop);
+  // Warms up on a thread of its own.
+  void startWarmer();
+
   StructureWorks works_;
   ViewTracer tracer_;
   std::optional<WarmUp> warm_up_;
   EngineEvents events_;
   StripTraces strips_;
   const std::shared_ptr<GathererShelf> gatherers_;
-  DeviceWatch watch_;  // last: what it tells uses all of the above
+  DeviceWatch watch_;                       // from here on: what they tell uses all of the above
+  std::optional<KernelCompiler> compiler_;  // of kOwnThreads
+  std::jthread warmer_;                     // likewise, from connect() on
 };
 
 }  // namespace viewloom

@@ -17,6 +17,15 @@ const PicturePtr& tracedPicture(const AtlasOrder& order) {
   return static_cast<const WalkPlan&>(*order.plan).picture;
 }
 
+std::vector<const StructureSlot*> structuresOf(const AtlasOrder& order) {
+  std::vector<const StructureSlot*> structures;
+  for (const PreparedFrame* frame : order.frames) {
+    const auto parts = walked(*frame).structure().parts();
+    structures.insert(structures.end(), parts.begin(), parts.end());
+  }
+  return structures;
+}
+
 bool isInReach(const Device& device, const WalkedFrame& frame) {
   return isInReach(device, frame.shapes().front());
 }
@@ -119,11 +128,13 @@ WalkMaking::WalkMaking(WalkTools tools, AtlasOrder order, std::shared_ptr<StripT
       order_(std::move(order)),
       picture_(tracedPicture(order_)),
       hand_on_(std::move(hand_on)),
-      trace_(std::move(trace)) {
-  for (const PreparedFrame* frame : order_.frames) {
-    const auto parts = walked(*frame).structure().parts();
-    structures_.insert(structures_.end(), parts.begin(), parts.end());
-  }
+      structures_(structuresOf(order_)),
+      trace_(std::move(trace)) {}
+
+MissingKernels WalkMaking::missingKernels(ViewTracer& tracer, const AtlasOrder& order) {
+  TraceOutputs planes = order.planes;
+  planes.color = tracer.colorForm(planes.color);
+  return tracer.missing(structuresOf(order), *tracedPicture(order), planes);
 }
 
 TraceSlotShape WalkMaking::stripShape(const AtlasOrder& order) {

@@ -57,6 +57,8 @@ class WalkMaking final : public Making {
   // Waits until the device is no more than two parts behind.
   MakingStep step() override;
 
+  // Kernels that the strips of such an atlas need and nobody has compiled.
+  static MissingKernels missingKernels(ViewTracer& tracer, const AtlasOrder& order);
   // Shape of the slots that the strips of such an atlas take.
   static TraceSlotShape stripShape(const AtlasOrder& order);
 
@@ -67,7 +69,7 @@ class WalkMaking final : public Making {
   const AtlasOrder order_;
   const PicturePtr picture_;  // as it is traced
   const HandOn hand_on_;
-  std::vector<const StructureSlot*> structures_;
+  const std::vector<const StructureSlot*> structures_;
   uint32_t strip_ = 0;  // the next part is of it
   uint32_t part_ = 0;
   std::shared_ptr<StripTrace> trace_;  // with the parts of the strip before that

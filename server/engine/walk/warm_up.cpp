@@ -16,7 +16,7 @@ namespace {
 constexpr SizePx kSource_px{64, 48};
 // Views of stereo displays are about as large as their source, those of quilts are smaller: then
 // colour is averaged, by two samples to each side where they are a fourth as wide
-// (trace/color_averager.h).
+// (trace/mean_color_pass.h).
 constexpr SizePx kEye_px = kSource_px;
 constexpr SizePx kTile_px{kSource_px.width / 4, kSource_px.height / 4};
 // Enough columns for the kernels of quilts (trace/px_runs.cpp).
@@ -111,13 +111,14 @@ std::vector<WarmUp::SmallPicture> WarmUp::likelyPictures() {
   return pictures;
 }
 
-bool WarmUp::makeNext() {
+bool WarmUp::makeNext(const std::stop_token& stop) {
   if (!frames_.empty()) {
     build();
     return true;
   }
   if (left_.empty()) return false;
-  trace(left_.back());
+  trace(left_.back(), stop);
+  if (stop.stop_requested()) return false;
   left_.pop_back();
   if (left_.empty()) tellEnd();
   return true;
@@ -138,7 +139,7 @@ void WarmUp::build() {
   works_.timeline.wait(recorder_.submit(works_.timeline));
 }
 
-void WarmUp::trace(const SmallPicture& picture) {
+void WarmUp::trace(const SmallPicture& picture, const std::stop_token& stop) {
   const SeenSource& source = sources_.front();
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
       picture.spec,
@@ -150,6 +151,10 @@ void WarmUp::trace(const SmallPicture& picture) {
       gathersOnHost(isInReach(works_.device, structure_->firstPart().shape()), job);
   TraceOutputs planes = picture.planes;
   planes.color = tracer_.colorForm(ColorForm::kYcbcr420);
+  for (const auto& [place, compile] : tracer_.missing(structure_->parts(), job, planes)) {
+    if (stop.stop_requested()) return;
+    compile();
+  }
   const BandRows rows{0, std::min(job.layout->size_px.height, kBandRowsMax)};
   TraceSlot slot(works_.device, slotShape(job, rows.row_count, planes));
   tracer_.recordBand(recorder_.begin(), structure_->firstPart(), job, rows, slot, nullptr);

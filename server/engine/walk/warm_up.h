@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "display/display_spec.h"
@@ -21,8 +22,9 @@ class WarmUp {
   // All of it outlives it.
   WarmUp(StructureWorks& works, ViewTracer& tracer);
 
-  // Makes the next one and waits for it; false: all are made.
-  bool makeNext();
+  // Makes the next one and waits for it; false: all are made, or it is to stop, which it looks at
+  // between kernels.
+  bool makeNext(const std::stop_token& stop);
 
  private:
   struct SmallPicture {
@@ -33,7 +35,7 @@ class WarmUp {
   static std::vector<SmallPicture> likelyPictures();
   void tellEnd() const;
   void build();
-  void trace(const SmallPicture& picture);
+  void trace(const SmallPicture& picture, const std::stop_token& stop);
 
   StructureWorks& works_;
   ViewTracer& tracer_;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiles kernels on threads of its own, for pictures that wait for them.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "gpu/pass_map.h"
+
+namespace viewloom {
+
+// Thread-safety: all methods may be called from any thread.
+class KernelCompiler {
+ public:
+  // `on_failure` is called on one of its threads when a kernel cannot be compiled; nothing more is
+  // compiled for whoever needs that kernel. `before_each`: for tests.
+  KernelCompiler(
+      uint32_t thread_count, std::function<void(const std::exception& error)> on_failure,
+      std::function<void()> before_each = [] {});
+  // As drain().
+  ~KernelCompiler();
+
+  // `then` is called on one of its threads once all of these are compiled.
+  void compile(MissingKernels kernels, std::function<void()> then);
+  // Forgets kernels that have not begun, and waits for the others.
+  void drain();
+
+ private:
+  // The kernels that one caller waits for.
+  struct Order {
+    uint32_t left_count;
+    std::function<void()> then;
+  };
+  struct Kernel {
+    std::function<void()> compile;
+    std::shared_ptr<Order> order;
+  };
+
+  void run(const std::stop_token& stop);
+  void compileOne(const Kernel& kernel);
+
+  const std::function<void(const std::exception& error)> on_failure_;
+  const std::function<void()> before_each_;
+  std::mutex mutex_;  // guards what follows, and the counts of orders
+  std::condition_variable_any added_;
+  std::condition_variable done_;
+  std::deque<Kernel> waiting_;
+  uint32_t begun_count_ = 0;
+  std::vector<std::jthread> threads_;  // last: they use all of the above
+};
+
+}  // namespace viewloom
