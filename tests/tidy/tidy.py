@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the repository and says which of its own rules it breaks: one line each, exit code 1."""
+"""Reads the repository and says which of its own rules it breaks: one line each, exit code 1.
+
+tidy.py ROOT                     checks
+tidy.py ROOT --graph FILE        draws which folder includes which instead, as .dot or .svg
+"""
 
 import sys
 
 import build_rules
+import include_graph
 import layering
 import proto_rules
 import text_rules
@@ -13,8 +18,11 @@ from tree import Tree
 
 def main():
     tree = Tree.of_repository(sys.argv[1])
-    findings = sorted(finding for rules in (build_rules, layering, proto_rules, text_rules,
-                                              user_texts)
+    if sys.argv[2:3] == ["--graph"]:
+        include_graph.write(tree, sys.argv[3])
+        return 0
+    findings = sorted(finding for rules in (build_rules, include_graph, layering, proto_rules,
+                                              text_rules, user_texts)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)
