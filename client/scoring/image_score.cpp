@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "scoring/flip.h"
+#include "scoring/psnr.h"
 
 namespace viewloom {
 namespace {
@@ -133,7 +134,7 @@ ImageScore ImageComparison::score(std::span<const uint8_t> selected,
   }
   const auto count = static_cast<double>(result.pixel_count);
   result.share = considered_count == 0 ? 0 : count / static_cast<double>(considered_count);
-  result.psnr_db = -10 * std::log10(error_sum / count);  // 0 / 0 is NaN: no pixel, no score
+  result.psnr_db = psnrDb(error_sum / count);
   result.ssim = ssim_sum / count;
   result.flip = flip_sum / count;
   return result;

@@ -4,9 +4,9 @@
 
 #include "base/byte_pool.h"
 #include "base/clock.h"
-#include "metrics/metrics.h"
 #include "decode/frame_intake.h"
 #include "frame/limits.h"
+#include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 

@@ -30,8 +30,8 @@ VIEWLOOM_ABI_CONST float kTonePower = 1.25f;
 VIEWLOOM_ABI_CONST float kToneWhite = 16.0f;                    // 6.5 stops above middle grey
 VIEWLOOM_ABI_CONST float kToneHalf = 0.5452092f;                // k
 VIEWLOOM_ABI_CONST float kToneGain = 1.0f + kToneHalf / 32.0f;  // 32 = white^n
-VIEWLOOM_ABI_CONST float kToneInset = 0.15f;  // of each channel, to each of the others
-VIEWLOOM_ABI_CONST float kToneOutset = 0.170674f;               // of the same, taken back
+VIEWLOOM_ABI_CONST float kToneInset = 0.15f;       // of each channel, to each of the others
+VIEWLOOM_ABI_CONST float kToneOutset = 0.170674f;  // of the same, taken back
 
 // 0 or more to 0..1.
 VIEWLOOM_ABI_FUNCTION float toneCurve(float light) {

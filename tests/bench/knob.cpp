@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "bench/report.h"
 #include "offline/median.h"
+#include "scoring/psnr.h"
 #include "walk/offline_renderer.h"
 
 namespace viewloom::bench {
@@ -48,16 +49,14 @@ RenderedAtlas render(OfflineRenderer& renderer, const DisplaySpec& spec, bool is
 }
 
 double psnrDb(const RenderedAtlas& atlas, const KnobLoad& load) {
-  double squares = 0;
-  size_t count = 0;
+  Psnr psnr;
   for (size_t px = 0; px < load.is_known.size(); ++px) {
     if (load.is_known[px] == 0) continue;
     for (size_t c = 0; c < 3; ++c) {
-      squares += std::pow(atlas.linear[4 * px + c] - load.truth.rgb[3 * px + c], 2);
+      psnr.add(atlas.linear[4 * px + c] - load.truth.rgb[3 * px + c]);
     }
-    count += 3;
   }
-  return -10 * std::log10(squares / double(count));
+  return psnr.db();
 }
 
 void print(const std::vector<KnobPoint>& points) {

@@ -84,12 +84,13 @@ std::vector<Way> marchesOf(DdaMirrors& rival) {
 std::vector<MirrorPoint> pointsOf(const std::vector<Way>& ways) {
   std::vector<MirrorPoint> points;
   for (const Way& way : ways) {
-    points.push_back({.name = way.name, .time_ms = medianOf(way.times_ms), .psnr = {}});
+    const double time_ms = way.times_ms.empty() ? 0 : medianOf(way.times_ms);
+    points.push_back({.name = way.name, .time_ms = time_ms, .psnr = {}});
   }
   return points;
 }
 
-// The first round compiles, and is scored.
+// A round before those that are counted compiles, and is scored.
 MirrorDuel duelOf(MirrorStage& stage, const std::vector<glm::vec3>& truth, const HeldBy& held,
                   std::vector<Way> walks, std::vector<Way> marches, uint32_t round_count) {
   const auto run = [&](const Way& way) {

@@ -35,7 +35,7 @@ class MirrorDuelsTest : public GpuTest {
   }
 
   void expectAhead(const std::string& name, const Lead& lead) {
-    for (const MirrorDuel& duel : mirrorDuels(device(), sceneOf(name), 1)) {
+    for (const MirrorDuel& duel : mirrorDuels(device(), sceneOf(name), 0)) {
       SCOPED_TRACE(duel.scene + ", view " + duel.view);
       print(duel);
       const MirrorPsnr& walk = duel.walks.front().psnr;

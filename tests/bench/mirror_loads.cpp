@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "frame/cube_map.h"
+#include "scoring/psnr.h"
 #include "support/srgb_transfer.h"
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/picture_frame.h"
@@ -41,22 +42,11 @@ double linearOf(uint32_t code) {
   return linearFrom((code & 0xff) / 255.0);
 }
 
-class Psnr {
- public:
-  void add(const float* got, const glm::vec3& truth) {
-    for (int c = 0; c < 3; ++c) {
-      const double clipped = std::min(double{truth[c]}, 1.0);
-      const double difference = double{got[c]} - srgbFrom(clipped);
-      sum_ += difference * difference;
-    }
-    count_ += 3;
+void add(const float* got, const glm::vec3& truth, Psnr& psnr) {
+  for (int c = 0; c < 3; ++c) {
+    psnr.add(double{got[c]} - srgbFrom(std::min(double{truth[c]}, 1.0)));
   }
-  double db() const { return -10 * std::log10(sum_ / double(count_)); }
-
- private:
-  double sum_ = 0;
-  size_t count_ = 0;
-};
+}
 
 }  // namespace
 
@@ -123,9 +113,9 @@ MirrorPsnr mirrorPsnr(const AtlasLayout& layout, std::span<const float> linear,
     const size_t x_px = origin.x_px + i % kMirrorView_px.width;
     const size_t y_px = origin.y_px + i / kMirrorView_px.width;
     const float* const got = &linear[4 * (y_px * layout.size_px.width + x_px)];
-    of_all.add(got, truth[i]);
+    add(got, truth[i], of_all);
     Psnr& own = held.isKnown(i) ? of_known : held.isElsewhere(i) ? of_elsewhere : of_unknown;
-    own.add(got, truth[i]);
+    add(got, truth[i], own);
   }
   return {of_known.db(), of_elsewhere.db(), of_unknown.db(), of_all.db()};
 }

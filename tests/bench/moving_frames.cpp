@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scoring/psnr.h"
 #include "support/srgb_transfer.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
@@ -248,12 +249,11 @@ ScoredImage rowWarp(const truth::Picture& picture, const Pose& camera, WarpedCol
 }
 
 double psnrDb(const ScoredImage& got, const ScoredImage& truth) {
-  double sum = 0;
+  Psnr psnr;
   for (size_t i = 0; i < truth.rgb.size(); ++i) {
-    const double difference = double{got.rgb[i]} - double{truth.rgb[i]};
-    sum += difference * difference;
+    psnr.add(double{got.rgb[i]} - double{truth.rgb[i]});
   }
-  return -10 * std::log10(sum / double(truth.rgb.size()));
+  return psnr.db();
 }
 
 }  // namespace viewloom::bench

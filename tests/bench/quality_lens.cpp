@@ -12,6 +12,7 @@
 #include "bench/lens_scene.h"
 #include "offline/median.h"
 #include "scoring/image_score.h"
+#include "scoring/psnr.h"
 #include "shared/lens_abi.h"
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
@@ -95,8 +96,8 @@ constexpr float kHiddenShare = 0.1F;
 void score(const RenderedAtlas& atlas, const TrueView& truth, LensScore& result) {
   const SizePx size_px = atlas.layout->size_px;
   const uint32_t margin_px = size_px.width / 20;
-  double squares = 0;
-  double hidden_squares = 0;
+  Psnr psnr;
+  Psnr hidden_psnr;
   double errors = 0;
   double lights = 0;
   size_t count = 0;
@@ -108,9 +109,9 @@ void score(const RenderedAtlas& atlas, const TrueView& truth, LensScore& result)
       for (size_t c = 0; c < 3; ++c) {
         const double got = atlas.linear[4 * px + c];
         const double light = truth.light[3 * px + c];
-        const double square = std::pow(got - srgbFromLinear(light), 2);
-        squares += square;
-        hidden_squares += is_hidden ? square : 0;
+        const double error = got - srgbFromLinear(light);
+        psnr.add(error);
+        if (is_hidden) hidden_psnr.add(error);
         hidden_count += is_hidden;
         errors += linearFromSrgb(got) - light;
         lights += light;
@@ -118,8 +119,8 @@ void score(const RenderedAtlas& atlas, const TrueView& truth, LensScore& result)
       }
     }
   }
-  result.psnr_db = -10 * std::log10(squares / double(count));
-  result.hidden_psnr_db = -10 * std::log10(hidden_squares / double(hidden_count));
+  result.psnr_db = psnr.db();
+  result.hidden_psnr_db = hidden_psnr.db();
   result.hidden_px_share = double(hidden_count) / double(count);
   result.mean_error = errors / double(count);
   result.level_db = 10 * std::log10((lights + errors) / lights);
@@ -157,11 +158,10 @@ FramePtr roomFrame(const truth::Instant& instant, uint32_t width_px, uint32_t la
 
 }  // namespace
 
-std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
+std::vector<LensScore> lensScores(OfflineRenderer& renderer, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways) {
   const truth::Instant instant(truth::clutteredRoom(), 0);
   const TrueView truth = trueViewOf(instant, scoring);
-  OfflineRenderer renderer(device, scoring.place);
   std::vector<LensScore> scores;
   uint32_t built_layers = 0;
   for (const LensWay& way : ways) {
@@ -183,14 +183,14 @@ std::vector<LensScore> lensScores(const Device& device, const LensScoring& scori
 
 namespace {
 
-Json jsonOf(const LensScoring& scoring, const LensScore& score) {
+Json jsonOf(const LensScoring& scoring, const LensScore& score, const char* place) {
   Json row = {{"source_width_px", scoring.source_width_px},
               {"view_width_px", scoring.view_width_px},
               {"layers", score.way.layer_count},
               {"walked", score.way.walked_count},
               {"gathered", score.way.gathered_count},
               {"mode", score.way.is_exact ? "exact" : "fast"},
-              {"place", scoring.place == GatheringPlace::kHost ? "host" : "device"}};
+              {"place", place}};
   if (scoring.true_ray_count > 0) {
     row.update({{"psnr_db", score.psnr_db},
                 {"hidden_psnr_db", score.hidden_psnr_db},
@@ -224,13 +224,17 @@ Json qualityOfLens(const Device& device) {
         {.layer_count = layers, .walked_count = 8, .gathered_count = 32, .is_exact = true});
   }
   Json rows = Json::array();
+  OfflineRenderer on_host(device, GatheringPlace::kHost);
   const auto add = [&](const LensScoring& scoring, const std::vector<LensWay>& added) {
-    for (const LensScore& score : lensScores(device, scoring, added)) {
-      rows.push_back(jsonOf(scoring, score));
+    for (const LensScore& score : lensScores(on_host, scoring, added)) {
+      rows.push_back(jsonOf(scoring, score, "host"));
     }
   };
   add({}, ways);
-  add({.place = GatheringPlace::kDevice}, gathered);
+  OfflineRenderer on_device(device, GatheringPlace::kDevice);
+  for (const LensScore& score : lensScores(on_device, {}, gathered)) {
+    rows.push_back(jsonOf({}, score, "device"));
+  }
   // What views cost that are as large as those of displays.
   add({.view_width_px = 640, .true_ray_count = 0}, balanced);
   add({.view_width_px = 960, .true_ray_count = 0}, balanced);

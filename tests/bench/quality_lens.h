@@ -40,11 +40,10 @@ struct LensScoring {
   uint32_t round_count = 11;       // of each trace, for the median; 0: what it costs is not
   double radius_m = 0.02;          // of the lens
   double aside_m = 0;              // of the view, to the right of the source
-  GatheringPlace place = GatheringPlace::kHost;
 };
 
-// The cluttered room, in focus at a third of its depth.
-std::vector<LensScore> lensScores(const Device& device, const LensScoring& scoring,
+// The cluttered room, in focus at a third of its depth. The renderer gathers lenses where it does.
+std::vector<LensScore> lensScores(OfflineRenderer& renderer, const LensScoring& scoring,
                                   const std::vector<LensWay>& ways);
 
 nlohmann::ordered_json qualityOfLens(const Device& device);

@@ -13,7 +13,7 @@
 namespace viewloom::bench {
 namespace {
 
-class QualityOfLens : public GpuTest, public ::testing::WithParamInterface<GatheringPlace> {
+class QualityOfLens : public GatheringTest, public ::testing::WithParamInterface<GatheringPlace> {
  protected:
   std::vector<LensScore> scoresOf(const std::vector<LensWay>& ways, double aside_m,
                                   uint32_t true_ray_count = 256) {
@@ -21,9 +21,8 @@ class QualityOfLens : public GpuTest, public ::testing::WithParamInterface<Gathe
                               .view_width_px = 160,
                               .true_ray_count = true_ray_count,
                               .round_count = 0,
-                              .aside_m = aside_m,
-                              .place = GetParam()};
-    std::vector<LensScore> scores = lensScores(device(), scoring, ways);
+                              .aside_m = aside_m};
+    std::vector<LensScore> scores = lensScores(rendererAt(GetParam()), scoring, ways);
     for (const LensScore& score : scores) {
       std::cout << score.way.layer_count << " layers, " << score.way.walked_count << " + "
                 << score.way.gathered_count << ": " << score.psnr_db << " dB, "

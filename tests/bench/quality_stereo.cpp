@@ -9,6 +9,7 @@
 
 #include "bench/eye_service.h"
 #include "bench/served_head.h"
+#include "scoring/psnr.h"
 #include "support/eyes/head_truth.h"
 #include "support/truth/scenes.h"
 
@@ -33,7 +34,7 @@ class MeanDb {
     sum_ += std::pow(10, -db / 10);
     ++count_;
   }
-  double db() const { return -10 * std::log10(sum_ / count_); }
+  double db() const { return psnrDb(sum_ / count_); }
 
  private:
   double sum_ = 0;

@@ -105,10 +105,9 @@ class Scores {
 
 // Each dropped frame from the kept one before it, as the two before tell that the camera moves, and
 // planes of motion that things do.
-TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
+TimeScore scorePrediction(OfflineRenderer& renderer, const TrueSequence& sequence,
                           uint32_t kept_one_of) {
   Scores scores;
-  OfflineRenderer renderer(device);
   WorkerPool workers;
   FrameRetimer retimer(workers);
   CameraTrack track;
@@ -130,10 +129,9 @@ TimeScore scorePrediction(const Device& device, const TrueSequence& sequence,
 }
 
 // Each dropped frame from the kept ones on both sides, as two sources.
-TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
+TimeScore scoreInterpolation(OfflineRenderer& renderer, const TrueSequence& sequence,
                              uint32_t kept_one_of) {
   Scores scores;
-  OfflineRenderer renderer(device);
   WorkerPool workers;
   FrameRetimer newest_retimer(workers), before_retimer(workers);
   CameraTrack track;
@@ -159,8 +157,7 @@ TimeScore scoreInterpolation(const Device& device, const TrueSequence& sequence,
 }
 
 // Every frame that is dropped, traced from what a stream has of it: no prediction can be better.
-double scoreTraced(const Device& device, const TrueSequence& sequence, uint32_t kept_one_of) {
-  OfflineRenderer renderer(device);
+double scoreTraced(OfflineRenderer& renderer, const TrueSequence& sequence, uint32_t kept_one_of) {
   double sum_db = 0;
   uint32_t count = 0;
   for (uint32_t index = 1; index < kFrameCount; ++index) {
@@ -176,10 +173,11 @@ double scoreTraced(const Device& device, const TrueSequence& sequence, uint32_t 
 }  // namespace
 
 std::vector<TimeScore> timeScores(const Device& device) {
+  OfflineRenderer renderer(device);
   std::vector<TimeScore> scores;
   const auto addScores = [&](const TrueSequence& sequence, uint32_t kept_one_of) {
-    scores.push_back(scorePrediction(device, sequence, kept_one_of));
-    scores.push_back(scoreInterpolation(device, sequence, kept_one_of));
+    scores.push_back(scorePrediction(renderer, sequence, kept_one_of));
+    scores.push_back(scoreInterpolation(renderer, sequence, kept_one_of));
   };
   const TrueSequence things = takeAll(movingThings());
   for (const TrueSequence& sequence : {takeAll(movingCamera()), things, takeAll(fastThings())}) {
@@ -187,7 +185,7 @@ std::vector<TimeScore> timeScores(const Device& device) {
   }
   const TrueSequence sources = takeAll(movingSources(), things.pictures);
   addScores(sources, 4);
-  const double traced_db = scoreTraced(device, sources, 4);
+  const double traced_db = scoreTraced(renderer, sources, 4);
   for (size_t i = scores.size() - 2; i < scores.size(); ++i) scores[i].traced_db = traced_db;
   return scores;
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "bench/bench_scenes.h"
+#include "scoring/psnr.h"
 #include "synthetic/synthetic_frame.h"
 
 namespace viewloom::bench {
@@ -176,8 +177,8 @@ TrueTiles::TrueTiles(const BenchLoad& load) : layout_(*load.job.layout) {
 std::optional<double> TrueTiles::psnrDb(std::span<const uint32_t> atlas) const {
   if (tiles_.empty() || atlas.empty()) return std::nullopt;
   const SizePx tile_px = layout_.tile_size_px;
-  double squares = 0;
-  size_t count = 0;
+  constexpr double kPeak = 255;
+  Psnr psnr;
   for (const Tile& tile : tiles_) {
     const TileOrigin origin = layout_.tileOrigin(tile.view);
     for (size_t px = 0; px < tile.rgba.size(); ++px) {
@@ -186,13 +187,11 @@ std::optional<double> TrueTiles::psnrDb(std::span<const uint32_t> atlas) const {
       const uint32_t got = atlas[row * layout_.size_px.width + origin.x_px + px % tile_px.width];
       for (uint32_t shift = 0; shift < 24; shift += 8) {
         const int error = int(got >> shift & 255U) - int(tile.rgba[px] >> shift & 255U);
-        squares += error * error;
-        ++count;
+        psnr.add(error / kPeak);
       }
     }
   }
-  constexpr double kPeak = 255;
-  return 10 * std::log10(kPeak * kPeak * double(count) / squares);
+  return psnr.db();
 }
 
 }  // namespace viewloom::bench

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "e2e/pipeline_fixture.h"
+#include "scoring/psnr.h"
 #include "support/eyes/head_truth.h"
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/scenes.h"
@@ -105,12 +106,9 @@ class PipelineQualityTest : public PipelineFixture {
   }
 
   static double psnrDb(const std::vector<uint8_t>& got, const std::vector<uint8_t>& truth) {
-    double sum = 0;
-    for (size_t i = 0; i < truth.size(); ++i) {
-      const double apart = (got.at(i) - truth[i]) / 255.0;
-      sum += apart * apart;
-    }
-    return -10 * std::log10(sum / double(truth.size()));
+    Psnr psnr;
+    for (size_t i = 0; i < truth.size(); ++i) psnr.add((got.at(i) - truth[i]) / 255.0);
+    return psnr.db();
   }
 
   struct TrioViewers {

@@ -9,17 +9,17 @@
 #include "e2e/wire_displays.h"
 #include "lib/catalog.h"
 #include "lib/channel.h"
+#include "scoring/psnr.h"
 
 namespace viewloom::test {
 namespace {
 
 double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
-  double sum = 0;
+  Psnr psnr;
   for (size_t i = 0; i < a.samples.size(); ++i) {
-    const double difference = double(a.samples[i]) - double(b.samples[i]);
-    sum += difference * difference;
+    psnr.add((double(a.samples[i]) - double(b.samples[i])) / 255);
   }
-  return 10 * std::log10(255.0 * 255 * double(a.samples.size()) / sum);
+  return psnr.db();
 }
 
 class ServiceDisplaysTest : public ServiceFixture {

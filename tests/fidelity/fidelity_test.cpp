@@ -30,8 +30,9 @@ class FidelityTest : public DeviceNeededTest {
     }
     if (!reports().empty()) return;
     const Device device({.select = ""});
+    OfflineRenderer renderer(device);
     for (const Trial& trial : loadTrials(data)) {
-      reports()[trial.set.name] = trialJson(trial, runTrial(device, trial));
+      reports()[trial.set.name] = trialJson(trial, runTrial(renderer, trial));
     }
   }
 

@@ -16,10 +16,11 @@ static void run(const std::filesystem::path& data, const std::string& device_nam
                 bool prints_json) {
   setLogLevel(LogLevel::kWarning);
   const Device device({.select = device_name});
+  OfflineRenderer renderer(device);
   nlohmann::ordered_json json{{"device", device.info().name},
                               {"sets", nlohmann::ordered_json::array()}};
   for (const Trial& trial : loadTrials(data)) {
-    json["sets"].push_back(trialJson(trial, runTrial(device, trial)));
+    json["sets"].push_back(trialJson(trial, runTrial(renderer, trial)));
     if (!prints_json) std::cout << asTable(json["sets"].back()) << std::endl;
   }
   if (prints_json) std::cout << json.dump(2) << "\n";

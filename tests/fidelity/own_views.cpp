@@ -13,10 +13,9 @@ constexpr double kTolerance_px = 0.03;
 
 }  // namespace
 
-std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
+std::vector<RenderedView> renderViews(OfflineRenderer& renderer, const test::DataSet& set,
                                       const std::vector<test::TrueView>& views,
                                       ScoreTransfer transfer, const CoarseDepth* coarse) {
-  OfflineRenderer renderer(device);
   Frame frame = *valueOrThrow(loadManifestFrame(frameManifest(set), {})).frame;
   if (coarse != nullptr) {
     PlaneFormat& format = frame.format.sources[0].layers[0].depth;

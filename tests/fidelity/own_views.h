@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "fidelity/coarse_depth.h"
-#include "gpu/device.h"
 #include "offline/rendered_view.h"
 #include "support/data_sets.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::fidelity {
 
 // In the order of `views`. Throws std::runtime_error when the files cannot be read.
-std::vector<RenderedView> renderViews(const Device& device, const test::DataSet& set,
+std::vector<RenderedView> renderViews(OfflineRenderer& renderer, const test::DataSet& set,
                                       const std::vector<test::TrueView>& views,
                                       ScoreTransfer transfer, const CoarseDepth* coarse = nullptr);
 

@@ -148,11 +148,11 @@ std::vector<Trial> loadTrials(const std::filesystem::path& data) {
   return trials;
 }
 
-TrialReport runTrial(const Device& device, const Trial& trial) {
+TrialReport runTrial(OfflineRenderer& renderer, const Trial& trial) {
   const Judge judge(trial);
   TrialReport report;
   std::vector<ScoredImage> pictures;
-  const auto rendered = renderViews(device, trial.set, judge.views(), trial.transfer,
+  const auto rendered = renderViews(renderer, trial.set, judge.views(), trial.transfer,
                                     trial.coarse ? &*trial.coarse : nullptr);
   for (const RenderedView& view : rendered) pictures.push_back(view.image);
   report.methods.push_back(judge.judge("viewloom", pictures));

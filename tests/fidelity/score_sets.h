@@ -9,7 +9,7 @@
 
 #include "fidelity/coarse_depth.h"
 #include "fidelity/rivals.h"
-#include "gpu/device.h"
+#include "walk/offline_renderer.h"
 
 namespace viewloom::fidelity {
 
@@ -39,6 +39,6 @@ struct TrialReport {
   std::vector<ClassScores> by_own_classes;  // [view], viewloom's, by what it says it knows
 };
 
-TrialReport runTrial(const Device& device, const Trial& trial);
+TrialReport runTrial(OfflineRenderer& renderer, const Trial& trial);
 
 }  // namespace viewloom::fidelity

@@ -35,8 +35,6 @@ bool compose(const oracle::OracleAnswer& answer, const std::vector<LinearColor>&
 
 class AlphaTest : public GpuTest {
  protected:
-  AlphaTest() : walk_(device()) {}
-
   // The share of rays whose colour is the oracle's, of those that end on something opaque.
   double agreeingShare(const oracle::Scene& scene, const std::vector<LinearColor>& layer_colors,
                        const oracle::OutputView& view) {
@@ -62,7 +60,7 @@ class AlphaTest : public GpuTest {
     return double(agreeing_count) / std::max(compared_count, 1);
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 const std::vector<LinearColor> kGlassBeforeWall = {{0.3f, 0.0f, 0.1f, 0.5f}, {0.1f, 0.8f, 0.2f, 1}};

@@ -13,10 +13,9 @@
 namespace viewloom {
 
 struct BuiltFrame {
-  BuiltFrame(const Device& device, FramePtr built)
+  BuiltFrame(const Device& device, StructureBuilder& builder, FramePtr built)
       : frame(std::move(built)), structure(device, shapesOf(*frame)) {
     structure.upload(*frame);
-    StructureBuilder builder(device);
     Timeline timeline(device);
     CommandRecorder recorder(device);
     structure.recordBuild(recorder.begin(), builder);

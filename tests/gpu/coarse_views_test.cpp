@@ -95,7 +95,7 @@ class CoarseViewsTest : public GpuTest {
         if (is_surface) depth_m = 1 / change(1 / depth_m, random);
       }
     }
-    OfflineRenderer renderer(device());
+    OfflineRenderer& renderer = shared<OfflineRenderer>();
     renderer.build(*truth::frameOf(picture, 3));
     const RenderedAtlas atlas =
         valueOrThrow(renderer.render(fineDisplay(), {.linear = true}, [](uint32_t, uint32_t) {}));

@@ -25,7 +25,7 @@ constexpr double kCodeTolerance = 1e-3;  // of a code that is not blended: binar
 
 class ColorBlendTest : public GpuTest {
  protected:
-  ColorBlendTest() : walk_(device()) {
+  ColorBlendTest() {
     std::mt19937 random(7);
     Frame frame = *frameOf(scene_);
     auto bytes = std::make_shared<std::vector<uint8_t>>(size_t{kWidth} * kHeight * 4);
@@ -58,7 +58,7 @@ class ColorBlendTest : public GpuTest {
   }
 
   const oracle::Scene scene_ = oracle::planeScene({0, 0, kInvZ}, kWidth, kHeight);
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 
  private:
   double codeAt(int column, int row, size_t channel) const {

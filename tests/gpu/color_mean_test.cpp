@@ -108,8 +108,6 @@ double worstOf(const Codes& a, const Codes& b) {
 
 class ColorMeanTest : public GpuTest {
  protected:
-  ColorMeanTest() : walk_(device()) {}
-
   // Walked, and swept.
   std::array<TracedView, 2> trace(const oracle::Scene& scene, const Picture& picture,
                                   const oracle::OutputView& view) {
@@ -125,7 +123,7 @@ class ColorMeanTest : public GpuTest {
 
   static constexpr double kInvZ = 0.25;
   const oracle::Scene plane_ = oracle::planeScene({0, 0, kInvZ}, kWidth, kHeight);
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   SweepUnderTest sweep_;
 };
 

@@ -69,8 +69,6 @@ SharedBytes pictureOf(SizePx size_px) {
 
 class ColorSideTest : public GpuTest {
  protected:
-  ColorSideTest() : walk_(device()) {}
-
   // Depth and colour of these sizes, and views as large as the larger of them.
   void build(SizePx depth_px, SizePx color_px) {
     SCOPED_TRACE("built");
@@ -148,7 +146,7 @@ class ColorSideTest : public GpuTest {
     EXPECT_GT(beside_count, 4000);
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   SizePx depth_px_, color_px_, view_px_;
   oracle::Scene scene_;
   SharedBytes picture_;

@@ -48,8 +48,6 @@ Frame withRamps(Frame frame, const std::vector<SizePx>& color_px) {
 
 class ColorSizeTest : public GpuTest {
  protected:
-  ColorSizeTest() : walk_(device()) {}
-
   // The largest distance, in uv, of a hit's colour from the one that belongs there.
   double worstDistance(const std::vector<SizePx>& color_px) {
     const oracle::Scene scene =
@@ -77,7 +75,7 @@ class ColorSizeTest : public GpuTest {
     return worst;
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 // Interpolation is exact on a ramp but where taps fall away: at the border and at silhouettes the

@@ -178,8 +178,6 @@ bool hasRays(const Frame& frame) {
 
 class ColumnsTest : public GpuTest {
  protected:
-  ColumnsTest() : walk_(device()) {}
-
   void expectTheDevices(const FramePtr& frame) {
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frame);
     const StructureImage image = walk_.readBack(*slot);
@@ -223,7 +221,7 @@ class ColumnsTest : public GpuTest {
               << " columns unsorted\n";
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   WorkerPool workers_{2};
   SweepSource source_;  // its memory serves frames of every size and kind
   const int quotient_ulps_ = device().info().is_software ? 0 : kQuotientUlps;

@@ -21,8 +21,6 @@ constexpr double kSweptShare = 1e-6;  // samples of binary32
 
 class ContentFocus : public GpuTest {
  protected:
-  ContentFocus() : walk_(device()) {}
-
   static void expectAt(double inv_z, const SourceStats& stats, const DepthSpread& spread,
                        double share_max) {
     EXPECT_NEAR(contentFocalDistance(stats) * inv_z, 1, share_max);
@@ -36,7 +34,7 @@ class ContentFocus : public GpuTest {
     EXPECT_NEAR(budget->suggested_focal_distance_m * inv_z, 1, share_max);
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   WorkerPool workers_{1};
   SweepSource source_;
 };

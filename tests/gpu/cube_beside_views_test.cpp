@@ -73,9 +73,9 @@ class CubeBesideViewsTest : public GpuTest {
   }
 
   // By view.
-  std::vector<TrueScore> scoresOf(const Device& device, const std::string& name,
+  std::vector<TrueScore> scoresOf(OfflineRenderer& renderer, const std::string& name,
                                   const Frame& frame) const {
-    const RenderedAtlas atlas = renderInWorld(device, frame, kViews, kView_px, kFine);
+    const RenderedAtlas atlas = renderInWorld(renderer, frame, kViews, kView_px, kFine);
     std::vector<TrueScore> scores;
     for (uint32_t i = 0; i < kViews.size(); ++i) {
       scores.push_back(truths_[i].score(meanView(atlas, i, kView_px, kFine)));
@@ -93,10 +93,12 @@ class CubeBesideViewsTest : public GpuTest {
 
 TEST_F(CubeBesideViewsTest, bothShowMoreThanEither) {
   const FramePtr both = joined(*pinhole_, *cube_);
-  const std::vector<TrueScore> shown = scoresOf(device(), "both", *both);
-  const std::vector<TrueScore> pinhole = scoresOf(device(), "pinhole", *pinhole_);
-  const std::vector<TrueScore> cube = scoresOf(device(), "cube map", *cube_);
-  const Device faulty({.planted_fault = abi::kFaultFarthestHit});
+  OfflineRenderer& renderer = shared<OfflineRenderer>();
+  const std::vector<TrueScore> shown = scoresOf(renderer, "both", *both);
+  const std::vector<TrueScore> pinhole = scoresOf(renderer, "pinhole", *pinhole_);
+  const std::vector<TrueScore> cube = scoresOf(renderer, "cube map", *cube_);
+  const Device faulty_device({.planted_fault = abi::kFaultFarthestHit});
+  OfflineRenderer faulty(faulty_device);
   const std::vector<TrueScore> mistaken = scoresOf(faulty, "farthest hit of both", *both);
   for (size_t i = 0; i < kViews.size(); ++i) {
     const double least_db = std::max(pinhole[i].full_db, cube[i].full_db) + kGainMin_db;

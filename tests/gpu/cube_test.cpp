@@ -12,8 +12,7 @@ namespace {
 // Of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
 constexpr double kExcusedMax = 0.06;
 
-JudgedCube judgeSeeds(const Device& device, uint64_t first, uint64_t count) {
-  SourcesUnderTest tracer(device);
+JudgedCube judgeSeeds(SourcesUnderTest& tracer, uint64_t first, uint64_t count) {
   JudgedCube judged;
   for (uint64_t seed = first; seed < first + count; ++seed) {
     judged.add(judgeCube(tracer, seed));
@@ -24,7 +23,7 @@ JudgedCube judgeSeeds(const Device& device, uint64_t first, uint64_t count) {
 class CubeTest : public GpuTest {};
 
 TEST_F(CubeTest, randomCubeMapsAnswerAsTheOracleSays) {
-  const JudgedCube judged = judgeSeeds(device(), 0, 60);
+  const JudgedCube judged = judgeSeeds(shared<SourcesUnderTest>(), 0, 60);
   const oracle::Verdict& verdict = judged.verdict;
   std::cout << verdict.summary() << "\n";
   EXPECT_TRUE(judged.complaints.empty()) << judged.complaints.text();
@@ -51,7 +50,7 @@ constexpr OnceDiffered kSeeds[] = {{431, kAnotherFaceIsOff},
                                    {1094, kBeginsAtTheEye}};
 
 TEST_F(CubeTest, seedsThatOnceDifferedAgree) {
-  SourcesUnderTest tracer(device());
+  SourcesUnderTest& tracer = shared<SourcesUnderTest>();
   for (const OnceDiffered& once : kSeeds) {
     const JudgedCube judged = judgeCube(tracer, once.seed);
     EXPECT_EQ(judged.verdict.differing, 0U) << once.mistake << "\n" << judged.verdict.summary();
@@ -67,7 +66,8 @@ class CubeFaultTest : public DeviceNeededTest, public testing::WithParamInterfac
 
 TEST_P(CubeFaultTest, isFound) {
   const Device device({.planted_fault = GetParam().fault});
-  const JudgedCube judged = judgeSeeds(device, 0, 12);
+  SourcesUnderTest tracer(device);
+  const JudgedCube judged = judgeSeeds(tracer, 0, 12);
   EXPECT_GT(judged.verdict.differing, 0U) << judged.verdict.summary();
 }
 

@@ -119,13 +119,13 @@ class CubeViewsTest : public GpuTest {
     }
   }
 
-  RenderedAtlas render(const Device& device, const std::vector<NamedView>& views,
+  RenderedAtlas render(OfflineRenderer& renderer, const std::vector<NamedView>& views,
                        double exposure_ev = 0) const {
     std::vector<Camera> eyes;
     for (const NamedView& view : views) eyes.push_back(view.camera);
     Frame frame = *truth::cubeFrameOf(faces_, kCube, kLayers);
     frame.format.exposure_ev = exposure_ev;
-    return renderInWorld(device, frame, eyes, kView_px, kFine);
+    return renderInWorld(renderer, frame, eyes, kView_px, kFine);
   }
 
   SeamScore scoreOf(const RenderedAtlas& atlas, uint32_t index, const NamedView& view) const {
@@ -155,7 +155,7 @@ class CubeViewsTest : public GpuTest {
 
 TEST_F(CubeViewsTest, aClosedRoomHasNoSeams) {
   const std::vector<NamedView> views = viewsOf(kCube.position_m);
-  const RenderedAtlas atlas = render(device(), views);
+  const RenderedAtlas atlas = render(shared<OfflineRenderer>(), views);
   EXPECT_EQ(atlas.coverage.outside, 0U) << "a cube map sees everything";
   EXPECT_EQ(atlas.coverage.empty, 0U) << "and the room is closed";
   for (uint32_t i = 0; i < views.size(); ++i) {
@@ -170,15 +170,16 @@ TEST_F(CubeViewsTest, aClosedRoomHasNoSeams) {
 TEST_F(CubeViewsTest, hasNoSeamsInRootsOfLightEither) {
   constexpr double kAsGoodAsNone_ev = 1e-9;
   const std::vector<NamedView> views = {viewsOf(kCube.position_m).front()};
-  const RenderedAtlas atlas = render(device(), views, kAsGoodAsNone_ev);
+  const RenderedAtlas atlas = render(shared<OfflineRenderer>(), views, kAsGoodAsNone_ev);
   const SeamScore seen = scoreOf(atlas, 0, views.front());
   EXPECT_GE(seen.beside_db, seen.around_db - kSeamStepMax_db);
 }
 
 TEST_F(CubeViewsTest, showsSeamsWithoutAprons) {
   const Device device({.planted_fault = abi::kFaultApronEmpty});
+  OfflineRenderer renderer(device);
   const std::vector<NamedView> views = {viewsOf(kCube.position_m).front()};
-  const SeamScore seen = scoreOf(render(device, views), 0, views.front());
+  const SeamScore seen = scoreOf(render(renderer, views), 0, views.front());
   EXPECT_LT(seen.beside_db, seen.around_db - kSeamStepMax_db);
 }
 

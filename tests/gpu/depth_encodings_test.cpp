@@ -94,8 +94,6 @@ Frame frameOfLayers(const std::vector<Layer>& layers) {
 
 class DepthEncodingsTest : public GpuTest {
  protected:
-  DepthEncodingsTest() : walk_(device()) {}
-
   void expectReference(const std::vector<Layer>& layers) {
     const std::unique_ptr<StructureSlot> slot = walk_.build(frameOfLayers(layers));
     const StructureImage image = walk_.readBack(*slot);
@@ -118,7 +116,7 @@ class DepthEncodingsTest : public GpuTest {
     EXPECT_EQ(slot->stats().bad_samples_count, bad_count);
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 TEST_F(DepthEncodingsTest, areTheReferencesAlone) {

@@ -56,8 +56,6 @@ Frame painted(const oracle::Scene& scene, const ColorOf& color_of, bool is_opaqu
 
 class FillTest : public GpuTest {
  protected:
-  FillTest() : walk_(device()) {}
-
   TracedView trace(const oracle::Scene& scene, const ColorOf& color_of, double eye_x_m,
                    bool is_opaque = true) {
     return walk_
@@ -81,7 +79,7 @@ class FillTest : public GpuTest {
     return view;
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 // Visits the hidden px of a view.

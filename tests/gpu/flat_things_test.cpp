@@ -12,9 +12,7 @@ namespace {
 
 class FlatThings : public GpuTest {
  protected:
-  FlatThings() : walk_(device()) {}
-
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   WorkerPool workers_{1};
   SweepSource source_;
 };

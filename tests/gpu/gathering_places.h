@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/test_device.h"
 #include "walk/offline_renderer.h"
 
 namespace viewloom {
@@ -16,5 +17,20 @@ inline const auto kGatheringPlaces =
 inline std::string gatheringPlaceName(const testing::TestParamInfo<GatheringPlace>& place) {
   return place.param == GatheringPlace::kHost ? "host" : "device";
 }
+
+class GatheringTest : public GpuTest {
+ protected:
+  // The one of the program that gathers lenses there.
+  static OfflineRenderer& rendererAt(GatheringPlace place) {
+    if (place == GatheringPlace::kHost) return shared<OfflineRenderer>();
+    return shared<GatheringOnDevice>();
+  }
+
+ private:
+  struct GatheringOnDevice : OfflineRenderer {
+    explicit GatheringOnDevice(const Device& device)
+        : OfflineRenderer(device, GatheringPlace::kDevice) {}
+  };
+};
 
 }  // namespace viewloom

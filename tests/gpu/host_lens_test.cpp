@@ -33,7 +33,7 @@ class HostLens : public ThroughLens {
     spec.lens->walked_count = kWalked;
     spec.lens->gathered_count = 32;
     const RenderedAtlas gathered = render(spec);
-    renderer_.emplace(device(), GatheringPlace::kDevice);
+    renderer_ = &rendererAt(GatheringPlace::kDevice);
     renderer_->build(*frame);
     EXPECT_NE(gathered.color, render(spec).color) << "it was the device that gathered";
     const double few_codes = differenceOf(few, many);
@@ -109,7 +109,8 @@ TEST_F(HostLens, isTheSameInPieces) {
   spec.lens->gathered_count = 8;
   const auto completed = completeDisplaySpec(spec);
   ASSERT_TRUE(completed.ok()) << completed.status();
-  const BuiltFrame built(device(), test::syntheticFrame(1, kSource_px, 2));
+  const BuiltFrame built(device(), shared<StructureBuilder>(),
+                         test::syntheticFrame(1, kSource_px, 2));
   const FrameStructure& structure = built.structure;
   const SeenSource seen = seenSource(built.source());
   const auto layout = makeAtlasLayout(

@@ -37,7 +37,7 @@ class ExactLens : public ThroughLens, public testing::WithParamInterface<Gatheri
   void SetUp() override {
     ThroughLens::SetUp();
     if (IsSkipped()) return;
-    renderer_.emplace(device(), GetParam());
+    renderer_ = &rendererAt(GetParam());
     renderer_->build(*poleFrame());
     truth_ = poleLight({.walked_count = kWalkedSamplesMax, .gathered_count = 0});
   }

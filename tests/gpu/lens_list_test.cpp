@@ -27,7 +27,8 @@ class LensList : public GpuTest {
   }
 
   BuiltFrame synthetic(SizePx size_px, uint32_t layer_count) {
-    return BuiltFrame(device(), test::syntheticFrame(1, size_px, layer_count));
+    return BuiltFrame(device(), shared<StructureBuilder>(),
+                      test::syntheticFrame(1, size_px, layer_count));
   }
 };
 
@@ -151,7 +152,8 @@ TEST_F(LensList, takesWhatIsBlurredForOneSheetMoreReadily) {
   }
   const Camera camera{.pose = {},
                       .intrinsics = {.focal_px = {400, 400}, .principal_px = {160, 90}}};
-  const BuiltFrame built(device(), test::layeredFrame(1, camera, kSource_px, {wall}));
+  const BuiltFrame built(device(), shared<StructureBuilder>(),
+                         test::layeredFrame(1, camera, kSource_px, {wall}));
   const HostStructure host = hostStructure(built.structure.firstPart());
   abi::ViewParams view{};
   view.direction = {0, 0, 1};
@@ -193,7 +195,7 @@ int32_t guessedTexel(const HostStructure& host, float end_px, float pace_px_m) {
 
 // One that passes behind the board, and behind it behind the wall, too.
 TEST_F(LensList, takesAnOpenRayToSeeTheFarSideOfWhatItPassedBehind) {
-  const BuiltFrame built(device(), boardFrame());
+  const BuiltFrame built(device(), shared<StructureBuilder>(), boardFrame());
   const HostStructure host = hostStructure(built.structure.firstPart());
   EXPECT_EQ(guessedTexel(host, 150, -60), int32_t(kBoardFirst_px) - 1);
   EXPECT_EQ(guessedTexel(host, 90, 60), int32_t(kBoardEnd_px));

@@ -106,7 +106,7 @@ constexpr double kMissedShareOnDevice = 0.75;  // seen 0.70
 
 // Neither blur that ends with it nor blocks.
 void Lens::expectBlurredEnd(GatheringPlace place) {
-  renderer_.emplace(device(), place);
+  renderer_ = &rendererAt(place);
   renderer_->build(*test::syntheticFrame(1, kSource_px));
   ViewCamera camera;
   camera.pose.position_m = {0.1, 0, 0};

@@ -55,7 +55,7 @@ class LongWalksTest : public GpuTest {
  protected:
   void expectAllRight(int width_px, double share, const glm::dvec3& moved_m = {}) {
     const oracle::Scene scene = combScene(width_px);
-    WalkUnderTest walk(device());
+    WalkUnderTest& walk = shared<WalkUnderTest>();
     const auto slot = walk.build(*frameOf(scene));
     const oracle::OracleSource source = sourceOf(scene, *slot);
     const std::vector<oracle::OutputView> views = viewsBeside(scene, share, moved_m);

@@ -60,7 +60,7 @@ class MergedViewsTest : public GpuTest {
 
  private:
   static RenderedAtlas render(const FramePtr& frame, const std::vector<Camera>& views) {
-    return renderInWorld(device(), *frame, views, kView_px, kFine);
+    return renderInWorld(shared<OfflineRenderer>(), *frame, views, kView_px, kFine);
   }
 };
 

@@ -21,15 +21,14 @@ int ViewPicture::codeAt(uint32_t x, uint32_t y, int channel) const {
 }
 
 void PatternViews::build(patterns::Pattern pattern) {
-  renderer_.emplace(device());
-  renderer_->build(*test::layeredFrame(1, pattern.camera, pattern.size_px,
-                                       std::move(pattern.layers), pattern.connection_tolerance));
+  renderer_.build(*test::layeredFrame(1, pattern.camera, pattern.size_px, std::move(pattern.layers),
+                                      pattern.connection_tolerance));
 }
 
 RenderedAtlas PatternViews::render(DisplaySpec spec) {
   auto completed = completeDisplaySpec(std::move(spec));
   EXPECT_TRUE(completed.ok()) << completed.status();
-  auto atlas = renderer_->render(*completed, {}, [](uint32_t, uint32_t) {});
+  auto atlas = renderer_.render(*completed, {}, [](uint32_t, uint32_t) {});
   EXPECT_TRUE(atlas.ok()) << atlas.status();
   return *std::move(atlas);
 }

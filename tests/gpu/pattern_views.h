@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <vector>
 
 #include "patterns/pattern.h"
@@ -42,10 +41,10 @@ class PatternViews : public GpuTest {
   // As large as the source, of eyes at these tangents of the focal distance, each of which frames
   // what the source sees of the focal plane; one below the other.
   RenderedAtlas renderEyes(const patterns::Pattern& pattern, const std::vector<double>& tangents);
-  SourceStats stats() const { return renderer_->stats().front(); }
+  SourceStats stats() const { return renderer_.stats().front(); }
 
  private:
-  std::optional<OfflineRenderer> renderer_;
+  OfflineRenderer& renderer_ = shared<OfflineRenderer>();
 };
 
 }  // namespace viewloom

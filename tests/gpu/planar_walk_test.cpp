@@ -36,7 +36,7 @@ DisplaySpec turned(DisplaySpec spec) {
 
 class PlanarWalkTest : public GpuTest {
  protected:
-  PlanarWalkTest() : walk_(device()), tracer_(device()), recorder_(device()), timeline_(device()) {}
+  PlanarWalkTest() : recorder_(device()), timeline_(device()) {}
 
   void build(const Frame& frame) { structure_ = walk_.build(frame); }
 
@@ -85,8 +85,8 @@ class PlanarWalkTest : public GpuTest {
     }
   }
 
-  WalkUnderTest walk_;
-  ViewTracer tracer_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
+  ViewTracer& tracer_ = shared<ViewTracer>();
   CommandRecorder recorder_;
   Timeline timeline_;
   std::unique_ptr<StructureSlot> structure_;

@@ -59,8 +59,8 @@ TEST_F(ReflectedSourcesTest, aSourceThatComesTwiceMirrorsAsOne) {
         kLayers);
     // From the source's place, so that no silhouette is blended.
     const auto render = [&](const Frame& frame) {
-      return renderInWorld(device(), frame, {cameraAt(glm::dvec3(0.0), kView_px)}, kView_px, 1,
-                           ReflectionSpec{.bounce_count = 2, .is_filtered = false});
+      return renderInWorld(shared<OfflineRenderer>(), frame, {cameraAt(glm::dvec3(0.0), kView_px)},
+                           kView_px, 1, ReflectionSpec{.bounce_count = 2, .is_filtered = false});
     };
     const RenderedAtlas of_one = render(*one);
     const RenderedAtlas of_both = render(*twice(*one));
@@ -81,8 +81,7 @@ TEST_F(ReflectedSourcesTest, raysAreTurnedToWhereTheJobHasTheSource) {
   const FramePtr one = truth::frameOf(
       truth::takePicture(instant, cameraAt(glm::dvec3(0.0), kSource_px), {.size_px = kSource_px}),
       1);
-  WalkUnderTest walk(device());
-  const auto slot = walk.build(*one);
+  const auto slot = shared<WalkUnderTest>().build(*one);
   std::vector<SeenSource> sources(2, seenSource(one->format.sources.front()));
   sources[1].camera.pose.position_m = {1, 0.5, 0.25};
   const Camera view = cameraAt(glm::dvec3(0.0), kView_px);
@@ -111,8 +110,8 @@ TEST_F(ReflectedSourcesTest, pxDoNotDependOnHowManyRowsAreReflectedAtATime) {
   const Camera camera = cameraAt(glm::dvec3(0.0), kView_px);
   for (const FramePtr& frame : {one, twice(*one)}) {
     const auto render = [&](uint32_t count) {
-      return renderInWorld(device(), *frame, std::vector<Camera>(count, camera), kView_px, 1,
-                           ReflectionSpec{.bounce_count = 4, .sample_count = 32});
+      return renderInWorld(shared<OfflineRenderer>(), *frame, std::vector<Camera>(count, camera),
+                           kView_px, 1, ReflectionSpec{.bounce_count = 4, .sample_count = 32});
     };
     constexpr uint32_t kCount = 4;
     const RenderedAtlas narrow = render(1);

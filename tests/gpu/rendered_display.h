@@ -4,13 +4,11 @@
 
 #include <cstdlib>
 #include <iostream>
-#include <optional>
 
 #include <gtest/gtest.h>
 
-#include "support/test_device.h"
+#include "gpu/gathering_places.h"
 #include "support/test_frames.h"
-#include "walk/offline_renderer.h"
 
 namespace viewloom {
 
@@ -20,12 +18,12 @@ inline constexpr double kTiedShareMax = 2e-3;
 // Codes that rounding may move a colour by inside a surface.
 inline constexpr int kCodeTolerance = 1;
 
-class RenderedDisplay : public GpuTest {
+class RenderedDisplay : public GatheringTest {
  protected:
   void SetUp() override {
-    GpuTest::SetUp();
+    GatheringTest::SetUp();
     if (IsSkipped()) return;
-    renderer_.emplace(device());
+    renderer_ = &rendererAt(GatheringPlace::kHost);
     renderer_->build(*test::syntheticFrame(1, kSource_px));
   }
 
@@ -37,7 +35,7 @@ class RenderedDisplay : public GpuTest {
     return *std::move(atlas);
   }
 
-  std::optional<OfflineRenderer> renderer_;
+  OfflineRenderer* renderer_ = nullptr;
 };
 
 inline int channelOf(uint32_t rgba, int channel) {

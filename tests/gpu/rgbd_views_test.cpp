@@ -33,8 +33,6 @@ oracle::OutputView movedTo(const oracle::Scene& scene, const glm::dvec3& positio
 
 class BehindTest : public GpuTest {
  protected:
-  BehindTest() : walk_(device()) {}
-
   TraceJob jobFor(const StructureSlot& slot, const std::vector<oracle::OutputView>& views) {
     return behind(jobOf(views, kTolerance_px, slot.sourceCamera(), slot.shape().depth_px));
   }
@@ -59,7 +57,7 @@ class BehindTest : public GpuTest {
     return judge.verdict();
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 // Before a wall that goes on behind it, a plate fills the right half: behind its px lies the wall,
@@ -131,7 +129,7 @@ class RgbdViewsTest : public GpuTest {
  protected:
   static constexpr SizePx kSource_px{160, 90};
 
-  RgbdViewsTest() : walk_(device()) {
+  RgbdViewsTest() {
     frame_ = test::syntheticFrame(1, kSource_px, 2);
     slot_ = walk_.build(*frame_);
     source_.prepare(frame_, workers_);
@@ -199,7 +197,7 @@ class RgbdViewsTest : public GpuTest {
   }
 
   WorkerPool workers_{2};
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   FramePtr frame_;
   std::unique_ptr<StructureSlot> slot_;
   SweepSource source_;

@@ -96,18 +96,13 @@ SeenMirrors plateBeforeWall(const truth::Gloss& gloss, uint32_t times = 1) {
 
 class RoughMirrors : public GpuTest {
  protected:
-  void SetUp() override {
-    GpuTest::SetUp();
-    if (!IsSkipped()) renderer_.emplace(device());
-  }
-
   double worstOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
-    return std::ranges::max(apartCodes(*renderer_, plate, frame, reflection));
+    return std::ranges::max(apartCodes(renderer_, plate, frame, reflection));
   }
 
   // Of px whose truth is light: there the plate is, and mirrors.
   double rmsOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
-    const std::vector<double> apart_codes = apartCodes(*renderer_, plate, frame, reflection);
+    const std::vector<double> apart_codes = apartCodes(renderer_, plate, frame, reflection);
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < plate.truth.size(); ++i) {
@@ -121,7 +116,7 @@ class RoughMirrors : public GpuTest {
   // Of all the light that the plate mirrors, how much more is shown.
   double surplusOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
     const RenderedAtlas atlas =
-        renderInWorld(*renderer_, frame, {plate.camera}, plate.view_px, 1, reflection);
+        renderInWorld(renderer_, frame, {plate.camera}, plate.view_px, 1, reflection);
     double shown = 0;
     double truth = 0;
     for (size_t i = 0; i < plate.truth.size(); ++i) {
@@ -138,7 +133,7 @@ class RoughMirrors : public GpuTest {
     return plate.truth[px].x > 0 && plate.truth[px].x < 1;
   }
 
-  std::optional<OfflineRenderer> renderer_;
+  OfflineRenderer& renderer_ = shared<OfflineRenderer>();
 };
 
 // Half a code for what px keep of it, one for the table and for truth.

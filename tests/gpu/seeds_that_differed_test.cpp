@@ -102,8 +102,7 @@ constexpr OnceDiffered kSweptSeeds[] = {
 class SeedsThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
 
 TEST_P(SeedsThatDiffered, agreeWithTheOracle) {
-  WalkUnderTest walk(device());
-  const JudgedSeed judged = judgeSeed(walk, GetParam().seed);
+  const JudgedSeed judged = judgeSeed(shared<WalkUnderTest>(), GetParam().seed);
   EXPECT_TRUE(judged.agrees()) << judged.text();
 }
 

@@ -77,7 +77,7 @@ class ShiftedViewsTest : public GpuTest {
     double plain_db = 0;
     for (const double share : {0.0, 0.5, 10.0}) {
       const double inv_z = share / scene.nearest_m;
-      OfflineRenderer renderer(device());
+      OfflineRenderer& renderer = shared<OfflineRenderer>();
       renderer.build(*truth::frameOf(shifted(picture, float(inv_z)), kind.layer_count));
       const double score_db =
           truth.score(viewFrom(renderer, cameraAt(eye_m, inv_focus + inv_z))).full_db;

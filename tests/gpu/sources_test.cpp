@@ -17,8 +17,7 @@ constexpr double kExcusedMax = 0.06;
 
 using JudgeSeed = oracle::Verdict (*)(SourcesUnderTest& tracer, uint64_t seed);
 
-oracle::Verdict judgeSeeds(const Device& device, JudgeSeed judge, uint64_t count) {
-  SourcesUnderTest tracer(device);
+oracle::Verdict judgeSeeds(SourcesUnderTest& tracer, JudgeSeed judge, uint64_t count) {
   oracle::Verdict verdict;
   for (uint64_t seed = 0; seed < count; ++seed) verdict.add(judge(tracer, seed));
   return verdict;
@@ -33,7 +32,8 @@ struct RandomSources {
 class SourcesTest : public GpuTest, public testing::WithParamInterface<RandomSources> {};
 
 TEST_P(SourcesTest, areMergedAsTheOracleSays) {
-  const oracle::Verdict verdict = judgeSeeds(device(), GetParam().judge, GetParam().seed_count);
+  const oracle::Verdict verdict =
+      judgeSeeds(shared<SourcesUnderTest>(), GetParam().judge, GetParam().seed_count);
   std::cout << verdict.summary() << "\n";
   EXPECT_EQ(verdict.differing, 0U) << verdict.summary();
   EXPECT_LE(verdict.excusedShare(), kExcusedMax);
@@ -70,8 +70,7 @@ constexpr OnceDiffered kSeeds[] = {
 class SourcesThatDiffered : public GpuTest, public testing::WithParamInterface<OnceDiffered> {};
 
 TEST_P(SourcesThatDiffered, agreeWithTheOracle) {
-  SourcesUnderTest tracer(device());
-  const oracle::Verdict verdict = GetParam().judge(tracer, GetParam().seed);
+  const oracle::Verdict verdict = GetParam().judge(shared<SourcesUnderTest>(), GetParam().seed);
   EXPECT_EQ(verdict.differing, 0U) << verdict.summary();
 }
 
@@ -89,7 +88,8 @@ class SourcesFaultTest : public DeviceNeededTest,
 TEST_P(SourcesFaultTest, isFound) {
   constexpr uint64_t kSeedCount = 12;
   const Device device({.planted_fault = GetParam().fault});
-  const oracle::Verdict verdict = judgeSeeds(device, GetParam().judge, kSeedCount);
+  SourcesUnderTest tracer(device);
+  const oracle::Verdict verdict = judgeSeeds(tracer, GetParam().judge, kSeedCount);
   EXPECT_GT(verdict.differing, 0U) << verdict.summary();
 }
 

@@ -13,7 +13,9 @@ uint32_t bitsOf(uint32_t word, int first, int last) {
 }
 
 // The upper half of a binary32.
-float readSlope(uint32_t half) { return std::bit_cast<float>(half << 16); }
+float readSlope(uint32_t half) {
+  return std::bit_cast<float>(half << 16);
+}
 
 }  // namespace
 

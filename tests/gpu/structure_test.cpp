@@ -27,15 +27,13 @@ bool isSame(const StructureImage& a, const StructureImage& b) {
 
 class StructureTest : public GpuTest {
  protected:
-  StructureTest() : walk_(device()) {}
-
   Complaints check(const oracle::Scene& scene) {
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
     const StructureImage image = walk_.readBack(*slot);
     return checkStructure(image, sourceOf(scene, *slot));
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 TEST_F(StructureTest, isTheOraclesOnEveryKindAndSizeOfScene) {

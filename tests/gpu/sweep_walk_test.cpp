@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calibration/calibration.h"
+#include "scoring/psnr.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
 #include "sweep/sweep_source.h"
@@ -88,20 +89,17 @@ struct Difference {
   double coverage_share = 0;  // of rays, the most by which a class is more or fewer
 };
 
-// Of the px that `isOf` takes, by index.
+// Of the px that `isOf` takes, by index. Infinite where there are none.
 template <typename IsOf>
 double psnr(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, const IsOf& isOf) {
-  double sum = 0;
-  double count = 0;
+  Psnr psnr;
   for (size_t i = 0; i < a.size(); ++i) {
     if (!isOf(i)) continue;
-    count += 3;
     for (const int shift : {0, 8, 16}) {
-      const double difference = double(a[i] >> shift & 0xff) - double(b[i] >> shift & 0xff);
-      sum += difference * difference;
+      psnr.add((double(a[i] >> shift & 0xff) - double(b[i] >> shift & 0xff)) / 255);
     }
   }
-  return sum > 0 ? 10 * std::log10(255.0 * 255 * count / sum) : 100;
+  return std::isnan(psnr.db()) ? std::numeric_limits<double>::infinity() : psnr.db();
 }
 
 double coverageShare(const Coverage& a, const Coverage& b) {
@@ -131,8 +129,6 @@ Difference differenceOf(const Swept& swept, const RenderedAtlas& walked) {
 
 class SweepWalkTest : public GpuTest {
  protected:
-  SweepWalkTest() : renderer_(device()) {}
-
   Difference compare(uint32_t layer_count, const DisplaySpec& spec) {
     const FramePtr frame = test::syntheticFrame(1, kSource_px, layer_count);
     renderer_.build(*frame);
@@ -150,7 +146,7 @@ class SweepWalkTest : public GpuTest {
   }
 
   WorkerPool workers_{2};
-  OfflineRenderer renderer_;
+  OfflineRenderer& renderer_ = shared<OfflineRenderer>();
   SweepSource source_;
 };
 

@@ -103,7 +103,7 @@ TEST(ToneMap, bendsNoPrimaryOfAgxAtZero) {
 
 class ToneMapTest : public GpuTest {
  protected:
-  ToneMapTest() : walk_(device()) {
+  ToneMapTest() {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> stop(-10, 9);
     std::uniform_real_distribution<float> share(0, 1);
@@ -157,7 +157,7 @@ class ToneMapTest : public GpuTest {
 
   static constexpr int kWidth = 96;
   static constexpr int kHeight = 64;
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
   std::vector<vec3> lights_;
 };
 

@@ -15,15 +15,13 @@ constexpr double kExcusedShareMax = 0.1;
 
 class TraceTest : public GpuTest {
  protected:
-  TraceTest() : walk_(device()) {}
-
   JudgedViews judge(const oracle::Scene& scene, const std::vector<oracle::OutputView>& views,
                     double tolerance_px, const std::string& where, int stride = 1) {
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frameOf(scene));
     return judgeViews(walk_, *slot, sourceOf(scene, *slot), views, tolerance_px, where, stride);
   }
 
-  WalkUnderTest walk_;
+  WalkUnderTest& walk_ = shared<WalkUnderTest>();
 };
 
 TEST_F(TraceTest, agreesWithTheOracleFromAllSides) {

@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <ostream>
 
+#include "scoring/psnr.h"
 #include "support/truth/known.h"
 
 namespace viewloom {
@@ -28,22 +29,9 @@ std::vector<uint8_t> insideSurfaces(const truth::PictureLayer& layer, SizePx siz
   return is_inside;
 }
 
-// The mean squared error of what was added, over px and channels.
-class Psnr {
- public:
-  void add(const float* got, const float* truth) {
-    for (int c = 0; c < 3; ++c) {
-      const double difference = double{got[c]} - double{truth[c]};
-      sum_ += difference * difference;
-    }
-    count_ += 3;
-  }
-  double db() const { return -10 * std::log10(sum_ / count_); }
-
- private:
-  double sum_ = 0;
-  double count_ = 0;
-};
+void add(const float* got, const float* truth, Psnr& psnr) {
+  for (int c = 0; c < 3; ++c) psnr.add(double{got[c]} - double{truth[c]});
+}
 
 }  // namespace
 
@@ -87,9 +75,9 @@ TrueScore TrueView::score(const ScoredImage& got, const std::vector<uint8_t>& se
     if (selected[i] == 0) continue;
     const float* const a = &got.rgb[3 * i];
     const float* const b = &image_.rgb[3 * i];
-    full.add(a, b);
-    if (known_[i] == 0) covered.add(a, b);
-    if (known_[i] == 1 || known_[i] == 2) hidden.add(a, b);
+    add(a, b, full);
+    if (known_[i] == 0) add(a, b, covered);
+    if (known_[i] == 1 || known_[i] == 2) add(a, b, hidden);
   }
   return {covered.db(), full.db(), hidden.db()};
 }

@@ -120,7 +120,7 @@ class TruthViewsTest : public GpuTest {
       const truth::Picture source = truth::takePicture(
           instant, sourceCamera(), {.size_px = kSource_px, .layer_count = kLayers, .color = color});
       for (uint32_t layer_count = 1; layer_count <= kLayers; ++layer_count) {
-        OfflineRenderer renderer(device());
+        OfflineRenderer& renderer = shared<OfflineRenderer>();
         renderer.build(*truth::frameOf(source, layer_count));
         const RenderedAtlas atlas =
             valueOrThrow(renderer.render(display, {.linear = true}, [](uint32_t, uint32_t) {}));

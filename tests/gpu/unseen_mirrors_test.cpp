@@ -58,7 +58,7 @@ class UnseenMirrors : public GpuTest {
   // Linear light of the px of the middle column, from the top.
   std::vector<double> columnOf(const SeenMirrors& seen, uint32_t environment_rgb) {
     const RenderedAtlas atlas =
-        renderInWorld(device(), *seen.frame, {kCamera}, kView_px, 1,
+        renderInWorld(shared<OfflineRenderer>(), *seen.frame, {kCamera}, kView_px, 1,
                       ReflectionSpec{.bounce_count = 1, .environment_rgb = environment_rgb});
     EXPECT_EQ(atlas.reflections.assumed, atlas.reflections.rayCount());
     std::vector<double> column;

@@ -50,11 +50,4 @@ RenderedAtlas renderInWorld(OfflineRenderer& renderer, const Frame& frame,
       renderer.render(display, {.mask = true, .linear = true}, [](uint32_t, uint32_t) {}));
 }
 
-RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
-                            const std::vector<Camera>& views, SizePx view_px, size_t fineness,
-                            const std::optional<ReflectionSpec>& reflection) {
-  OfflineRenderer renderer(device);
-  return renderInWorld(renderer, frame, views, view_px, fineness, reflection);
-}
-
 }  // namespace viewloom

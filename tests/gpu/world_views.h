@@ -12,12 +12,8 @@ namespace viewloom {
 // One source, twice: several sources have kernels of their own.
 FramePtr twice(const Frame& one);
 
-// Views of this size, traced so many times finer: colour before it is rounded, and classes. A
-// renderer that is kept has its kernels compiled.
+// Views of this size, traced so many times finer: colour before it is rounded, and classes.
 RenderedAtlas renderInWorld(OfflineRenderer& renderer, const Frame& frame,
-                            const std::vector<Camera>& views, SizePx view_px, size_t fineness,
-                            const std::optional<ReflectionSpec>& reflection = std::nullopt);
-RenderedAtlas renderInWorld(const Device& device, const Frame& frame,
                             const std::vector<Camera>& views, SizePx view_px, size_t fineness,
                             const std::optional<ReflectionSpec>& reflection = std::nullopt);
 

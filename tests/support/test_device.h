@@ -22,6 +22,14 @@ class GpuTest : public DeviceNeededTest {
   // One per test program, with core and synchronization validation.
   static const Device& device();
 
+  // One of its kind per test program, made for the device. Cases share what compiles kernels: on
+  // lavapipe each such object compiles its own, which takes seconds.
+  template <typename Made>
+  static Made& shared() {
+    static Made made(device());
+    return made;
+  }
+
  private:
   uint64_t messages_before_ = 0;
 };

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "base/check.h"
+#include "scoring/psnr.h"
 #include "support/srgb_transfer.h"
 #include "support/truth/known.h"
 #include "support/truth/picture_frame.h"
@@ -59,22 +59,6 @@ class ServedView {
   const std::vector<uint8_t> mask_;
 };
 
-class Psnr {
- public:
-  void add(double squared_error) {
-    sum_ += squared_error;
-    ++count_;
-  }
-  double db() const {
-    return count_ == 0 ? std::numeric_limits<double>::quiet_NaN()
-                       : -10 * std::log10(sum_ / double(count_));
-  }
-
- private:
-  double sum_ = 0;
-  uint64_t count_ = 0;
-};
-
 // The px and its neighbours see one body alone, and the same, and are known alike.
 bool isInside(const truth::Picture& picture, const std::vector<uint8_t>& known, uint32_t x,
               uint32_t y) {
@@ -89,13 +73,14 @@ bool isInside(const truth::Picture& picture, const std::vector<uint8_t>& known, 
   return true;
 }
 
-double squaredError(const ServedView& view, const glm::vec3& linear, uint32_t x, uint32_t y) {
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double difference = view.srgb(x, y, c) - srgbFrom(double{linear[c]});
-    sum += difference * difference;
-  }
-  return sum / 3;
+glm::dvec3 errorsOf(const ServedView& view, const glm::vec3& linear, uint32_t x, uint32_t y) {
+  glm::dvec3 errors;
+  for (int c = 0; c < 3; ++c) errors[c] = view.srgb(x, y, c) - srgbFrom(double{linear[c]});
+  return errors;
+}
+
+void add(const glm::dvec3& errors, Psnr& psnr) {
+  for (int c = 0; c < 3; ++c) psnr.add(errors[c]);
 }
 
 }  // namespace
@@ -137,16 +122,16 @@ EyeScore TrueEye::score(const EncodedAtlas& atlas, size_t view_index) const {
       const bool is_known = known_[px] < layer_count_;
       const bool is_inside = isInside(picture_, known_, x, y);
       const bool is_outside = known_[px] == truth::kOutside;
-      const double error = squaredError(view, seen.color[px], x, y);
-      full.add(error);
+      const glm::dvec3 errors = errorsOf(view, seen.color[px], x, y);
+      add(errors, full);
       outside_count += is_outside;
       if (is_inside && (is_known || is_outside)) {
         outside_differs_count += is_outside != (view.rayClass(x, y) == RayClass::kOutside);
       }
       if (!is_known) continue;
-      of_known.add(error);
+      add(errors, of_known);
       if (!is_inside) continue;
-      inside.add(error);
+      add(errors, inside);
       ++inside_count;
       const double true_inv_z = 1 / double{seen.depth_m[px]};
       depth_off_count += std::abs(view.invZ(x, y) - true_inv_z) > kDepthOff * true_inv_z;

@@ -113,8 +113,8 @@ std::vector<glm::vec3> takeMirrored(const Instant& instant, const Camera& view, 
 }
 
 std::vector<uint8_t> mirroredKnownFrom(const Instant& instant,
-                                       const std::vector<SourceCamera>& sources,
-                                       const Camera& view, SizePx view_px) {
+                                       const std::vector<SourceCamera>& sources, const Camera& view,
+                                       SizePx view_px) {
   const SourceCamera& first = sources.front();
   std::vector<uint8_t> known = knownFrom(instant, first.camera, first.size_px, view, view_px);
   for (size_t i = 0; i < known.size(); ++i) {

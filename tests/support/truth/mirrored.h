@@ -37,7 +37,7 @@ struct SourceCamera {
 // (truth::Known), the least of several; kNoMirror elsewhere, and where the first source does not
 // see the mirror.
 std::vector<uint8_t> mirroredKnownFrom(const Instant& instant,
-                                       const std::vector<SourceCamera>& sources,
-                                       const Camera& view, SizePx view_px);
+                                       const std::vector<SourceCamera>& sources, const Camera& view,
+                                       SizePx view_px);
 
 }  // namespace viewloom::truth

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/rgbd.h"
+#include "display/atlas_layout.h"
 
 #include <functional>
 #include <limits>

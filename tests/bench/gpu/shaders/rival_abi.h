@@ -27,7 +27,7 @@ struct RivalPush {
   uint fill;         // as TracePush
   float inv_z_near;  // a little in front of everything, > 0
   vec3 kappa;        // least (1/m), share, from (1/m): StepRule
-  uint box_stride;  // texels from layer to layer of the pyramid
+  uint box_stride;   // texels from layer to layer of the pyramid
 };
 
 // A known hit: its px, x | y << 16; then its layer and where in the px it lies, 0..256 of 256 from
