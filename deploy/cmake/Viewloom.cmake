@@ -120,18 +120,41 @@ function(viewloom_add_library folder)
   target_link_libraries(${target} ${scope} ${ARG_LINK})
 endfunction()
 
-# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...] [TIMEOUT <seconds>]): one
-# GoogleTest program, registered as one ctest case. The timeout is for hung tests; slow machines are
-# busy with others, too.
+# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...] [TIMEOUT <seconds>] [WHOLE]): one
+# GoogleTest program. Each case is a test of ctest, called <name>.<suite>.<case>. WHOLE: all cases
+# together are one, called <name>, because they share what takes longer to make than they take
+# (compiled kernels of a device). The timeout is for hung tests; slow machines are busy with others,
+# too.
+include(GoogleTest)
 function(viewloom_add_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)
   endif()
   add_executable(${name} ${ARG_SOURCES})
+  if(ARG_LABEL STREQUAL "unit")
+    add_dependencies(unit_tests ${name})
+    if(VIEWLOOM_CORE_TESTS)
+      add_dependencies(core_tests ${name})
+    endif()
+  endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE viewloom_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM viewloom_gtest_headers)
-  add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_WHOLE)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+  else()
+    gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
+      PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+  endif()
+endfunction()
+
+# viewloom_add_fixture(<name> SOURCES ... [LINK ...]): library viewloom_test_<name> of what several
+# tests share. Includes are written from tests/.
+function(viewloom_add_fixture name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(viewloom_test_${name} STATIC ${ARG_SOURCES})
+  target_include_directories(viewloom_test_${name} PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(viewloom_test_${name} PRIVATE viewloom_options PUBLIC ${ARG_LINK})
 endfunction()
