@@ -34,7 +34,7 @@ test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium curl python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   xdotool xvfb
-  clang clang-tidy libembree-dev
+  clang clang-format clang-tidy libembree-dev
 )
 # Node from elsewhere is as good, and Debian's npm cannot be installed beside it.
 command -v node >/dev/null || test_packages+=(nodejs)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parts of the long checks."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+from long_run import Part, Step
+
+JOBS = str(os.cpu_count())
+FUZZERS = ("jpeg", "zstd", "predicted", "frame", "picture")
+FUZZ_STEP_S, FUZZ_STEPS = 60, 30
+# Beyond those of the suite. A seed of several sources takes longer than one of a single source.
+SOAKS = {"walk": ([], 200, 40), "sweep": (["sweep"], 2000, 20), "cube": (["cube"], 100, 20),
+         "sources": (["sources"], 100, 20), "beside": (["beside"], 100, 20)}
+FIRST_SEED = 100_000
+
+
+def build(preset, *targets):
+    return [Step(f"configure {preset}", ["cmake", "--preset", preset]),
+            Step(f"build {preset}", ["cmake", "--build", f"build/{preset}", "--parallel", JOBS,
+                                     *(["--target", *targets] if targets else [])])]
+
+
+def ctest(preset, label):
+    """All tests of a label, several at a time."""
+    return lambda: [Step(f"tests of {label}",
+                         ["ctest", "--test-dir", f"build/{preset}", "--parallel", JOBS, "-L",
+                          f"^{label}$", "--no-tests=error", "--output-on-failure"])]
+
+
+def each_ctest(preset, label):
+    """One step for each test of a label, so that they can be stopped in between."""
+    def steps():
+        shown = subprocess.run(["ctest", "--test-dir", f"build/{preset}", "-L", f"^{label}$",
+                                "--show-only=json-v1"], check=True, capture_output=True).stdout
+        return [Step(test["name"], ["ctest", "--test-dir", f"build/{preset}", "-R",
+                                    f"^{re.escape(test['name'])}$", "--output-on-failure"])
+                for test in json.loads(shown)["tests"]]
+    return steps
+
+
+def fuzz(name):
+    folder = "build/fuzz"
+    corpus = f"{folder}/corpus/{name}"
+    seeds = Step("seeds", [f"{folder}/tests/fuzz/write_seeds", name, corpus])
+    command = [f"{folder}/tests/fuzz/{name}_fuzzer", f"-max_total_time={FUZZ_STEP_S}",
+               "-timeout=30", "-rss_limit_mb=4096", f"-artifact_prefix={folder}/{name}-", corpus]
+    return Part(f"fuzz-{name}", f"libFuzzer on what {name}_fuzzer reads; the corpus is kept", "s",
+                lambda: [Step(f"minute {i + 1}", command, FUZZ_STEP_S) for i in range(FUZZ_STEPS)],
+                build("fuzz", "write_seeds", f"{name}_fuzzer") + [seeds])
+
+
+def soak(name):
+    words, count, step_count = SOAKS[name]
+    return Part(f"seeds-{name}", "random scenes beside the oracle", "seeds",
+                lambda: [Step(f"seeds from {first}",
+                              ["build/release/tests/gpu/viewloom-oracle-soak", *words, str(first),
+                               str(count)], count)
+                         for first in range(FIRST_SEED, FIRST_SEED + count * step_count, count)],
+                build("release", "viewloom-oracle-soak"))
+
+
+def compare():
+    """Builds the commit VIEWLOOM_COMPARE_WITH beside this one."""
+    before = os.path.abspath("build/before")
+    commit = os.environ.get("VIEWLOOM_COMPARE_WITH", "HEAD~1")
+    checkout = (f"test -d {before} || git worktree add --detach {before} {commit}; "
+                f"git -C {before} checkout --detach \"$(git rev-parse {commit})\"")
+    build_before = (f"cd {before} && cmake --preset release && cmake --build build/release "
+                    f"--parallel {JOBS} --target viewloom viewloomd viewloom_python")
+    return Part("compare", f"every picture of this build and of {commit}, byte by byte", "runs",
+                lambda: [Step("all scenes", ["env", "PYTHONPATH=build/release/client/python",
+                                             sys.executable, "tests/atlases/compare_builds.py",
+                                             f"{before}/build/release", "build/release"])],
+                [Step("check out the commit before", ["bash", "-ec", checkout]),
+                 Step("build the commit before", ["bash", "-ec", build_before])]
+                + build("release", "viewloom", "viewloomd", "viewloom_python"))
+
+
+PARTS = [
+    Part("address-unit", "unit tests under address and undefined-behaviour sanitizers", "runs",
+         ctest("asan", "unit"), build("asan", "unit_tests")),
+    Part("address-gpu", "device tests under the same", "tests", each_ctest("asan", "gpu"),
+         build("asan")),
+    Part("address-e2e", "servers and clients under the same", "tests", each_ctest("asan", "e2e"),
+         build("asan")),
+    Part("threads", "unit tests under the thread sanitizer", "runs", ctest("tsan", "unit"),
+         build("tsan", "unit_tests")),
+    *map(fuzz, FUZZERS),
+    *map(soak, SOAKS),
+    Part("lint", "clang-tidy over server and client", "runs",
+         lambda: [Step("clang-tidy", ["cmake", "--build", "build/lint", "--target", "clang_tidy"])],
+         build("lint", "generated_headers")),
+    compare(),
+    Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
+         lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),
+]
