@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "absl/strings/str_format.h"
 #include "base/str_cat.h"
 
 namespace viewloom::bridge {
@@ -28,18 +27,25 @@ absl::Status checkName(const std::string& what, const std::string& name) {
       what, ": got \"", name, "\"; accepted are letters, digits, dots, hyphens and underscores"));
 }
 
-std::string targetOf(const QuiltQuery& query) {
-  std::string target = strCat("/still/", query.stream);
-  std::string parameters = query.parameters;
-  if (query.preset.empty()) {
-    absl::StrAppendFormat(&target, "_qs%ux%ua%g.json", query.shape.columns, query.shape.rows,
-                          query.shape.aspect);
-    parameters += strCat(parameters.empty() ? "" : "&", "width=", query.shape.width_px,
-                         "&height=", query.shape.height_px);
-  } else {
-    target += strCat("/", query.preset);
+// With everything escaped that is not unreserved (RFC 3986).
+std::string percentEncoded(std::string_view plain) {
+  std::string escaped;
+  for (const char character : plain) {
+    const auto byte = static_cast<unsigned char>(character);
+    const bool is_unreserved = std::isalnum(byte) != 0 || character == '-' || character == '.' ||
+                               character == '_' || character == '~';
+    if (is_unreserved) {
+      escaped.push_back(character);
+    } else {
+      escaped += strCat("%", absl::Hex(byte, absl::kZeroPad2));
+    }
   }
-  return strCat(target, parameters.empty() ? "" : "?", parameters);
+  return escaped;
+}
+
+std::string targetOf(const QuiltQuery& query) {
+  return strCat("/still/", query.stream, ".json?display=", percentEncoded(query.display),
+                "&encoding=", percentEncoded(query.encoding));
 }
 
 // The same address with another ending; an aspect may have a dot, a query too.
@@ -81,7 +87,6 @@ absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
 absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
                                          std::chrono::milliseconds timeout) {
   VIEWLOOM_RETURN_IF_ERROR(checkName("stream", query.stream));
-  VIEWLOOM_RETURN_IF_ERROR(checkName("--preset", query.preset));
   std::string target = targetOf(query);
   absl::StatusOr<HttpResponse> response = get(page, target, timeout);
   VIEWLOOM_RETURN_IF_ERROR(response.status());

@@ -13,9 +13,8 @@ namespace viewloom::bridge {
 
 struct QuiltQuery {
   std::string stream;
-  std::string preset;  // empty = `shape`
-  QuiltShape shape;
-  std::string parameters;  // further ones of the URL: "quality=90&cone_deg=35"
+  std::string display;     // a quilt, as JSON of proto Display
+  std::string encoding;    // JSON of proto AtlasEncoding
   bool is_motion = false;  // motion JPEG instead of a still
 };
 

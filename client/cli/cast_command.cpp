@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 #include <thread>
 #include <variant>
 
@@ -13,7 +14,10 @@
 #include "bridge/bridge.h"
 #include "bridge/quilt_page.h"
 #include "cli/interrupt.h"
+#include "cli/print_json.h"
 #include "display/named_display.h"
+#include "viewloom/v1/atlas.pb.h"
+#include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
 namespace {
@@ -64,24 +68,32 @@ absl::StatusOr<BridgeDisplay> pick(const std::vector<BridgeDisplay>& displays, i
       strCat("--head ", index, ": Bridge has no such display; there are ", there));
 }
 
-absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDisplay& display) {
-  QuiltQuery query{.stream = options.stream,
-                   .preset = options.preset,
-                   .shape = {},
-                   .parameters = strCat("quality=", options.jpeg_quality),
-                   .is_motion = options.is_motion};
-  if (options.view_cone_deg > 0) query.parameters += strCat("&cone_deg=", options.view_cone_deg);
-  if (options.focal_distance_m > 0)
-    query.parameters += strCat("&focus_m=", options.focal_distance_m);
-  if (!options.preset.empty()) return query;
-  if (!display.default_quilt) {
+absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDisplay& device) {
+  v1::Display display;
+  v1::QuiltDisplay& quilt = *display.mutable_quilt();
+  quilt.set_view_cone_rad(options.view_cone_deg * std::numbers::pi / 180);
+  quilt.set_focal_distance_m(options.focal_distance_m);
+  v1::AtlasEncoding encoding;
+  encoding.set_jpeg_quality(options.jpeg_quality);
+  if (!options.preset.empty()) {
+    quilt.set_preset(options.preset);
+  } else if (device.default_quilt) {
+    const bridge::QuiltShape& shape = *device.default_quilt;
+    quilt.set_columns(shape.columns);
+    quilt.set_rows(shape.rows);
+    quilt.set_aspect(shape.aspect);
+    quilt.mutable_size()->set_width(shape.width_px);
+    quilt.mutable_size()->set_height(shape.height_px);
+  } else {
     return absl::FailedPreconditionError(
-        strCat(display.name,
+        strCat(device.name,
                " does not say which quilt it wants; name one with --preset, see "
                "`viewloom list presets`"));
   }
-  query.shape = *display.default_quilt;
-  return query;
+  return QuiltQuery{.stream = options.stream,
+                    .display = compactJson(display),
+                    .encoding = compactJson(encoding),
+                    .is_motion = options.is_motion};
 }
 
 // Refuses presets that Bridge cannot show. Names that are unknown here are the server's to judge.

@@ -7,10 +7,12 @@
 #include <variant>
 
 #include "base/str_cat.h"
+#include "cli/field_range.h"
 #include "cli/size_option.h"
 #include "display/named_display.h"
 #include "files/file_bytes.h"
 #include "files/json_message.h"
+#include "messages/message_from_json.h"
 
 namespace viewloom::cli {
 namespace {
@@ -19,9 +21,15 @@ constexpr uint64_t kDisplayBytesMax = uint64_t{4} << 20;  // 1024 cameras take l
 constexpr uint64_t kCalibrationBytesMax = uint64_t{64} << 10;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
-absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
+// A file, or the message itself, which begins with a brace.
+absl::StatusOr<v1::Display> readDisplay(const std::string& given) {
   v1::Display display;
-  VIEWLOOM_RETURN_IF_ERROR(files::readJsonMessage(file, kDisplayBytesMax, "a display", display));
+  if (given.starts_with('{')) {
+    VIEWLOOM_RETURN_IF_ERROR(
+        withFieldPrefix(messageFromJson(given, kDisplayBytesMax, display), "--display"));
+  } else {
+    VIEWLOOM_RETURN_IF_ERROR(files::readJsonMessage(given, kDisplayBytesMax, "a display", display));
+  }
   return display;
 }
 
@@ -29,12 +37,14 @@ absl::StatusOr<v1::Display> readDisplay(const std::string& file) {
 
 usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options) {
   const usage::Option file =
-      app.add("--display", options.file, "Display message as JSON: any kind");
+      app.add("--display", options.file,
+              "A display of any kind: proto Display as JSON, or a file that holds it");
   app.add("--preset", options.preset, "A named device, see `viewloom list presets` [portrait]")
       .excludes(file);
-  app.add("--columns", options.columns, "Of the quilt").excludes(file);
-  app.add("--rows", options.rows, "Of the quilt").excludes(file);
-  addSizeOption(app, "--size", options.size_px, 16384, "Of the whole quilt").excludes(file);
+  within(app.add("--columns", options.columns, "Of the quilt"), "quilt.columns").excludes(file);
+  within(app.add("--rows", options.rows, "Of the quilt"), "quilt.rows").excludes(file);
+  addSizeOption(app, "--size", options.size_px, sideMax("quilt.size.width"), "Of the whole quilt")
+      .excludes(file);
   app.add("--cone", options.view_cone_deg, "Angle between the outermost views, degrees")
       .excludes(file);
   app.add("--focal-distance", options.focal_distance_m,
@@ -45,29 +55,36 @@ usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options
 
 void addDisplayOptions(const usage::Command& app, DisplayOptions& options) {
   const usage::Option file = addDisplayShape(app, options);
-  app.add("--focus-follow", options.focus_following_s,
-          "Seconds in which the focal plane goes 63 % of its way to what suits new frames")
-      .between(0.01, 60.0)
+  within(app.add("--focus-follow", options.focus_following_s,
+                 "Seconds in which the focal plane goes 63 % of its way to what suits new frames"),
+         "focus_following_s")
       .excludes(file);
   app.add("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
       .excludes(file);
-  app.add("--samples", options.sample_count,
-          "Rays of each px, spread over it and the eyes up to half way to the next view")
-      .between(1, 16)
+  within(app.add("--samples", options.sample_count,
+                 "Rays of each px, spread over it and the eyes up to half way to the next view"),
+         "filter.sample_count")
       .showDefault()
       .excludes(file);
   addLensOptions(app, options.lens, file);
   addTemporalOptions(app, options.temporal, file);
-  app.add("--reflections", options.bounce_count,
-          "Show what surfaces with SPECULAR planes mirror, over so many bounces")
-      .between(1, 4)
+  within(app.add("--reflections", options.bounce_count,
+                 "Show what surfaces with SPECULAR planes mirror, over so many bounces"),
+         "effects.reflection.bounces")
       .excludes(file);
+  const usage::Option encoding =
+      app.add("--encoding", options.encoding, "How atlases are packed: proto AtlasEncoding as JSON")
+          .group("Encoding");
   app.add("--quality", options.jpeg_quality, "JPEG quality")
       .between(1, 100)
       .showDefault()
+      .excludes(encoding)
       .group("Encoding");
-  app.addFlag("--444", options.is_444, "JPEG colour at full resolution").group("Encoding");
+  app.addFlag("--444", options.is_444, "JPEG colour at full resolution")
+      .excludes(encoding)
+      .group("Encoding");
   app.addFlag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
+      .excludes(encoding)
       .group("Encoding");
 }
 
@@ -226,8 +243,14 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   return display;
 }
 
-v1::AtlasEncoding makeEncoding(const DisplayOptions& options) {
+absl::StatusOr<v1::AtlasEncoding> makeEncoding(const DisplayOptions& options) {
   v1::AtlasEncoding encoding;
+  if (!options.encoding.empty()) {
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(
+        messageFromJson(options.encoding, kDisplayBytesMax, encoding), "--encoding"));
+    if (options.has_mask) encoding.set_with_mask(true);
+    return encoding;
+  }
   // What is left open the server chooses by the display.
   if (options.is_lossless) encoding.set_color(v1::BAND_ENCODING_ZSTD);
   if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);

@@ -16,7 +16,7 @@
 namespace viewloom::cli {
 
 struct DisplayOptions {
-  std::string file;    // Display as JSON; or a quilt from what follows
+  std::string file;    // or the message itself, as JSON; or a quilt from what follows
   std::string preset;  // of the quilt, the panel, or colour and depth
   uint32_t columns = 0;
   uint32_t rows = 0;
@@ -32,6 +32,7 @@ struct DisplayOptions {
   uint32_t sample_count = 1;
   LensOptions lens;
   uint32_t bounce_count = 0;  // of reflections; 0 = none
+  std::string encoding;       // as JSON; or what follows
   uint32_t jpeg_quality = 85;
   bool is_444 = false;
   bool is_lossless = false;
@@ -55,6 +56,6 @@ bool hasOwnFov(const DisplayOptions& options);
 void addDepthDisplayOptions(const usage::Command& app, DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
-v1::AtlasEncoding makeEncoding(const DisplayOptions& options);
+absl::StatusOr<v1::AtlasEncoding> makeEncoding(const DisplayOptions& options);
 
 }  // namespace viewloom::cli

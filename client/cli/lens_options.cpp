@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lens_options.h"
-#include "usage/command_line.h"
 
 #include <map>
 #include <string>
+
+#include "cli/field_range.h"
 
 namespace viewloom::cli {
 namespace {
@@ -16,10 +17,11 @@ const std::map<std::string, v1::Quality> kQualities{
 void addLensOptions(const usage::Command& app, LensOptions& options, usage::Option file) {
   const char* const group = "Lens";
   const usage::Option radius =
-      app.add("--aperture", options.aperture_radius_m,
-              "Radius of the opening of a lens before every view, m: blurs what is not in "
-              "focus")
-          .between(1e-6, 10.0)
+      within(app.add("--aperture", options.aperture_radius_m,
+                     "Radius of the opening of a lens before every view, m: blurs what is not in "
+                     "focus"),
+             "effects.lens.aperture_radius_m")
+          .positive()
           .excludes(file)
           .group(group);
   app.addFlag("--auto-aperture", options.has_automatic_aperture,
@@ -27,22 +29,22 @@ void addLensOptions(const usage::Command& app, LensOptions& options, usage::Opti
       .excludes(file)
       .excludes(radius)
       .group(group);
-  app.add("--lens-focus", options.focus_distance_m,
-          "Distance at which it is sharp, m [the focal plane]")
-      .between(1e-6, 1e9)
+  within(app.add("--lens-focus", options.focus_distance_m,
+                 "Distance at which it is sharp, m [the focal plane]"),
+         "effects.lens.focus_distance_m")
       .excludes(file)
       .group(group);
   app.add("--blades", options.blades, "Straight sides of the opening; 0 = round")
       .between(0, 16)
       .excludes(file)
       .group(group);
-  app.add("--lens-samples", options.walked_count, "Walked rays a px [by --effort]")
-      .between(1, 64)
+  within(app.add("--lens-samples", options.walked_count, "Walked rays a px [by --effort]"),
+         "effects.lens.samples")
       .excludes(file)
       .group(group);
-  app.add("--lens-gathered", options.gathered_count,
-          "Further rays a px, compared with what the walked ones met [by --effort]")
-      .between(0, 256)
+  within(app.add("--lens-gathered", options.gathered_count,
+                 "Further rays a px, compared with what the walked ones met [by --effort]"),
+         "effects.lens.gathered_samples")
       .excludes(file)
       .group(group);
   const auto walk_doubtful = [&options] { options.mode = v1::GATHER_MODE_EXACT; };

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "base/check.h"
+
 namespace viewloom::cli {
 
 absl::Status printJson(const google::protobuf::Message& message) {
@@ -17,6 +19,14 @@ absl::Status printJson(const google::protobuf::Message& message) {
   if (!printed.ok()) return absl::InternalError(std::string(printed.message()));
   std::fputs(json.c_str(), stdout);
   return absl::OkStatus();
+}
+
+std::string compactJson(const google::protobuf::Message& message) {
+  std::string json;
+  google::protobuf::util::JsonPrintOptions print_options;
+  print_options.preserve_proto_field_names = true;
+  VIEWLOOM_CHECK(google::protobuf::util::MessageToJsonString(message, &json, print_options).ok());
+  return json;
 }
 
 }  // namespace viewloom::cli

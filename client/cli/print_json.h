@@ -4,11 +4,16 @@
 
 #include <google/protobuf/message.h>
 
+#include <string>
+
 #include "base/status.h"
 
 namespace viewloom::cli {
 
 // On stdout, as JSON with every field.
 absl::Status printJson(const google::protobuf::Message& message);
+
+// In one line, of the fields that are set: to be sent. Expects numbers that are finite.
+std::string compactJson(const google::protobuf::Message& message);
 
 }  // namespace viewloom::cli

@@ -43,13 +43,15 @@ class RecordRun {
   int run() {
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
+    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display);
+    if (!encoding.ok()) return usage(encoding.status());
     auto recorder = AtlasRecorder::create(options_.file, clock_);
     if (!recorder.ok()) return usage(recorder.status());
     recorder_ = *std::move(recorder);
     v1::OpenDisplay open;
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
-    *open.mutable_encoding() = makeEncoding(options_.display);
+    *open.mutable_encoding() = *encoding;
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());

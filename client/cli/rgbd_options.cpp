@@ -4,13 +4,11 @@
 #include <map>
 #include <string>
 
+#include "cli/field_range.h"
 #include "cli/size_option.h"
-#include "usage/command_line.h"
 
 namespace viewloom::cli {
 namespace {
-
-constexpr uint32_t kViewSidePxMax = 8192;
 
 const std::map<std::string, v1::RgbdForm> kForms{{"color-depth", v1::RGBD_FORM_COLOR_DEPTH},
                                                  {"two-layers", v1::RGBD_FORM_TWO_LAYERS}};
@@ -25,7 +23,7 @@ void addRgbdOptions(const usage::Command& app, RgbdOptions& options,
                     const std::vector<usage::Option>& others) {
   const char* const group = "Colour and depth";
   const usage::Option size =
-      addSizeOption(app, "--rgbd", options.view_size_px, kViewSidePxMax,
+      addSizeOption(app, "--rgbd", options.view_size_px, sideMax("rgbd.view_size.width"),
                     "One view of this size, and its depth as grey, for displays that make their "
                     "own views")
           .group(group);

@@ -98,6 +98,8 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
   const bool is_panel = calibration->has_value();
   const absl::StatusOr<v1::Display> display = displayOf(options.display, *calibration);
   if (!display.ok()) return display.status();
+  const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options.display);
+  if (!encoding.ok()) return encoding.status();
   const show::ShowMode usual = is_panel ? show::ShowMode::kNative : plainMode(*display);
   const show::ShowMode mode = show::modeNamed(options.mode).value_or(usual);
   if (!options.eye_file.empty()) {
@@ -106,7 +108,7 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
   VIEWLOOM_RETURN_IF_ERROR(checkMode(mode, is_panel));
   return show::SessionOptions{.stream = options.stream,
                               .display = *display,
-                              .encoding = makeEncoding(options.display),
+                              .encoding = *encoding,
                               .calibration = *calibration,
                               .eye_file = options.eye_file,
                               .settings = {.mode = mode,

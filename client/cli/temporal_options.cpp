@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/temporal_options.h"
-#include "usage/command_line.h"
 
 #include <map>
 #include <string>
+
+#include "cli/field_range.h"
 
 namespace viewloom::cli {
 namespace {
@@ -16,10 +17,10 @@ const std::map<std::string, v1::TemporalMode> kModes{
 void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usage::Option file) {
   const char* const group = "Between frames";
   const usage::Option rate =
-      app.add("--output-rate", options.output_rate_hz,
-              "Atlases a second, whatever the stream's rate is: in between, its camera is "
-              "carried on")
-          .between(1.0, 240.0)
+      within(app.add("--output-rate", options.output_rate_hz,
+                     "Atlases a second, whatever the stream's rate is: in between, its camera is "
+                     "carried on"),
+             "effects.temporal.output_rate_hz")
           .excludes(file)
           .group(group);
   app.addWord("--between", options.mode, kModes,

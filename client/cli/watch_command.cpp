@@ -67,10 +67,12 @@ class WatchRun {
     if (!options_.recording.empty()) return runRecording();
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
+    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display);
+    if (!encoding.ok()) return usage(encoding.status());
     v1::OpenDisplay open;
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
-    *open.mutable_encoding() = makeEncoding(options_.display);
+    *open.mutable_encoding() = *encoding;
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's address: its parameters are those of /ws, and the page's own.
+// The page's address: what is watched, as /ws takes it, and the page's own choices.
 
-const kOwn = ['detail', 'mode'];
+// Of the page: how much detail, which way to look. The others are those of /ws.
+export const kParameters = ['stream', 'preset', 'width', 'height', 'display', 'encoding', 'detail',
+  'mode'];
 
-// What the page has no control for is passed on as it is.
 export function pageParameters() {
   return new URLSearchParams(location.search);
-}
-
-// Those for the server.
-export function watchedParameters() {
-  const parameters = pageParameters();
-  for (const name of kOwn) parameters.delete(name);
-  return parameters;
 }
 
 // A choice made by hand is kept, so that a reload and a link show the same; null = not there.
@@ -23,4 +17,20 @@ export function keepInAddress(changes) {
     else parameters.set(name, value);
   }
   history.replaceState(null, '', `?${parameters}`);
+}
+
+// The name of a device, where that says all of a display; undefined elsewhere.
+export function nameOf(display) {
+  const [kind, ...others] = Object.values(display);
+  return others.length === 0 && Object.keys(kind).length === 1 ? kind.preset : undefined;
+}
+
+// "/ws?stream=...&display=...": asked is {stream, display, encoding}, the latter messages as JSON.
+export function askedPath({stream, display, encoding}) {
+  const parameters = new URLSearchParams({stream});
+  const name = nameOf(display);
+  if (name) parameters.set('preset', name);
+  else parameters.set('display', JSON.stringify(display));
+  if (Object.keys(encoding).length > 0) parameters.set('encoding', JSON.stringify(encoding));
+  return `/ws?${parameters}`;
 }

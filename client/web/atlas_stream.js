@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A connection to the server that comes back by itself, also when it dies without a word.
+import {askedPath} from './address.js';
 import {parseAtlasMessage} from './decoder.js';
 
 // A server that is there again has its viewers back soon after: each tries once a second or more.
@@ -30,10 +31,10 @@ export class AtlasStream {
     addEventListener('online', () => this.#hurry());
   }
 
-  // parameters: URLSearchParams, as /ws takes them
-  open(parameters) {
+  // asked: {stream, display, encoding}, the latter messages as JSON
+  open(asked) {
     this.close();
-    this.parameters = parameters;
+    this.asked = asked;
     this.#isClosed = false;
     this.#failures = 0;
     this.#connect();
@@ -53,17 +54,17 @@ export class AtlasStream {
     this.#send({shown: delivery});
   }
 
-  // Parameters as they shall be from now on, and after a reconnection; null = the default. Whether
-  // the server was asked: not where all are as they shall be, or it is not there.
-  change(parameters) {
-    const changes = {};
-    for (const [name, value] of Object.entries(parameters)) {
-      if (this.parameters.get(name) === (value === null ? null : String(value))) continue;
-      changes[name] = value;
-      if (value === null) this.parameters.delete(name);
-      else this.parameters.set(name, value);
+  // Display and encoding as they shall be from now on, and after a reconnection. Whether the server
+  // was asked: not where both are as they shall be, or it is not there.
+  change(asked) {
+    const change = {};
+    for (const part of ['display', 'encoding']) {
+      if (JSON.stringify(asked[part]) !== JSON.stringify(this.asked[part])) {
+        change[part] = asked[part];
+      }
     }
-    if (Object.keys(changes).length === 0 || !this.#send({change: changes})) return false;
+    this.asked = asked;
+    if (Object.keys(change).length === 0 || !this.#send({change})) return false;
     this.#changeCount++;
     this.handlers.onAsked();
     return true;
@@ -81,7 +82,7 @@ export class AtlasStream {
   }
 
   #connect() {
-    const url = new URL(`/ws?${this.parameters}`, location.href);
+    const url = new URL(askedPath(this.asked), location.href);
     url.protocol = url.protocol.replace('http', 'ws');
     const socket = new WebSocket(url);
     socket.binaryType = 'arraybuffer';
@@ -154,7 +155,7 @@ export class AtlasStream {
     let reason = code === 1001 ? 'The server is going away.' : 'The connection was lost.';
     if (!opened) {
       const signal = AbortSignal.timeout(kConnect_ms);
-      const refusal = await fetch(`/ws?${this.parameters}`, {signal})
+      const refusal = await fetch(askedPath(this.asked), {signal})
           .then((reply) => reply.status === 426 ? null : reply.json()).catch(() => null);
       if (this.#socket || this.#isClosed) return;
       if (refusal?.error) this.handlers.onRefused(refusal.error);

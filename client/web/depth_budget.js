@@ -9,7 +9,7 @@ const percent = (share) => `${(100 * share).toFixed(1)} %`;
 export class DepthBudget {
   #suggested = {};
 
-  // onTake({focus_m, cone_deg}): the suggestion shall be followed
+  // onTake({focal_distance_m, view_cone_rad}): the suggestion shall be followed
   constructor(onTake) {
     byId('budget-take').addEventListener('click', () => onTake(this.#suggested));
   }
@@ -31,6 +31,9 @@ export class DepthBudget {
     byId('budget-ghosting').textContent = percent(ghosting);
     byId('budget-take').textContent =
         `Take focus ${focus_m.toFixed(2)} m, cone ${cone_deg.toFixed(0)}°`;
-    this.#suggested = {focus_m: focus_m.toPrecision(4), cone_deg: cone_deg.toPrecision(4)};
+    this.#suggested = {
+      focal_distance_m: Number(focus_m.toPrecision(4)),
+      view_cone_rad: Number(budget.suggested_view_cone_rad.toPrecision(4)),
+    };
   }
 }

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which display is watched: a preset of any kind, a quilt of one's own, or colour with depth; which
 // of its views are, and in how much detail.
-import {keepInAddress, pageParameters, watchedParameters} from './address.js';
+import {keepInAddress, pageParameters} from './address.js';
 import {eyeSteps, kQuiltSteps} from './detail_steps.js';
+import {put} from './display_document.js';
 import {RgbdChoice} from './rgbd_choice.js';
 
-const kDefaultPreset = 'portrait';
-const kQuiltFields = ['columns', 'rows', 'width', 'height', 'aspect'];
+// Fields of the form for a quilt of one's own, by the names of their inputs.
+const kQuiltFields = {
+  'columns': 'columns', 'rows': 'rows', 'width': 'size.width', 'height': 'size.height',
+  'aspect': 'aspect',
+};
 // Views around the eye: as many as cost little, fewer where that is too much.
 const kAroundEye = {look: [5, 3, 1], blend: [5, 3], single: [1]};
 const kStart = 0.25;          // detail of all views, at first
 const kWidthStep_px = 32;     // viewers of nearly one size share a display
 const kWidthMax_px = 2048;
-const kNone = Object.fromEntries(
-    [...kQuiltFields, 'preset', 'cone_deg', 'focus_m', 'rgbd', 'near_m', 'far_m', 'screen_m',
-      'depth_side', 'black_near'].map((name) => [name, null]));
+const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
+// Modes of displays that are no quilts: they have one picture, and nothing to weave.
+const kWholeModes = ['quilt', 'single'];
+const kSizes = {quilt: 'size', rgbd: 'view_size'};  // fields of kinds that have any size
 
 const byId = (id) => document.getElementById(id);
 
@@ -26,7 +31,7 @@ function group(label, options) {
 }
 
 export class DisplayChoice {
-  #presets = [];
+  #document = null;
   #steps = '';  // of detail, as text
 
   // `seen`: which views, 'all', 'look' or 'blend' = a few around the eye, 'single', or 'middle' =
@@ -39,91 +44,62 @@ export class DisplayChoice {
     this.frameOf = frameOf;
     this.onChange = onChange;
     this.seen = 'all';
-    this.rgbd = new RgbdChoice((parameters) => {
-      byId('detail').value = '1';
-      this.#keep({...parameters, detail: '1'});
-    });
-    byId('preset').addEventListener('change', ({target}) => this.#choose(target.value));
+    this.rgbd = new RgbdChoice((fields) => this.#choose('rgbd', fields, '1'));
+    byId('preset').addEventListener('change', ({target}) => this.#pick(target.value));
     byId('detail').addEventListener('change', ({target}) => {
-      this.#keep({detail: target.value});
+      keepInAddress({detail: target.value});
+      this.onChange();
     });
     byId('custom').addEventListener('submit', (event) => {
       event.preventDefault();
-      const fields = kQuiltFields.map((name) => [name, byId(`custom-${name}`).value || null]);
-      byId('detail').value = '1';
-      this.#keep({...kNone, ...Object.fromEntries(fields), detail: '1'});
+      const quilt = {};
+      for (const [name, path] of Object.entries(kQuiltFields)) {
+        const value = byId(`custom-${name}`).valueAsNumber;
+        if (value) put(quilt, path, value);
+      }
+      this.#choose('quilt', quilt, '1');
     });
   }
 
-  // presets: as /api/presets lists them
-  show(presets) {
-    this.#presets = presets;
-    const parameters = pageParameters();
-    const ofKind = (wanted) => presets.filter(({kind}) => kind === wanted);
-    const quilts = ofKind('quilt').map(({name, device}) => new Option(device, name));
+  // chosen: the DisplayDocument
+  show(chosen) {
+    this.#document = chosen;
+    const ofKind = (wanted) => chosen.presets.filter(({kinds}) => kinds[0] === wanted);
+    const options = (presets) => presets.map(({name, device}) => new Option(device, name));
     byId('preset').replaceChildren(
-        group('Quilts', [...quilts, new Option('custom quilt', '')]),
-        group('Elemental images', ofKind('integral').map(({name, device}) =>
-          new Option(device, name))),
+        group('Quilts', [...options(ofKind('quilt')), new Option('custom quilt', '')]),
+        group('Elemental images', options(ofKind('integral'))),
         group('Colour with depth (RGBD, 2D+Z)', this.rgbd.options(ofKind('rgbd'))));
-    const standard = parameters.has('columns') ? '' : kDefaultPreset;
-    byId('preset').value = parameters.get('preset') ?? this.rgbd.valueOf(parameters) ?? standard;
-    byId('detail').value = parameters.get('detail') ?? (parameters.has('width') ? '1' : 'auto');
+    for (const [name, path] of Object.entries(kQuiltFields)) {
+      Object.assign(byId(`custom-${name}`), chosen.ranges[`quilt.${path}`]);  // min, max
+    }
+    byId('detail').value = pageParameters().get('detail') ?? (this.#ownSize() ? '1' : 'auto');
     if (byId('detail').selectedIndex < 0) byId('detail').value = 'auto';  // none of the choices
     this.#showFields();
   }
 
-  // 'quilt', 'integral' for elemental images, or 'rgbd' for colour with depth.
-  get kind() {
-    return this.rgbd.isForm(byId('preset').value) ? 'rgbd' : this.#preset()?.kind ?? 'quilt';
-  }
+  get kind() { return this.#document.kind; }
 
   // Displays of other kinds are seen whole.
   get isQuilt() { return this.kind === 'quilt'; }
 
+  // The ways to look at it.
+  get modes() { return this.isQuilt ? kModes : kWholeModes; }
+
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
-  // As /ws takes it: which views, and how large; null = the default. To be sent whenever one of
-  // them, the room for them, or the automatic detail is another.
-  views() {
-    const few = this.#viewsAroundEye();
-    if (few) return few;
-    this.#offer(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
-    const views = {cone_begin: null, cone_end: null, depth: pageParameters().get('depth')};
-    for (const name of kQuiltFields) views[name] = pageParameters().get(name);
-    const isMiddle = this.seen === 'middle' && this.isQuilt;
-    for (const [side, count] of [['width', 'columns'], ['height', 'rows']]) {
-      const full_px = this.#full(side);
-      const tiles = isMiddle ? this.#value(count) : 1;
-      if (full_px) views[side] = Math.max(1, Math.round(full_px * this.#detail / tiles));
-    }
-    if (isMiddle) {
-      Object.assign(views, {columns: 1, rows: 1, depth: 1, aspect: this.#value('aspect') || null});
-    }
-    return views;
+  // As /ws takes it: {stream, display, encoding}, with the views that are seen and in their size.
+  // To be sent whenever one of them, the room for them, or the automatic detail is another.
+  asked(stream) {
+    const display = this.#document.whole;
+    const encoding = this.#document.encoding;
+    if (!this.#takeViewsAroundEye(display)) this.#takeAll(display, encoding);
+    return {stream, display, encoding};
   }
 
-  // The same with all of the display in it, as somebody else is to watch it.
-  elsewhere(parameters) {
-    const whole = new URLSearchParams(parameters);
-    for (const name of [...kQuiltFields, 'cone_begin', 'cone_end', 'depth']) {
-      const value = pageParameters().get(name);
-      if (value === null) whole.delete(name);
-      else whole.set(name, value);
-    }
-    return whole;
-  }
-
-  // As /ws takes them.
-  parameters(stream) {
-    const parameters = watchedParameters();
-    parameters.set('stream', stream);
-    if (this.#preset()) parameters.set('preset', this.#preset().name);
-    for (const [name, value] of Object.entries(this.views())) {
-      if (value === null) parameters.delete(name);
-      else parameters.set(name, value);
-    }
-    return parameters;
+  // All of the display, as somebody else is to watch it.
+  elsewhere(stream) {
+    return {stream, display: this.#document.whole, encoding: this.#document.encoding};
   }
 
   // Width of a view in full detail, px; 0 = not known.
@@ -140,18 +116,16 @@ export class DisplayChoice {
   // Where only views around the eye are seen: how many there are, and how large one is.
   #aroundEye() {
     const total = this.#value('columns') * this.#value('rows');
-    const aspect = this.#value('aspect') ||
-        Math.floor(this.#full('width') / this.#value('columns')) /
-        Math.floor(this.#full('height') / this.#value('rows'));
+    const aspect = this.#aspect;
     if (!(this.seen in kAroundEye) || !this.isQuilt || !total || !(aspect > 0)) return null;
     const covered_px = this.frameOf(aspect)[2];
     const width_px = Math.ceil(covered_px / kWidthStep_px) * kWidthStep_px;
     return {total, aspect, width_px: Math.min(kWidthMax_px, Math.max(kWidthStep_px, width_px))};
   }
 
-  #viewsAroundEye() {
+  #takeViewsAroundEye(display) {
     const around = this.#aroundEye();
-    if (!around) return null;
+    if (!around) return false;
     const {total, aspect, width_px} = around;
     const counts = kAroundEye[this.seen];
     this.#offer(eyeSteps(counts, width_px), counts.length - 1);
@@ -162,8 +136,26 @@ export class DisplayChoice {
     }
     const width = Math.max(1, Math.round(width_px * this.#detail));
     const height = Math.max(1, Math.round(width / aspect));
-    return {columns: count, rows: 1, width: count * width, height, aspect, depth: null,
-      ...this.eyeViews.part};
+    Object.assign(display.quilt, {columns: count, rows: 1, size: {width: count * width, height},
+      aspect, ...this.eyeViews.part});
+    delete display.quilt.view_count;
+    return true;
+  }
+
+  #takeAll(display, encoding) {
+    this.#offer(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
+    const field = kSizes[this.kind];
+    if (!field) return;  // panels have the size of their device
+    const isMiddle = this.seen === 'middle' && this.isQuilt;
+    const side = (name, count) => this.#full(name) && Math.max(1, Math.round(
+        this.#full(name) * this.#detail / (isMiddle ? this.#value(count) : 1)));
+    const size = {width: side('width', 'columns'), height: side('height', 'rows')};
+    if (size.width && size.height) display[this.kind][field] = size;
+    if (!isMiddle) return;
+    Object.assign(display.quilt, {columns: 1, rows: 1});
+    if (this.#value('aspect')) display.quilt.aspect = this.#value('aspect');
+    delete display.quilt.view_count;
+    encoding.with_depth = true;
   }
 
   // Automatic detail begins anew where its steps are others.
@@ -172,55 +164,70 @@ export class DisplayChoice {
     if (text === this.#steps) return;
     this.#steps = text;
     // Through a lens the first picture may take many times longer.
-    this.autoDetail.begin(steps, pageParameters().has('aperture_m') ? steps.length - 1 : start);
+    const isBlurred = this.#document.get('effects.lens') !== undefined;
+    this.autoDetail.begin(steps, isBlurred ? steps.length - 1 : start);
   }
 
-  // Of the quilt, by the address or the preset; 0 where neither says it.
+  // Of the quilt, by the display or its preset; 0 where neither says it.
   #value(name) {
-    return Number(pageParameters().get(name) ?? this.#preset()?.[name] ?? 0);
+    return this.#document.get(`quilt.${name}`) ?? this.#document.preset?.layout?.[name] ?? 0;
   }
 
-  // A side of the whole quilt, likewise.
+  get #aspect() {
+    return this.#value('aspect') ||
+        Math.floor(this.#full('width') / this.#value('columns')) /
+        Math.floor(this.#full('height') / this.#value('rows'));
+  }
+
+  #ownSize() {
+    return this.#document.get(`${this.kind}.${kSizes[this.kind]}`);
+  }
+
+  // A side of the whole quilt, or of a view, likewise.
   #full(side) {
-    return Number(pageParameters().get(side) ?? this.#preset()?.size?.[side] ?? 0);
-  }
-
-  #preset() {
-    return this.#presets.find(({name}) => name === byId('preset').value);
+    return this.#ownSize()?.[side] ?? this.#document.preset?.layout?.size[side] ?? 0;
   }
 
   // A quilt of one's own begins as the preset that was chosen before it.
-  #choose(name) {
-    if (!this.isQuilt) {
-      byId('detail').value = '1';
-      // Elemental images have the size of their device.
-      const chosen = this.kind === 'integral' ? {preset: name} : this.rgbd.chosen(name);
-      this.#keep({...kNone, focus_follow_s: null, ...chosen, detail: '1'});
+  #pick(value) {
+    if (this.rgbd.isForm(value)) {
+      this.#choose('rgbd', this.rgbd.chosen(value), '1');
       return;
     }
-    if (name) {
-      this.#keep({...kNone, preset: name});
-      return;
-    }
-    const quilt = (wanted) => this.#presets.find((one) => one.kind === 'quilt' &&
-                                                          one.name === wanted);
-    const before = quilt(pageParameters().get('preset')) ?? quilt(kDefaultPreset);
-    const {columns, rows, size, aspect} = before;
-    this.#keep({...kNone, columns, rows, ...size, aspect});
+    const preset = this.#document.presetOf(value);
+    const kind = preset?.kinds[0] ?? 'quilt';
+    if (kind === 'rgbd') this.#choose(kind, this.rgbd.chosen(value), '1');
+    else if (kind !== 'quilt') this.#choose(kind, {preset: value}, '1');
+    else if (preset) this.#choose('quilt', {preset: value});
+    else this.#customise();
+  }
+
+  #customise() {
+    const before = this.isQuilt && this.#document.preset || this.#document.presetOf('portrait');
+    const {columns, rows, size, aspect} = before.layout;
+    this.#choose('quilt', {columns, rows, size, aspect});
     byId('custom-columns').focus();
   }
 
-  #keep(changes) {
-    keepInAddress(changes);
+  #choose(kind, fields, detail = null) {
+    this.#document.choose(kind, fields);
+    if (detail) {
+      byId('detail').value = detail;
+      keepInAddress({detail});
+    }
     this.#showFields();
     this.onChange();
   }
 
   #showFields() {
-    this.rgbd.show(this.kind === 'rgbd', pageParameters(), this.#preset()?.note);
-    byId('custom').hidden = byId('preset').value !== '';
-    for (const name of kQuiltFields) {
-      byId(`custom-${name}`).value = pageParameters().get(name) ?? '';
+    const chosen = this.#document;
+    byId('quilt-name').textContent = this.isQuilt ? 'Quilt' : 'Whole picture';
+    byId('preset').value = chosen.get(`${this.kind}.preset`) ??
+        (this.kind === 'rgbd' ? this.rgbd.valueOf(chosen.get('rgbd.form')) : '');
+    this.rgbd.show(this.kind === 'rgbd' ? chosen.get('rgbd') : null, chosen.preset?.note);
+    byId('custom').hidden = !this.isQuilt || byId('preset').value !== '';
+    for (const [name, path] of Object.entries(kQuiltFields)) {
+      byId(`custom-${name}`).value = chosen.get(`quilt.${path}`) ?? '';
     }
   }
 }

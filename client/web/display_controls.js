@@ -1,59 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 // What changes the display while it is watched: focal distance, whether it follows the content,
 // view cone, reflections.
-import {keepInAddress, pageParameters} from './address.js';
 
 const kThrottle_ms = 120;
-const kFollow_s = '1';
+const kFollow_s = 1;
 const kDegPerRad = 180 / Math.PI;
-const kBounces = '2';  // what mirrors show of other mirrors, too
+const kBounces = 2;  // what mirrors show of other mirrors, too
 
 const byId = (id) => document.getElementById(id);
 
 export class DisplayControls {
   #neutral_m = 0;  // focal distance in the middle of the slider
-  #pending = null;
+  #isPending = false;
   #timer = 0;
+  #chosen = null;
 
-  // onChange({focus_m, focus_follow_s, cone_deg, reflections}): parameters of /ws; null = the
-  // default
+  // onChange(): the display is another
   constructor(onChange) {
     this.onChange = onChange;
     byId('focus').addEventListener('input', ({target}) => {
       const focus_m = this.#neutral_m * 2 ** target.valueAsNumber;
       this.#write('focus', `${focus_m.toFixed(2)} m`);
-      this.#change({focus_m: focus_m.toPrecision(4)});
+      this.take({focal_distance_m: Number(focus_m.toPrecision(4))});
     });
     byId('cone').addEventListener('input', ({target}) => {
       this.#write('cone', `${target.value}°`);
-      this.#change({cone_deg: target.value});
+      this.take({view_cone_rad: target.valueAsNumber / kDegPerRad});
     });
     byId('follow').addEventListener('change', ({target}) => {
-      const following = {focus_follow_s: target.checked ? kFollow_s : null};
-      keepInAddress(following);
-      this.#change(following);
+      this.#change({focus_following_s: target.checked ? kFollow_s : null});
     });
     byId('reset').addEventListener('click', () => {
       this.forget();
-      this.#change({focus_m: null, cone_deg: null});
+      this.take({focal_distance_m: null, view_cone_rad: null});
     });
-    byId('reflections').checked = pageParameters().has('reflections');
     byId('reflections').addEventListener('change', ({target}) => {
-      const reflections = target.checked ? kBounces : null;
-      keepInAddress({reflections});
-      this.#change({reflections});
+      this.#change({'effects.reflection': target.checked ? {bounces: kBounces} : null});
     });
   }
 
-  // As if the sliders had been moved there.
-  take(parameters) {
-    this.#change(parameters);
+  // What the display asks for, chosen: its DisplayDocument
+  showChosen(chosen) {
+    this.#chosen = chosen;
+    byId('follow').checked = chosen.get('focus_following_s') !== undefined;
+    byId('reflections').checked = chosen.get('effects.reflection') !== undefined;
+  }
+
+  // As if the sliders had been moved there: fields of the kind. They do not stay in the address.
+  take(fields) {
+    const {kind} = this.#chosen;
+    const changes = Object.entries(fields).map(([name, value]) => [`${kind}.${name}`, value]);
+    this.#change(Object.fromEntries(changes), false);
   }
 
   // Another stream or device: its focal distance becomes the middle of the slider.
   forget() {
     this.#neutral_m = 0;
-    byId('follow').checked = pageParameters().has('focus_follow_s');
   }
 
   // What the newest atlas was made with.
@@ -63,7 +65,7 @@ export class DisplayControls {
     for (const id of ['focus', 'follow', 'cone', 'reset']) byId(id).disabled = !isSpread;
     if (!isSpread) return;
     const sliding = document.querySelector('#focus:active, #cone:active');
-    if (this.#pending || sliding) return;
+    if (this.#isPending || sliding) return;
     if (this.#neutral_m === 0) this.#neutral_m = layout.focal_distance_m;
     byId('focus').valueAsNumber = Math.log2(layout.focal_distance_m / this.#neutral_m);
     byId('cone').valueAsNumber = layout.view_cone_rad * kDegPerRad;
@@ -76,8 +78,9 @@ export class DisplayControls {
   }
 
   // The first change goes at once, further ones joined.
-  #change(parameters) {
-    this.#pending = {...this.#pending, ...parameters};
+  #change(changes, isKept = true) {
+    this.#chosen.set(changes, isKept);
+    this.#isPending = true;
     if (this.#timer) return;
     this.#send();
     this.#timer = setTimeout(() => {
@@ -87,7 +90,7 @@ export class DisplayControls {
   }
 
   #send() {
-    if (this.#pending) this.onChange(this.#pending);
-    this.#pending = null;
+    if (this.#isPending) this.onChange();
+    this.#isPending = false;
   }
 }

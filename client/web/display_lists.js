@@ -1,49 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lists beside the picture: a lens before every view, in focus at the focal plane; atlases
 // between the frames of a stream; how much is spent on all of it.
-import {keepInAddress, pageParameters} from './address.js';
 
-const kRate_hz = '60';
+const kRate_hz = 60;
+const kModes = {predict: 'TEMPORAL_MODE_PREDICT', interpolate: 'TEMPORAL_MODE_INTERPOLATE'};
+const kQualities = {draft: 'QUALITY_DRAFT', best: 'QUALITY_BEST'};
 
-// Each a select: what of it the parameters choose, which it adds where it has no such option
-// (`named` so), and the parameters of /ws that a choice stands for; null = the default.
+const nameOf = (words, value) => Object.keys(words).find((name) => words[name] === value);
+
+// Each a select: the path of its field, which choice a value of the field is (added where there is
+// no such option, `named` so), and the value that a choice stands for; null = the default.
 const kLists = {
   lens: {
-    chosen: (parameters) => parameters.get('aperture_m'),
-    named: (value) => `${value} m`,
-    changes: (value) => ({aperture_m: value || null}),
+    path: 'effects.lens',
+    chosen: (lens) => lens.automatic_aperture ? 'auto' : String(lens.aperture_radius_m),
+    named: (choice) => `${choice} m`,
+    value: (choice) => choice === 'auto' ? {automatic_aperture: true} :
+      {aperture_radius_m: Number(choice)},
   },
   between: {
-    chosen: (parameters) => parameters.has('rate_hz') && (parameters.get('between') ?? 'predict'),
-    named: (value) => value,
-    changes: (value) => ({rate_hz: value && kRate_hz || null, between: value || null}),
+    path: 'effects.temporal',
+    chosen: (temporal) => nameOf(kModes, temporal.mode) ?? 'predict',
+    named: (choice) => choice,
+    value: (choice) => ({output_rate_hz: kRate_hz, mode: kModes[choice]}),
   },
   effort: {
-    chosen: (parameters) => parameters.get('effort'),
-    named: (value) => value,
-    changes: (value) => ({effort: value || null}),
+    path: 'quality',
+    chosen: (quality) => nameOf(kQualities, quality),
+    named: (choice) => choice,
+    value: (choice) => kQualities[choice],
   },
 };
 
-function connect(select, {chosen, named, changes}, onChange) {
-  const value = chosen(pageParameters());
-  if (value) {
-    const isListed = [...select.options].some((option) => option.value === value);
-    if (!isListed) select.add(new Option(named(value), value));
-    select.value = value;
-  }
-  select.addEventListener('change', () => {
-    const parameters = changes(select.value);
-    keepInAddress(parameters);
-    onChange(parameters);
-  });
-}
-
 export class DisplayLists {
-  // onChange(parameters): of /ws; null = the default
+  #chosen = null;
+
+  // onChange(changes): of the display's fields by path; null = the default
   constructor(onChange) {
+    for (const [id, {path, value}] of Object.entries(kLists)) {
+      document.getElementById(id).addEventListener('change', ({target}) => {
+        const changes = {[path]: target.value ? value(target.value) : null};
+        this.#chosen.set(changes);
+        onChange(changes);
+      });
+    }
+  }
+
+  // What the display asks for, chosen: its DisplayDocument
+  showChosen(chosen) {
+    this.#chosen = chosen;
     for (const [id, list] of Object.entries(kLists)) {
-      connect(document.getElementById(id), list, onChange);
+      const field = chosen.get(list.path);
+      const choice = field === undefined ? '' : list.chosen(field) ?? '';
+      const select = document.getElementById(id);
+      const isListed = [...select.options].some(({value}) => value === choice);
+      if (!isListed) select.add(new Option(list.named(choice), choice));
+      select.value = choice;
     }
   }
 

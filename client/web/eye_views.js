@@ -30,7 +30,7 @@ export class EyeViews {
     this.first = this.#blockOf(this.#track.at(-1)?.view ?? (total - 1) / 2);
   }
 
-  // The part of the cone that they share, as /ws takes it.
+  // The part of the cone that they share, as a QuiltDisplay says it.
   get part() {
     return {cone_begin: this.first / this.total, cone_end: (this.first + this.count) / this.total};
   }

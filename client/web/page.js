@@ -9,6 +9,7 @@ import {DepthBudget} from './depth_budget.js';
 import {watchDeviceSize} from './device_size.js';
 import {DisplayChoice} from './display_choice.js';
 import {DisplayControls} from './display_controls.js';
+import {DisplayDocument} from './display_document.js';
 import {DisplayLists} from './display_lists.js';
 import {EyeMode} from './eye_mode.js';
 import {EyeViews} from './eye_views.js';
@@ -33,14 +34,12 @@ const kHiddenGrace_ms = 5000;
 const kLook_ms = 250;     // from one look for a picture that stands still to the next
 const kResized_ms = 150;  // a size that stays as long is asked for
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
-const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
-// Modes of displays that are no quilts: they have one picture, and nothing to weave.
-const kWholeModes = ['quilt', 'single'];
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
 const root = document.documentElement;
 let watching = null;  // name of the stream
+let chosen = null;    // the DisplayDocument
 let hiddenTimer = 0;
 let resizeTimer = 0;
 let isPublisherGone = false;
@@ -48,12 +47,12 @@ let isPublisherGone = false;
 const figures = new Figures();
 const commands = new Commands();
 const patience = new Patience();
-const controls = new DisplayControls((parameters) => stream.change(parameters));
-const lists = new DisplayLists((parameters) => {
-  if (parameters.aperture_m) autoDetail.startLow();
-  stream.change({...parameters, ...display.views()});
+const controls = new DisplayControls(ask);
+const lists = new DisplayLists((changes) => {
+  if (changes['effects.lens']) autoDetail.startLow();
+  ask();
 });
-const budget = new DepthBudget((parameters) => controls.take(parameters));
+const budget = new DepthBudget((fields) => controls.take(fields));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(ask);
 const eyeViews = new EyeViews(ask, aim);
@@ -80,7 +79,7 @@ const stage = new Stage(byId('stage'), {
 
 // Asks for what shall be seen, if that is not what the server sends.
 function ask() {
-  if (watching && stream.change(display.views())) eyeViews.noteAsked(performance.now());
+  if (watching && stream.change(display.asked(watching))) eyeViews.noteAsked(performance.now());
 }
 
 // Has the views around the eye asked for, wherever it is.
@@ -100,7 +99,7 @@ const decoder = new Decoder(
       lists.show(layout);
       budget.show(atlas.header.depth_budget);
       outside.show(atlas.header.views_outside, layout);
-      commands.show(display.elsewhere(stream.parameters), display.kind);
+      commands.show(display.elsewhere(watching));
       labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
           display.isAutomatic);
       nameView();
@@ -186,14 +185,15 @@ function seeAsOf(mode) {
   const around = {look: stage.blend ? 'blend' : 'look', single: 'single', rgbd: 'middle'};
   display.seen = around[mode] ?? 'all';
   eyeViews.forget();
-  display.views();  // how many there are around the eye
+  display.asked(watching);  // how many there are around the eye
   aim();
   ask();
 }
 
 function offerModes() {
-  modes.restrict(display.isQuilt ? kModes : kWholeModes);
-  byId('quilt-name').textContent = display.isQuilt ? 'Quilt' : 'Whole picture';
+  controls.showChosen(chosen);
+  lists.showChosen(chosen);
+  modes.restrict(display.modes);
 }
 
 function nameView() {
@@ -220,8 +220,9 @@ function watch(name) {
   streams.restart();
   figures.clear();
   controls.forget();
+  chosen.forgetPassing();
   setState('connecting');
-  stream.open(display.parameters(name));
+  stream.open(display.asked(name));
 }
 
 const streams = new StreamList({
@@ -241,12 +242,14 @@ const streams = new StreamList({
 
 async function start() {
   try {
-    display.show((await (await fetch('/api/presets')).json()).presets);
+    chosen = await DisplayDocument.ofAddress((problem) => notice(problem, 'bad', Infinity));
+    if (!chosen) return;
   } catch {
     setTimeout(start, kRetry_ms);
     notice(kSilence, 'bad', Infinity);
     return;
   }
+  display.show(chosen);
   offerModes();
   modes.choose(pageParameters().get('mode'));
   streams.poll();

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colour with depth as a display: which kind of it, of how many px, and where its screen is.
 
-// Values of the picker for what no preset names: the prefix, and the form as /ws takes it.
+// Values of the picker for what no preset names: the prefix, and the form as in proto.
 const kPrefix = 'rgbd:';
-const kForms = {'color-depth': 'Colour beside depth', 'two-layers': 'Two layers in four quadrants'};
-const kUsual = {width: 960, height: 540};  // px of a view, where nothing says
-const kFields = ['width', 'height', 'screen_m'];
+const kUsualForm = 'RGBD_FORM_COLOR_DEPTH';
+const kForms = {
+  [kUsualForm]: 'Colour beside depth', 'RGBD_FORM_TWO_LAYERS': 'Two layers in four quadrants',
+};
+const kUsual_px = {width: 960, height: 540};  // a view, where nothing says
 
 const byId = (id) => document.getElementById(id);
 
 export class RgbdChoice {
-  // onChange(parameters): as /ws takes them, null = the default
+  #fields = {};
+
+  // onChange(fields): of an RgbdDisplay
   constructor(onChange) {
     byId('rgbd').addEventListener('submit', (event) => {
       event.preventDefault();
-      const fields = kFields.map((name) => [name, byId(`rgbd-${name}`).value || null]);
-      onChange(Object.fromEntries(fields));
+      const [width, height, screen_m] =
+          ['width', 'height', 'screen_m'].map((name) => byId(`rgbd-${name}`).valueAsNumber);
+      const {screen_m: _, ...fields} = this.#fields;
+      if (screen_m) fields.screen_m = screen_m;
+      onChange({...fields, view_size: {width, height}});
     });
   }
 
@@ -25,26 +32,29 @@ export class RgbdChoice {
       ...Object.entries(kForms).map(([form, text]) => new Option(text, kPrefix + form))];
   }
 
-  // What the picker stands at; undefined: at a preset, or at a quilt.
-  valueOf(parameters) {
-    return parameters.has('rgbd') && !parameters.has('preset') ?
-      kPrefix + parameters.get('rgbd') : undefined;
+  // What the picker stands at where no preset is named.
+  valueOf(form) {
+    return kPrefix + (form ?? kUsualForm);
   }
 
   isForm(value) {
     return value.startsWith(kPrefix);
   }
 
-  // Parameters for a value of the picker.
+  // Fields for a value of the picker.
   chosen(value) {
-    return {...kUsual, ...this.isForm(value) ?
-      {rgbd: value.slice(kPrefix.length)} : {preset: value}};
+    const named = this.isForm(value) ? {form: value.slice(kPrefix.length)} : {preset: value};
+    return {...named, view_size: kUsual_px};
   }
 
-  // note: of the preset, if it is one
-  show(isShown, parameters, note) {
-    byId('rgbd').hidden = !isShown;
-    for (const name of kFields) byId(`rgbd-${name}`).value = parameters.get(name) ?? '';
+  // fields: of the RgbdDisplay, null = another kind; note: of the preset, if it is one
+  show(fields, note) {
+    byId('rgbd').hidden = fields === null;
+    this.#fields = fields ?? {};
+    const {view_size, screen_m} = this.#fields;
+    byId('rgbd-width').value = view_size?.width ?? '';
+    byId('rgbd-height').value = view_size?.height ?? '';
+    byId('rgbd-screen_m').value = screen_m ?? '';
     byId('rgbd-note').textContent = note ?? '';
   }
 }

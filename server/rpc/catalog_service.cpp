@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/catalog_service.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "base/check.h"
-#include "display/integral.h"
-#include "display/panels.h"
-#include "display/presets.h"
-#include "display/rgbd.h"
+#include "display/named_display.h"
 #include "display/source_advice.h"
 #include "messages/display_from_proto.h"
 #include "rpc/geometry_to_proto.h"
@@ -37,76 +32,25 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   return proto;
 }
 
-// The grid of a preset does not depend on what a stream would give: any source will do.
-template <typename Kind>
-v1::AtlasLayout gridOfPreset(Kind kind) {
-  DisplaySpec spec;
-  spec.kind = std::move(kind);
-  const absl::StatusOr<DisplaySpec> completed = completeDisplaySpec(spec);
-  VIEWLOOM_CHECK(completed.ok());
-  constexpr SizePx kAnySize{.width = 1, .height = 1};
-  StreamDefaults any_source;
-  any_source.source_size_px = kAnySize;
-  any_source.source_intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};
-  absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(*completed, any_source);
-  VIEWLOOM_CHECK(layout.ok());
-  layout->focal_distance_m = 0;  // from the stream
-  return gridToProto(*layout);
-}
-
-void addQuiltPresets(v1::ListPresetsResponse& proto) {
-  for (const Preset& preset : allPresets()) {
-    v1::Preset& entry = *proto.add_presets();
-    entry.set_name(std::string(preset.name));
-    entry.set_device(std::string(preset.device));
-    *entry.mutable_layout() = gridOfPreset(QuiltSpec{.preset = entry.name()});
-    entry.set_note(std::string(preset.note));
-    entry.add_kinds("quilt");
-    const std::optional<Calibration> panel = panelOfPreset(preset.name);
-    if (!panel) continue;
-    entry.add_kinds("lenticular");
-    *entry.mutable_panel_size() = sizeToProto(panel->screen_px);
-    entry.set_panel_dpi(panel->dpi);
-  }
-}
-
-void addIntegralPresets(v1::ListPresetsResponse& proto) {
-  constexpr double kMetresPerInch = 0.0254;
-  for (const IntegralPreset& preset : integralPresets()) {
-    v1::Preset& entry = *proto.add_presets();
-    entry.set_name(preset.name);
-    entry.set_device(preset.device);
-    *entry.mutable_layout() = gridOfPreset(IntegralSpec{.preset = preset.name});
-    entry.set_note(preset.note);
-    entry.add_kinds("integral");
-    *entry.mutable_panel_size() = sizeToProto(preset.panel_px);
-    entry.set_panel_dpi(kMetresPerInch / preset.pixel_pitch_m);
-  }
-}
-
-void addRgbdPresets(v1::ListPresetsResponse& proto) {
-  constexpr SizePx kAnySize{.width = 1, .height = 1};
-  for (const RgbdPreset& preset : rgbdPresets()) {
-    v1::Preset& entry = *proto.add_presets();
-    entry.set_name(preset.name);
-    entry.set_device(preset.device);
-    v1::AtlasLayout& layout = *entry.mutable_layout();
-    layout = gridOfPreset(RgbdSpec{.preset = preset.name, .view_size_px = kAnySize});
-    layout.clear_size();
-    layout.clear_tile_size();
-    layout.clear_aspect();
-    entry.set_note(preset.note);
-    entry.add_kinds("rgbd");
-  }
-}
-
 v1::ListPresetsResponse presetsToProto() {
   v1::ListPresetsResponse proto;
-  addQuiltPresets(proto);
-  addIntegralPresets(proto);
-  addRgbdPresets(proto);
-  std::sort(proto.mutable_presets()->begin(), proto.mutable_presets()->end(),
-            [](const v1::Preset& a, const v1::Preset& b) { return a.name() < b.name(); });
+  for (const NamedDevice& known : namedDevices()) {
+    v1::Preset& entry = *proto.add_presets();
+    entry.set_name(std::string(known.device.name));
+    entry.set_device(std::string(known.device.device));
+    entry.set_note(std::string(known.device.note));
+    for (const std::string& kind : known.kinds) entry.add_kinds(kind);
+    v1::AtlasLayout& layout = *entry.mutable_layout();
+    layout = gridToProto(known.layout);
+    if (!known.device.has_size) {
+      layout.clear_size();
+      layout.clear_tile_size();
+      layout.clear_aspect();
+    }
+    if (known.device.panel_px == SizePx{}) continue;
+    *entry.mutable_panel_size() = sizeToProto(known.device.panel_px);
+    entry.set_panel_dpi(known.device.panel_dpi);
+  }
   return proto;
 }
 

@@ -3,9 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "display/integral.h"
-#include "display/presets.h"
-#include "display/rgbd.h"
+#include "display/named_display.h"
 
 namespace viewloom {
 
@@ -78,30 +76,23 @@ json displaysJson(const Broadcaster& broadcaster) {
 
 json presetsJson() {
   json entries = json::array();
-  for (const Preset& preset : allPresets()) {
-    entries.push_back({{"name", preset.name},
-                       {"kind", "quilt"},
-                       {"device", preset.device},
-                       {"columns", preset.columns},
-                       {"rows", preset.rows},
-                       {"size", sizeJson(preset.size_px)},
-                       {"aspect", preset.aspect},
-                       {"view_cone_deg", preset.view_cone_deg},
-                       {"note", preset.note}});
-  }
-  for (const IntegralPreset& preset : integralPresets()) {
-    entries.push_back({{"name", preset.name},
-                       {"kind", "integral"},
-                       {"device", preset.device},
-                       {"note", preset.note}});
-  }
-  for (const RgbdPreset& preset : rgbdPresets()) {
-    entries.push_back({{"name", preset.name},
-                       {"kind", "rgbd"},
-                       {"device", preset.device},
-                       {"note", preset.note}});
+  for (const NamedDevice& known : namedDevices()) {
+    json entry = {{"name", known.device.name},
+                  {"device", known.device.device},
+                  {"kinds", known.kinds},
+                  {"note", known.device.note}};
+    if (known.device.has_size) entry["layout"] = layoutJson(known.layout);
+    entries.push_back(std::move(entry));
   }
   return {{"presets", std::move(entries)}};
+}
+
+json fieldsJson() {
+  json fields = json::object();
+  for (const auto& [path, range] : fieldRanges()) {
+    fields[path] = {{"min", range.min}, {"max", range.max}};
+  }
+  return {{"fields", std::move(fields)}};
 }
 
 }  // namespace viewloom

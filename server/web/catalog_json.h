@@ -16,5 +16,7 @@ nlohmann::json encodingJson(const EncodingSpec& encoding);
 nlohmann::json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster);
 nlohmann::json displaysJson(const Broadcaster& broadcaster);
 nlohmann::json presetsJson();
+// Ranges of the numbers of a display, by their path in proto Display.
+nlohmann::json fieldsJson();
 
 }  // namespace viewloom

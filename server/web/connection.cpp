@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/str_cat.h"
 #include "web/multipart_stream.h"
 #include "web/viewer.h"
 
@@ -29,7 +30,10 @@ HttpRequest requestOf(const http::request<http::empty_body>& request) {
 // The reply to bytes that are no request; none when the other side just went.
 std::optional<HttpReply> replyToBroken(const ErrorCode& error) {
   if (error == http::error::header_limit) {
-    return errorReply(431, invalidField("header", "longer than this server accepts"));
+    return errorReply(
+        431, invalidField("header", strCat("longer than the ", HttpOptions{}.header_bytes_max,
+                                           " bytes that this server accepts; send a long display "
+                                           "over the WebSocket /ws, as a change")));
   }
   if (error == http::error::body_limit) {
     return errorReply(413, invalidField("body", "accepted are requests without one"));
@@ -165,7 +169,7 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
   const absl::StatusOr<Url> url = parseUrl(request.target);
   ErrorCode error;
   if (!url.ok() || url->path != kWebSocketPath ||
-      !parseWatchRequest(url->parameters, context_.streams).ok()) {
+      !makeWatchRequest(url->parameters, context_.streams).ok()) {
     const HttpReply reply = co_await answer(context_, request);
     co_await write(reply, parser, false, error);
     co_return;

@@ -19,7 +19,7 @@ struct HttpOptions {
   std::vector<std::string> allowed_hosts;
 
   uint32_t header_bytes_max = 8192;
-  uint32_t message_bytes_max = 4096;  // of a viewer's text message
+  uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits
   std::chrono::milliseconds request_timeout{
       10'000};  // to send a request, from the one before; to shake hands
   std::chrono::milliseconds idle_timeout{20'000};      // of a viewer that answers no ping

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // URLs of pictures. Those of a quilt say how its views lie: ROOT STREAM_qs8x6a0.75 EXTENSION.
-// Those of other displays name the display: ROOT STREAM/near_eye_2013 EXTENSION.
+// Those of other displays name the display: ROOT STREAM/near_eye_2013 EXTENSION, or give it:
+// ROOT STREAM EXTENSION?display=JSON.
 #pragma once
 
 #include <string>
@@ -28,11 +29,10 @@ struct QuiltAddress {
   std::string redirect;
 };
 
-// Reads ROOT STREAM_qs8x6a0.75 EXTENSION with the parameters of parseWatchRequest. Where no
-// parameter gives them, columns, rows and aspect are those of the suffix. ROOT STREAM/PRESET, also
-// with an extension, and a suffix that does not fit the parameters, redirect to the URL that does.
-// PRESET of another kind than a quilt is served where it is, and a suffix redirects to it.
-// Errors as parseWatchRequest; NOT_FOUND for a path of another form.
+// Reads these forms, with the parameters of askedDisplay(). Where no parameter names the display,
+// columns, rows and aspect are those of the suffix. A quilt without its suffix, or with another,
+// redirects to the URL that has it. Another display is served where it is, and a suffix redirects
+// to it. Errors as makeWatchRequest(); NOT_FOUND for a path of another form.
 absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form,
                                                const StreamDirectory& streams);
 

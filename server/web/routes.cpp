@@ -60,7 +60,7 @@ HttpReply healthReply(const WebContext& context) {
 // A plain GET of the WebSocket's URL tells a browser, which does not let pages read why an upgrade
 // was refused, what is wrong with it.
 HttpReply webSocketReply(const WebContext& context, const Url& url) {
-  const absl::StatusOr<WatchRequest> request = parseWatchRequest(url.parameters, context.streams);
+  const absl::StatusOr<WatchRequest> request = makeWatchRequest(url.parameters, context.streams);
   if (!request.ok()) return errorReply(request.status());
   HttpReply reply =
       errorReply(426, absl::FailedPreconditionError("accepted is a WebSocket upgrade"));
@@ -69,14 +69,15 @@ HttpReply webSocketReply(const WebContext& context, const Url& url) {
 }
 
 HttpReply notFoundReply(const std::string& path) {
-  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets",
+  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets", "/api/fields",
                                     "/metrics",     "/healthz",      "/ws"};
   for (const PageAsset& asset : pageAssets()) known.emplace_back(asset.path);
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
       strCat("there is no ", path, suggestion.empty() ? "" : ", ", suggestion,
-             "; there are /, /api/streams, /api/displays, /api/presets, /metrics, /healthz, "
+             "; there are /, /api/streams, /api/displays, /api/presets, /api/fields, /metrics, "
+             "/healthz, "
              "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
 }
 
@@ -109,6 +110,7 @@ net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
   }
   if (url->path == "/api/displays") co_return jsonReply(displaysJson(context.broadcaster).dump());
   if (url->path == "/api/presets") co_return jsonReply(presetsJson().dump());
+  if (url->path == "/api/fields") co_return jsonReply(fieldsJson().dump());
   if (url->path == "/metrics") co_return metricsReply(context);
   if (url->path == "/healthz") co_return healthReply(context);
   if (url->path == kWebSocketPath) co_return webSocketReply(context, *url);

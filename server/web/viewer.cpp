@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "messages/message_from_json.h"
+#include "viewloom/v1/web_socket.pb.h"
 #include "web/atlas_message.h"
 #include "web/http_reply.h"
 
@@ -13,10 +15,6 @@ namespace {
 constexpr size_t kUnderWayCountMax = 2;
 // A close frame holds 125 bytes, two of them the code.
 constexpr size_t kCloseReasonBytesMax = 123;
-
-std::string parameterText(const nlohmann::json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 std::string pongJson(uint64_t number) {
   return nlohmann::json{{"pong", number}}.dump();
@@ -48,7 +46,7 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
   ErrorCode error;
   co_await socket_.async_accept(request, into(error));
   if (error) co_return;
-  if (const absl::Status status = subscribe(parameters_); !status.ok()) {
+  if (const absl::Status status = open(); !status.ok()) {
     co_await writeText(errorJson(status), error);
     co_await close(status);
     co_return;
@@ -71,8 +69,14 @@ void Viewer::cut() {
   beast::get_lowest_layer(socket_).close();
 }
 
-absl::Status Viewer::subscribe(const QueryParameters& parameters) {
-  const absl::StatusOr<WatchRequest> request = parseWatchRequest(parameters, context_.streams);
+absl::Status Viewer::open() {
+  const absl::StatusOr<AskedDisplay> asked = askedDisplay(parameters_);
+  VIEWLOOM_RETURN_IF_ERROR(asked.status());
+  return inParameters(subscribe(*asked), parameters_);
+}
+
+absl::Status Viewer::subscribe(const AskedDisplay& asked) {
+  const absl::StatusOr<WatchRequest> request = makeWatchRequest(asked, context_.streams);
   VIEWLOOM_RETURN_IF_ERROR(request.status());
   const std::weak_ptr<Viewer> viewer = weak_from_this();
   const auto executor = socket_.get_executor();
@@ -88,7 +92,7 @@ absl::Status Viewer::subscribe(const QueryParameters& parameters) {
   if (inbox_) dropped_before_ += inbox_->replacedCount();
   inbox_ = std::move(inbox);
   subscription_ = *std::move(subscription);
-  parameters_ = parameters;
+  asked_ = asked;
   return absl::OkStatus();
 }
 
@@ -107,39 +111,37 @@ net::awaitable<void> Viewer::readMessages() {
 }
 
 absl::Status Viewer::takeMessage(std::string_view text) {
-  const nlohmann::json message = nlohmann::json::parse(text, nullptr, false);
-  if (message.is_object() && message.size() == 1) {
-    const auto shown = message.find("shown");
-    const auto changes = message.find("change");
-    const auto ping = message.find("ping");
-    if (shown != message.end() && shown->is_number_unsigned()) {
-      noteShown(shown->get<uint64_t>());
+  v1::ViewerMessage message;
+  const absl::Status status = messageFromJson(text, context_.options.message_bytes_max, message);
+  if (!status.ok()) {
+    // Viewers count their changes, also those in vain.
+    const std::string field = fieldOf(status);
+    if (field.starts_with("change")) ++change_count_;
+    return field.empty() ? withFieldPrefix(status, "message") : status;
+  }
+  switch (message.message_case()) {
+    case v1::ViewerMessage::kShown:
+      noteShown(message.shown());
       return absl::OkStatus();
-    }
-    if (changes != message.end() && changes->is_object()) {
+    case v1::ViewerMessage::kChange:
       ++change_count_;
-      return change(*changes);
-    }
-    if (ping != message.end() && ping->is_number_unsigned()) {
-      pending_pong_ = ping->get<uint64_t>();
+      return withFieldPrefix(change(message.change()), "change");
+    case v1::ViewerMessage::kPing:
+      pending_pong_ = message.ping();
       return absl::OkStatus();
-    }
+    case v1::ViewerMessage::MESSAGE_NOT_SET:
+      break;
   }
   return invalidField("message",
-                      "accepted are {\"shown\": DELIVERY}, {\"change\": {PARAMETER: VALUE}} and "
-                      "{\"ping\": NUMBER}");
+                      "accepted are {\"shown\": DELIVERY}, {\"change\": {\"display\": ..., "
+                      "\"encoding\": ...}} and {\"ping\": NUMBER}");
 }
 
-absl::Status Viewer::change(const nlohmann::json& changes) {
-  QueryParameters changed = parameters_;
-  for (const auto& [name, value] : changes.items()) {
-    if (value.is_null()) {
-      changed.erase(name);
-    } else {
-      changed[name] = parameterText(value);
-    }
-  }
-  return withFieldPrefix(subscribe(changed), "change");
+absl::Status Viewer::change(const v1::ChangeDisplay& changes) {
+  AskedDisplay changed = asked_;
+  if (changes.has_display()) changed.display = changes.display();
+  if (changes.has_encoding()) changed.encoding = changes.encoding();
+  return subscribe(changed);
 }
 
 void Viewer::noteShown(uint64_t delivery) {

@@ -8,9 +8,8 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "web/asio.h"
+#include "web/asked_display.h"
 #include "web/atlas_inbox.h"
 #include "web/live_reader.h"
 #include "web/url.h"
@@ -20,12 +19,7 @@
 namespace viewloom {
 
 // Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1)
-// and text messages {"error": ...}. Up come text messages:
-//   {"shown": 17}                      delivery 17 is on the screen, or was dropped: room for
-//   another
-//   {"change": {"focus_m": 0.8}}       parameters of the URL, as they shall be from now on; null =
-//   default
-//   {"ping": 3}                        answered by {"pong": 3}: pages see no pings of the protocol
+// and text messages {"error": ...}. Up come proto ViewerMessages as JSON.
 // At most two atlases are under way to a client; of those that come meanwhile only the newest is
 // kept.
 //
@@ -48,21 +42,23 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
     int64_t written_ns = 0;
   };
 
-  absl::Status subscribe(const QueryParameters& parameters);
+  absl::Status open();
+  absl::Status subscribe(const AskedDisplay& asked);
   net::awaitable<void> readMessages();
   net::awaitable<void> writeMessages();
   net::awaitable<void> writeText(std::string text, ErrorCode& error);
   net::awaitable<void> writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error);
   net::awaitable<void> close(const absl::Status& status);
   absl::Status takeMessage(std::string_view text);
-  absl::Status change(const nlohmann::json& changes);
+  absl::Status change(const v1::ChangeDisplay& changes);
   void noteShown(uint64_t delivery);
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
   websocket::stream<beast::tcp_stream> socket_;
   net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
-  QueryParameters parameters_;
+  const QueryParameters parameters_;
+  AskedDisplay asked_;  // as it is served
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   std::deque<UnderWay> under_way_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer or a still asks for, read from the parameters of a URL.
+// What a viewer, a still or a player watches: checked, and with every default filled in.
 #pragma once
 
 #include <string>
@@ -11,19 +11,23 @@
 
 namespace viewloom {
 
+struct AskedDisplay;
+
 struct WatchRequest {
   std::string stream;
-  DisplaySpec display;  // completed; a quilt, or colour with depth
+  DisplaySpec display;  // completed
   EncodingSpec encoding;
 };
 
-// Parameters: stream, preset (default "portrait" when neither columns nor rows say otherwise),
-// columns, rows, width, height, aspect, cone_deg, cone_begin, cone_end, focus_m, focus_follow_s,
-// fov_deg, quality, chroma (420, 444), depth. Those of colour with depth: see rgbd_request.h.
-// NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for anything else, with the parameter
-// as the field.
-absl::StatusOr<WatchRequest> parseWatchRequest(const QueryParameters& parameters,
-                                               const StreamDirectory& streams);
+// The same conversion and checks as over gRPC, and those of what the web serves: one image, its
+// colour as JPEG, its depth raw. NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for
+// anything else; errors name the field ("display.quilt.columns").
+absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked,
+                                              const StreamDirectory& streams);
+
+// The same of what the parameters of a URL ask for; errors name the parameter.
+absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters,
+                                              const StreamDirectory& streams);
 
 // "_qs8x6a0.75", with which the name of a quilt's still ends. "" for other displays.
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display);

@@ -6,7 +6,6 @@
 
 #include "calibration/calibration.h"
 #include "display/integral.h"
-#include "display/panels.h"
 #include "display/presets.h"
 
 namespace viewloom::bench {
@@ -53,10 +52,10 @@ std::vector<DisplayLoad> displayLoads(uint32_t shrink, double cone_rad) {
         {std::string(kPanelOfViewCounts) + " native, " + std::to_string(view_count) + " views",
          panelOf(panel, shrink, cone_rad, view_count)});
   }
-  for (const IntegralPreset& preset : integralPresets()) {
+  for (const KnownDevice& preset : devicesOf(IntegralSpec{})) {
     loads.push_back(
         {std::string(preset.name) + " elemental",
-         completed({.kind = IntegralSpec{.preset = preset.name,
+         completed({.kind = IntegralSpec{.preset = std::string(preset.name),
                                          .panel_px = shrunk(preset.panel_px, shrink)}})});
   }
   return loads;

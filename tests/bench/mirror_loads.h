@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "display/atlas_layout.h"
-#include "display/reflection.h"
+#include "display/effects.h"
 #include "frame/frame.h"
 #include "support/truth/mirrored.h"
 #include "support/truth/scene.h"

@@ -32,7 +32,7 @@ class LensMirrors : public ThroughLens {
     camera.projection = Intrinsics{.focal_px = {100, 100}, .principal_px = {80, 50}};
     DisplaySpec spec{.kind = CamerasSpec{.cameras = {camera}, .tile_size_px = {160, 120}},
                      .tolerance_px = kTolerance_px,
-                     .reflection = ReflectionSpec{.bounce_count = 2, .is_filtered = false}};
+                     .reflection = ReflectionSpec{.bounce_count = 2, .is_unfiltered = true}};
     spec.lens = walkedLens();
     spec.lens->aperture_radius_m = 0.1;  // wide enough that one eye for all rays is found out
     return spec;

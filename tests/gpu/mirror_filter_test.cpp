@@ -107,10 +107,10 @@ class MirrorFilter : public GpuTest {
   Errors errorsOf(const SeenMirrors& seen, ReflectionSpec reflection, const IsCounted& is_counted) {
     Errors errors;
     reflection.bounce_count = 1;
-    reflection.is_filtered = true;
+    reflection.is_unfiltered = false;
     errors.filtered_codes =
         rmsCodes(apartCodes(renderer_, seen, *seen.frame, reflection), is_counted);
-    reflection.is_filtered = false;
+    reflection.is_unfiltered = true;
     errors.unfiltered_codes =
         rmsCodes(apartCodes(renderer_, seen, *seen.frame, reflection), is_counted);
     errors.mixed_codes = rmsCodes(mixedCodes(seen), is_counted);

@@ -68,7 +68,7 @@ std::vector<NamedDisplay> displays() {
       {"walked lens", {.kind = quilt, .lens = walked}},
       {"exact lens in the world", {.kind = eyes, .world_pose = beside, .lens = exact}},
       {"reflections", {.kind = eyes, .reflection = reflection}},
-      {"reflections through a lens", {.kind = quilt, .lens = walked, .reflection = reflection}}};
+      {"reflections through a lens", {.kind = quilt, .reflection = reflection, .lens = walked}}};
 }
 
 class MissingKernelsTest : public GpuTest {

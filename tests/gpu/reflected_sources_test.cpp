@@ -60,7 +60,7 @@ TEST_F(ReflectedSourcesTest, aSourceThatComesTwiceMirrorsAsOne) {
     // From the source's place, so that no silhouette is blended.
     const auto render = [&](const Frame& frame) {
       return renderInWorld(shared<OfflineRenderer>(), frame, {cameraAt(glm::dvec3(0.0), kView_px)},
-                           kView_px, 1, ReflectionSpec{.bounce_count = 2, .is_filtered = false});
+                           kView_px, 1, ReflectionSpec{.bounce_count = 2, .is_unfiltered = true});
     };
     const RenderedAtlas of_one = render(*one);
     const RenderedAtlas of_both = render(*twice(*one));

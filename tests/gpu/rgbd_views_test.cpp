@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "display/atlas_layout.h"
 #include "display/rgbd.h"
 #include "gpu/judge_views.h"
 #include "oracle/analytic_scenes.h"

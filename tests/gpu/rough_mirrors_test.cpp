@@ -146,7 +146,7 @@ constexpr double kSurplusMax = 0.022;
 // Light that comes along a surface counts by its larger Fresnel, and by what hides it.
 TEST_F(RoughMirrors, takeOfUnevenLightByItsDirection) {
   constexpr ReflectionSpec kManyRays{
-      .bounce_count = 1, .sample_count = 64, .environment_rgb = kWhite, .is_filtered = false};
+      .bounce_count = 1, .sample_count = 64, .environment_rgb = kWhite, .is_unfiltered = true};
   for (const float roughness : {0.4F, 0.7F}) {
     const SeenMirrors plate = plateBeforeWall({.light = glm::vec3(0.04F), .roughness = roughness});
     for (const FramePtr& frame : {plate.frame, twice(*plate.frame)}) {
@@ -184,7 +184,7 @@ TEST_F(RoughMirrors, takeEvenLightWithoutNoise) {
   constexpr ReflectionSpec kFiltered{
       .bounce_count = 1, .sample_count = 1, .environment_rgb = kWhite};
   constexpr ReflectionSpec kUnfiltered{
-      .bounce_count = 1, .sample_count = 8, .environment_rgb = kWhite, .is_filtered = false};
+      .bounce_count = 1, .sample_count = 8, .environment_rgb = kWhite, .is_unfiltered = true};
   for (const float roughness : {0.1F, 0.4F, 1.0F}) {
     for (const glm::vec3& light : {glm::vec3(0.04F), glm::vec3(0.9F, 0.6F, 0.3F)}) {
       const SeenMirrors plate = seenPlate({.light = light, .roughness = roughness});

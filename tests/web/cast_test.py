@@ -4,12 +4,14 @@
 Arguments: painted_server, viewloom."""
 import io
 import json
+import math
 import signal
 import socket
 import subprocess
 import sys
 import time
 import unittest
+from urllib.parse import parse_qsl, urlsplit
 
 from PIL import Image
 
@@ -65,7 +67,13 @@ class Casting(CastTest):
         self.assertTrue(all(arguments["orchestration"] == TOKEN
                             for _, arguments in self.bridge.calls[1:]))
         entry = self.bridge.calls[4][1]
-        uri = self.server.url + "still/painted_qs8x6a0.75.jpg?quality=85&width=336&height=336"
+        uri = entry["uri"]
+        self.assertTrue(uri.startswith(self.server.url + "still/painted_qs8x6a0.75.jpg?"), uri)
+        asked = dict(parse_qsl(urlsplit(uri).query))
+        self.assertEqual({name: json.loads(message) for name, message in asked.items()}, {
+            "display": {"quilt": {"columns": 8, "rows": 6, "aspect": 0.75,
+                                  "size": {"width": 336, "height": 336}}},
+            "encoding": {"jpeg_quality": 85}})
         self.assertEqual([entry[key] for key in ("uri", "rows", "cols", "aspect", "view_count",
                                                  "isRGBD")], [uri, 6, 8, 0.75, 48, 0])
         self.assertEqual(self.bridge.calls[5][1]["head_index"], PORTRAIT["index"])
@@ -81,8 +89,9 @@ class Casting(CastTest):
         self.assertEqual(result.returncode, DONE, result.stderr)
         uri = dict(self.bridge.calls)["insert_playlist_entry"]["uri"]
         self.assertIn("/still/painted_qs8x6a0.75.jpg?", uri)
-        self.assertIn("preset=portrait", uri)
-        self.assertIn("cone_deg=35", uri)
+        quilt = json.loads(dict(parse_qsl(urlsplit(uri).query))["display"])["quilt"]
+        self.assertEqual(quilt["preset"], "portrait")
+        self.assertAlmostEqual(quilt["view_cone_rad"], math.radians(35))
         self.assertEqual(Image.open(io.BytesIO(self.bridge.shown[0])).size, (3360, 3360))
 
     def test_another_spelling_of_what_the_display_wants(self):

@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page's picker and switches: colour with depth as a display, a focal plane that follows.
 Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
+import json
 import shlex
 import sys
 import unittest
+from urllib.parse import parse_qsl, urlsplit
 
 from modes_test import NAMELESS, SMALL_TARGETS
 from page_test import LIVE, SMALL, PageTest, keep
-from web_client import Server, decode_code
+from web_client import Server, asked, decode_code, quilt
 
 OPEN_MODES = """[...document.querySelectorAll('#modes input')]
   .filter(e => !e.disabled).map(e => e.value)"""
 DISPLAY_IDS = "fetch('/api/displays').then(r => r.json()).then(r => r.displays.map(d => d.id))"
 FACTS = "document.getElementById('facts').innerText"
 WATCH = "document.getElementById('command-watch').value"
+# The display in the page's address; null where a preset's name says it all.
+DISPLAY = "JSON.parse(new URLSearchParams(location.search).get('display'))"
 
 
 class Choices(PageTest):
@@ -51,7 +55,8 @@ class Choices(PageTest):
                 for r in range(rows) for c in range(columns)]
 
     def test_a_preset_of_colour_with_depth_is_watched_whole(self):
-        self.open(SMALL + "&focus_follow_s=1&focus_m=2&mode=rgbd")
+        self.open("?" + asked(quilt(8, 6, 1680, 1680, focal_distance_m=2,
+                                    beside={"focus_following_s": 1}), mode="rgbd"))
         self.choose("wowvx")
         self.browser.wait_for(f"{FACTS}.includes('1920 × 540')")
         note = self.browser.evaluate("document.getElementById('rgbd-note').textContent")
@@ -66,11 +71,16 @@ class Choices(PageTest):
             self.assertTrue(self.browser.evaluate(f"document.getElementById('{slider}').disabled"))
         self.assertEqual(self.browser.evaluate(NAMELESS), [])
         keep(self.browser.screenshot(), "rgbd_display")
-        self.assertEqual(
-            shlex.split(self.browser.evaluate(WATCH)),
-            "viewloom watch painted --preset wowvx --screen 2 --rgbd 320x180 --out atlases".split())
+        words = shlex.split(self.browser.evaluate(WATCH))
+        display = {"rgbd": {"preset": "wowvx", "screen_m": 2,
+                            "view_size": {"width": 320, "height": 180}}}
+        self.assertEqual(words[:4] + words[5:],
+                         "viewloom watch painted --display --out atlases".split())
+        self.assertEqual(json.loads(words[4]), display)
         still = self.browser.evaluate("document.getElementById('command-still').value")
-        self.assertRegex(still, r"/still/painted/wowvx\?.*screen_m=2")
+        url = urlsplit(shlex.split(still)[-1])
+        self.assertEqual(url.path, "/still/painted.jpg")
+        self.assertEqual(json.loads(dict(parse_qsl(url.query))["display"]), display)
 
         self.open(self.browser.evaluate("location.search"))
         self.browser.wait_for(f"{FACTS}.includes('640 × 180')")
@@ -79,11 +89,12 @@ class Choices(PageTest):
         self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
         self.assertEqual(len(self.browser.evaluate(OPEN_MODES)), 6)
         self.assertTrue(self.browser.evaluate("document.getElementById('rgbd').hidden"))
-        self.assertNotIn("width", self.browser.evaluate("location.search"))
+        self.assertIn("preset=portrait", self.browser.evaluate("location.search"))
+        self.assertNotIn("display", self.browser.evaluate("location.search"))
         self.assertEqual(self.browser.messages, [])
 
     def test_elemental_images_have_the_size_of_their_device(self):
-        self.open(SMALL + "&focus_m=2&mode=look")
+        self.open("?" + asked(quilt(8, 6, 1680, 1680, focal_distance_m=2), mode="look"))
         self.choose("near_eye_2013")
         self.browser.wait_for(f"{FACTS}.includes('1280 × 720')")
         self.assertEqual(self.browser.evaluate(OPEN_MODES), ["single", "quilt"])
@@ -95,17 +106,18 @@ class Choices(PageTest):
 
     def test_two_layers_are_four_quadrants(self):
         self.open(SMALL + "&mode=quilt")
-        self.choose("rgbd:two-layers")
+        self.choose("rgbd:RGBD_FORM_TWO_LAYERS")
         self.watch_views_of(320, 180)
         self.browser.wait_for(f"{FACTS}.includes('640 × 360')")
         self.assertEqual(self.codes(2, 2), [0, 1, 2, 3])
-        self.assertIn("--rgbd-form two-layers", self.browser.evaluate(WATCH))
-        self.assertTrue(self.browser.evaluate("document.getElementById('still-elsewhere').hidden"))
+        self.assertIn('"form":"RGBD_FORM_TWO_LAYERS"', self.browser.evaluate(WATCH))
+        self.assertIn("/still/painted.jpg?display=",
+                      self.browser.evaluate("document.getElementById('command-still').value"))
         self.choose("")
         self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
 
     def test_a_full_screen_shows_nothing_but_the_picture(self):
-        self.open("?stream=painted&rgbd=color-depth&width=320&height=180")
+        self.open("?" + asked({"rgbd": {"view_size": {"width": 320, "height": 180}}}))
         self.browser.click("#fullscreen")
         self.browser.wait_for("document.fullscreenElement && innerWidth === "
                               "document.getElementById('stage').clientWidth")
@@ -124,8 +136,8 @@ class Choices(PageTest):
         for kind in ("keyDown", "keyUp"):
             self.browser.call("Input.dispatchKeyEvent", type=kind, key=" ", code="Space", text=" ",
                               windowsVirtualKeyCode=32)
-        self.browser.wait_for("location.search.includes('focus_follow_s=1')")
-        self.browser.wait_for(f"{WATCH}.includes('\"focusFollowingS\":1')")
+        self.browser.wait_for(f"{DISPLAY}?.focus_following_s === 1")
+        self.browser.wait_for(f"{WATCH}.includes('\"focus_following_s\":1')")
         # Another display to the server, as it is another picture.
         self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
                               f"ids[0] !== {before[0]})")
@@ -135,8 +147,8 @@ class Choices(PageTest):
         self.assertTrue(self.browser.evaluate("document.getElementById('follow').checked"))
         self.browser.evaluate("document.getElementById('follow').scrollIntoView()")
         self.browser.click("label.check:has(#follow)")
-        self.browser.wait_for("!location.search.includes('focus_follow_s')")
-        self.browser.wait_for(f"!{WATCH}.includes('focusFollowing')")
+        self.browser.wait_for(f"!{DISPLAY}?.focus_following_s")
+        self.browser.wait_for(f"!{WATCH}.includes('focus_following')")
         self.assertEqual(self.browser.messages, [])
 
     def test_reflections_are_asked_for_by_a_checkbox(self):
@@ -147,7 +159,7 @@ class Choices(PageTest):
             self.browser.evaluate("document.getElementById('reflections').scrollIntoView()")
             self.browser.click("label.check:has(#reflections)")
             no = "" if is_on else "!"
-            self.browser.wait_for(f"{no}location.search.includes('reflections=2')")
+            self.browser.wait_for(f"{no}({DISPLAY}?.effects?.reflection?.bounces === 2)")
             self.browser.wait_for(f"{no}{WATCH}.includes('\"reflection\":{{\"bounces\":2}}')")
             # Another display to the server, as it is another picture.
             self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
@@ -164,8 +176,8 @@ class Choices(PageTest):
         self.browser.evaluate(
             "(s => { s.value = '0.03'; s.dispatchEvent(new Event('change')); })"
             "(document.getElementById('lens'))")
-        self.browser.wait_for("location.search.includes('aperture_m=0.03')")
-        self.browser.wait_for(f"{WATCH}.includes('\"apertureRadiusM\":0.03')")
+        self.browser.wait_for(f"{DISPLAY}?.effects.lens.aperture_radius_m === 0.03")
+        self.browser.wait_for(f"{WATCH}.includes('\"aperture_radius_m\":0.03')")
         self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
                               f"ids[0] !== {before[0]})")
         self.open(self.browser.evaluate("location.search"))
@@ -177,26 +189,29 @@ class Choices(PageTest):
             window.WebSocket = class extends Real {
               constructor(url) { super(url); window.opened.push(String(url)); }
             };""")
-        self.open("?stream=painted&preset=portrait&aperture_m=0.03&mode=quilt")
-        self.assertIn("width=420&height=420", self.browser.evaluate("opened[0]"))
+        lens = {"lens": {"aperture_radius_m": 0.03}}
+        self.open("?" + asked({"preset": "portrait", "effects": lens}, mode="quilt"))
+        opened = dict(parse_qsl(urlsplit(self.browser.evaluate("opened[0]")).query))
+        self.assertEqual(json.loads(opened["display"])["quilt"]["size"],
+                         {"width": 420, "height": 420})
         self.assertEqual(self.browser.messages, [])
 
     def test_atlases_between_frames_and_quality_are_chosen_by_their_lists(self):
         self.open()
         for name, value, address, command in (
-                ("between", "interpolate", "rate_hz=60&between=interpolate",
-                 '"temporal":{"outputRateHz":60,"mode":"TEMPORAL_MODE_INTERPOLATE"}'),
-                ("effort", "draft", "effort=draft", '"quality":"QUALITY_DRAFT"')):
+                ("between", "interpolate", "effects?.temporal",
+                 '"temporal":{"output_rate_hz":60,"mode":"TEMPORAL_MODE_INTERPOLATE"}'),
+                ("effort", "draft", "quality", '"quality":"QUALITY_DRAFT"')):
             before = self.browser.evaluate(DISPLAY_IDS)
             for chosen in (value, ""):
                 self.browser.evaluate(
                     f"(s => {{ s.value = '{chosen}'; s.dispatchEvent(new Event('change')); }})"
                     f"(document.getElementById('{name}'))")
                 if not chosen:
-                    self.browser.wait_for(f"!location.search.includes('{name}')")
+                    self.browser.wait_for(f"!{DISPLAY}?.{address}")
                     self.browser.wait_for(f"!{WATCH}.includes('{command}')")
                     continue
-                self.browser.wait_for(f"location.search.includes('{address}')")
+                self.browser.wait_for(f"{DISPLAY}?.{address}")
                 self.browser.wait_for(f"{WATCH}.includes('{command}')")
                 # Another display to the server, as it is another picture.
                 self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "

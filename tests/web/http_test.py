@@ -4,9 +4,10 @@ import json
 import socket
 import sys
 import unittest
+from urllib.parse import quote
 
 from painted_case import PaintedCase
-from web_client import Server, Stream, fetch, request_bytes
+from web_client import Server, Stream, fetch, quilt, request_bytes
 
 PROGRAM = sys.argv.pop(1)
 
@@ -60,8 +61,17 @@ class Answers(PaintedCase):
         self.assertTrue(streams["painted"]["live"])
         self.assertEqual(streams["painted"]["size"], {"width": 1280, "height": 720})
         presets = self.by_name("presets")
-        self.assertEqual(presets["portrait"]["columns"], 8)
-        self.assertEqual(presets["portrait"]["size"], {"width": 3360, "height": 3360})
+        self.assertEqual(presets["portrait"]["kinds"], ["quilt", "lenticular"])
+        self.assertEqual(presets["portrait"]["layout"]["columns"], 8)
+        self.assertEqual(presets["portrait"]["layout"]["size"], {"width": 3360, "height": 3360})
+        self.assertEqual(presets["near_eye_2013"]["kinds"], ["integral"])
+        self.assertNotIn("layout", presets["wowvx"], "its size is the client's to say")
+
+    def test_tells_the_range_of_each_number_of_a_display(self):
+        fields = fetch(self.port, "/api/fields").json()["fields"]
+        self.assertEqual(fields["quilt.columns"], {"min": 1, "max": 50})
+        self.assertEqual(fields["filter.sample_count"], {"min": 1, "max": 16})
+        self.assertIn("cameras.grid.spacing_x_m", fields)
         self.assertEqual(fetch(self.port, "/api/displays").json(), {"displays": []})
 
     def test_shows_prometheus_what_it_did(self):
@@ -102,33 +112,44 @@ class Refusals(PaintedCase):
         ("/ws?stream=painted&stream=painted", 400, "stream"),
         ("/ws?stream=painted&colour=red", 400, "colour"),
         ("/ws?stream=painted&preset=none", 404, "preset"),
-        ("/ws?stream=painted&columns=0&rows=2&width=9&height=9", 400, "columns"),
-        ("/ws?stream=painted&columns=51&rows=2&width=99&height=99", 400, "columns"),
-        ("/ws?stream=painted&columns=-1&rows=2", 400, "columns"),
-        ("/ws?stream=painted&columns=4294967297&rows=2", 400, "columns"),
-        ("/ws?stream=painted&columns=4x&rows=2", 400, "columns"),
-        ("/ws?stream=painted&columns=&rows=2", 400, "columns"),
         ("/ws?stream=painted&width=99999999&height=1", 400, "width"),
         ("/ws?stream=painted&width=3&height=3000", 400, "width"),
-        ("/ws?stream=painted&aspect=nan", 400, "aspect"),
-        ("/ws?stream=painted&aspect=1e9", 400, "aspect"),
-        ("/ws?stream=painted&cone_deg=-1", 400, "cone_deg"),
-        ("/ws?stream=painted&cone_deg=inf", 400, "cone_deg"),
-        ("/ws?stream=painted&cone_deg=360", 400, "cone_deg"),
-        ("/ws?stream=painted&focus_m=-1", 400, "focus_m"),
-        ("/ws?stream=painted&fov_deg=181", 400, "fov_deg"),
-        ("/ws?stream=painted&quality=101", 400, "quality"),
-        ("/ws?stream=painted&quality=0.5", 400, "quality"),
-        ("/ws?stream=painted&chroma=422", 400, "chroma"),
+        ("/ws?stream=painted&width=4x", 400, "width"),
+        ("/ws?stream=painted&preset=portrait&display=%7B%7D", 400, "preset"),
+        *((f"/ws?stream=painted&display={quote(text)}", 400, field) for text, field in (
+            ("", "display"), ("{", "display"), ("[]", "display"), ("5", "display"),
+            ("{}", "display.kind"), ('{"quilt": 5}', "display.quilt"),
+            ('{"quilt": {}, "stereo": {}}', "display"),
+            ("[" * 2000, "display"), ('{"quilt":' * 200, "display.quilt.quilt"),
+            ('{"quilt": {"columns": 8, "columns": 8}}', "display.quilt.columns"),
+            ('{"quilt": {"colums": 8}}', "display.quilt.colums"))),
+        *((f"/ws?stream=painted&display={quote(json.dumps(display))}", 400, "display." + field)
+          for display, field in (
+              (quilt(0, 2, 9, 9), "quilt.columns"), (quilt(51, 2, 99, 99), "quilt.columns"),
+              (quilt(-1, 2, 9, 9), "quilt.columns"), (quilt(2**32 + 1, 2, 9, 9), "quilt.columns"),
+              (quilt("4x", 2, 9, 9), "quilt.columns"), (quilt("", 2, 9, 9), "quilt.columns"),
+              (quilt(4, 2, 9, 9, aspect="NaN"), "quilt.aspect"),
+              (quilt(4, 2, 9, 9, aspect=1e9), "quilt.aspect"),
+              (quilt(4, 2, 9, 9, view_cone_rad=-1), "quilt.view_cone_rad"),
+              (quilt(4, 2, 9, 9, view_cone_rad="Infinity"), "quilt.view_cone_rad"),
+              (quilt(4, 2, 9, 9, view_cone_rad=6), "quilt.view_cone_rad"),
+              (quilt(4, 2, 9, 9, focal_distance_m=-1), "quilt.focal_distance_m"),
+              (quilt(4, 2, 9, 9, fov_y_rad=3.2), "quilt.fov_y_rad"),
+              (quilt(4, 2, 9, 9, order="TOP"), "quilt.order"))),
+        *((f"/ws?stream=painted&encoding={quote(json.dumps(encoding))}", 400, "encoding." + field)
+          for encoding, field in (
+              ({"jpeg_quality": 101}, "jpeg_quality"), ({"jpeg_quality": 0.5}, "jpeg_quality"),
+              ({"chroma": "CHROMA_SUBSAMPLING_422"}, "chroma"),
+              ({"color": "BAND_ENCODING_ZSTD"}, "color"))),
         ("/still/", 404, "url"),
         ("/still/painted", 404, "url"),
         ("/still/painted.png", 404, "url"),
-        ("/still/painted/", 400, "columns"),
+        ("/still/painted/", 404, "preset"),
         ("/still/painted/none", 404, "preset"),
         ("/still/none/portrait", 404, "stream"),
         ("/still/painted_qsax.jpg", 404, "url"),
-        ("/still/painted_qs0x0a0.jpg", 400, "columns"),
-        ("/still/painted_qs4x2a1.jpg", 400, "width"),
+        ("/still/painted_qs0x0a0.jpg", 400, "display.quilt.columns"),
+        ("/still/painted_qs4x2a1.jpg", 400, "display.quilt.size.width"),
         ("/still/" + "a/" * 2000, 404, "preset"),
     )
 
@@ -144,13 +165,14 @@ class Refusals(PaintedCase):
         for target, name in (("/ws?stream=paintde", "painted"), ("/ws?stream=Painted", "painted"),
                              ("/ws?stream=painted&preset=portait", "portrait"),
                              ("/ws?stream=painted&preset=wovwx", "wowvx"),
-                             ("/ws?stream=painted&colums=4", "columns"),
-                             ("/ws?stream=painted&rgbd=color-depth&near=1", "near_m"),
+                             ("/ws?stream=painted&dispaly=4", "display"),
+                             ('/ws?stream=painted&display={"quilt":{"colums":4}}', "columns"),
+                             ('/ws?stream=painted&display={"rgbd":{"nearM":1,"near":1}}', "near_m"),
                              ("/still/paintd/portrait", "painted"),
                              ("/still/painted/portait.json", "portrait"),
                              ("/stream/painted/portrat", "portrait"),
                              ("/still/painted/near_eye_213", "near_eye_2013"),
-                             ("/ws?stream=painted&rgbd=two-layers&preset=wowx", "wowvx"),
+                             ('/ws?stream=painted&display={"rgbd":{"preset":"wowx"}}', "wowvx"),
                              ("/api/stream", "/api/streams"), ("/metric", "/metrics")):
             with self.subTest(target):
                 message = fetch(self.port, target).json()["error"]["message"]
@@ -161,7 +183,7 @@ class Refusals(PaintedCase):
     def test_upgrades_are_refused_like_requests(self):
         upgrade = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
                    "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
-        for target, status in (("/ws?stream=none", 404), ("/ws?stream=painted&columns=x", 400),
+        for target, status in (("/ws?stream=none", 404), ("/ws?stream=painted&width=x", 400),
                                ("/other", 404)):
             with self.subTest(target):
                 self.assertEqual(fetch(self.port, target, headers=upgrade).status, status)

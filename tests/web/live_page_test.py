@@ -15,10 +15,11 @@ import unittest
 from PIL import Image, ImageChops, ImageStat
 
 from page_test import LIVE, PageTest, keep
-from web_client import TIMEOUT_S, WebSocket, fetch
+from web_client import TIMEOUT_S, WebSocket, asked, fetch, quilt
 
 SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
-DISPLAY = "columns=6&rows=2&width=722&height=323&aspect=0.75"
+QUILT = quilt(6, 2, 722, 323, aspect=0.75)
+DISPLAY = asked(QUILT, stream="scene")
 COLUMNS, ROWS, TILE = 6, 2, (120, 161)  # of DISPLAY; 2 px at the right and 1 at the top are padding
 PADDING_TOP_PX = 1
 
@@ -107,7 +108,7 @@ class LivePage(PageTest):
         return [image.crop((x, y, x + width, y + height)) for x, y in corners]
 
     def test_shows_the_scene_moving_and_then_the_view_under_the_pointer(self):
-        self.open(f"?stream=scene&{DISPLAY}")
+        self.open(f"?{DISPLAY}")
         self.look(0.5)
         before = self.shown_sequence()
         first = self.shown_picture()
@@ -123,7 +124,7 @@ class LivePage(PageTest):
         self.assertGreater(difference(tiles[0], tiles[-1]), difference(tiles[0], tiles[1]))
 
     def test_comes_back_after_a_restart_of_the_server(self):
-        self.open(f"?stream=scene&{DISPLAY}")
+        self.open(f"?{DISPLAY}")
         self.assertEqual(self.server.stop(), 0)
         self.browser.wait_for("document.documentElement.dataset.state === 'reconnecting'")
         self.server = LiveServer(self.server.port, self.server.grpc_port)
@@ -131,9 +132,10 @@ class LivePage(PageTest):
 
     def test_the_command_for_elsewhere_receives_what_the_page_shows(self):
         for query, suffix, size in ((DISPLAY, "_qs6x2a0.75", (722, 323)),
-                                    ("preset=portrait&detail=0.125", "_qs8x6a0.75", (3360, 3360))):
+                                    (asked(stream="scene", preset="portrait", detail=0.125),
+                                     "_qs8x6a0.75", (3360, 3360))):
             with self.subTest(query), tempfile.TemporaryDirectory() as folder:
-                self.open(f"?stream=scene&{query}")
+                self.open(f"?{query}")
                 command = self.browser.wait_for("document.getElementById('command-watch').value")
                 program = f"{os.path.abspath(CLIENT)} --server 127.0.0.1:{self.server.grpc_port}"
                 self.assertEqual(command.count("viewloom watch "), 1)
@@ -150,8 +152,9 @@ class LivePage(PageTest):
         self.publisher.stop()
         self.publish("--mirrors", "--seconds", "0.1").process.wait(TIMEOUT_S)
         # What is published stands still from now on; with reflections and without.
-        tiles = [self.tiles(self.still(query)) for query in (DISPLAY, DISPLAY + "&reflections=2")]
-        self.open(f"?stream=scene&{DISPLAY}")
+        tiles = [self.tiles(self.still(effects))
+                 for effects in ({}, {"reflection": {"bounces": 2}})]
+        self.open(f"?{DISPLAY}")
         view = self.look(0.5)
         without, mirrored = [of_views[view] for of_views in tiles]
         self.assertGreater(difference(without, mirrored), 2, "nothing mirrors")
@@ -162,11 +165,12 @@ class LivePage(PageTest):
             self.look(0.5)
             self.wait_for_picture(shown, other)
 
-    def still(self, query):
+    def still(self, effects):
         """Reflections may take longer than a still waits."""
         deadline = time.monotonic() + TIMEOUT_S
         while time.monotonic() < deadline:
-            reply = fetch(self.server.port, f"/still/scene_qs6x2a0.75.jpg?{query}")
+            display = asked({**QUILT, "effects": effects}, stream=None)
+            reply = fetch(self.server.port, f"/still/scene_qs6x2a0.75.jpg?{display}")
             if reply.status != 504:
                 self.assertEqual(reply.status, 200, reply.body[:300])
                 return reply.body
@@ -183,13 +187,14 @@ class LivePage(PageTest):
             self.assertLess(time.monotonic(), deadline, f"differs by {errors}")
 
     def test_the_latency_of_a_frame_that_stands_is_not_its_age(self):
-        first = WebSocket(self.server.port, f"/ws?stream=scene&{DISPLAY}")
+        first = WebSocket(self.server.port, f"/ws?{DISPLAY}")
         self.addCleanup(first.close)
         first.receive_atlas()
         self.publisher.stop()
         time.sleep(5)
         begin = time.monotonic()
-        second = WebSocket(self.server.port, f"/ws?stream=scene&{DISPLAY}&focus_m=2")
+        second = WebSocket(self.server.port, "/ws?" + asked(
+            quilt(6, 2, 722, 323, aspect=0.75, focal_distance_m=2), stream="scene"))
         self.addCleanup(second.close)
         times = second.receive_atlas().header["times"]
         taken_s = time.monotonic() - begin
@@ -201,7 +206,7 @@ class LivePage(PageTest):
 
     def test_depth_is_that_of_the_scene(self):
         viewer = WebSocket(self.server.port,
-                           "/ws?stream=scene&columns=1&rows=1&width=160&height=120&depth=1")
+                           "/ws?" + asked(quilt(1, 1, 160, 120), {"with_depth": True}, "scene"))
         self.addCleanup(viewer.close)
         atlas = viewer.receive_atlas()
         inv_z = struct.unpack(f"<{160 * 120}f", atlas.depth)
@@ -213,7 +218,7 @@ class LivePage(PageTest):
         self.assertLess(max(inv_z), 100)
 
     def test_a_hundred_viewers_of_one_display_cost_one_encode(self):
-        viewers = [WebSocket(self.server.port, f"/ws?stream=scene&{DISPLAY}") for _ in range(100)]
+        viewers = [WebSocket(self.server.port, f"/ws?{DISPLAY}") for _ in range(100)]
         for viewer in viewers:
             self.addCleanup(viewer.close)
             viewer.shown(viewer.receive_atlas())

@@ -13,7 +13,7 @@ import unittest
 from PIL import Image
 
 from page_test import LEAST_CONTRAST, PageTest, READABLE, SMALL, keep
-from web_client import Server, WebSocket, decode_code
+from web_client import Server, WebSocket, asked, decode_code, quilt
 
 # What a finger has to hit, and what of it is too small, px.
 SMALL_TARGETS = """[...document.querySelectorAll(
@@ -170,8 +170,8 @@ class Modes(PageTest):
         self.open(SMALL + "&mode=quilt")
         command = {name: self.browser.wait_for(f"document.getElementById('command-{name}').value")
                    for name in ("watch", "still", "socket")}
-        self.assertIn("viewloom watch painted --display display.json", command["watch"])
-        self.assertNotIn("focusFollowing", command["watch"])
+        self.assertIn("viewloom watch painted --display '{\"quilt\":", command["watch"])
+        self.assertNotIn("focus_following", command["watch"])
         self.assert_curl_writes(command["still"], "painted_qs8x6a0.75.jpg", (1680, 1680))
         viewer = WebSocket(self.server.port, command["socket"].split(str(self.server.port), 1)[1])
         self.addCleanup(viewer.close)
@@ -203,9 +203,9 @@ class Modes(PageTest):
                                  "preset=portrait")
 
     def test_a_focal_plane_that_follows_does_so_in_the_commands_too(self):
-        for address, words in ((SMALL, '{"focusFollowingS":0.5,"quilt":'),
-                               ("?stream=painted", " --focus-follow 0.5")):
-            self.open(address + "&focus_follow_s=0.5")
+        words = '"focus_following_s":0.5'
+        for display in (quilt(8, 6, 1680, 1680), {"preset": "portrait"}):
+            self.open("?" + asked({**display, "focus_following_s": 0.5}))
             watch = self.browser.wait_for("document.getElementById('command-watch').value")
             self.assertIn(words, watch)
 

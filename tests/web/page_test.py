@@ -8,9 +8,9 @@ import time
 import unittest
 
 from browser import CHROMIUM, Browser
-from web_client import Server, decode_code
+from web_client import Server, asked, decode_code, quilt
 
-SMALL = "?stream=painted&columns=8&rows=6&width=1680&height=1680&aspect=0.75"
+SMALL = "?" + asked(quilt(8, 6, 1680, 1680, aspect=0.75))
 GROUND = (10, 12, 16)
 LIVE = "document.documentElement.dataset.state === 'live'"
 
@@ -231,7 +231,7 @@ class Page(PageTest):
         self.browser.wait_for(f"{label}.textContent === 'Reduced detail, as chosen: "
                               "105 of 420 px wide' && !{0}.hidden".replace("{0}", label))
         keep(self.browser.screenshot(), "reduced")
-        self.open("?stream=painted&mode=quilt&columns=8&rows=6&width=640&height=480")
+        self.open("?" + asked(quilt(8, 6, 640, 480), mode="quilt"))
         self.assertTrue(self.browser.evaluate(f"{label}.hidden"))
 
     def test_says_how_to_start_a_stream_when_there_is_none(self):

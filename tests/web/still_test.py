@@ -15,7 +15,7 @@ from painted_case import PaintedCase
 from web_client import decode_view, fetch
 
 PROGRAM = sys.argv.pop(1)
-SMALL = "columns=4&rows=2&width=320&height=160"
+SMALL = "width=320&height=160"
 
 
 class Stills(PaintedCase):

@@ -9,12 +9,15 @@ import unittest
 
 from PIL import Image
 
-from web_client import TIMEOUT_S, Server, Stream, decode_view, fetch, request_bytes
+from web_client import (TIMEOUT_S, Server, Stream, asked, decode_view, fetch, quilt,
+                        request_bytes)
 
 PROGRAM = sys.argv.pop(1)
 SMALL = "/stream/painted_qs4x2a1.mjpg?width=320&height=160"
 # Atlases of 0.4 MB: twenty are more than the sockets of a player hold.
-LARGE = "/stream/painted_qs8x6a1.mjpg?width=3200&height=2400&quality=100&chroma=444"
+LARGE = "/stream/painted_qs8x6a1.mjpg?" + asked(
+    quilt(8, 6, 3200, 2400, aspect=1),
+    {"jpeg_quality": 100, "chroma": "CHROMA_SUBSAMPLING_444"}, stream=None)
 STILL = SMALL.replace("stream", "still").replace("mjpg", "jpg")
 OPENING = b"--viewloom\r\nContent-Type: image/jpeg\r\n\r\n"
 CLOSING = b"--viewloom--\r\n"
@@ -214,9 +217,12 @@ class Streams(unittest.TestCase):
         self.assertEqual(player.read_reply().body, b"serving\n")
 
     def test_players_are_counted_among_the_displays_allowed(self):
+        def at(focal_distance_m):
+            display = quilt(4, 2, 320, 160, aspect=1, focal_distance_m=focal_distance_m)
+            return "/stream/painted_qs4x2a1.mjpg?" + asked(display, stream=None)
         for index in range(64):
-            self.play(f"{SMALL}&focus_m={index + 1}").next_part()
-        refused = Player(self.server.port, f"{SMALL}&focus_m=65")
+            self.play(at(index + 1)).next_part()
+        refused = Player(self.server.port, at(65))
         self.addCleanup(refused.close)
         self.assertEqual(refused.reply.status, 503)
         self.assertIn("too many distinct displays", refused.reply.json()["error"]["message"])
@@ -235,7 +241,8 @@ class Streams(unittest.TestCase):
                                       ("/stream/painted_qs4x2a1.jpg", 404, "url"),
                                       ("/stream/none/portrait", 404, "stream"),
                                       ("/stream/painted/none", 404, "preset"),
-                                      ("/stream/painted_qs0x0a0.mjpg", 400, "columns")):
+                                      ("/stream/painted_qs0x0a0.mjpg", 400,
+                                       "display.quilt.columns")):
             with self.subTest(target):
                 reply = fetch(self.server.port, target)
                 self.assertEqual((reply.status, reply.json()["error"]["field"]), (status, field))

@@ -8,10 +8,19 @@ import unittest
 
 from PIL import Image
 
-from web_client import Server, WebSocket, decode_view, fetch
+from web_client import Server, WebSocket, asked, decode_view, fetch, quilt
 
 PROGRAM = sys.argv.pop(1)
-SMALL = "/ws?stream=painted&columns=4&rows=2&width=320&height=160"
+SMALL_QUILT = quilt(4, 2, 320, 160)
+SMALL = "/ws?" + asked(SMALL_QUILT)
+
+
+def small(**fields):
+    return quilt(4, 2, 320, 160, **fields)
+
+
+def change(**fields):
+    return {"change": {"display": small(**fields)}}
 THREAD_COUNT = 2  # of the web server
 
 
@@ -28,7 +37,8 @@ class Viewers(unittest.TestCase):
         return viewer
 
     def test_an_atlas_is_one_jpeg_and_its_whole_truth(self):
-        atlas = self.watch(SMALL + "&cone_deg=30&focus_m=1.5&quality=70").receive_atlas()
+        display = small(view_cone_rad=0.5235987755982988, focal_distance_m=1.5)
+        atlas = self.watch("/ws?" + asked(display, {"jpeg_quality": 70})).receive_atlas()
         header = atlas.header
         self.assertEqual((header["sequence"], header["delivery"], header["frame_number"]),
                          (1, 1, "1"))
@@ -46,15 +56,18 @@ class Viewers(unittest.TestCase):
 
     def test_depth_comes_behind_the_picture_when_asked(self):
         self.assertEqual(self.watch().receive_atlas().depth, b"")
-        atlas = self.watch(SMALL + "&depth=1").receive_atlas()
+        with_depth = "/ws?" + asked(SMALL_QUILT, {"with_depth": True})
+        atlas = self.watch(with_depth).receive_atlas()
         values = struct.unpack(f"<{320 * 160}f", atlas.depth)
         for x, expected in ((0, 0.25), (40, 0.625), (79, 1), (80, 0.25)):  # tiles are 80 px wide
             self.assertAlmostEqual(values[100 * 320 + x], expected, delta=0.01)
         with Image.open(io.BytesIO(atlas.jpeg)) as image:
             self.assertEqual(image.size, (320, 160))
-        refused = WebSocket(self.server.port, SMALL + "&depth=2").reply.json()["error"]
-        self.assertEqual((refused["field"], refused["message"]),
-                         ("depth", 'depth: got "2", accepted are 0 and 1'))
+        wrong = "/ws?" + asked(SMALL_QUILT, {"with_depth": 2})
+        refused = WebSocket(self.server.port, wrong).reply.json()["error"]
+        self.assertEqual(
+            (refused["field"], refused["message"]),
+            ("encoding.with_depth", "encoding.with_depth: got 2, accepted is true or false"))
 
     def test_a_joiner_on_a_still_stream_gets_the_newest_atlas(self):
         first = self.watch().receive_atlas()
@@ -104,19 +117,27 @@ class Viewers(unittest.TestCase):
     def test_a_change_gives_another_display_and_a_bad_one_keeps_the_old(self):
         viewer = self.watch()
         viewer.shown(viewer.receive_atlas())
-        viewer.send_json({"change": {"focus_m": 0.5, "cone_deg": "20"}})
+        viewer.send_json(change(focal_distance_m=0.5, view_cone_rad=0.35))
         changed = viewer.receive_atlas()
         viewer.shown(changed)
         self.assertEqual(changed.header["layout"]["focal_distance_m"], 0.5)
         self.assertEqual(changed.header["layout"]["columns"], 4)
         self.assertEqual(changed.header["delivery"], 2)
-        viewer.send_json({"change": {"focus_m": -1}})
-        self.assertEqual(viewer.receive()["error"]["field"], "change.focus_m")
+        viewer.send_json(change(focal_distance_m=-1))
+        self.assertEqual(viewer.receive()["error"]["field"],
+                         "change.display.quilt.focal_distance_m")
+        viewer.send_json(change(focal_distance=1))
+        self.assertEqual(viewer.receive()["error"]["message"].rsplit("; ", 1)[1],
+                         'did you mean "focal_distance_m"?')
+        viewer.send_json({"change": {"encoding": {"jpeg_quality": 60}}})
+        packed = viewer.receive_atlas()
+        viewer.shown(packed)
+        self.assertEqual(packed.header["encoding"]["jpeg_quality"], 60)
         self.server.command("frame")
         kept = viewer.receive_atlas()
         viewer.shown(kept)
         self.assertEqual(kept.header["layout"]["focal_distance_m"], 0.5)
-        viewer.send_json({"change": {"focus_m": None}})
+        viewer.send_json({"change": {"display": SMALL_QUILT}})
         self.assertEqual(viewer.receive_atlas().header["layout"]["focal_distance_m"], 2)
         self.assertEqual(len(fetch(self.server.port, "/api/displays").json()["displays"]), 1)
 
@@ -124,32 +145,33 @@ class Viewers(unittest.TestCase):
         viewer = self.watch()
         first = viewer.receive_atlas()
         viewer.shown(first)
-        viewer.send_json({"change": {"focus_m": 0.5}})
+        viewer.send_json(change(focal_distance_m=0.5))
         second = viewer.receive_atlas()
         viewer.shown(second)
-        viewer.send_json({"change": {"focus_m": -1}})  # in vain, and yet asked for
-        self.assertEqual(viewer.receive()["error"]["field"], "change.focus_m")
+        viewer.send_json(change(focal_distance_m="far"))  # in vain, and yet asked for
+        self.assertEqual(viewer.receive()["error"]["field"],
+                         "change.display.quilt.focal_distance_m")
         self.server.command("frame")
         third = viewer.receive_atlas()
         self.assertEqual([atlas.header["change_count"] for atlas in (first, second, third)],
                          [0, 1, 2])
 
     def test_a_part_of_the_cone_is_the_views_of_the_whole_that_stand_there(self):
-        target = "/ws?stream=painted&preset=portrait&columns=5&rows=1&width=400&height=107"
-        part = "&cone_begin=%r&cone_end=%r" % (20 / 48, 25 / 48)
-        atlas = self.watch(target + part).receive_atlas()
+        def part(**fields):
+            return "/ws?" + asked(quilt(5, 1, 400, 107, preset="portrait", **fields))
+        atlas = self.watch(part(cone_begin=20 / 48, cone_end=25 / 48)).receive_atlas()
         layout = atlas.header["layout"]
         self.assertEqual((layout["view_count"], layout["cone_begin"], layout["cone_end"]),
                          (5, 20 / 48, 25 / 48))
         image = Image.open(io.BytesIO(atlas.jpeg))
         self.assertEqual([decode_view(image, layout, view) for view in range(5)],
                          list(range(20, 25)))
-        for wrong, field in (("&cone_begin=-0.1", "cone_begin"), ("&cone_end=1.1", "cone_end"),
-                             ("&cone_begin=0.6&cone_end=0.5", "cone_end"),
-                             ("&cone_begin=nan", "cone_begin")):
-            refused = WebSocket(self.server.port, target + wrong)
+        for wrong, field in (({"cone_begin": -0.1}, "cone_begin"), ({"cone_end": 1.1}, "cone_end"),
+                             ({"cone_begin": 0.6, "cone_end": 0.5}, "cone_end"),
+                             ({"cone_begin": "NaN"}, "cone_begin")):
+            refused = WebSocket(self.server.port, part(**wrong))
             self.addCleanup(refused.close)
-            self.assertEqual(refused.reply.json()["error"]["field"], field)
+            self.assertEqual(refused.reply.json()["error"]["field"], "display.quilt." + field)
 
     def test_a_viewer_that_asks_whether_the_server_is_there_is_answered(self):
         viewer = self.watch()
@@ -161,7 +183,7 @@ class Viewers(unittest.TestCase):
     def test_a_viewer_that_answers_no_ping_is_gone_and_one_that_does_stays(self):
         with Server(PROGRAM, "--idle-ms", 400) as server:
             deaf = WebSocket(server.port, SMALL)
-            awake = WebSocket(server.port, SMALL + "&focus_m=1")
+            awake = WebSocket(server.port, "/ws?" + asked(small(focal_distance_m=1)))
             for viewer in (deaf, awake):
                 self.addCleanup(viewer.close)
                 viewer.receive_atlas()
@@ -174,12 +196,17 @@ class Viewers(unittest.TestCase):
     def test_messages_that_mean_nothing_are_answered_with_what_is_accepted(self):
         viewer = self.watch()
         viewer.shown(viewer.receive_atlas())
-        for payload in (b"", b"{", b"[]", b"17", b'"shown"', b'{"shown": -1}', b'{"shown": 1e99}',
-                        b'{"shown": 1, "change": {}}', b'{"change": 5}', b'{"other": 1}',
-                        b"[" * 4000):
+        for payload, field in ((b"", "message"), (b"{", "message"), (b"[]", "message"),
+                               (b"17", "message"), (b'"shown"', "message"), (b"{}", "message"),
+                               (b'{"shown": -1}', "shown"), (b'{"shown": 1e99}', "shown"),
+                               (b'{"shown": 1, "change": {}}', "message"),
+                               (b'{"shown": 1, "shown": 1}', "shown"),
+                               (b'{"change": 5}', "change"), (b'{"other": 1}', "other"),
+                               (b'{"change": {"display": {"quilt": []}}}', "change.display.quilt"),
+                               (b"[" * 60_000, "message")):
             with self.subTest(payload[:30]):
                 viewer.send_frame(WebSocket.TEXT, payload)
-                self.assertEqual(viewer.receive()["error"]["field"], "message")
+                self.assertEqual(viewer.receive()["error"]["field"], field)
         viewer.send_json({"shown": 2**63})
         self.server.command("frame")
         self.assertEqual(viewer.receive_atlas().header["sequence"], 2)
@@ -187,7 +214,9 @@ class Viewers(unittest.TestCase):
     def test_a_message_over_the_limit_ends_the_connection(self):
         viewer = self.watch()
         viewer.shown(viewer.receive_atlas())
-        viewer.send_frame(WebSocket.TEXT, b" " * 5000)
+        viewer.send_frame(WebSocket.TEXT, b" " * 60_000, is_last=False)
+        viewer.send_frame(WebSocket.CONTINUATION, b" " * 60_000, is_last=False)
+        viewer.send_frame(WebSocket.CONTINUATION, b" " * 60_000)
         self.assertIsNone(viewer.receive())
         self.assertEqual(viewer.close_code, 1009)
 

@@ -11,11 +11,12 @@ import numpy as np
 from browser import Browser
 from page_test import PageTest, keep
 from panel_formula import CELLS, PORTRAIT, edited, view_coordinates
-from web_client import Server
+from web_client import Server, asked, quilt
 
 VIEW_COUNT = 48
 # Tiles of 80x80 px are whole JPEG blocks: no grey reaches into another.
-QUILT = "?stream=painted&columns=8&rows=6&width=640&height=480&aspect=0.75&quality=100&chroma=444"
+QUILT = "?" + asked(quilt(8, 6, 640, 480, aspect=0.75),
+                    {"jpeg_quality": 100, "chroma": "CHROMA_SUBSAMPLING_444"})
 SMALL = {"screenW": 333, "screenH": 444, "DPI": 80}
 SERIAL = edited(PORTRAIT, **SMALL)
 # Lenses are known to 2^-24 and summed over 333 + 444 px; a view is 1/48 of one.

@@ -8,9 +8,25 @@ import os
 import socket
 import struct
 import subprocess
-from urllib.parse import urlsplit
+from urllib.parse import urlencode, urlsplit
 
 TIMEOUT_S = 60  # of any single wait; a test that reaches it has failed
+
+
+def asked(display=None, encoding=None, stream="painted", **others):
+    """Parameters of /ws, a still, or the page: messages as JSON."""
+    parameters = {"stream": stream} if stream else {}
+    parameters.update(others)
+    for name, message in (("display", display), ("encoding", encoding)):
+        if message is not None:
+            parameters[name] = json.dumps(message)
+    return urlencode(parameters)
+
+
+def quilt(columns, rows, width, height, beside=None, **fields):
+    """A quilt of that grid and size as a Display; beside: fields of the Display."""
+    return {"quilt": {"columns": columns, "rows": rows,
+                      "size": {"width": width, "height": height}, **fields}, **(beside or {})}
 
 
 class Server:
@@ -140,13 +156,13 @@ class WebSocket:
         self.reply = self.stream.read_reply()
         self.is_open = self.reply is not None and self.reply.status == 101
 
-    def send_frame(self, opcode, payload=b""):
+    def send_frame(self, opcode, payload=b"", is_last=True):
         mask = os.urandom(4)
         size = len(payload)
         if size < 126:
-            head = struct.pack("!BB", 0x80 | opcode, 0x80 | size)
+            head = struct.pack("!BB", is_last << 7 | opcode, 0x80 | size)
         else:
-            head = struct.pack("!BBH", 0x80 | opcode, 0x80 | 126, size)
+            head = struct.pack("!BBH", is_last << 7 | opcode, 0x80 | 126, size)
         masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(payload))
         self.stream.send(head + mask + masked)
 

@@ -6,20 +6,10 @@
 
 #include "base/check.h"
 #include "base/str_cat.h"
-#include "display/camera_list.h"
-#include "display/integral.h"
-#include "display/lenticular.h"
-#include "display/quilt.h"
-#include "display/rgbd.h"
-#include "display/stereo.h"
 #include "display/tracked_eyes.h"
 
 namespace viewloom {
 namespace {
-
-TileGrid tileGridOf(const DisplaySpec& spec) {
-  return std::visit([](const auto& kind) { return tileGrid(kind); }, spec.kind);
-}
 
 // A lens has at least as many samples as it has points to be walked through. Without a filter they
 // are spread over the px alone, so that what is in focus has no stairs.
@@ -116,6 +106,10 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
                       "the stream's camera and this display give no finite view");
   }
   return layout;
+}
+
+TileGrid tileGridOf(const DisplaySpec& spec) {
+  return std::visit([](const auto& kind) { return tileGrid(kind); }, spec.kind);
 }
 
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits) {

@@ -130,6 +130,8 @@ struct AtlasLimits {
 // `eyes`: of a tracked display; nullptr = none came yet.
 absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults,
                                             const EyePoses* eyes = nullptr);
+// Its tiles, without a stream. Expects a completed spec.
+TileGrid tileGridOf(const DisplaySpec& spec);
 // Without a stream: checks sizes and counts before anything is allocated.
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
 

@@ -2,16 +2,11 @@
 #include "display/display_spec.h"
 
 #include <array>
+#include <utility>
 
+#include "base/check.h"
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
-#include "display/camera_list.h"
-#include "display/field_checks.h"
-#include "display/integral.h"
-#include "display/lenticular.h"
-#include "display/quilt.h"
-#include "display/rgbd.h"
-#include "display/stereo.h"
 
 namespace viewloom {
 namespace {
@@ -19,31 +14,8 @@ namespace {
 // By quality: draft, balanced, best.
 constexpr std::array<double, 3> kTolerances_px = {1, kDefaultTolerance_px, 0.0625};
 
-// Of the plane that all views frame.
-double* focalDistanceOf(QuiltSpec& quilt) {
-  return &quilt.focal_distance_m;
-}
-double* focalDistanceOf(StereoSpec& stereo) {
-  const bool has_own_eyes = stereo.is_tracked || !stereo.eyes.empty();
-  return has_own_eyes ? nullptr : &stereo.focal_distance_m;
-}
-double* focalDistanceOf(CamerasSpec& cameras) {
-  return cameras.grid ? &cameras.grid->focal_distance_m : nullptr;
-}
-double* focalDistanceOf(LenticularSpec& lenticular) {
-  return &lenticular.focal_distance_m;
-}
-double* focalDistanceOf(IntegralSpec&) {
-  return nullptr;  // its panel stands where it stands
-}
-double* focalDistanceOf(RgbdSpec&) {
-  return nullptr;  // one view frames nothing that others do
-}
-
 absl::Status checkFocusFollowing(const DisplaySpec& spec) {
   if (spec.focus_following_s == 0) return absl::OkStatus();
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.focus_following_s, kFocusFollowingMin_s,
-                                      kFocusFollowingMax_s, "focus_following_s"));
   if (withFocalDistance(spec, 1)) return absl::OkStatus();
   return invalidField(
       "focus_following_s",
@@ -51,37 +23,91 @@ absl::Status checkFocusFollowing(const DisplaySpec& spec) {
       "without given or tracked eyes, grids of cameras and lenticular panels");
 }
 
+// A visitor that notes the range of every number.
+class RangeNotes {
+ public:
+  template <typename Number>
+  void operator()(const char* name, const Number&, const Range& range) {
+    ranges_[prefix_ + name] = range;
+  }
+  void operator()(const char* name, SizePx, const Range& range) {
+    ranges_[strCat(prefix_, name, ".width")] = range;
+    ranges_[strCat(prefix_, name, ".height")] = range;
+  }
+  void operator()(const char*, bool) {}
+  template <typename... Parts>
+  void word(const char*, const Parts&...) {}
+  template <typename... Parts>
+  void label(const char*, const Parts&...) {}
+  void color(const char*, uint32_t) {}
+  void cameras(const char*, const std::vector<ViewCamera>&) {}
+  void pose(const char*, const std::optional<Pose>&) {}
+  template <typename Spec>
+  void part(const char* name, const std::optional<Spec>&) {
+    group(name, [&] {
+      Spec any;
+      visitFields(any, *this);
+    });
+  }
+  template <typename Function>
+  void group(const char* name, const Function& visit) {
+    const std::string outer = prefix_;
+    prefix_ += strCat(name, ".");
+    visit();
+    prefix_ = outer;
+  }
+  void kind(const DisplayKind&) {
+    forEachKind([this](const auto& spec) { part(spec.kName, std::optional(spec)); });
+  }
+  template <typename Function>
+  void made(const Function&) {}
+
+  std::map<std::string, Range, std::less<>> take() { return std::move(ranges_); }
+
+ private:
+  std::string prefix_;
+  std::map<std::string, Range, std::less<>> ranges_;
+};
+
 }  // namespace
 
+const std::map<std::string, Range, std::less<>>& fieldRanges() {
+  static const auto kRanges = [] {
+    RangeNotes notes;
+    const DisplaySpec any;
+    visitFields(any, notes);
+    return notes.take();
+  }();
+  return kRanges;
+}
+
+Range rangeOf(std::string_view field) {
+  const auto found = fieldRanges().find(field);
+  VIEWLOOM_CHECK(found != fieldRanges().end());
+  return found->second;
+}
+
 std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m) {
-  double* const place = std::visit([](auto& kind) { return focalDistanceOf(kind); }, spec.kind);
+  double* const place = std::visit([](auto& kind) { return focalPlane(kind); }, spec.kind);
   if (place == nullptr) return std::nullopt;
   *place = focal_distance_m;
   return spec;
 }
 
 absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
-  VIEWLOOM_RETURN_IF_ERROR(std::visit([](auto& kind) { return complete(kind); }, spec.kind));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkCount(spec.filter.sample_count, kFilterSampleCountMax, "filter.sample_count"));
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.filter.width, 0, kFilterWidthMax, "filter.width"));
+  VIEWLOOM_RETURN_IF_ERROR(std::visit([](auto& kind) { return takePreset(kind); }, spec.kind));
+  FieldChecks checks;
+  visitFields(std::as_const(spec), checks);
+  VIEWLOOM_RETURN_IF_ERROR(checks.status());
+  VIEWLOOM_RETURN_IF_ERROR(std::visit([](auto& kind) { return settle(kind); }, spec.kind));
   VIEWLOOM_RETURN_IF_ERROR(checkFocusFollowing(spec));
   if (spec.lens) {
-    VIEWLOOM_RETURN_IF_ERROR(
-        withFieldPrefix(completeLens(*spec.lens, spec.quality), "effects.lens"));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settle(*spec.lens, spec.quality), "effects.lens"));
   }
-  if (spec.temporal) VIEWLOOM_RETURN_IF_ERROR(complete(*spec.temporal));
-  if (spec.reflection) {
-    VIEWLOOM_RETURN_IF_ERROR(
-        withFieldPrefix(completeReflection(*spec.reflection, spec.quality), "effects.reflection"));
-  }
-  if (spec.world_pose) VIEWLOOM_RETURN_IF_ERROR(validatePose(*spec.world_pose, "world_pose"));
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(spec.tolerance_px, 0, kTolerancePxMax, "tolerance_px"));
+  if (spec.temporal) settle(*spec.temporal);
+  if (spec.reflection) settle(*spec.reflection, spec.quality);
   if (spec.tolerance_px == 0) spec.tolerance_px = kTolerances_px[size_t(spec.quality)];
-  if (spec.background_rgb > 0xFFFFFF) {
-    return invalidField("background_rgb", strCat("got 0x", absl::Hex(spec.background_rgb),
-                                                 ", accepted is 0..0xffffff"));
-  }
+  if (spec.filter.sample_count == 1) spec.filter.width = RayFilter{}.width;  // nothing is spread
   // Stills and browsers take any display as JPEG, so no atlas may be larger than a JPEG.
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(
       spec,
@@ -90,7 +116,7 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
 }
 
 absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(encoding.jpeg_quality, 100, "jpeg_quality"));
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.jpeg_quality, {1, 100}, "jpeg_quality"));
   if (encoding.planes == BandEncoding::kJpeg || encoding.planes == BandEncoding::kJpegPlanes) {
     return invalidField("planes", "got JPEG, which loses depth and mask; accepted is ZSTD or RAW");
   }
@@ -100,7 +126,7 @@ absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding) {
   const bool shares_chroma =
       encoding.color == BandEncoding::kJpeg && encoding.chroma == Chroma::k420;
-  if (!shares_chroma || !std::holds_alternative<LenticularSpec>(spec.kind)) return absl::OkStatus();
+  if (!shares_chroma || tileGridOf(spec).rays_per_px == 1) return absl::OkStatus();
   return invalidField("chroma",
                       "got 420 for a lenticular panel, whose subpixels each show another view: "
                       "shared chroma mixes them; accepted are 444, JPEG_PLANES, ZSTD and RAW");

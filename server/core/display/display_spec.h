@@ -2,24 +2,28 @@
 // What a client wants to see, checked and with every default filled in but those the stream gives.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "base/status.h"
 #include "display/display_kinds.h"
-#include "display/lens.h"
+#include "display/effects.h"
+#include "display/fields.h"
 #include "display/ray_samples.h"
-#include "display/reflection.h"
-#include "display/temporal_spec.h"
 #include "frame/camera.h"
 
 namespace viewloom {
 
 enum class OutsideFill : uint8_t { kBorder, kBackground };
+inline constexpr Word<OutsideFill> kOutsideFills[] = {{"BORDER", OutsideFill::kBorder},
+                                                      {"BACKGROUND", OutsideFill::kBackground}};
 
 struct DisplaySpec {
-  std::variant<QuiltSpec, StereoSpec, CamerasSpec, LenticularSpec, IntegralSpec, RgbdSpec> kind;
+  DisplayKind kind;
   RayFilter filter;
   std::optional<Pose> world_pose;  // none = stands in the source's camera
   double tolerance_px = 0;         // output px; 0 = of the quality
@@ -32,12 +36,34 @@ struct DisplaySpec {
   std::optional<TemporalSpec> temporal;  // none = an atlas a frame
 };
 
-// Ranges of proto Display.
-inline constexpr double kTolerancePxMax = 16;
+template <SpecOf<DisplaySpec> Display, typename Visitor>
+void visitFields(Display& display, Visitor& visit) {
+  visit.kind(display.kind);
+  visit.pose("world_pose", display.world_pose);
+  visit("tolerance_px", display.tolerance_px, Range{0, 16});
+  visit.word("outside_fill", display.outside_fill, kOutsideFills);
+  visit.color("background_rgb", display.background_rgb);
+  visit.group("effects", [&] {
+    visit.part("lens", display.lens);
+    visit.part("temporal", display.temporal);
+    visit.part("reflection", display.reflection);
+  });
+  visit.group("filter", [&] {
+    visit("sample_count", display.filter.sample_count, Range{1, kFilterSampleCountMax});
+    visit("width", display.filter.width, Range{0, kFilterWidthMax});
+  });
+  visit("focus_following_s", display.focus_following_s, Range{0.01, 60, true});
+  visit.label("quality", display.quality, kQualities);
+}
+
 inline constexpr double kDefaultTolerance_px = 0.25;  // of balanced quality
 inline constexpr uint32_t kJpegSidePxMax = 65500;     // libjpeg's JPEG_MAX_DIMENSION
-inline constexpr double kFocusFollowingMin_s = 0.01;
-inline constexpr double kFocusFollowingMax_s = 60;
+
+// The range of a number by its path in proto Display ("quilt.columns", "quilt.size.width").
+// Expects a field that has one.
+Range rangeOf(std::string_view field);
+// All of them.
+const std::map<std::string, Range, std::less<>>& fieldRanges();
 
 // Checks every range and fills in presets and defaults that need no stream. Errors name the field
 // as in proto Display ("quilt.columns"). NOT_FOUND for a preset that does not exist.

@@ -5,81 +5,86 @@
 #include <cmath>
 
 #include "base/str_cat.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
 #include "display/named_display.h"
 
 namespace viewloom {
 namespace {
 
-constexpr IntegralPreset kPresets[] = {
-    {.name = "near_eye_2013",
-     .device = "Near-eye display of Lanman and Luebke, 2013",
-     .panel_px = {1280, 720},
-     .pixel_pitch_m = 15.36e-3 / 1280,
-     .lens_pitch_m = 1e-3,
-     .focal_length_m = 3.3e-3,
-     .note = "a Sony ECX332A of 15.36 x 8.64 mm; the paper crops it to 15 x 8 lenses"},
+constexpr double kMetresPerInch = 0.0254;
+
+struct KnownPanel {
+  KnownDevice device;
+  double pixel_pitch_m;
+  double lens_pitch_m;
+  double focal_length_m;
 };
 
-absl::Status applyPreset(IntegralSpec& integral) {
+constexpr KnownPanel kPresets[] = {
+    {.device = {.name = "near_eye_2013",
+                .device = "Near-eye display of Lanman and Luebke, 2013",
+                .note = "a Sony ECX332A of 15.36 x 8.64 mm; the paper crops it to 15 x 8 lenses",
+                .panel_px = {1280, 720},
+                .panel_dpi = kMetresPerInch / (15.36e-3 / 1280)},
+     .pixel_pitch_m = 15.36e-3 / 1280,
+     .lens_pitch_m = 1e-3,
+     .focal_length_m = 3.3e-3},
+};
+
+// As many whole lenses as the panel has room for, and no more than what covers it.
+absl::Status completeLensCount(uint32_t& count, uint32_t side_px, double lens_px,
+                               const std::string& field) {
+  if (count == 0) count = std::max(1u, static_cast<uint32_t>(side_px / lens_px));
+  return checkRange(count, {1, std::ceil(side_px / lens_px)}, field);
+}
+
+}  // namespace
+
+absl::Status takePreset(IntegralSpec& integral) {
   if (integral.preset.empty()) return absl::OkStatus();
   const auto preset =
       std::find_if(std::begin(kPresets), std::end(kPresets),
-                   [&](const auto& known) { return integral.preset == known.name; });
+                   [&](const auto& known) { return integral.preset == known.device.name; });
   if (preset == std::end(kPresets)) {
-    return unknownPreset(integral.preset, "integral.preset", {kPresets[0].name});
+    return unknownPreset(integral.preset, "integral.preset",
+                         {std::string(kPresets[0].device.name)});
   }
   const auto fill = [](double& given, double value) {
     if (given == 0) given = value;
   };
-  if (integral.panel_px == SizePx{}) integral.panel_px = preset->panel_px;
+  if (integral.panel_px == SizePx{}) integral.panel_px = preset->device.panel_px;
   fill(integral.pixel_pitch_m, preset->pixel_pitch_m);
   fill(integral.lens_pitch_m, preset->lens_pitch_m);
   fill(integral.focal_length_m, preset->focal_length_m);
   return absl::OkStatus();
 }
 
-absl::Status checkLength(double length_m, const std::string& field) {
-  return checkRange(length_m, kPanelLengthMin_m, kPanelLengthMax_m, field);
-}
-
-// As many whole lenses as the panel has room for, and no more than what covers it.
-absl::Status completeLensCount(uint32_t& count, uint32_t side_px, double lens_px,
-                               const std::string& field) {
-  if (count == 0) count = std::max(1u, static_cast<uint32_t>(side_px / lens_px));
-  return checkCount(count, static_cast<uint32_t>(std::ceil(side_px / lens_px)), field);
-}
-
-}  // namespace
-
-std::span<const IntegralPreset> integralPresets() {
-  return kPresets;
-}
-
-absl::Status complete(IntegralSpec& integral) {
-  VIEWLOOM_RETURN_IF_ERROR(applyPreset(integral));
-  VIEWLOOM_RETURN_IF_ERROR(checkSize(integral.panel_px, kQuiltSidePxMax, "integral.panel_size"));
-  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.pixel_pitch_m, "integral.pixel_pitch_m"));
-  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.lens_pitch_m, "integral.lens_pitch_m"));
-  VIEWLOOM_RETURN_IF_ERROR(checkLength(integral.focal_length_m, "integral.focal_length_m"));
+absl::Status settle(IntegralSpec& integral) {
   const double lens_px = integral.lens_pitch_m / integral.pixel_pitch_m;
   if (lens_px < kLensPxMin || lens_px > kLensPxMax) {
     return invalidField(
         "integral.lens_pitch_m",
         strCat("a lens covers ", lens_px, " px, accepted is ", kLensPxMin, "..", kLensPxMax));
   }
+  if (integral.scale == 0) integral.scale = 1;
   VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_columns, integral.panel_px.width,
                                              lens_px, "integral.lens_columns"));
-  VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_rows, integral.panel_px.height, lens_px,
-                                             "integral.lens_rows"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(integral.offset_px.x, -kLensPxMax, kLensPxMax, "integral.offset_x_px"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(integral.offset_px.y, -kLensPxMax, kLensPxMax, "integral.offset_y_px"));
-  if (integral.scale == 0) integral.scale = 1;
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(integral.scale, kPanelScaleMin, kPanelScaleMax, "integral.scale"));
-  return checkOptionalDistance(integral.distance_m, "integral.distance_m");
+  return completeLensCount(integral.lens_rows, integral.panel_px.height, lens_px,
+                           "integral.lens_rows");
+}
+
+double* focalPlane(IntegralSpec&) {
+  return nullptr;  // its panel stands where it stands
+}
+
+std::optional<OpenFov> openFov(const IntegralSpec&) {
+  return std::nullopt;  // its lenses give it
+}
+
+std::vector<KnownDevice> devicesOf(const IntegralSpec&) {
+  std::vector<KnownDevice> devices;
+  for (const KnownPanel& preset : kPresets) devices.push_back(preset.device);
+  return devices;
 }
 
 TileGrid tileGrid(const IntegralSpec& integral) {

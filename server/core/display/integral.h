@@ -4,31 +4,61 @@
 // Displays", 2013).
 #pragma once
 
-#include <span>
+#include <string>
+#include <vector>
 
-#include "display/atlas_layout.h"
-#include "display/tile_grid.h"
+#include <glm/vec2.hpp>
+
+#include "display/kind.h"
 
 namespace viewloom {
 
-struct IntegralPreset {
-  const char* name;
-  const char* device;
+// Microlenses in front of a panel, a picture behind each (proto IntegralDisplay).
+struct IntegralSpec {
+  static constexpr const char* kName = "integral";
+
+  std::string preset;
   SizePx panel_px;
-  double pixel_pitch_m;
-  double lens_pitch_m;
-  double focal_length_m;
-  const char* note;
+  double pixel_pitch_m = 0;
+  double lens_pitch_m = 0;
+  double focal_length_m = 0;
+  uint32_t lens_columns = 0;  // 0 = as many as the panel has room for
+  uint32_t lens_rows = 0;
+  glm::dvec2 offset_px{0.0};  // of the lenses' middle from the panel's, right and down
+  bool is_flipped = false;    // each picture is turned by half a turn
+  double scale = 0;           // metres of the scene a metre of the panel; 0 = 1
+  double distance_m = 0;      // of the lenses from the display's eye, metres of the scene
 };
 
-// Sorted by name. None is verified on hardware.
-std::span<const IntegralPreset> integralPresets();
+// A lens of fewer px shows one picture to all; a picture of more than that is no lens's.
+inline constexpr double kLensPxMin = 1;
+inline constexpr double kLensPxMax = 4096;
+// From a phone's px under a lens of two of them to a wall of hogels.
+inline constexpr Range kPanelLength{1e-7, 10};
 
-// Errors name the field as "integral.lens_pitch_m". NOT_FOUND for a preset that does not exist.
-absl::Status complete(IntegralSpec& integral);
+template <SpecOf<IntegralSpec> Integral, typename Visitor>
+void visitFields(Integral& integral, Visitor& visit) {
+  visit.label("preset", integral.preset);
+  visit("panel_size", integral.panel_px, Range{1, kQuiltSidePxMax});
+  visit("pixel_pitch_m", integral.pixel_pitch_m, kPanelLength);
+  visit("lens_pitch_m", integral.lens_pitch_m, kPanelLength);
+  visit("focal_length_m", integral.focal_length_m, kPanelLength);
+  visit("lens_columns", integral.lens_columns, Range{1, kQuiltSidePxMax, true});
+  visit("lens_rows", integral.lens_rows, Range{1, kQuiltSidePxMax, true});
+  visit("offset_x_px", integral.offset_px.x, Range{-kLensPxMax, kLensPxMax});
+  visit("offset_y_px", integral.offset_px.y, Range{-kLensPxMax, kLensPxMax});
+  visit("flipped", integral.is_flipped);
+  visit("scale", integral.scale, Range{1e-6, 1e6, true});
+  visit("distance_m", integral.distance_m, kOptionalDistance);
+}
 
-// What follows expects a completed spec.
+absl::Status takePreset(IntegralSpec& integral);
+absl::Status settle(IntegralSpec& integral);
 TileGrid tileGrid(const IntegralSpec& integral);
 void describe(const IntegralSpec& integral, const StreamDefaults& defaults, AtlasLayout& layout);
+double* focalPlane(IntegralSpec& integral);
+std::optional<OpenFov> openFov(const IntegralSpec& integral);
+// None is verified on hardware.
+std::vector<KnownDevice> devicesOf(const IntegralSpec& any);
 
 }  // namespace viewloom

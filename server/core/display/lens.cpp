@@ -2,7 +2,6 @@
 #include "display/lens.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,19 +10,9 @@
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/depth_budget.h"
-#include "display/display_kinds.h"
-#include "display/field_checks.h"
 
 namespace viewloom {
 namespace {
-
-struct SampleCounts {
-  uint32_t walked;
-  uint32_t gathered;
-};
-
-// By quality: draft, balanced, best.
-constexpr std::array<SampleCounts, 3> kSampleCounts = {{{4, 16}, {8, 32}, {16, 64}}};
 
 // The positive root of x^3 = x + 1: R2 steps by its negative powers.
 constexpr double kRoot = 1.32471795724474602596;
@@ -102,42 +91,6 @@ double automaticRadius_m(const AtlasLayout& layout, const StreamDefaults& defaul
 }
 
 }  // namespace
-
-absl::Status completeLens(LensSpec& lens, Quality quality) {
-  if (lens.has_automatic_aperture) {
-    if (lens.aperture_radius_m != 0) {
-      return invalidField("aperture_radius_m", "came with automatic_aperture; accepted is one");
-    }
-  } else {
-    const double radius_m = lens.aperture_radius_m;
-    if (!(radius_m > 0 && radius_m <= kApertureRadiusMax_m)) {
-      return invalidField("aperture_radius_m",
-                          strCat("got ", radius_m, ", accepted is more than 0, up to ",
-                                 kApertureRadiusMax_m, " m, or automatic_aperture"));
-    }
-  }
-  if (lens.focus_distance_m) {
-    VIEWLOOM_RETURN_IF_ERROR(checkRange(*lens.focus_distance_m, kFocalDistanceMin_m,
-                                        kFocalDistanceMax_m, "focus_distance_m"));
-  }
-  if (lens.blades != 0 && (lens.blades < kLensBladesMin || lens.blades > kLensBladesMax)) {
-    return invalidField("blades", strCat("got ", lens.blades, ", accepted is 0 or ", kLensBladesMin,
-                                         "..", kLensBladesMax));
-  }
-  if (!std::isfinite(lens.rotation_rad)) {
-    return invalidField("rotation_rad",
-                        strCat("got ", lens.rotation_rad, ", accepted is what is finite"));
-  }
-  const SampleCounts counts = kSampleCounts[size_t(quality)];
-  if (lens.walked_count == 0) lens.walked_count = counts.walked;
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(lens.walked_count, kWalkedSamplesMax, "samples"));
-  lens.gathered_count = lens.gathered_count.value_or(counts.gathered);
-  if (*lens.gathered_count > kGatheredSamplesMax) {
-    return invalidField("gathered_samples", strCat("got ", *lens.gathered_count,
-                                                   ", accepted is 0..", kGatheredSamplesMax));
-  }
-  return absl::OkStatus();
-}
 
 absl::StatusOr<std::optional<LensRays>> lensRays(const LensSpec& lens, const AtlasLayout& layout,
                                                  const StreamDefaults& defaults) {

@@ -9,37 +9,12 @@
 #include <glm/vec2.hpp>
 
 #include "base/status.h"
+#include "display/effects.h"
 
 namespace viewloom {
 
 struct AtlasLayout;
 struct StreamDefaults;
-
-// Ranges of proto LensEffect.
-inline constexpr double kApertureRadiusMax_m = 10;
-inline constexpr uint32_t kLensBladesMin = 3;
-inline constexpr uint32_t kLensBladesMax = 16;
-inline constexpr uint32_t kWalkedSamplesMax = 64;
-inline constexpr uint32_t kGatheredSamplesMax = 256;
-
-// How a lens is asked for, as proto LensEffect.
-struct LensSpec {
-  double aperture_radius_m = 0;
-  bool has_automatic_aperture = false;
-  std::optional<double> focus_distance_m;  // none = the display's focal plane
-  uint32_t blades = 0;                     // 0 = round
-  double rotation_rad = 0;
-  uint32_t walked_count = 0;               // 0 = of the quality
-  std::optional<uint32_t> gathered_count;  // none = of the quality
-  bool is_exact = false;  // gathered rays that something else may stand in the way of are walked
-};
-
-// How much is spent on what a display leaves open.
-enum class Quality : uint8_t { kDraft, kBalanced, kBest };
-
-// Errors name the field as in proto LensEffect ("aperture_radius_m"). Counts that quality gives are
-// filled in.
-absl::Status completeLens(LensSpec& lens, Quality quality);
 
 // A lens before the views of a layout.
 struct LensRays {

@@ -6,15 +6,14 @@
 
 #include "base/str_cat.h"
 #include "calibration/make_lenticular.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
 #include "display/focal_window.h"
-#include "display/panels.h"
 #include "display/presets.h"
 
 namespace viewloom {
 namespace {
 
-absl::Status takePreset(LenticularSpec& lenticular) {
+absl::Status takePanel(LenticularSpec& lenticular) {
   if (lenticular.preset.empty()) {
     return invalidField("lenticular.calibration_json",
                         "missing: the text of the device's own visual.json, or a preset");
@@ -28,9 +27,18 @@ absl::Status takePreset(LenticularSpec& lenticular) {
              "\" is published; give the device's own visual.json in calibration_json"));
 }
 
-absl::Status takeCalibration(LenticularSpec& lenticular) {
+}  // namespace
+
+std::string opticsOf(const LenticularSpec& lenticular) {
+  Calibration calibration = *lenticular.calibration;
+  calibration.serial.clear();
+  calibration.config_version.clear();
+  return writeCalibration(calibration);
+}
+
+absl::Status takePreset(LenticularSpec& lenticular) {
   if (lenticular.calibration_json.empty()) {
-    return lenticular.calibration ? absl::OkStatus() : takePreset(lenticular);
+    return lenticular.calibration ? absl::OkStatus() : takePanel(lenticular);
   }
   absl::StatusOr<Calibration> parsed = parseCalibration(lenticular.calibration_json);
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(parsed.status(), "lenticular.calibration_json"));
@@ -39,24 +47,33 @@ absl::Status takeCalibration(LenticularSpec& lenticular) {
   return absl::OkStatus();
 }
 
-}  // namespace
+absl::Status settle(LenticularSpec& lenticular) {
+  if (lenticular.view_cone_rad != 0) return absl::OkStatus();
+  lenticular.view_cone_rad = lenticular.calibration->view_cone_deg * std::numbers::pi / 180;
+  return checkRange(lenticular.view_cone_rad, kOptionalAngle,
+                    "lenticular.calibration_json.viewCone (in rad)");
+}
 
-absl::Status complete(LenticularSpec& lenticular) {
-  VIEWLOOM_RETURN_IF_ERROR(takeCalibration(lenticular));
-  if (lenticular.view_count > kQuiltGridMax * kQuiltGridMax) {
-    return checkCount(lenticular.view_count, kQuiltGridMax * kQuiltGridMax,
-                      "lenticular.view_count");
+double* focalPlane(LenticularSpec& lenticular) {
+  return &lenticular.focal_distance_m;
+}
+
+std::optional<OpenFov> openFov(const LenticularSpec& lenticular) {
+  return OpenFov{"lenticular.fov_y_rad", lenticular.fov_y_rad};
+}
+
+std::vector<KnownDevice> devicesOf(const LenticularSpec&) {
+  std::vector<KnownDevice> devices;
+  for (const Preset& preset : allPresets()) {
+    const std::optional<Calibration> panel = panelOfPreset(preset.name);
+    if (!panel) continue;
+    devices.push_back({.name = preset.name,
+                       .device = preset.device,
+                       .note = preset.note,
+                       .panel_px = panel->screen_px,
+                       .panel_dpi = panel->dpi});
   }
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkOptionalAngle(lenticular.view_cone_rad, "lenticular.view_cone_rad"));
-  if (lenticular.view_cone_rad == 0) {
-    lenticular.view_cone_rad = lenticular.calibration->view_cone_deg * std::numbers::pi / 180;
-    VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(lenticular.view_cone_rad,
-                                                "lenticular.calibration_json.viewCone (in rad)"));
-  }
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkOptionalDistance(lenticular.focal_distance_m, "lenticular.focal_distance_m"));
-  return checkOptionalAngle(lenticular.fov_y_rad, "lenticular.fov_y_rad");
+  return devices;
 }
 
 TileGrid tileGrid(const LenticularSpec& lenticular) {
@@ -68,7 +85,8 @@ TileGrid tileGrid(const LenticularSpec& lenticular) {
           .order = TileOrder::kTopLeft,
           .view_count = 1,
           .width_px = screen_px.width,
-          .height_px = screen_px.height};
+          .height_px = screen_px.height,
+          .rays_per_px = 3};
 }
 
 void describe(const LenticularSpec& lenticular, const StreamDefaults& defaults,

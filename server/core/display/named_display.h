@@ -6,11 +6,21 @@
 #include <string_view>
 #include <vector>
 
-#include "display/display_spec.h"
+#include "base/status.h"
+#include "display/atlas_layout.h"
+#include "display/display_kinds.h"
 
 namespace viewloom {
 
-using DisplayKind = decltype(DisplaySpec::kind);
+// A device, and the display that its name alone opens.
+struct NamedDevice {
+  KnownDevice device;
+  std::vector<std::string> kinds;  // of displays that it has; the first is that display's
+  AtlasLayout layout;              // without what the stream gives it
+};
+
+// Sorted by name.
+std::vector<NamedDevice> namedDevices();
 
 // Names of all devices, sorted.
 std::vector<std::string> displayNames();

@@ -6,18 +6,42 @@
 
 #include "absl/strings/str_format.h"
 #include "base/str_cat.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
 #include "display/focal_window.h"
 #include "display/presets.h"
 
 namespace viewloom {
 namespace {
 
+constexpr double kDefaultViewCone_rad = 0.69813170079773183;  // 40 deg
+
 SizePx quiltTileSize(const QuiltSpec& quilt) {
   return {quilt.size_px.width / quilt.columns, quilt.size_px.height / quilt.rows};
 }
 
-absl::Status applyPreset(QuiltSpec& quilt) {
+absl::Status completeDepthiness(QuiltSpec& quilt) {
+  if (quilt.depthiness == 0) quilt.depthiness = 1;
+  // Each formula takes the tangent of one angle, which has to stay in front of the eyes.
+  const bool takes_half = quilt.convention != CameraConvention::kBridge;
+  const double widest_rad =
+      takes_half ? quilt.depthiness * quilt.view_cone_rad : 2 * quilt.view_cone_rad;
+  if (widest_rad <= kViewAngleMax_rad) return absl::OkStatus();
+  return invalidField("quilt.depthiness",
+                      strCat("it widens the cone of ", quilt.view_cone_rad, " rad to ", widest_rad,
+                             ", accepted is up to ", kViewAngleMax_rad));
+}
+
+// On the line of eyes, m; `place` is 0 at the cone's left end and 1 at its right end.
+double placeOfEye(const QuiltSpec& quilt, double place, double distance_m) {
+  const double share = place - 0.5;
+  return quilt.convention == CameraConvention::kBridge
+             ? distance_m * quilt.depthiness * std::tan(quilt.view_cone_rad) * share
+             : distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share);
+}
+
+}  // namespace
+
+absl::Status takePreset(QuiltSpec& quilt) {
   if (quilt.preset.empty()) return absl::OkStatus();
   VIEWLOOM_RETURN_IF_ERROR(checkPreset(quilt.preset, "quilt.preset"));
   const Preset* preset = findPreset(quilt.preset);
@@ -32,41 +56,7 @@ absl::Status applyPreset(QuiltSpec& quilt) {
   return absl::OkStatus();
 }
 
-absl::Status completeDepthiness(QuiltSpec& quilt) {
-  if (quilt.depthiness == 0) quilt.depthiness = 1;
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(quilt.depthiness, kDepthinessMin, kDepthinessMax, "quilt.depthiness"));
-  // Each formula takes the tangent of one angle, which has to stay in front of the eyes.
-  const bool takes_half = quilt.convention != CameraConvention::kBridge;
-  const double widest_rad =
-      takes_half ? quilt.depthiness * quilt.view_cone_rad : 2 * quilt.view_cone_rad;
-  if (widest_rad <= kViewAngleMax_rad) return absl::OkStatus();
-  return invalidField("quilt.depthiness",
-                      strCat("it widens the cone of ", quilt.view_cone_rad, " rad to ", widest_rad,
-                             ", accepted is up to ", kViewAngleMax_rad));
-}
-
-absl::Status completePart(QuiltSpec& quilt) {
-  if (quilt.cone_end == 0) quilt.cone_end = 1;
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.cone_begin, 0, 1, "quilt.cone_begin"));
-  return checkRange(quilt.cone_end, quilt.cone_begin, 1, "quilt.cone_end");
-}
-
-// On the line of eyes, m; `place` is 0 at the cone's left end and 1 at its right end.
-double placeOfEye(const QuiltSpec& quilt, double place, double distance_m) {
-  const double share = place - 0.5;
-  return quilt.convention == CameraConvention::kBridge
-             ? distance_m * quilt.depthiness * std::tan(quilt.view_cone_rad) * share
-             : distance_m * std::tan(quilt.depthiness * quilt.view_cone_rad * share);
-}
-
-}  // namespace
-
-absl::Status complete(QuiltSpec& quilt) {
-  VIEWLOOM_RETURN_IF_ERROR(applyPreset(quilt));
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.columns, kQuiltGridMax, "quilt.columns"));
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.rows, kQuiltGridMax, "quilt.rows"));
-  VIEWLOOM_RETURN_IF_ERROR(checkSize(quilt.size_px, kQuiltSidePxMax, "quilt.size"));
+absl::Status settle(QuiltSpec& quilt) {
   if (quilt.size_px.width < quilt.columns) {
     return invalidField("quilt.size.width",
                         strCat("got ", quilt.size_px.width, " px for ", quilt.columns,
@@ -77,17 +67,12 @@ absl::Status complete(QuiltSpec& quilt) {
                         strCat("got ", quilt.size_px.height, " px for ", quilt.rows,
                                " rows, accepted is 1 px a tile or more"));
   }
-  if (quilt.aspect != 0) {
-    VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.aspect, kAspectMin, kAspectMax, "quilt.aspect"));
-  }
-  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(quilt.view_cone_rad, "quilt.view_cone_rad"));
   if (quilt.view_cone_rad == 0) quilt.view_cone_rad = kDefaultViewCone_rad;
-  VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(quilt.focal_distance_m, "quilt.focal_distance_m"));
-  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(quilt.fov_y_rad, "quilt.fov_y_rad"));
-  const uint32_t tile_count = quilt.columns * quilt.rows;
-  if (quilt.view_count == 0) quilt.view_count = tile_count;
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(quilt.view_count, tile_count, "quilt.view_count"));
-  VIEWLOOM_RETURN_IF_ERROR(completePart(quilt));
+  const double tile_count = quilt.columns * quilt.rows;
+  if (quilt.view_count == 0) quilt.view_count = quilt.columns * quilt.rows;
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.view_count, {1, tile_count}, "quilt.view_count"));
+  if (quilt.cone_end == 0) quilt.cone_end = 1;
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(quilt.cone_end, {quilt.cone_begin, 1}, "quilt.cone_end"));
   return completeDepthiness(quilt);
 }
 
@@ -100,6 +85,22 @@ TileGrid tileGrid(const QuiltSpec& quilt) {
           .view_count = quilt.view_count,
           .width_px = quilt.size_px.width,
           .height_px = quilt.size_px.height};
+}
+
+double* focalPlane(QuiltSpec& quilt) {
+  return &quilt.focal_distance_m;
+}
+
+std::optional<OpenFov> openFov(const QuiltSpec& quilt) {
+  return OpenFov{"quilt.fov_y_rad", quilt.fov_y_rad};
+}
+
+std::vector<KnownDevice> devicesOf(const QuiltSpec&) {
+  std::vector<KnownDevice> devices;
+  for (const Preset& preset : allPresets()) {
+    devices.push_back({.name = preset.name, .device = preset.device, .note = preset.note});
+  }
+  return devices;
 }
 
 double quiltAspect(const QuiltSpec& quilt) {

@@ -2,21 +2,70 @@
 // Quilts: N off-axis views from a line, never toed in, as lenticular panels show them.
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "display/atlas_layout.h"
-#include "display/tile_grid.h"
+#include "display/kind.h"
 
 namespace viewloom {
 
-// Errors name the field as "quilt.columns". NOT_FOUND for a preset that does not exist.
-absl::Status complete(QuiltSpec& quilt);
+// How the eyes of a quilt lie in its cone (proto CameraConvention).
+enum class CameraConvention : uint8_t { kWebxr, kCore, kBridge };
+inline constexpr Word<CameraConvention> kCameraConventions[] = {
+    {"WEBXR", CameraConvention::kWebxr},
+    {"CORE", CameraConvention::kCore},
+    {"BRIDGE", CameraConvention::kBridge}};
 
-// What follows expects a completed spec.
+// Off-axis views from a line. What is 0 comes from the stream or the preset (proto QuiltDisplay).
+struct QuiltSpec {
+  static constexpr const char* kName = "quilt";
+
+  std::string preset;  // the name it came from, for the catalogue; "" = none
+  uint32_t columns = 0;
+  uint32_t rows = 0;
+  SizePx size_px;
+  double aspect = 0;  // 0 = that of a tile
+  double view_cone_rad = 0;
+  double focal_distance_m = 0;  // 0 = from the stream
+  double fov_y_rad = 0;         // 0 = what the source sees
+  TileOrder order = TileOrder::kBottomLeft;
+  uint32_t view_count = 0;
+  CameraConvention convention = CameraConvention::kWebxr;
+  double depthiness = 0;  // of the cone; 0 = 1
+  // The part of the cone that the views share, 0 = its left end, 1 = its right end.
+  double cone_begin = 0;
+  double cone_end = 0;  // 0 = 1
+};
+
+inline constexpr uint32_t kQuiltGridMax = 50;
+
+template <SpecOf<QuiltSpec> Quilt, typename Visitor>
+void visitFields(Quilt& quilt, Visitor& visit) {
+  visit.label("preset", quilt.preset);
+  visit("columns", quilt.columns, Range{1, kQuiltGridMax});
+  visit("rows", quilt.rows, Range{1, kQuiltGridMax});
+  visit("size", quilt.size_px, Range{1, kQuiltSidePxMax});
+  visit("aspect", quilt.aspect, Range{0.05, 20, true});
+  visit("view_cone_rad", quilt.view_cone_rad, kOptionalAngle);
+  visit("focal_distance_m", quilt.focal_distance_m, kOptionalDistance);
+  visit("fov_y_rad", quilt.fov_y_rad, kOptionalAngle);
+  visit.word("order", quilt.order, kTileOrders);
+  visit("view_count", quilt.view_count, Range{1, kQuiltGridMax * kQuiltGridMax, true});
+  visit.word("convention", quilt.convention, kCameraConventions);
+  visit("depthiness", quilt.depthiness, Range{0.1, 4, true});
+  visit("cone_begin", quilt.cone_begin, Range{0, 1});
+  visit("cone_end", quilt.cone_end, Range{0, 1});
+}
+
+absl::Status takePreset(QuiltSpec& quilt);
+absl::Status settle(QuiltSpec& quilt);
 TileGrid tileGrid(const QuiltSpec& quilt);
 void describe(const QuiltSpec& quilt, const StreamDefaults& defaults, AtlasLayout& layout);
+double* focalPlane(QuiltSpec& quilt);
+std::optional<OpenFov> openFov(const QuiltSpec& quilt);
+std::vector<KnownDevice> devicesOf(const QuiltSpec& any);
 
-// Of one view as shown.
+// Of one view as shown. Expects a completed spec.
 double quiltAspect(const QuiltSpec& quilt);
 
 // Where view i of N stands on the line of eyes, m from its middle, for a focal plane D in front of
@@ -26,7 +75,7 @@ double quiltAspect(const QuiltSpec& quilt);
 //   webxr   D tan(depthiness cone t), t = (i + 0.5) / N - 0.5: each in the middle of its share
 //   Core    D tan(depthiness cone t), t = i / (N - 1) - 0.5: the outermost at the cone's edges
 //   Bridge  D depthiness tan(cone) t, t = i / (N - 1) - 0.5: at equal distances
-// View 0 is the leftmost.
+// View 0 is the leftmost. Expects a completed spec.
 double quiltEye(const QuiltSpec& quilt, uint32_t view, double distance_m);
 
 }  // namespace viewloom

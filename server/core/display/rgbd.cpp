@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/str_cat.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
 #include "display/focal_window.h"
 #include "display/named_display.h"
 
@@ -24,35 +24,27 @@ constexpr const char* kPresetNote =
 
 // The 3D Interface White Paper of Philips; Dimenco's displays take the same. Both have white near,
 // 8 bits, and the screen at code 128, an offset that their header could change.
-constexpr RgbdPreset kPresets[] = {
-    {.name = "wowvx",
-     .device = "Philips WOWvx, Dimenco: 2D-plus-Depth",
-     .form = RgbdForm::kColorDepth,
-     .note = kPresetNote},
-    {.name = "wowvx_declipse",
-     .device = "Philips WOWvx: Declipse, four quadrants",
-     .form = RgbdForm::kTwoLayers,
-     .note = kPresetNote},
+struct KnownInput {
+  KnownDevice device;
+  RgbdForm form;
 };
 
-absl::Status applyPreset(RgbdSpec& rgbd) {
-  if (rgbd.preset.empty()) {
-    if (!rgbd.form) rgbd.form = RgbdForm::kColorDepth;
-    return absl::OkStatus();
-  }
-  const auto preset = std::ranges::find(kPresets, std::string_view(rgbd.preset), &RgbdPreset::name);
-  if (preset == std::end(kPresets)) {
-    return unknownPreset(rgbd.preset, "rgbd.preset", {kPresets[0].name, kPresets[1].name});
-  }
-  if (!rgbd.form) rgbd.form = preset->form;
-  if (rgbd.view_size_px == SizePx{}) rgbd.view_size_px = kPresetViewSize_px;
-  return absl::OkStatus();
-}
+constexpr KnownInput kPresets[] = {
+    {.device = {.name = "wowvx",
+                .device = "Philips WOWvx, Dimenco: 2D-plus-Depth",
+                .note = kPresetNote,
+                .has_size = false},
+     .form = RgbdForm::kColorDepth},
+    {.device = {.name = "wowvx_declipse",
+                .device = "Philips WOWvx: Declipse, four quadrants",
+                .note = kPresetNote,
+                .has_size = false},
+     .form = RgbdForm::kTwoLayers},
+};
 
 // Of the screen, m; 0 = the range stays as it is.
 double screenDistance(const RgbdSpec& rgbd, const DepthCodes& range) {
-  if (rgbd.screen_m > 0 || rgbd.preset.empty()) return rgbd.screen_m;
-  return 2 / (range.inv_z_near + range.inv_z_far);
+  return rgbd.hasMiddleScreen() ? 2 / (range.inv_z_near + range.inv_z_far) : rgbd.screen_m;
 }
 
 bool isBeside(const RgbdSpec& rgbd) {
@@ -75,18 +67,6 @@ absl::Status completePlacement(RgbdSpec& rgbd) {
   }
   if (has_place && !rgbd.depth_placement) rgbd.depth_placement = DepthPlacement::kRight;
   return absl::OkStatus();
-}
-
-absl::Status checkDepths(const RgbdSpec& rgbd) {
-  VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(rgbd.near_m, "rgbd.near_m"));
-  if (!std::isinf(rgbd.far_m) || rgbd.far_m < 0) {
-    VIEWLOOM_RETURN_IF_ERROR(checkOptionalDistance(rgbd.far_m, "rgbd.far_m"));
-  }
-  if (rgbd.near_m > 0 && rgbd.far_m > 0 && rgbd.far_m <= rgbd.near_m) {
-    return invalidField("rgbd.far_m", strCat("got ", rgbd.far_m, ", accepted is more than ",
-                                             "near_m, which is ", rgbd.near_m));
-  }
-  return checkOptionalDistance(rgbd.screen_m, "rgbd.screen_m");
 }
 
 // So that the middle code, half of all counted from black, is that of the screen.
@@ -115,21 +95,48 @@ DepthCodes rangeOf(const RgbdSpec& rgbd, const StreamDefaults& defaults) {
 
 }  // namespace
 
-std::span<const RgbdPreset> rgbdPresets() {
-  return kPresets;
+absl::Status takePreset(RgbdSpec& rgbd) {
+  if (rgbd.preset.empty()) {
+    if (!rgbd.form) rgbd.form = RgbdForm::kColorDepth;
+    return absl::OkStatus();
+  }
+  const auto preset = std::ranges::find_if(
+      kPresets, [&](const KnownInput& known) { return known.device.name == rgbd.preset; });
+  if (preset == std::end(kPresets)) {
+    return unknownPreset(
+        rgbd.preset, "rgbd.preset",
+        {std::string(kPresets[0].device.name), std::string(kPresets[1].device.name)});
+  }
+  if (!rgbd.form) rgbd.form = preset->form;
+  if (rgbd.view_size_px == SizePx{}) rgbd.view_size_px = kPresetViewSize_px;
+  return absl::OkStatus();
 }
 
-absl::Status complete(RgbdSpec& rgbd) {
-  VIEWLOOM_RETURN_IF_ERROR(applyPreset(rgbd));
-  VIEWLOOM_RETURN_IF_ERROR(checkSize(rgbd.view_size_px, kEyeSidePxMax, "rgbd.view_size"));
+absl::Status settle(RgbdSpec& rgbd) {
   if (rgbd.depth_bits == 0) rgbd.depth_bits = kDefaultDepthBits;
   if (rgbd.depth_bits != 8 && rgbd.depth_bits != 16) {
     return invalidField("rgbd.depth_bits",
                         strCat("got ", rgbd.depth_bits, ", accepted are 8 and 16"));
   }
-  VIEWLOOM_RETURN_IF_ERROR(completePlacement(rgbd));
-  VIEWLOOM_RETURN_IF_ERROR(checkDepths(rgbd));
-  return checkOptionalAngle(rgbd.fov_y_rad, "rgbd.fov_y_rad");
+  if (rgbd.near_m > 0 && rgbd.far_m > 0 && rgbd.far_m <= rgbd.near_m) {
+    return invalidField("rgbd.far_m", strCat("got ", rgbd.far_m, ", accepted is more than ",
+                                             "near_m, which is ", rgbd.near_m));
+  }
+  return completePlacement(rgbd);
+}
+
+double* focalPlane(RgbdSpec&) {
+  return nullptr;  // one view frames nothing that others do
+}
+
+std::optional<OpenFov> openFov(const RgbdSpec& rgbd) {
+  return OpenFov{"rgbd.fov_y_rad", rgbd.fov_y_rad};
+}
+
+std::vector<KnownDevice> devicesOf(const RgbdSpec&) {
+  std::vector<KnownDevice> devices;
+  for (const KnownInput& preset : kPresets) devices.push_back(preset.device);
+  return devices;
 }
 
 TileGrid tileGrid(const RgbdSpec& rgbd) {

@@ -2,31 +2,71 @@
 // Displays that make their own views: one view and its depth as grey, or two layers of them.
 #pragma once
 
-#include <span>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "display/atlas_layout.h"
-#include "display/tile_grid.h"
+#include "display/kind.h"
 
 namespace viewloom {
 
-struct RgbdPreset {
-  const char* name;
-  const char* device;
-  RgbdForm form;
-  const char* note;
+struct DepthCodes;
+struct DisplaySpec;
+
+enum class RgbdForm : uint8_t { kColorDepth, kTwoLayers };
+inline constexpr Word<RgbdForm> kRgbdForms[] = {{"COLOR_DEPTH", RgbdForm::kColorDepth},
+                                                {"TWO_LAYERS", RgbdForm::kTwoLayers}};
+// Where depth lies, seen from colour.
+enum class DepthPlacement : uint8_t { kRight, kLeft, kTop, kBottom };
+inline constexpr Word<DepthPlacement> kDepthPlacements[] = {{"RIGHT", DepthPlacement::kRight},
+                                                            {"LEFT", DepthPlacement::kLeft},
+                                                            {"TOP", DepthPlacement::kTop},
+                                                            {"BOTTOM", DepthPlacement::kBottom}};
+
+// One view with its depth as grey (proto RgbdDisplay).
+struct RgbdSpec {
+  static constexpr const char* kName = "rgbd";
+
+  std::string preset;
+  SizePx view_size_px;
+  std::optional<RgbdForm> form;                   // completed: never empty
+  std::optional<DepthPlacement> depth_placement;  // completed: where depth lies in the colour
+  bool is_black_near = false;
+  double near_m = 0;        // 0 = from the stream
+  double far_m = 0;         // may be infinite; 0 = from the stream
+  double screen_m = 0;      // has the middle code; 0 = the preset's, else the range stays as it is
+  double fov_y_rad = 0;     // 0 = what the source sees
+  uint32_t depth_bits = 0;  // 8 or 16; 0 = 8
+
+  // The preset says that the screen is half way in 1/Z between the ends of the range.
+  bool hasMiddleScreen() const { return !preset.empty() && screen_m == 0; }
 };
 
-// Sorted by name. None is verified on hardware, and px of none are published.
-std::span<const RgbdPreset> rgbdPresets();
+template <SpecOf<RgbdSpec> Rgbd, typename Visitor>
+void visitFields(Rgbd& rgbd, Visitor& visit) {
+  visit.label("preset", rgbd.preset);
+  visit.made([&] { return rgbd.hasMiddleScreen() ? "middle" : "given"; });
+  visit("view_size", rgbd.view_size_px, Range{1, kEyeSidePxMax});
+  visit.word("form", rgbd.form, kRgbdForms);
+  visit.word("depth_placement", rgbd.depth_placement, kDepthPlacements);
+  visit("black_near", rgbd.is_black_near);
+  visit("near_m", rgbd.near_m, kOptionalDistance);
+  visit("far_m", rgbd.far_m, Range{kFocalDistanceMin_m, kFocalDistanceMax_m, true, true});
+  visit("screen_m", rgbd.screen_m, kOptionalDistance);
+  visit("fov_y_rad", rgbd.fov_y_rad, kOptionalAngle);
+  visit("depth_bits", rgbd.depth_bits, Range{8, 16, true});
+}
 
-// Errors name the field as "rgbd.view_size". NOT_FOUND for a preset that does not exist.
-absl::Status complete(RgbdSpec& rgbd);
-
-// What follows expects a completed spec.
+absl::Status takePreset(RgbdSpec& rgbd);
+absl::Status settle(RgbdSpec& rgbd);
 TileGrid tileGrid(const RgbdSpec& rgbd);
 // All tiles from one eye, in the middle of the display. The range of the codes may come out empty,
 // where one end of it is the stream's: see validateDepthCodes.
 void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout& layout);
+double* focalPlane(RgbdSpec& rgbd);
+std::optional<OpenFov> openFov(const RgbdSpec& rgbd);
+// None is verified on hardware, and px of none are published.
+std::vector<KnownDevice> devicesOf(const RgbdSpec& any);
 
 // Of what describe() made. FAILED_PRECONDITION: what the stream gives and what the display says
 // leave no range of depths.

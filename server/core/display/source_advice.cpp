@@ -6,8 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "display/field_checks.h"
-#include "display/rgbd.h"
 #include "display/source_demand.h"
 
 namespace viewloom {
@@ -16,41 +14,17 @@ namespace {
 constexpr uint32_t kLayersForParallax = 2;  // what is seen, and what the nearest hides
 constexpr uint32_t kLayersForWideGaps = 3;
 
-absl::Status requireFov(double fov_y_rad, std::string_view field) {
-  if (fov_y_rad > 0) return absl::OkStatus();
-  return invalidField(field, "missing: there is no stream whose field of view it could be");
-}
-
-absl::Status requireOwnFov(const QuiltSpec& quilt) {
-  return requireFov(quilt.fov_y_rad, "quilt.fov_y_rad");
-}
-
-absl::Status requireOwnFov(const LenticularSpec& lenticular) {
-  return requireFov(lenticular.fov_y_rad, "lenticular.fov_y_rad");
-}
-
-absl::Status requireOwnFov(const StereoSpec& stereo) {
-  return stereo.eyes.empty() ? requireFov(stereo.fov_y_rad, "stereo.fov_y_rad") : absl::OkStatus();
-}
-
-absl::Status requireOwnFov(const CamerasSpec& cameras) {
-  return cameras.grid ? requireFov(cameras.grid->fov_y_rad, "cameras.grid.fov_y_rad")
-                      : absl::OkStatus();
-}
-
-absl::Status requireOwnFov(const IntegralSpec&) {
-  return absl::OkStatus();
-}
-
-absl::Status requireOwnFov(const RgbdSpec& rgbd) {
-  return requireFov(rgbd.fov_y_rad, "rgbd.fov_y_rad");
+absl::Status requireOwnFov(const DisplaySpec& spec) {
+  const auto fov = std::visit([](const auto& kind) { return openFov(kind); }, spec.kind);
+  if (!fov || fov->fov_y_rad > 0) return absl::OkStatus();
+  return invalidField(fov->field, "missing: there is no stream whose field of view it could be");
 }
 
 absl::Status checkRequest(const DisplaySpec& spec, double near_m, double far_m) {
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(near_m, kFocalDistanceMin_m, kFocalDistanceMax_m, "near_m"));
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(far_m, near_m, kFocalDistanceMax_m, "far_m"));
-  return withFieldPrefix(
-      std::visit([](const auto& kind) { return requireOwnFov(kind); }, spec.kind), "display");
+  VIEWLOOM_RETURN_IF_ERROR(
+      checkRange(near_m, {kFocalDistanceMin_m, kFocalDistanceMax_m}, "near_m"));
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(far_m, {near_m, kFocalDistanceMax_m}, "far_m"));
+  return withFieldPrefix(requireOwnFov(spec), "display");
 }
 
 // Of a scene between the two depths; of a source there is nothing that the display would ask.

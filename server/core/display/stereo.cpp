@@ -4,20 +4,24 @@
 #include <glm/common.hpp>
 
 #include "base/str_cat.h"
-#include "display/camera_list.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
+#include "display/cameras.h"
 #include "display/focal_window.h"
 
 namespace viewloom {
 
-absl::Status complete(StereoSpec& stereo) {
-  VIEWLOOM_RETURN_IF_ERROR(checkSize(stereo.eye_size_px, kEyeSidePxMax, "stereo.eye_size"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(stereo.eye_distance_m, 0, kEyeDistanceMax_m, "stereo.eye_distance_m"));
+namespace {
+
+constexpr double kDefaultEyeDistance_m = 0.063;
+
+}  // namespace
+
+absl::Status takePreset(StereoSpec&) {
+  return absl::OkStatus();
+}
+
+absl::Status settle(StereoSpec& stereo) {
   if (stereo.eye_distance_m == 0) stereo.eye_distance_m = kDefaultEyeDistance_m;
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkOptionalDistance(stereo.focal_distance_m, "stereo.focal_distance_m"));
-  VIEWLOOM_RETURN_IF_ERROR(checkOptionalAngle(stereo.fov_y_rad, "stereo.fov_y_rad"));
   if (!stereo.eyes.empty() && stereo.eyes.size() != 2) {
     return invalidField("stereo.eyes",
                         strCat("got ", stereo.eyes.size(), ", accepted is none or two"));
@@ -25,7 +29,20 @@ absl::Status complete(StereoSpec& stereo) {
   if (stereo.is_tracked && !stereo.eyes.empty()) {
     return invalidField("stereo.eyes", "got two beside tracked, accepted is one of the two");
   }
-  return validateCameras(stereo.eyes, "stereo.eyes");
+  return absl::OkStatus();
+}
+
+double* focalPlane(StereoSpec& stereo) {
+  return stereo.is_tracked || !stereo.eyes.empty() ? nullptr : &stereo.focal_distance_m;
+}
+
+std::optional<OpenFov> openFov(const StereoSpec& stereo) {
+  if (!stereo.eyes.empty()) return std::nullopt;
+  return OpenFov{"stereo.fov_y_rad", stereo.fov_y_rad};
+}
+
+std::vector<KnownDevice> devicesOf(const StereoSpec&) {
+  return {};
 }
 
 TileGrid tileGrid(const StereoSpec& stereo) {

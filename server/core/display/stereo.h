@@ -3,18 +3,48 @@
 // until others come (tracked_eyes.h).
 #pragma once
 
-#include "display/atlas_layout.h"
-#include "display/tile_grid.h"
+#include <vector>
+
+#include "display/kind.h"
 
 namespace viewloom {
 
-// Errors name the field as "stereo.eye_size".
-absl::Status complete(StereoSpec& stereo);
+enum class StereoLayout : uint8_t { kSideBySide, kTopBottom, kSeparate };
+inline constexpr Word<StereoLayout> kStereoLayouts[] = {{"SIDE_BY_SIDE", StereoLayout::kSideBySide},
+                                                        {"TOP_BOTTOM", StereoLayout::kTopBottom},
+                                                        {"SEPARATE", StereoLayout::kSeparate}};
 
-// What follows expects a completed spec.
+struct StereoSpec {
+  static constexpr const char* kName = "stereo";
+
+  StereoLayout layout = StereoLayout::kSideBySide;
+  SizePx eye_size_px;
+  double eye_distance_m = 0;     // 0 = 0.063
+  double focal_distance_m = 0;   // 0 = from the stream
+  double fov_y_rad = 0;          // 0 = what the source sees
+  std::vector<ViewCamera> eyes;  // none or two
+  bool is_tracked = false;       // the eyes are those of EyePoses, once they come
+};
+
+template <SpecOf<StereoSpec> Stereo, typename Visitor>
+void visitFields(Stereo& stereo, Visitor& visit) {
+  visit.word("layout", stereo.layout, kStereoLayouts);
+  visit("eye_size", stereo.eye_size_px, Range{1, kEyeSidePxMax});
+  visit("eye_distance_m", stereo.eye_distance_m, Range{0, 10});
+  visit("focal_distance_m", stereo.focal_distance_m, kOptionalDistance);
+  visit("fov_y_rad", stereo.fov_y_rad, kOptionalAngle);
+  visit.cameras("eyes", stereo.eyes);
+  visit("tracked", stereo.is_tracked);
+}
+
+absl::Status takePreset(StereoSpec& stereo);
+absl::Status settle(StereoSpec& stereo);
 TileGrid tileGrid(const StereoSpec& stereo);
 // Left, right; without given cameras at -/+ half the eye distance, both framing one rectangle on
 // the focal plane.
 void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLayout& layout);
+double* focalPlane(StereoSpec& stereo);
+std::optional<OpenFov> openFov(const StereoSpec& stereo);
+std::vector<KnownDevice> devicesOf(const StereoSpec& any);
 
 }  // namespace viewloom

@@ -1,71 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "messages/display_from_proto.h"
 
+#include <google/protobuf/descriptor.h>
+
+#include <string>
 #include <utility>
+#include <vector>
 
-#include <google/protobuf/repeated_ptr_field.h>
-
+#include "base/check.h"
 #include "base/str_cat.h"
 #include "display/named_display.h"
 #include "messages/enum_from_proto.h"
 #include "messages/geometry_from_proto.h"
-#include "messages/lens_from_proto.h"
-#include "messages/temporal_from_proto.h"
 
 namespace viewloom {
 namespace {
 
-constexpr EnumRow<v1::TileOrder, TileOrder> kQuiltOrders[] = {
-    {v1::TILE_ORDER_UNSPECIFIED, TileOrder::kBottomLeft},
-    {v1::TILE_ORDER_BOTTOM_LEFT, TileOrder::kBottomLeft},
-    {v1::TILE_ORDER_TOP_LEFT, TileOrder::kTopLeft}};
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
 
-constexpr EnumRow<v1::TileOrder, TileOrder> kCamerasOrders[] = {
-    {v1::TILE_ORDER_UNSPECIFIED, TileOrder::kTopLeft},
-    {v1::TILE_ORDER_BOTTOM_LEFT, TileOrder::kBottomLeft},
-    {v1::TILE_ORDER_TOP_LEFT, TileOrder::kTopLeft}};
+constexpr std::string_view kUnspecified = "UNSPECIFIED";
 
-constexpr EnumRow<v1::StereoLayout, StereoLayout> kStereoLayouts[] = {
-    {v1::STEREO_LAYOUT_UNSPECIFIED, StereoLayout::kSideBySide},
-    {v1::STEREO_LAYOUT_SIDE_BY_SIDE, StereoLayout::kSideBySide},
-    {v1::STEREO_LAYOUT_TOP_BOTTOM, StereoLayout::kTopBottom},
-    {v1::STEREO_LAYOUT_SEPARATE, StereoLayout::kSeparate}};
-
-constexpr EnumRow<v1::CameraConvention, CameraConvention> kConventions[] = {
-    {v1::CAMERA_CONVENTION_UNSPECIFIED, CameraConvention::kWebxr},
-    {v1::CAMERA_CONVENTION_WEBXR, CameraConvention::kWebxr},
-    {v1::CAMERA_CONVENTION_CORE, CameraConvention::kCore},
-    {v1::CAMERA_CONVENTION_BRIDGE, CameraConvention::kBridge}};
-
-constexpr EnumRow<v1::TileArrangement, TileArrangement> kArrangements[] = {
-    {v1::TILE_ARRANGEMENT_UNSPECIFIED, TileArrangement::kGrid},
-    {v1::TILE_ARRANGEMENT_ATLAS, TileArrangement::kGrid},
-    {v1::TILE_ARRANGEMENT_ROW, TileArrangement::kRow},
-    {v1::TILE_ARRANGEMENT_QUAD_2X2, TileArrangement::kQuad},
-    {v1::TILE_ARRANGEMENT_SEPARATE_VIEWS, TileArrangement::kSeparate}};
-
-constexpr EnumRow<v1::RgbdForm, std::optional<RgbdForm>> kRgbdForms[] = {
-    {v1::RGBD_FORM_UNSPECIFIED, std::nullopt},
-    {v1::RGBD_FORM_COLOR_DEPTH, RgbdForm::kColorDepth},
-    {v1::RGBD_FORM_TWO_LAYERS, RgbdForm::kTwoLayers}};
-
-constexpr EnumRow<v1::DepthPlacement, std::optional<DepthPlacement>> kDepthPlacements[] = {
-    {v1::DEPTH_PLACEMENT_UNSPECIFIED, std::nullopt},
-    {v1::DEPTH_PLACEMENT_RIGHT, DepthPlacement::kRight},
-    {v1::DEPTH_PLACEMENT_LEFT, DepthPlacement::kLeft},
-    {v1::DEPTH_PLACEMENT_TOP, DepthPlacement::kTop},
-    {v1::DEPTH_PLACEMENT_BOTTOM, DepthPlacement::kBottom}};
-
-constexpr EnumRow<v1::OutsideFill, OutsideFill> kOutsideFills[] = {
-    {v1::OUTSIDE_FILL_UNSPECIFIED, OutsideFill::kBorder},
-    {v1::OUTSIDE_FILL_BORDER, OutsideFill::kBorder},
-    {v1::OUTSIDE_FILL_BACKGROUND, OutsideFill::kBackground}};
-
-absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
-    const google::protobuf::RepeatedPtrField<v1::Camera>& protos, const char* field) {
+absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(const Message& message,
+                                                         const FieldDescriptor& field) {
   std::vector<ViewCamera> cameras;
-  for (const v1::Camera& proto : protos) {
-    const std::string path = strCat(field, "[", cameras.size(), "]");
+  const Reflection& reflection = *message.GetReflection();
+  for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
+    const auto& proto =
+        static_cast<const v1::Camera&>(reflection.GetRepeatedMessage(message, &field, i));
+    const std::string path = strCat(field.name(), "[", i, "]");
     const auto pose = poseFromProto(proto.pose(), "pose");
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(pose.status(), path));
     const auto projection = projectionFromProto(proto);
@@ -75,187 +39,160 @@ absl::StatusOr<std::vector<ViewCamera>> camerasFromProto(
   return cameras;
 }
 
-absl::StatusOr<QuiltSpec> quiltFromProto(const v1::QuiltDisplay& proto) {
-  const auto order = enumFromProto(proto.order(), "order", kQuiltOrders);
-  VIEWLOOM_RETURN_IF_ERROR(order.status());
-  const auto convention = enumFromProto(proto.convention(), "convention", kConventions);
-  VIEWLOOM_RETURN_IF_ERROR(convention.status());
-  return QuiltSpec{.preset = proto.preset(),
-                   .columns = proto.columns(),
-                   .rows = proto.rows(),
-                   .size_px = sizeFromProto(proto.size()),
-                   .aspect = proto.aspect(),
-                   .view_cone_rad = proto.view_cone_rad(),
-                   .focal_distance_m = proto.focal_distance_m(),
-                   .fov_y_rad = proto.fov_y_rad(),
-                   .order = *order,
-                   .view_count = proto.view_count(),
-                   .convention = *convention,
-                   .depthiness = proto.depthiness()};
-}
-
-absl::StatusOr<StereoSpec> stereoFromProto(const v1::StereoDisplay& proto) {
-  const auto layout = enumFromProto(proto.layout(), "layout", kStereoLayouts);
-  VIEWLOOM_RETURN_IF_ERROR(layout.status());
-  auto eyes = camerasFromProto(proto.eyes(), "eyes");
-  VIEWLOOM_RETURN_IF_ERROR(eyes.status());
-  StereoSpec stereo{.layout = *layout,
-                    .eye_size_px = sizeFromProto(proto.eye_size()),
-                    .focal_distance_m = proto.focal_distance_m(),
-                    .fov_y_rad = proto.fov_y_rad(),
-                    .eyes = *std::move(eyes),
-                    .is_tracked = proto.tracked()};
-  if (proto.eye_distance_m() != 0) stereo.eye_distance_m = proto.eye_distance_m();
-  return stereo;
-}
-
-absl::StatusOr<CamerasSpec> camerasDisplayFromProto(const v1::CamerasDisplay& proto) {
-  const auto order = enumFromProto(proto.order(), "order", kCamerasOrders);
-  VIEWLOOM_RETURN_IF_ERROR(order.status());
-  auto cameras = camerasFromProto(proto.cameras(), "cameras");
-  VIEWLOOM_RETURN_IF_ERROR(cameras.status());
-  const auto arrangement = enumFromProto(proto.arrangement(), "arrangement", kArrangements);
-  VIEWLOOM_RETURN_IF_ERROR(arrangement.status());
-  CamerasSpec spec{.cameras = *std::move(cameras),
-                   .tile_size_px = sizeFromProto(proto.tile_size()),
-                   .columns = proto.columns(),
-                   .order = *order,
-                   .arrangement = *arrangement};
-  if (proto.has_grid()) {
-    spec.grid = CameraGrid{.columns = proto.grid().columns(),
-                           .rows = proto.grid().rows(),
-                           .spacing_m = {proto.grid().spacing_x_m(), proto.grid().spacing_y_m()},
-                           .focal_distance_m = proto.grid().focal_distance_m(),
-                           .fov_y_rad = proto.grid().fov_y_rad()};
+std::string namesOf(const google::protobuf::OneofDescriptor& kinds) {
+  std::string names;
+  for (int i = 0; i < kinds.field_count(); ++i) {
+    if (i > 0) names += i + 1 == kinds.field_count() ? " or " : ", ";
+    names += kinds.field(i)->name();
   }
-  return spec;
+  return names;
 }
 
-absl::StatusOr<LenticularSpec> lenticularFromProto(const v1::LenticularDisplay& proto) {
-  return LenticularSpec{.preset = proto.preset(),
-                        .calibration_json = proto.calibration_json(),
-                        .view_count = proto.view_count(),
-                        .view_cone_rad = proto.view_cone_rad(),
-                        .focal_distance_m = proto.focal_distance_m(),
-                        .fov_y_rad = proto.fov_y_rad()};
-}
+// A visitor that takes every field that the message gives (display/fields.h). What it does not
+// give, and what is 0 there, stays as it is. It keeps the first refusal.
+class ProtoReader {
+ public:
+  explicit ProtoReader(const Message& message) : message_(&message) {}
 
-absl::StatusOr<IntegralSpec> integralFromProto(const v1::IntegralDisplay& proto) {
-  return IntegralSpec{.preset = proto.preset(),
-                      .panel_px = sizeFromProto(proto.panel_size()),
-                      .pixel_pitch_m = proto.pixel_pitch_m(),
-                      .lens_pitch_m = proto.lens_pitch_m(),
-                      .focal_length_m = proto.focal_length_m(),
-                      .lens_columns = proto.lens_columns(),
-                      .lens_rows = proto.lens_rows(),
-                      .offset_px = {proto.offset_x_px(), proto.offset_y_px()},
-                      .is_flipped = proto.flipped(),
-                      .scale = proto.scale(),
-                      .distance_m = proto.distance_m()};
-}
-
-absl::StatusOr<RgbdSpec> rgbdFromProto(const v1::RgbdDisplay& proto) {
-  const auto form = enumFromProto(proto.form(), "form", kRgbdForms);
-  VIEWLOOM_RETURN_IF_ERROR(form.status());
-  const auto placement =
-      enumFromProto(proto.depth_placement(), "depth_placement", kDepthPlacements);
-  VIEWLOOM_RETURN_IF_ERROR(placement.status());
-  return RgbdSpec{.preset = proto.preset(),
-                  .view_size_px = sizeFromProto(proto.view_size()),
-                  .form = *form,
-                  .depth_placement = *placement,
-                  .is_black_near = proto.black_near(),
-                  .near_m = proto.near_m(),
-                  .far_m = proto.far_m(),
-                  .screen_m = proto.screen_m(),
-                  .fov_y_rad = proto.fov_y_rad(),
-                  .depth_bits = proto.depth_bits()};
-}
-
-// One of the converters above, its errors seen from the display.
-template <typename Spec>
-absl::Status assignKind(absl::StatusOr<Spec> kind, std::string_view field, DisplaySpec& spec) {
-  if (!kind.ok()) return withFieldPrefix(kind.status(), field);
-  spec.kind = *std::move(kind);
-  return absl::OkStatus();
-}
-
-absl::Status assignNamed(std::string_view name, DisplaySpec& spec) {
-  absl::StatusOr<DisplayKind> named = namedDisplay(name);
-  if (!named.ok()) return named.status();
-  spec.kind = *std::move(named);
-  return absl::OkStatus();
-}
-
-absl::Status kindFromProto(const v1::Display& proto, DisplaySpec& spec) {
-  switch (proto.kind_case()) {
-    case v1::Display::kQuilt:
-      return assignKind(quiltFromProto(proto.quilt()), "quilt", spec);
-    case v1::Display::kStereo:
-      return assignKind(stereoFromProto(proto.stereo()), "stereo", spec);
-    case v1::Display::kCameras:
-      return assignKind(camerasDisplayFromProto(proto.cameras()), "cameras", spec);
-    case v1::Display::kLenticular:
-      return assignKind(lenticularFromProto(proto.lenticular()), "lenticular", spec);
-    case v1::Display::kIntegral:
-      return assignKind(integralFromProto(proto.integral()), "integral", spec);
-    case v1::Display::kRgbd:
-      return assignKind(rgbdFromProto(proto.rgbd()), "rgbd", spec);
-    case v1::Display::kPreset:
-      return assignNamed(proto.preset(), spec);
-    case v1::Display::KIND_NOT_SET:
-      break;
+  void operator()(const char* name, double& value, const Range&) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (has(field)) value = reflection().GetDouble(*message_, &field);
   }
-  return invalidField("kind",
-                      "got none; accepted: quilt, stereo, cameras, lenticular, integral, "
-                      "rgbd or preset");
-}
-
-ReflectionSpec reflectionFromProto(const v1::ReflectionEffect& proto) {
-  return {.bounce_count = proto.bounces(),
-          .sample_count = proto.samples(),
-          .environment_rgb = proto.environment_rgb(),
-          .is_filtered = !proto.unfiltered()};
-}
-
-absl::Status effectsFromProto(const v1::Display& proto, DisplaySpec& spec) {
-  const v1::Effects& effects = proto.effects();
-  if (effects.has_lens()) {
-    const auto lens = lensFromProto(effects.lens());
-    VIEWLOOM_RETURN_IF_ERROR(lens.status());
-    spec.lens = *lens;
+  void operator()(const char* name, uint32_t& value, const Range&) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (has(field)) value = reflection().GetUInt32(*message_, &field);
   }
-  if (effects.has_temporal()) {
-    const auto temporal = temporalFromProto(effects.temporal());
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(temporal.status(), "effects.temporal"));
-    spec.temporal = *temporal;
+  template <typename Number>
+  void operator()(const char* name, std::optional<Number>& value, const Range& range) {
+    if (has(fieldOf(name))) (*this)(name, value.emplace(), range);
   }
-  if (effects.has_reflection()) spec.reflection = reflectionFromProto(effects.reflection());
-  const auto quality = qualityFromProto(proto.quality());
-  VIEWLOOM_RETURN_IF_ERROR(quality.status());
-  spec.quality = *quality;
-  return absl::OkStatus();
-}
+  void operator()(const char* name, SizePx& value, const Range&) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (!has(field)) return;
+    const Message& size = reflection().GetMessage(*message_, &field);
+    value = sizeFromProto(static_cast<const v1::SizePx&>(size));
+  }
+  void operator()(const char* name, bool& value) {
+    value = reflection().GetBool(*message_, &fieldOf(name));
+  }
+  template <typename Value, typename Known, size_t kCount>
+  void word(const char* name, Value& value, const Word<Known> (&words)[kCount]) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (!has(field)) return;
+    std::vector<std::string> known;
+    for (const Word<Known>& word : words) known.emplace_back(word.name);
+    if (const auto index = wordIndex(field, known)) value = words[*index].value;
+  }
+  void label(const char* name, std::string& value) {
+    value = reflection().GetString(*message_, &fieldOf(name));
+  }
+  template <typename Value, size_t kCount>
+  void label(const char* name, Value& value, const Word<Value> (&words)[kCount]) {
+    word(name, value, words);
+  }
+  void color(const char* name, uint32_t& value) { (*this)(name, value, Range{}); }
+  void cameras(const char* name, std::vector<ViewCamera>& value) {
+    absl::StatusOr<std::vector<ViewCamera>> cameras = camerasFromProto(*message_, fieldOf(name));
+    take(cameras.status());
+    if (cameras.ok()) value = *std::move(cameras);
+  }
+  void pose(const char* name, std::optional<Pose>& value) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (!has(field)) return;
+    const Message& pose = reflection().GetMessage(*message_, &field);
+    const auto taken = poseFromProto(static_cast<const v1::Pose&>(pose), name);
+    take(taken.status());
+    if (taken.ok()) value = *taken;
+  }
+  template <typename Spec>
+  void part(const char* name, std::optional<Spec>& value) {
+    if (!has(fieldOf(name))) return;
+    Spec spec;
+    group(name, [&] { visitFields(spec, *this); });
+    value = std::move(spec);
+  }
+  template <typename Function>
+  void group(const char* name, const Function& visit) {
+    const FieldDescriptor& field = fieldOf(name);
+    if (!has(field)) return;
+    const Message* const outer =
+        std::exchange(message_, &reflection().GetMessage(*message_, &field));
+    const size_t length = prefix_.size();
+    prefix_.append(name).append(".");
+    visit();
+    prefix_.resize(length);
+    message_ = outer;
+  }
+  void kind(DisplayKind& value) {
+    const auto& kinds = *message_->GetDescriptor()->FindOneofByName("kind");
+    const FieldDescriptor* const given = reflection().GetOneofFieldDescriptor(*message_, &kinds);
+    if (given == nullptr) {
+      take(invalidField("kind", strCat("got none; accepted: ", namesOf(kinds))));
+    } else if (given->type() == FieldDescriptor::TYPE_STRING) {
+      absl::StatusOr<DisplayKind> named = namedDisplay(reflection().GetString(*message_, given));
+      take(named.status());
+      if (named.ok()) value = *std::move(named);
+    } else {
+      forEachKind([&](auto spec) {
+        if (given->name() != spec.kName) return;
+        std::optional<decltype(spec)> taken;
+        part(spec.kName, taken);
+        value = *std::move(taken);
+      });
+    }
+  }
+  template <typename Function>
+  void made(const Function&) {}
+
+  const absl::Status& status() const { return status_; }
+
+ private:
+  const Reflection& reflection() const { return *message_->GetReflection(); }
+  const FieldDescriptor& fieldOf(const char* name) const {
+    const FieldDescriptor* const field = message_->GetDescriptor()->FindFieldByName(name);
+    VIEWLOOM_CHECK(field != nullptr);
+    return *field;
+  }
+  bool has(const FieldDescriptor& field) const { return reflection().HasField(*message_, &field); }
+
+  // Which of the words the enum says; none where it says nothing.
+  std::optional<size_t> wordIndex(const FieldDescriptor& field,
+                                  const std::vector<std::string>& words) {
+    const google::protobuf::EnumDescriptor& type = *field.enum_type();
+    std::string prefix = type.FindValueByNumber(0)->name();
+    prefix.resize(prefix.size() - kUnspecified.size());
+    const int number = reflection().GetEnumValue(*message_, &field);
+    std::string accepted;
+    for (size_t i = 0; i < words.size(); ++i) {
+      const auto* const value = type.FindValueByName(prefix + words[i]);
+      VIEWLOOM_CHECK(value != nullptr);
+      if (value->number() == number) return i;
+      accepted += strCat(i == 0 ? "" : ", ", value->name());
+    }
+    take(refuseEnum(type, number, accepted, field.name()));
+    return std::nullopt;
+  }
+
+  void take(const absl::Status& status) {
+    if (!status_.ok() || status.ok()) return;
+    status_ =
+        prefix_.empty()
+            ? status
+            : withFieldPrefix(status, std::string_view(prefix_).substr(0, prefix_.size() - 1));
+  }
+
+  const Message* message_;
+  std::string prefix_;
+  absl::Status status_;
+};
 
 }  // namespace
 
 absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
   DisplaySpec spec;
-  VIEWLOOM_RETURN_IF_ERROR(kindFromProto(proto, spec));
-  VIEWLOOM_RETURN_IF_ERROR(effectsFromProto(proto, spec));
-  spec.focus_following_s = proto.focus_following_s();
-  if (proto.filter().sample_count() != 0) spec.filter.sample_count = proto.filter().sample_count();
-  if (proto.filter().width() != 0) spec.filter.width = proto.filter().width();
-  if (proto.has_world_pose()) {
-    const auto pose = poseFromProto(proto.world_pose(), "world_pose");
-    VIEWLOOM_RETURN_IF_ERROR(pose.status());
-    spec.world_pose = *pose;
-  }
-  const auto outside_fill = enumFromProto(proto.outside_fill(), "outside_fill", kOutsideFills);
-  VIEWLOOM_RETURN_IF_ERROR(outside_fill.status());
-  spec.outside_fill = *outside_fill;
-  if (proto.tolerance_px() != 0) spec.tolerance_px = proto.tolerance_px();
-  spec.background_rgb = proto.background_rgb();
+  ProtoReader reader(proto);
+  visitFields(spec, reader);
+  VIEWLOOM_RETURN_IF_ERROR(reader.status());
   return completeDisplaySpec(std::move(spec));
 }
 

@@ -77,7 +77,9 @@ TEST(UserWords, sayInOneLineWhatIsWrongWithAFile) {
   DisplayOptions options;
   options.file = path;
   EXPECT_EQ(std::string(makeDisplay(options).status().message()),
-            path + ": does not describe a display in JSON: Unexpected token at \"root:x:0\"");
+            path +
+                ": does not describe a display in JSON: the JSON breaks off or goes "
+                "wrong at byte 1, at \"r\"");
 }
 
 }  // namespace

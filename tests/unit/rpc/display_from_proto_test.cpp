@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "rpc/encoding_from_proto.h"
+#include "messages/encoding_from_proto.h"
 
 namespace viewloom {
 namespace {
@@ -85,8 +85,14 @@ TEST(DisplayFromProto, takesEveryNumberOver) {
   EXPECT_EQ(spec.background_rgb, 0x0a0b0cu);
 }
 
+DisplaySpec portrait() {
+  v1::Display proto;
+  proto.mutable_quilt()->set_preset("portrait");
+  return converted(proto);
+}
+
 TEST(EncodingFromProto, fillsInTheDefaultsOfTheProto) {
-  EXPECT_EQ(*encodingFromProto({}, {}), EncodingSpec{});
+  EXPECT_EQ(*encodingFromProto({}, portrait()), EncodingSpec{});
 }
 
 TEST(EncodingFromProto, takesEveryChoiceOver) {
@@ -97,12 +103,12 @@ TEST(EncodingFromProto, takesEveryChoiceOver) {
   proto.set_with_depth(true);
   proto.set_with_mask(true);
   proto.set_planes(v1::BAND_ENCODING_RAW);
-  EXPECT_EQ(*encodingFromProto(proto, {}), (EncodingSpec{.color = BandEncoding::kZstd,
-                                                     .jpeg_quality = 3,
-                                                     .chroma = Chroma::k444,
-                                                     .with_depth = true,
-                                                     .with_mask = true,
-                                                     .planes = BandEncoding::kRaw}));
+  EXPECT_EQ(*encodingFromProto(proto, portrait()), (EncodingSpec{.color = BandEncoding::kZstd,
+                                                                 .jpeg_quality = 3,
+                                                                 .chroma = Chroma::k444,
+                                                                 .with_depth = true,
+                                                                 .with_mask = true,
+                                                                 .planes = BandEncoding::kRaw}));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "calibration/make_lenticular.h"
-#include "display/panels.h"
+#include "display/presets.h"
 
 namespace viewloom {
 namespace {

@@ -98,7 +98,7 @@ void MirroredLightPass::record(Commands commands, const TraceJob& job,
                                      .row_count = target.rows.row_count,
                                      .tile_size_px = packSize(layout.tile_size_px),
                                      .padding_top_px = layout.padding_top_px,
-                                     .is_filtered = job.reflection->is_filtered,
+                                     .is_filtered = !job.reflection->is_unfiltered,
                                      .focal_px = focalOf(layout)},
              groupCount(layout.size_px.width), target.rows.row_count);
   recordComputeBarrier(commands);

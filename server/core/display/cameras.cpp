@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "display/camera_list.h"
+#include "display/cameras.h"
 
 #include <cmath>
 
 #include "base/str_cat.h"
-#include "display/field_checks.h"
+#include "display/atlas_layout.h"
 #include "display/focal_window.h"
 
 namespace viewloom {
-
 namespace {
-
-absl::Status complete(CameraGrid& grid) {
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(grid.columns, kCameraCountMax, "cameras.grid.columns"));
-  VIEWLOOM_RETURN_IF_ERROR(checkCount(grid.rows, kCameraCountMax, "cameras.grid.rows"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(grid.spacing_m.x, 0, kCameraSpacingMax_m, "cameras.grid.spacing_x_m"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRange(grid.spacing_m.y, 0, kCameraSpacingMax_m, "cameras.grid.spacing_y_m"));
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkOptionalDistance(grid.focal_distance_m, "cameras.grid.focal_distance_m"));
-  return checkOptionalAngle(grid.fov_y_rad, "cameras.grid.fov_y_rad");
-}
 
 uint32_t viewCount(const CamerasSpec& cameras) {
   return cameras.grid ? cameras.grid->count() : static_cast<uint32_t>(cameras.cameras.size());
@@ -55,17 +42,18 @@ absl::Status completeArrangement(CamerasSpec& cameras) {
                                                       " views, accepted are four"));
   }
   if (cameras.columns == 0) cameras.columns = columns;
-  return checkCount(cameras.columns, kCameraCountMax, "cameras.columns");
+  return absl::OkStatus();
 }
 
 }  // namespace
 
-absl::Status complete(CamerasSpec& cameras) {
-  if (cameras.grid) {
-    if (!cameras.cameras.empty()) {
-      return invalidField("cameras.grid", "got one beside cameras, accepted is one of the two");
-    }
-    VIEWLOOM_RETURN_IF_ERROR(complete(*cameras.grid));
+absl::Status takePreset(CamerasSpec&) {
+  return absl::OkStatus();
+}
+
+absl::Status settle(CamerasSpec& cameras) {
+  if (cameras.grid && !cameras.cameras.empty()) {
+    return invalidField("cameras.grid", "got one beside cameras, accepted is one of the two");
   }
   const uint64_t count =
       cameras.grid ? uint64_t{cameras.grid->columns} * cameras.grid->rows : cameras.cameras.size();
@@ -73,9 +61,20 @@ absl::Status complete(CamerasSpec& cameras) {
     return invalidField(cameras.grid ? "cameras.grid" : "cameras.cameras",
                         strCat("got ", count, ", accepted is 1..", kCameraCountMax));
   }
-  VIEWLOOM_RETURN_IF_ERROR(checkSize(cameras.tile_size_px, kEyeSidePxMax, "cameras.tile_size"));
-  VIEWLOOM_RETURN_IF_ERROR(completeArrangement(cameras));
-  return validateCameras(cameras.cameras, "cameras.cameras");
+  return completeArrangement(cameras);
+}
+
+double* focalPlane(CamerasSpec& cameras) {
+  return cameras.grid ? &cameras.grid->focal_distance_m : nullptr;
+}
+
+std::optional<OpenFov> openFov(const CamerasSpec& cameras) {
+  if (!cameras.grid) return std::nullopt;
+  return OpenFov{"cameras.grid.fov_y_rad", cameras.grid->fov_y_rad};
+}
+
+std::vector<KnownDevice> devicesOf(const CamerasSpec&) {
+  return {};
 }
 
 TileGrid tileGrid(const CamerasSpec& cameras) {
@@ -90,20 +89,6 @@ TileGrid tileGrid(const CamerasSpec& cameras) {
           .width_px = uint64_t{cameras.columns} * cameras.tile_size_px.width,
           .height_px = uint64_t{rows} * cameras.tile_size_px.height,
           .image_count = cameras.arrangement == TileArrangement::kSeparate ? count : 1};
-}
-
-absl::Status validateCameras(const std::vector<ViewCamera>& cameras, const std::string& field) {
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const std::string name = strCat(field, "[", i, "]");
-    VIEWLOOM_RETURN_IF_ERROR(validatePose(cameras[i].pose, name + ".pose"));
-    if (const auto* fov = std::get_if<Fov>(&cameras[i].projection)) {
-      VIEWLOOM_RETURN_IF_ERROR(validateFov(*fov, name + ".fov"));
-    } else {
-      VIEWLOOM_RETURN_IF_ERROR(
-          validateIntrinsics(std::get<Intrinsics>(cameras[i].projection), name + ".intrinsics"));
-    }
-  }
-  return absl::OkStatus();
 }
 
 std::vector<View> cameraViews(const std::vector<ViewCamera>& cameras, SizePx tile_size_px) {

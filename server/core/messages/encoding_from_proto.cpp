@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/encoding_from_proto.h"
+#include "messages/encoding_from_proto.h"
 
+#include "display/atlas_layout.h"
 #include "display/rgbd.h"
 #include "messages/enum_from_proto.h"
 
@@ -39,7 +40,8 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
   VIEWLOOM_RETURN_IF_ERROR(planes.status());
   encoding.color = *color;
   encoding.chroma = *chroma;
-  if (std::holds_alternative<LenticularSpec>(display.kind)) {
+  const bool has_channels = tileGridOf(display).rays_per_px > 1;  // shared chroma would mix them
+  if (has_channels) {
     if (proto.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.color = BandEncoding::kJpegPlanes;
     if (proto.chroma() == v1::CHROMA_SUBSAMPLING_UNSPECIFIED) encoding.chroma = Chroma::k444;
   }

@@ -8,7 +8,7 @@
 
 namespace viewloom {
 
-// Errors name the field as in proto AtlasEncoding.
+// The display is completed. Errors name the field as in proto AtlasEncoding.
 absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
                                                const DisplaySpec& display);
 
