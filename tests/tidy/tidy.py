@@ -8,6 +8,7 @@ tidy.py ROOT --graph FILE        draws which folder includes which instead, as .
 import sys
 
 import build_rules
+import file_lengths
 import include_graph
 import layering
 import proto_rules
@@ -26,6 +27,7 @@ def main():
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)
+    print(file_lengths.summary(tree))
     print(f"{len(tree.paths())} files read, {len(findings)} findings")
     return 1 if findings or not tree.paths() else 0
 

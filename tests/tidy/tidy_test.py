@@ -4,6 +4,7 @@
 import unittest
 
 import build_rules
+import file_lengths
 import include_graph
 import layering
 import proto_rules
@@ -22,6 +23,15 @@ def rules_broken(check, files):
     tree = Tree({path: text if isinstance(text, bytes) else text.encode()
                  for path, text in files.items()})
     return sorted((finding.path, finding.rule) for finding in check(tree))
+
+
+class FileLengths(unittest.TestCase):
+    def test_the_median_the_90th_percentile_and_short_files_are_counted(self):
+        tree = Tree({f"{length}.{suffix}": b"x\n" * length
+                     for length, suffix in [(10, "cpp"), (39, "h"), (40, "glsl"), (90, "comp"),
+                                            (100, "cpp"), (1000, "py")]})
+        self.assertEqual(file_lengths.summary(tree), "5 files of C++ and GLSL: median 40 lines, "
+                         "90th percentile 100, 2 under 40")
 
 
 class Layers(unittest.TestCase):
