@@ -17,7 +17,7 @@
 
 #include "base/str_cat.h"
 #include "files/file_bytes.h"
-#include "files/png_writer.h"
+#include "files/png_image.h"
 #include "lib/file_name_part.h"
 
 namespace viewloom::cli {

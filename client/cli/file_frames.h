@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files and manifests as a feed.
+// Image files and manifests as a feed, and the options that name them.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "cli/first_look.h"
 #include "cli/frame_feed.h"
 #include "cli/frame_loader.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
@@ -60,5 +61,8 @@ class FileFrames final : public FrameFeed {
   // A single frame is read once, however often it is shown.
   std::optional<WireFrame> only_frame_;
 };
+
+// Adds the options that name the files.
+void addFileOptions(const usage::Command& app, FileFeedOptions& options);
 
 }  // namespace viewloom::cli

@@ -11,7 +11,7 @@
 #include "base/output_file.h"
 #include "base/str_cat.h"
 #include "cli/display_options.h"
-#include "cli/file_options.h"
+#include "cli/file_frames.h"
 #include "cli/inspection_report.h"
 #include "cli/option_trial.h"
 #include "cli/plane_options.h"
@@ -20,7 +20,7 @@
 #include "files/exr_description.h"
 #include "files/file_bytes.h"
 #include "files/file_extension.h"
-#include "files/png_writer.h"
+#include "files/png_image.h"
 
 namespace viewloom::cli {
 namespace {

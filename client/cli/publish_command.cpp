@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "cli/file_options.h"
+#include "cli/file_frames.h"
 #include "cli/folder_frames.h"
 #include "cli/pattern_frames.h"
 #include "cli/pattern_options.h"

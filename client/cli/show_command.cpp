@@ -14,7 +14,6 @@
 #include "cli/status_line.h"
 #include "cli/stream_wait.h"
 #include "lib/channel.h"
-#include "show/device_preset.h"
 #include "show/find_calibration.h"
 #include "show/show_session.h"
 #include "show/tune_session.h"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG: 8 and 16 bit colour, 8 and 16 bit grey as depth.
+// PNG, read (8 and 16 bit colour, 8 and 16 bit grey as depth) and written.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 
+#include "base/status.h"
 #include "files/picture.h"
 
 namespace viewloom::files {
@@ -22,5 +24,14 @@ absl::StatusOr<Picture> decodePng(const std::string& name, std::span<const uint8
 // As colorPlane and depthPlane make it.
 absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples);
 absl::StatusOr<PlaneImage> readPngDepth(const std::filesystem::path& path, bool spread);
+
+// samples: uint8_t[height_px][width_px][channels], packed, top row first; channels 1 (grey), 3
+// (RGB) or 4 (RGBA). Returns the bytes of the file.
+absl::StatusOr<std::string> encodePng(std::span<const uint8_t> samples, uint32_t width_px,
+                                      uint32_t height_px, uint32_t channels);
+
+// samples: uint16_t[height_px][width_px][3], RGB of 16 bits. Returns the bytes of the file.
+absl::StatusOr<std::string> encodePng16(std::span<const uint16_t> samples, uint32_t width_px,
+                                        uint32_t height_px);
 
 }  // namespace viewloom::files

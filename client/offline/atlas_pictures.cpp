@@ -7,7 +7,7 @@
 #include "absl/strings/str_format.h"
 #include "encode/encoded_band.h"
 #include "files/file_bytes.h"
-#include "files/png_writer.h"
+#include "files/png_image.h"
 
 namespace viewloom {
 namespace {

@@ -2,12 +2,12 @@
 #include "offline/compare_views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/str_cat.h"
+#include "encode/encoded_band.h"
 #include "files/frame_manifest.h"
-#include "offline/rendered_view.h"
-#include "offline/score_json.h"
 #include "scoring/inner_part.h"
 
 namespace viewloom {
@@ -57,6 +57,33 @@ absl::StatusOr<Json> compareView(const v1::TruthView& view, const RenderedAtlas&
   return json;
 }
 
+Json classJson(const ImageScore& score) {
+  Json json;
+  json["pixels"] = score.pixel_count;
+  json["share"] = score.share;
+  if (score.pixel_count == 0) {
+    json["psnr_db"] = nullptr;
+    json["ssim"] = nullptr;
+    json["flip"] = nullptr;
+  } else {
+    json["psnr_db"] = std::isinf(score.psnr_db) ? Json("inf") : Json(score.psnr_db);
+    json["ssim"] = score.ssim;
+    json["flip"] = score.flip;
+  }
+  return json;
+}
+
+PixelClass classOf(uint8_t ray_class) {
+  switch (static_cast<RayClass>(ray_class)) {
+    case RayClass::kHidden:
+      return PixelClass::kHidden;
+    case RayClass::kOutside:
+      return PixelClass::kOutside;
+    default:
+      return PixelClass::kCovered;
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<Json> compareViews(const RenderedAtlas& atlas, const CompareOptions& options) {
@@ -77,6 +104,31 @@ absl::StatusOr<Json> compareViews(const RenderedAtlas& atlas, const CompareOptio
     views.push_back(*std::move(view));
   }
   return views;
+}
+
+Json scoreJson(const ClassScores& scores) {
+  return {{"covered", classJson(scores.covered)},
+          {"hidden", classJson(scores.hidden)},
+          {"outside", classJson(scores.outside)},
+          {"all", classJson(scores.all)}};
+}
+
+RenderedView cutView(const RenderedAtlas& atlas, uint32_t view, ScoreTransfer transfer) {
+  const AtlasLayout& layout = *atlas.layout;
+  const TileOrigin origin = layout.tileOrigin(view);
+  RenderedView cut = {.image = {.size_px = layout.tile_size_px, .rgb = {}}, .classes = {}};
+  cut.image.rgb.reserve(3 * layout.tile_size_px.area());
+  cut.classes.reserve(layout.tile_size_px.area());
+  for (size_t y = 0; y < layout.tile_size_px.height; ++y) {
+    for (size_t x = 0; x < layout.tile_size_px.width; ++x) {
+      const size_t i = (origin.y_px + y) * layout.size_px.width + origin.x_px + x;
+      for (size_t c = 0; c < 3; ++c) {
+        cut.image.rgb.push_back(scoredSample(atlas.linear[4 * i + c], transfer));
+      }
+      cut.classes.push_back(classOf(atlas.mask[i]));
+    }
+  }
+  return cut;
 }
 
 }  // namespace viewloom

@@ -2,13 +2,14 @@
 // Scores rendered views against true pictures, apart for what was seen and what had to be made up.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "base/status.h"
 #include "offline/truth_image.h"
+#include "scoring/class_scores.h"
 #include "walk/offline_renderer.h"
 
 namespace viewloom {
@@ -21,9 +22,23 @@ struct CompareOptions {
   std::vector<std::filesystem::path> covered_masks;
 };
 
-// [{"view", "by_renderer", "by_mask"}]: scores (offline/score_json.h) by the renderer's own
+// [{"view", "by_renderer", "by_mask"}]: scores (scoreJson) by the renderer's own
 // classes and, where there is one, by the given mask. Needs linear and mask.
 absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
                                                     const CompareOptions& options);
+
+// As commands print scores: {"covered", "hidden", "outside", "all"}, each with "pixels", "share",
+// "psnr_db" (a number, "inf" for identical pictures, null without pixels), "ssim" and "flip" (null
+// without pixels).
+nlohmann::ordered_json scoreJson(const ClassScores& scores);
+
+// One view of a rendered atlas, in the form it is scored in.
+struct RenderedView {
+  ScoredImage image;
+  std::vector<PixelClass> classes;  // as the renderer says: covered are hits and known emptiness
+};
+
+// Needs linear and mask.
+RenderedView cutView(const RenderedAtlas& atlas, uint32_t view, ScoreTransfer transfer);
 
 }  // namespace viewloom

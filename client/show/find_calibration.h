@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a device's calibration comes from: a file, or the storage that the device plugs in as.
+// Where a device's calibration comes from (a file, or the storage that the device plugs in as), and
+// which of the server's named quilts suits it.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/status.h"
@@ -22,5 +24,9 @@ absl::StatusOr<Calibration> readCalibrationFile(const std::filesystem::path& pat
 // The named file; else the one that is found; else none. INVALID_ARGUMENT when there are several.
 absl::StatusOr<std::optional<Calibration>> chooseCalibration(const std::string& named,
                                                              const std::filesystem::path& root);
+
+// The named quilt of a calibrated device: by the serial number's prefix, else by the panel's size;
+// "portrait" for a device nobody knows.
+std::string_view presetOf(const Calibration& calibration);
 
 }  // namespace viewloom::show

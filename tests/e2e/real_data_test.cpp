@@ -13,7 +13,7 @@
 
 #include "e2e/run_program.h"
 #include "files/file_bytes.h"
-#include "files/png_writer.h"
+#include "files/png_image.h"
 #include "support/data_sets.h"
 #include "support/forward_map.h"
 

@@ -16,7 +16,6 @@
 #include "e2e/run_program.h"
 #include "files/file_bytes.h"
 #include "files/png_image.h"
-#include "files/png_writer.h"
 
 namespace viewloom::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fidelity/coarse_depth.h"
-#include "offline/rendered_view.h"
+#include "offline/compare_views.h"
 #include "support/data_sets.h"
 #include "walk/offline_renderer.h"
 

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "offline/score_json.h"
+#include "offline/compare_views.h"
 
 namespace viewloom::fidelity {
 namespace {

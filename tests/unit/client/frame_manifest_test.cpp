@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "files/png_writer.h"
+#include "files/png_image.h"
 #include "unit/client/test_files.h"
 #include "unit/client/written_pictures.h"
 

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "files/png_writer.h"
 #include "unit/client/test_files.h"
 
 namespace viewloom::files {

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "files/png_image.h"
-#include "files/png_writer.h"
 #include "unit/client/test_files.h"
 
 namespace viewloom::patterns {

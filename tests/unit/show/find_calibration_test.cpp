@@ -6,8 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "show/device_preset.h"
-
 namespace viewloom::show {
 namespace {
 

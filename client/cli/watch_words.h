@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says when a stream's defaults, and with them a display, have changed.
+// Words of `viewloom watch` beside the atlases: the server's clock, latency, changed defaults.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "lib/motion_latency.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom::cli {
 
+// "server's clock 0.001204 s ahead, to 0.05 ms"
+std::string clockText(const ClockOffset& server);
+// "motion to picture 23.1 ms (there 0.4, waited 3.0, made 18.2, back 1.5)"
+std::string motionText(const MotionLatency& latency);
+
+// Says when a stream's defaults, and with them a display, have changed.
 // Thread-safety: none; one owner.
 class DefaultsNews {
  public:
