@@ -4,8 +4,11 @@
 #include <chrono>
 #include <utility>
 
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+
 #include "base/str_cat.h"
-#include "lib/channel.h"
+#include "viewloom/v1/catalog_service.grpc.pb.h"
 
 namespace viewloom {
 namespace {
@@ -15,7 +18,7 @@ using Stub = v1::CatalogService::Stub;
 constexpr std::chrono::seconds kPatience{5};
 
 template <typename Request, typename Response>
-absl::StatusOr<Response> call(Stub& stub,
+absl::StatusOr<Response> call(const std::shared_ptr<grpc::Channel>& channel,
                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
                                                            Response*),
                               const Request& request = {}, const std::stop_token& stop = {}) {
@@ -23,7 +26,7 @@ absl::StatusOr<Response> call(Stub& stub,
   const std::stop_callback break_off(stop, [&context] { context.TryCancel(); });
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
   Response response;
-  const grpc::Status status = (stub.*method)(&context, request, &response);
+  const grpc::Status status = (Stub(channel).*method)(&context, request, &response);
   if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
     return absl::DeadlineExceededError(strCat("no answer within ", kPatience.count(), " s"));
   }
@@ -33,28 +36,27 @@ absl::StatusOr<Response> call(Stub& stub,
 
 }  // namespace
 
-Catalog::Catalog(std::shared_ptr<grpc::Channel> channel)
-    : stub_(v1::CatalogService::NewStub(std::move(channel))) {}
+Catalog::Catalog(std::shared_ptr<grpc::Channel> channel) : channel_(std::move(channel)) {}
 
 absl::StatusOr<v1::ListStreamsResponse> Catalog::listStreams(const std::stop_token& stop) const {
-  return call(*stub_, &Stub::ListStreams, {}, stop);
+  return call(channel_, &Stub::ListStreams, {}, stop);
 }
 
 absl::StatusOr<v1::ListDisplaysResponse> Catalog::listDisplays() const {
-  return call(*stub_, &Stub::ListDisplays);
+  return call(channel_, &Stub::ListDisplays);
 }
 
 absl::StatusOr<v1::ListPresetsResponse> Catalog::listPresets() const {
-  return call(*stub_, &Stub::ListPresets);
+  return call(channel_, &Stub::ListPresets);
 }
 
 absl::StatusOr<v1::GetServerInfoResponse> Catalog::getServerInfo() const {
-  return call(*stub_, &Stub::GetServerInfo);
+  return call(channel_, &Stub::GetServerInfo);
 }
 
 absl::StatusOr<v1::AdviseSourceResponse> Catalog::adviseSource(
     const v1::AdviseSourceRequest& request) const {
-  return call(*stub_, &Stub::AdviseSource, request);
+  return call(channel_, &Stub::AdviseSource, request);
 }
 
 }  // namespace viewloom

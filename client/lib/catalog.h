@@ -2,13 +2,12 @@
 // Asks a server what it has.
 #pragma once
 
-#include <grpcpp/channel.h>
-
 #include <memory>
 #include <stop_token>
 
 #include "base/status.h"
-#include "viewloom/v1/catalog_service.grpc.pb.h"
+#include "lib/channel.h"
+#include "viewloom/v1/catalog_service.pb.h"
 
 namespace viewloom {
 
@@ -27,7 +26,7 @@ class Catalog {
       const v1::AdviseSourceRequest& request) const;
 
  private:
-  std::unique_ptr<v1::CatalogService::Stub> stub_;
+  std::shared_ptr<grpc::Channel> channel_;
 };
 
 }  // namespace viewloom

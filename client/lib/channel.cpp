@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 
+#include <grpcpp/channel.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
+#include <grpcpp/support/status.h>
 
 #include "absl/strings/cord.h"
 #include "base/host_port.h"

@@ -2,13 +2,17 @@
 // Channels to a server, with every limit set, and gRPC statuses as ours.
 #pragma once
 
-#include <grpcpp/channel.h>
-#include <grpcpp/support/status.h>
-
 #include <memory>
 #include <string>
 
 #include "base/status.h"
+
+// Declared rather than included: gRPC's headers take long to compile, and most users of this file
+// only hand a channel on.
+namespace grpc {
+class Channel;
+class Status;
+}  // namespace grpc
 
 namespace viewloom {
 

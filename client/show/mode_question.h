@@ -9,9 +9,8 @@
 #include <string>
 #include <thread>
 
-#include <grpcpp/channel.h>
-
 #include "base/status.h"
+#include "lib/channel.h"
 #include "lib/retry_loop.h"
 #include "show/show_settings.h"
 #include "viewloom/v1/catalog_service.pb.h"

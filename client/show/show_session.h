@@ -7,10 +7,9 @@
 #include <optional>
 #include <string>
 
-#include <grpcpp/channel.h>
-
 #include "base/status.h"
 #include "calibration/calibration.h"
+#include "lib/channel.h"
 #include "lib/retry_loop.h"
 #include "show/show_settings.h"
 #include "viewloom/v1/display_service.pb.h"

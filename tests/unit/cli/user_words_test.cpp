@@ -2,6 +2,7 @@
 #include "cli/user_words.h"
 
 #include <gmock/gmock.h>
+#include <grpcpp/support/status.h>
 #include <gtest/gtest.h>
 
 #include <regex>

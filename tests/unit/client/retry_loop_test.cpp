@@ -2,6 +2,7 @@
 #include "lib/retry_loop.h"
 
 #include <gmock/gmock.h>
+#include <grpcpp/support/status.h>
 #include <gtest/gtest.h>
 
 #include <optional>
