@@ -15,7 +15,7 @@ class EmptyRoom final : public EngineRoom {
   }
   void forgetStream(const std::string&) override {}
   void serveDisplays(const std::string&) override {}
-  void serveEyes(const ActiveDisplay&) override {}
+  void serveEyes(uint64_t) override {}
   void drain() override {}
   EngineRoomDescription description() const override { return {}; }
   uint64_t deviceMessageCount() const override { return 0; }

@@ -56,7 +56,7 @@ class DeviceRoom final : public EngineRoom {
   }
   void forgetStream(const std::string& stream) override { pipeline_.forgetStream(stream); }
   void serveDisplays(const std::string& stream) override { pipeline_.serveDisplays(stream); }
-  void serveEyes(const ActiveDisplay& display) override { pipeline_.serveEyes(display); }
+  void serveEyes(uint64_t display_id) override { pipeline_.serveEyes(display_id); }
   void drain() override { pipeline_.drain(); }
 
   EngineRoomDescription description() const override {

@@ -118,7 +118,6 @@ void Service::Parts::connect() {
     engine_room->serveDisplays(stream);
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
-  broadcaster.onEyesMove([this](const ActiveDisplay& display) { engine_room->serveEyes(display); });
   broadcaster.onEyesServed([this](const std::string& stream) {
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
@@ -151,6 +150,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
                        .pool = planes,
                        .directory = directory,
                        .broadcaster = broadcaster,
+                       .eyes = *engine_room,
                        .clock = clock,
                        .metrics = metrics},
               description);

@@ -155,10 +155,11 @@ class WatchRun {
     }
     sayHeld(atlas.header);
     if (const auto news = news_.note(atlas.header, planeOf(*atlas.layout))) line_.say(*news);
-    const std::optional<MotionLatency> motion = reportMotion(atlas.header);
+    const std::optional<MotionLatency> motion = reportMotion(atlas);
     std::lock_guard lock(mutex_);
     if (motion) motion_ = motion;
     newest_ = atlas.header;
+    newest_times_ = atlas.end.times();
     latency_.note(newest_.frame_number(), newest_.capture_time_ns(), captureTimeNs());
   }
 
@@ -169,7 +170,8 @@ class WatchRun {
   }
 
   // The picture is here, and counts as shown: by the clock of the poses, which may be another's.
-  std::optional<MotionLatency> reportMotion(const v1::AtlasHeader& header) {
+  std::optional<MotionLatency> reportMotion(const Atlas& atlas) {
+    const v1::AtlasHeader& header = atlas.header;
     const int64_t shown_ns = steadyNowNs();
     const int64_t poses_time_ns = header.eye_poses_time_ns();
     const std::optional<int64_t> measured_ns = eye_times_.hereNs(poses_time_ns);
@@ -179,7 +181,7 @@ class WatchRun {
                                                      uint64_t(shown_ns - *measured_ns));
     watcher_->reportPresented(header.sequence(), shown_there_ns);
     const std::optional<ClockOffset> server = watcher_->serverClock();
-    return server ? motionLatency(header, *measured_ns, shown_ns, *server) : std::nullopt;
+    return server ? motionLatency(atlas, *measured_ns, shown_ns, *server) : std::nullopt;
   }
 
   void setFailure(const absl::Status& status) {
@@ -199,7 +201,7 @@ class WatchRun {
     const double bytes_rate = bytes_rate_.perSecond(counts.received_bytes);
     const std::optional<ClockOffset> server = watcher_->serverClock();
     std::lock_guard lock(mutex_);
-    const double server_ms = static_cast<double>(newest_.times().total_ns()) * 1e-6;
+    const double server_ms = static_cast<double>(newest_times_.total_ns()) * 1e-6;
     return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
                   formatBytes(bytes_rate), "/s, ", latencyText(), " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
@@ -243,6 +245,7 @@ class WatchRun {
   RateMeter bytes_rate_;
   mutable std::mutex mutex_;
   v1::AtlasHeader newest_;
+  v1::StageTimes newest_times_;
   FrameLatency latency_;
   std::optional<MotionLatency> motion_;
   absl::Status failure_;

@@ -25,6 +25,7 @@ struct AtlasBand {
 struct Atlas {
   std::shared_ptr<const v1::AtlasLayout> layout;
   v1::AtlasHeader header;
+  v1::AtlasEnd end;
   std::vector<AtlasBand> bands;  // of each plane from the top; planes in any order
 
   size_t byteCount() const;

@@ -7,6 +7,27 @@
 
 namespace viewloom {
 
+namespace {
+
+// Older servers, and recordings of them, say it before the bands.
+void takeOutcomeOf(v1::AtlasHeader& header, v1::AtlasEnd& end) {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  if (!end.has_times() && header.has_times()) end.mutable_times()->Swap(header.mutable_times());
+  if (!end.has_coverage() && header.has_coverage()) {
+    end.mutable_coverage()->Swap(header.mutable_coverage());
+  }
+  if (!end.has_reflections() && header.has_reflections()) {
+    end.mutable_reflections()->Swap(header.mutable_reflections());
+  }
+  header.clear_times();
+  header.clear_coverage();
+  header.clear_reflections();
+#pragma GCC diagnostic pop
+}
+
+}  // namespace
+
 AtlasAssembler::AtlasAssembler(uint64_t bytes_max) : bytes_max_(bytes_max) {}
 
 void AtlasAssembler::restart() {
@@ -32,7 +53,9 @@ absl::StatusOr<std::optional<Atlas>> AtlasAssembler::add(v1::StreamAtlasesRespon
   } else if (message.has_band()) {
     VIEWLOOM_RETURN_IF_ERROR(addBand(std::move(*message.mutable_band())));
   } else if (message.has_end()) {
-    return end(message.end().sequence());
+    return end(std::move(*message.mutable_end()));
+  } else if (message.has_abandoned()) {
+    discard();
   } else if (message.has_skipped()) {
     counts_.skipped += message.skipped().count();
   }
@@ -46,7 +69,7 @@ void AtlasAssembler::begin(v1::AtlasHeader header) {
     counts_.gaps += header.sequence() - last_sequence_ - 1;
   }
   last_sequence_ = header.sequence();
-  open_ = Atlas{.layout = layout_, .header = std::move(header), .bands = {}};
+  open_ = Atlas{.layout = layout_, .header = std::move(header), .end = {}, .bands = {}};
 }
 
 absl::Status AtlasAssembler::addBand(v1::Band band) {
@@ -81,12 +104,15 @@ absl::Status AtlasAssembler::addBand(v1::Band band) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::optional<Atlas>> AtlasAssembler::end(uint64_t sequence) {
+absl::StatusOr<std::optional<Atlas>> AtlasAssembler::end(v1::AtlasEnd end) {
+  const uint64_t sequence = end.sequence();
   if (!open_ || sequence != open_->header.sequence() || band_is_open_ ||
       open_->bands.size() != open_->header.band_count()) {
     return absl::DataLossError(strCat("atlas ", sequence, " ended before it was whole"));
   }
   std::optional<Atlas> whole = std::exchange(open_, std::nullopt);
+  whole->end = std::move(end);
+  takeOutcomeOf(whole->header, whole->end);
   bytes_ = 0;
   ++counts_.whole;
   return whole;

@@ -13,7 +13,7 @@ namespace viewloom {
 
 struct AtlasCounts {
   uint64_t whole = 0;
-  uint64_t discarded = 0;  // begun, never ended
+  uint64_t discarded = 0;  // begun, and abandoned by the server or never ended
   uint64_t skipped = 0;    // the server said so
   uint64_t gaps = 0;  // missing in the sequence; more than skipped = lost on a change of display
 };
@@ -36,7 +36,7 @@ class AtlasAssembler {
  private:
   void begin(v1::AtlasHeader header);
   absl::Status addBand(v1::Band band);
-  absl::StatusOr<std::optional<Atlas>> end(uint64_t sequence);
+  absl::StatusOr<std::optional<Atlas>> end(v1::AtlasEnd end);
   void discard();
 
   const uint64_t bytes_max_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "lib/atlas.h"
 #include "lib/server_clock.h"
 
 namespace viewloom {
@@ -18,9 +19,9 @@ struct MotionLatency {
   double back_s = 0;       // until the picture was here, and shown
 };
 
-// Of an atlas by its header. The eyes were measured at the one time, and it was shown at the other,
+// How long an atlas took. The eyes were measured at the one time, and it was shown at the other,
 // both by steadyNowNs(). None for an atlas without poses.
-std::optional<MotionLatency> motionLatency(const v1::AtlasHeader& header, int64_t measured_ns,
+std::optional<MotionLatency> motionLatency(const Atlas& atlas, int64_t measured_ns,
                                            int64_t shown_ns, const ClockOffset& server);
 
 }  // namespace viewloom

@@ -5,7 +5,8 @@ import {writeFile} from 'node:fs/promises';
 
 import {connect, run} from './viewloom.js';
 
-// One atlas: its layout, its header, and its bands joined, which are one JPEG file.
+// One atlas: its layout, its header, and its bands joined, which are one JPEG file. Only its end
+// makes it whole: one that is abandoned, or that another header follows, is discarded.
 async function receiveQuilt(client, stream, display) {
   const call = client.StreamAtlases();
   call.write({open: {stream, display, count: 1}});
@@ -16,12 +17,15 @@ async function receiveQuilt(client, stream, display) {
   for await (const {message, ...body} of call) {
     if (message === 'layout') {
       layout = body.layout;
-    } else if (message === 'header') {  // one that was begun before, and not ended, is discarded
+    } else if (message === 'header') {
       header = body.header;
       bands = [];
     } else if (message === 'band' && body.band.plane === 'ATLAS_PLANE_COLOR') {
       bands.push(body.band.data);
-    } else if (message === 'end') {
+    } else if (message === 'abandoned') {
+      header = undefined;
+      bands = [];
+    } else if (message === 'end' && header?.sequence === body.end.sequence) {
       return {layout, header, jpeg: Buffer.concat(bands)};
     }
   }

@@ -29,7 +29,7 @@ constexpr auto kFeedInterval = std::chrono::milliseconds(1);
 class AtlasTally {
  public:
   void add(const Atlas& atlas) {
-    const v1::StageTimes& times = atlas.header.times();
+    const v1::StageTimes& times = atlas.end.times();
     std::lock_guard lock(mutex_);
     has_come_ = true;
     come_.notify_all();

@@ -52,7 +52,7 @@ absl::Status AtlasRecorder::add(const v1::StreamAtlasesResponse& message) {
   if (!start_ns_) start_ns_ = now_ns;
   VIEWLOOM_RETURN_IF_ERROR(writer_->add(now_ns - *start_ns_, message));
   if (message.has_header()) is_within_atlas_ = true;
-  if (message.has_layout()) is_within_atlas_ = false;
+  if (message.has_layout() || message.has_abandoned()) is_within_atlas_ = false;
   if (!message.has_end()) return absl::OkStatus();
   is_within_atlas_ = false;
   ++atlas_count_;

@@ -60,8 +60,15 @@ struct EncodedBand {
   SharedBytes bytes;
 };
 
-// A whole atlas: every band is there. Bands are sorted by plane, then first_row.
-struct EncodedAtlas {
+// What is known of an atlas only once all of it is made.
+struct AtlasOutcome {
+  StageTimes times;
+  Coverage coverage;
+  ReflectionCounts reflections;  // of displays with reflections
+};
+
+// A whole atlas: every band is there. Bands are sorted by plane, image and first_row.
+struct EncodedAtlas : AtlasOutcome {
   uint64_t display_id = 0;
   uint64_t sequence = 0;  // of its display and encoding, from 1
   uint64_t frame_number = 0;
@@ -77,9 +84,6 @@ struct EncodedAtlas {
   Pose display_pose;
   std::shared_ptr<const AtlasLayout> layout;
   EncodingSpec encoding;
-  StageTimes times;
-  Coverage coverage;
-  ReflectionCounts reflections;  // of displays with reflections
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
   DefaultsTaking taking;                    // of the stream's defaults

@@ -25,10 +25,14 @@ StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
           .total_ns = encoded_ns - frame.first_chunk_ns - stood_ns};
 }
 
+bool isSeenByEyes(const AtlasRun& run) {
+  return run.outputs.front().atlas->atlas().eye_poses_latched_ns != 0;
+}
+
 void count(const Metrics& metrics, const AtlasRun& run, const StageTimes& times,
            const Coverage& coverage) {
   // Eyes move and time goes on before one frame: how long that took is no answer to a frame.
-  if (!run.eyes && !run.job.tick) {
+  if (!isSeenByEyes(run) && !run.job.tick) {
     metrics.observeStage(Stage::kWait, times.wait_ns);
     metrics.observeStage(Stage::kTotal, times.total_ns);
   }
@@ -55,7 +59,67 @@ std::vector<double> sharesOutside(const AtlasLayout& layout, const Pose& display
                        {.far = structure.stats.inv_z_far, .near = structure.stats.inv_z_near});
 }
 
+// The bands that the output will have, without their bytes.
+std::vector<EncodedBand> bandsOf(const AtlasOutput& output, const AtlasLayout& layout) {
+  const EncodingSpec& encoding = output.display->encoding;
+  const uint32_t image_height = layout.imageSize().height;
+  std::vector<EncodedBand> bands;
+  for (const AtlasPlane plane : planesOf(encoding)) {
+    for (uint32_t image = 0; image < layout.image_count; ++image) {
+      for (uint32_t row = 0; row < image_height; row += output.band_row_count) {
+        bands.push_back({.image_index = image,
+                         .plane = plane,
+                         .first_row = row,
+                         .row_count = std::min(output.band_row_count, image_height - row),
+                         .encoding = isColor(plane) ? encoding.color : encoding.planes,
+                         .bytes = nullptr});
+      }
+    }
+  }
+  return bands;
+}
+
+// What is known of the run's atlases, whatever their display and encoding.
+EncodedAtlas begunAtlas(const AtlasRun& run) {
+  const ResidentStructure& structure = *run.job.structure;
+  EncodedAtlas atlas;
+  atlas.frame_number = structure.frame_number;
+  atlas.capture_time_ns = structure.capture_time_ns;
+  const std::optional<OutputTick>& tick = run.job.tick;
+  atlas.shown_time_ns = tick ? tick->shown.time_ns : atlas.capture_time_ns;
+  if (tick) atlas.timing = tick->shown.timing;
+  const EyeTrackPtr& track = run.outputs.front().display->eyes;
+  if (const EyePosesPtr eyes = track ? track->used() : nullptr) {
+    atlas.eye_poses_time_ns = eyes->time_ns;
+    atlas.predicted_display_time_ns = eyes->predicted_display_time_ns;
+    atlas.eye_poses_latched_ns = run.begun_ns;
+    atlas.eye_poses_age_ns = run.begun_ns - eyes->received_ns;
+  }
+  atlas.source_camera = structure.sources.front().camera;
+  atlas.display_pose = run.display_pose;
+  atlas.layout = run.picture->layout;
+  atlas.method = run.method;
+  atlas.stats = structure.stats;
+  atlas.taking = structure.taking;
+  atlas.depth_budget = depthBudget(*atlas.layout, structure.stats, structure.depths);
+  atlas.outside_shares = sharesOutside(*atlas.layout, atlas.display_pose, structure);
+  return atlas;
+}
+
 }  // namespace
+
+void AtlasPublisher::open(AtlasRun& run) const {
+  const EncodedAtlas begun = begunAtlas(run);
+  for (AtlasOutput& output : run.outputs) {
+    EncodedAtlas atlas = begun;
+    atlas.display_id = output.display->id;
+    atlas.sequence = links_.broadcaster.nextSequence(atlas.display_id);
+    atlas.encoding = output.display->encoding;
+    atlas.bands = bandsOf(output, *atlas.layout);
+    output.atlas = std::make_shared<GrowingAtlas>(std::move(atlas));
+    links_.broadcaster.begin(output.atlas);
+  }
+}
 
 void AtlasPublisher::begin(AtlasRunPtr run) {
   std::lock_guard lock(mutex_);
@@ -86,8 +150,13 @@ void AtlasPublisher::publishInOrder(const AtlasRun& run) {
 
 void AtlasPublisher::dropAll() {
   decltype(pending_) dropped;  // let go after the lock: its tickets may report
-  std::lock_guard lock(mutex_);
-  dropped.swap(pending_);
+  {
+    std::lock_guard lock(mutex_);
+    dropped.swap(pending_);
+  }
+  for (const auto& [picture_key, runs] : dropped) {
+    for (const Pending& pending : runs) pending.run->abandon();
+  }
 }
 
 void AtlasPublisher::publish(AtlasRun& run) {
@@ -95,43 +164,16 @@ void AtlasPublisher::publish(AtlasRun& run) {
   const StageTimes times = stageTimes(run, now_ns);
   if (run.job.tick) links_.metrics.observeOutputDelay(now_ns - run.job.tick->due_ns);
   const RayCounts counts = run.counts();
-  const Coverage& coverage = counts.coverage;
-  count(links_.metrics, run, times, coverage);
-  const std::optional<DepthBudget> budget =
-      depthBudget(*run.picture->layout, run.job.structure->stats, run.job.structure->depths);
+  count(links_.metrics, run, times, counts.coverage);
   for (AtlasOutput& output : run.outputs) {
-    const uint64_t display_id = output.display->id;
-    auto atlas = std::make_shared<EncodedAtlas>();
-    atlas->display_id = display_id;
-    atlas->sequence = links_.broadcaster.atlasCount(display_id) + 1;
-    atlas->frame_number = run.job.structure->frame_number;
-    atlas->capture_time_ns = run.job.structure->capture_time_ns;
-    const std::optional<OutputTick>& tick = run.job.tick;
-    atlas->shown_time_ns = tick ? tick->shown.time_ns : atlas->capture_time_ns;
-    if (tick) atlas->timing = tick->shown.timing;
-    if (run.eyes) {
-      atlas->eye_poses_time_ns = run.eyes->time_ns;
-      atlas->predicted_display_time_ns = run.eyes->predicted_display_time_ns;
-      atlas->eye_poses_latched_ns = run.begun_ns;
-      atlas->eye_poses_age_ns = run.begun_ns - run.eyes->received_ns;
+    const AtlasPtr atlas = output.atlas->complete(
+        {.times = times, .coverage = counts.coverage, .reflections = counts.reflections});
+    if (isSeenByEyes(run)) {
       links_.metrics.eye_poses_age.observe(double(atlas->eye_poses_age_ns) * 1e-9);
     }
-    atlas->source_camera = run.job.structure->sources.front().camera;
-    atlas->display_pose = run.display_pose;
-    atlas->layout = run.picture->layout;
-    atlas->encoding = output.display->encoding;
-    atlas->times = times;
-    atlas->coverage = coverage;
-    atlas->reflections = counts.reflections;
-    atlas->method = run.method;
-    atlas->stats = run.job.structure->stats;
-    atlas->taking = run.job.structure->taking;
-    atlas->depth_budget = budget;
-    atlas->outside_shares = sharesOutside(*atlas->layout, atlas->display_pose, *run.job.structure);
-    atlas->bands = std::move(output.bands);
-    links_.broadcaster.publish(std::move(atlas));
+    links_.broadcaster.publish(atlas);
     links_.metrics.atlases_encoded.add();
-    if (run.job.ticket) run.job.ticket->noteTraced({display_id, coverage, times});
+    if (run.job.ticket) run.job.ticket->noteTraced({atlas->display_id, counts.coverage, times});
   }
   run.job.ticket.reset();
 }

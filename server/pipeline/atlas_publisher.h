@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes atlases of finished runs and gives them out, each picture's in the order in which they
-// began.
+// Opens the atlases of runs, so that bands leave when they are packed, and completes them, each
+// picture's in the order in which they began.
 #pragma once
 
 #include <deque>
@@ -15,7 +15,8 @@
 
 namespace viewloom {
 
-// Strips of one picture's next atlas may be packed before the last of this one: order is kept here.
+// Strips of one picture's next atlas may be packed before the last of this one: the order in which
+// they become whole is kept here.
 // Thread-safety: all methods may be called from any thread.
 class AtlasPublisher {
  public:
@@ -24,9 +25,11 @@ class AtlasPublisher {
       : links_(links), on_complete_(std::move(on_complete)) {}
 
   void begin(AtlasRunPtr run);
+  // The run's making has begun: its displays hear of their atlases. From one thread a picture.
+  void open(AtlasRun& run) const;
   // Every strip of the run is packed.
   void complete(const AtlasRun& run);
-  // Forgets the runs that will not be completed.
+  // Abandons the runs that will not be completed.
   void dropAll();
 
  private:

@@ -16,7 +16,6 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   output.band_row_count = bandRowCount(display->encoding);
   output.bands_per_image = ceilDivide(layout.imageSize().height, output.band_row_count);
   output.bands_per_plane = layout.image_count * output.bands_per_image;
-  output.bands.resize(planesOf(display->encoding).size() * output.bands_per_plane);
   output.display = std::move(display);
   return output;
 }
@@ -47,6 +46,12 @@ void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
   counts_.coverage.add(strip_counts.coverage);
   counts_.reflections.add(strip_counts.reflections);
   traced_ns_ = std::max(traced_ns_, now_ns);
+}
+
+void AtlasRun::abandon() const {
+  for (const AtlasOutput& output : outputs) {
+    if (output.atlas) output.atlas->abandon();
+  }
 }
 
 RayCounts AtlasRun::counts() const {

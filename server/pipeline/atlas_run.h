@@ -16,14 +16,15 @@
 #include "pipeline/picture_cache.h"
 #include "pipeline/resident_structure.h"
 #include "publish/broadcaster.h"
+#include "publish/growing_atlas.h"
 
 namespace viewloom {
 
-// A display of the picture, and the bands packed as it asked for.
+// A display of the picture, and its atlas, packed as it asked for: bands are [plane][band].
 struct AtlasOutput {
   ActiveDisplayPtr display;
-  std::vector<EncodedBand> bands;  // [plane][band], every one written once, by one thread
-  uint32_t band_row_count = 0;     // divides the run's
+  GrowingAtlasPtr atlas;        // nullptr before the run's making begins
+  uint32_t band_row_count = 0;  // divides the run's
   uint32_t bands_per_image = 0;
   uint32_t bands_per_plane = 0;
 };
@@ -53,13 +54,14 @@ class AtlasRun {
 
   // Strips are made: what all of them have seen, together.
   void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
+  // It will not be completed.
+  void abandon() const;
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
   AtlasJob job;
   PicturePtr picture;       // final once its first rays are submitted
   const Pose display_pose;  // in the world
-  EyePosesPtr eyes;         // that it is seen by, of a tracked display
   std::vector<AtlasOutput> outputs;
   // Planes that some output wants. Colour has the form that all outputs take most directly; once
   // the atlas is being made, the form that the engine gives.

@@ -122,10 +122,9 @@ void EncodePool::encodeOutput(AtlasRun& run, const StripPixels& strip, AtlasOutp
       const uint32_t index =
           strip.image * output.bands_per_image + band.first_row / output.band_row_count;
       EncodedBand packed = encoder.encode(band, encoding, *run.picture->layout);
-      packed.image_index = strip.image;
       links_.metrics.bands_encoded.add();
       links_.metrics.encoded_bytes.add(static_cast<double>(packed.bytes->size()));
-      output.bands[plane_rank * output.bands_per_plane + index] = std::move(packed);
+      output.atlas->put(plane_rank * output.bands_per_plane + index, std::move(packed.bytes));
     }
     ++plane_rank;
   }

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "eye_poses/eye_track.h"
 #include "pipeline/frame_ticket.h"
 #include "pipeline/moving_heads.h"
 #include "pipeline/resident_structure.h"
-#include "publish/eye_track.h"
 #include "temporal/camera_motion.h"
 
 namespace viewloom {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "publish/eye_track.h"
+#include "eye_poses/eye_track.h"
 
 namespace viewloom {
 

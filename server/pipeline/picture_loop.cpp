@@ -88,6 +88,7 @@ bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
   });
   if (!run->making) return false;
   run->planes = run->making->planes();
+  desk_.publisher.open(*run);
   return true;
 }
 
@@ -141,7 +142,6 @@ bool PictureLoop::begin(AtlasJob& job) {
     return false;
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, displays);
-  run->eyes = unserved.eyes;
   run->plan = planned->plan;
   run->method = engine_.method();
   run->begun_ns = links_.clock.nowNs();
@@ -202,7 +202,7 @@ void PictureLoop::latchEyes(AtlasRun& run) {
   if (!run.isTracked()) return;
   const ActiveDisplayPtr& display = run.outputs.front().display;
   EyePosesPtr newest = display->eyes->newest();
-  if (newest != run.eyes) {
+  if (newest != display->eyes->used()) {
     const auto picture =
         desk_.pictures.get(*display, *run.job.structure, aimOf(*display, run.job), newest);
     if (!picture.ok()) return;
@@ -215,12 +215,11 @@ void PictureLoop::latchEyes(AtlasRun& run) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
     run.picture = *picture;
     run.plan = planned->plan;
-    desk_.served.noteEyes(*display, newest);
-    run.eyes = std::move(newest);
+    display->eyes->noteUsed(std::move(newest));
   }
   run.begun_ns = links_.clock.nowNs();
   // Those that have come since have a job, or will.
-  if (display->eyes->newest() == run.eyes) desk_.board.forgetEyes(run.job.picture_key);
+  if (display->eyes->newest() == display->eyes->used()) desk_.board.forgetEyes(run.job.picture_key);
 }
 
 // Everything of it has been handed on, or will be.

@@ -214,20 +214,21 @@ void Pipeline::serveDisplays(const std::string& stream_name) {
   }
 }
 
-void Pipeline::serveEyes(const ActiveDisplay& display) {
-  if (display.spec.temporal) return;  // seen by the newest eyes at its next tick
-  const PipelineStreamPtr stream = loops_->streams.find(display.stream);
+void Pipeline::serveEyes(uint64_t display_id) {
+  const ActiveDisplayPtr display = loops_->links.broadcaster.display(display_id);
+  if (!display || display->spec.temporal) return;  // seen by the newest eyes at its next tick
+  const PipelineStreamPtr stream = loops_->streams.find(display->stream);
   if (!stream) return;
   const ResidentPtr resident = stream->resident();
   if (!resident) return;
   // Only what is new wakes a loop: thousands of poses a second would each take a core from those
   // who answer them.
-  loops_->offer({.picture_key = display.picture_key,
+  loops_->offer({.picture_key = display->picture_key,
                  .structure = resident,
-                 .deadline_ns = loops_->deadlineNs(display.spec),
+                 .deadline_ns = loops_->deadlineNs(display->spec),
                  .is_for_eyes = true,
                  .is_tracked = true,
-                 .poses = display.eyes->times(),
+                 .poses = display->eyes->times(),
                  .asked_ns = loops_->links.clock.nowNs()});
 }
 

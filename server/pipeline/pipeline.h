@@ -37,7 +37,7 @@ class Pipeline final : public AtlasMaker {
   // The eyes before a tracked display have moved: it is served from what is resident, once its last
   // atlas is done. However often, no more than one job waits. One that ticks is served when it
   // does.
-  void serveEyes(const ActiveDisplay& display) override;
+  void serveEyes(uint64_t display_id) override;
 
   void drain() override;
 

@@ -7,7 +7,7 @@
 namespace viewloom {
 namespace {
 
-// Of what a display was shown of the same structure.
+// Since a display was shown the same structure.
 bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
   return job.tick && shown && !job.tick->shown.looksLike(*shown);
 }
@@ -28,10 +28,11 @@ UnservedDisplays ServedDisplays::find(const AtlasJob& job) {
     if (display->picture_key != job.picture_key) continue;
     // A tracked display is the only one of its picture.
     if (display->eyes) unserved.eyes = display->eyes->newest();
+    const bool have_eyes_moved = display->eyes && unserved.eyes != display->eyes->used();
     const Served& served = served_[display->id];
     const bool is_newer = serial > served.serial && !job.is_for_eyes;
     const bool has_moved =
-        serial == served.serial && (unserved.eyes != served.eyes || hasMoved(job, served.shown));
+        serial == served.serial && (have_eyes_moved || hasMoved(job, served.shown));
     if (!is_newer && !has_moved) continue;
     unserved.displays.push_back(display);
   }
@@ -42,14 +43,10 @@ void ServedDisplays::note(const AtlasJob& job, const UnservedDisplays& served) {
   std::lock_guard lock(mutex_);
   for (const ActiveDisplayPtr& display : served.displays) {
     Served& last = served_[display->id];
-    last = {job.structure->serial, served.eyes, {}};
+    last = {job.structure->serial, {}};
+    if (display->eyes) display->eyes->noteUsed(served.eyes);
     if (job.tick) last.shown = job.tick->shown;
   }
-}
-
-void ServedDisplays::noteEyes(const ActiveDisplay& display, EyePosesPtr eyes) {
-  std::lock_guard lock(mutex_);
-  served_[display.id].eyes = std::move(eyes);
 }
 
 }  // namespace viewloom

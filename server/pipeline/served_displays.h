@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What displays were given last, and which of them a job has something new for.
+// What displays were given last, and which of them a job has something new for. Which eyes a
+// display was shown for is in its EyeTrack.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +31,11 @@ class ServedDisplays {
   UnservedDisplays find(const AtlasJob& job);
   // From now on these have got what the job shows.
   void note(const AtlasJob& job, const UnservedDisplays& served);
-  // A display has got it, and is seen by newer eyes after all.
-  void noteEyes(const ActiveDisplay& display, EyePosesPtr eyes);
 
  private:
   // What the last atlas of a display showed.
   struct Served {
-    uint64_t serial = 0;  // of its structure
-    EyePosesPtr eyes;
+    uint64_t serial = 0;                // of its structure
     std::optional<ShownInstant> shown;  // at a tick
   };
 

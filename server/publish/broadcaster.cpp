@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/broadcaster.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -18,6 +19,8 @@ struct WatchedDisplay {
   std::vector<MemberPtr> members;
   std::shared_ptr<const AtlasLayout> layout;
   AtlasPtr newest;
+  GrowingAtlasPtr growing;     // the newest that has begun, unless it is whole
+  uint64_t last_sequence = 0;  // of all that have begun
   uint64_t atlas_count = 0;
 };
 
@@ -28,7 +31,6 @@ struct Broadcaster::State {
 
   const BroadcasterLimits limits;
   std::function<void(const std::string&)> on_demand_change;
-  std::function<void(const ActiveDisplay&)> on_eyes_move;
   std::function<void(const std::string&)> on_eyes_served;
 
   mutable std::mutex mutex;  // guards what follows; never held while a subscriber is called
@@ -121,6 +123,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   std::string picture_key = strCat(stream, " ", displayKey(spec));
   MemberPtr member;
   AtlasPtr newest;
+  GrowingAtlasPtr growing;
   uint64_t display_id = 0;
   {
     std::lock_guard lock(state_->mutex);
@@ -142,6 +145,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
     state_->noteSubscriberCount(display);
     display_id = display.active->id;
     newest = display.newest;
+    growing = display.growing;
   }
   auto subscription = std::make_unique<Subscription>(state_, display_id, member->id());
   if (newest != nullptr) {
@@ -149,6 +153,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   } else {
     state_->announce(stream);
   }
+  if (growing != nullptr) member->begin(growing);
   return subscription;
 }
 
@@ -156,23 +161,8 @@ void Broadcaster::onDemandChange(std::function<void(const std::string& stream)> 
   state_->on_demand_change = std::move(callback);
 }
 
-void Broadcaster::onEyesMove(std::function<void(const ActiveDisplay& display)> callback) {
-  state_->on_eyes_move = std::move(callback);
-}
-
 void Broadcaster::onEyesServed(std::function<void(const std::string& stream)> callback) {
   state_->on_eyes_served = std::move(callback);
-}
-
-void Broadcaster::announceEyes(uint64_t display_id) const {
-  ActiveDisplayPtr display;
-  {
-    std::lock_guard lock(state_->mutex);
-    const auto found = state_->displays.find(display_id);
-    if (found == state_->displays.end()) return;
-    display = found->second.active;
-  }
-  if (state_->on_eyes_move) state_->on_eyes_move(*display);
 }
 
 std::vector<ActiveDisplayPtr> Broadcaster::displays(const std::string& stream) const {
@@ -182,6 +172,12 @@ std::vector<ActiveDisplayPtr> Broadcaster::displays(const std::string& stream) c
     if (stream.empty() || display.active->stream == stream) wanted.push_back(display.active);
   }
   return wanted;
+}
+
+ActiveDisplayPtr Broadcaster::display(uint64_t display_id) const {
+  std::lock_guard lock(state_->mutex);
+  const auto found = state_->displays.find(display_id);
+  return found == state_->displays.end() ? nullptr : found->second.active;
 }
 
 uint32_t Broadcaster::subscriberCount(const std::string& stream) const {
@@ -202,10 +198,27 @@ std::shared_ptr<const AtlasLayout> Broadcaster::layout(uint64_t display_id) cons
   return found == state_->displays.end() ? nullptr : found->second.layout;
 }
 
+void Broadcaster::begin(const GrowingAtlasPtr& atlas) {
+  std::vector<MemberPtr> members;
+  GrowingAtlasPtr previous;  // freed after the lock
+  {
+    std::lock_guard lock(state_->mutex);
+    const auto found = state_->displays.find(atlas->atlas().display_id);
+    if (found == state_->displays.end()) return;
+    WatchedDisplay& display = found->second;
+    VIEWLOOM_CHECK(atlas->atlas().sequence > display.last_sequence);
+    display.last_sequence = atlas->atlas().sequence;
+    previous = std::exchange(display.growing, atlas);
+    members = display.members;
+  }
+  for (const MemberPtr& member : members) member->begin(atlas);
+}
+
 void Broadcaster::publish(const AtlasPtr& atlas) {
   std::vector<MemberPtr> members;
   std::string stream;
-  AtlasPtr previous;  // freed after the lock
+  AtlasPtr previous;           // freed after the lock
+  GrowingAtlasPtr has_become;  // the same
   {
     std::lock_guard lock(state_->mutex);
     const auto found = state_->displays.find(atlas->display_id);
@@ -213,6 +226,10 @@ void Broadcaster::publish(const AtlasPtr& atlas) {
     WatchedDisplay& display = found->second;
     VIEWLOOM_CHECK(display.newest == nullptr || atlas->sequence > display.newest->sequence);
     previous = std::exchange(display.newest, atlas);
+    display.last_sequence = std::max(display.last_sequence, atlas->sequence);
+    if (display.growing && display.growing->atlas().sequence <= atlas->sequence) {
+      has_become.swap(display.growing);
+    }
     ++display.atlas_count;
     members = display.members;
     stream = display.active->stream;
@@ -235,6 +252,12 @@ AtlasPtr Broadcaster::newest(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
   const auto found = state_->displays.find(display_id);
   return found == state_->displays.end() ? nullptr : found->second.newest;
+}
+
+uint64_t Broadcaster::nextSequence(uint64_t display_id) const {
+  std::lock_guard lock(state_->mutex);
+  const auto found = state_->displays.find(display_id);
+  return found == state_->displays.end() ? 1 : found->second.last_sequence + 1;
 }
 
 uint64_t Broadcaster::atlasCount(uint64_t display_id) const {

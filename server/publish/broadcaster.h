@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who watches which display of which stream; hands each finished atlas to all of them.
+// Who watches which display of which stream; hands each atlas to all of them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 #include "base/status.h"
 #include "display/display_spec.h"
-#include "publish/eye_track.h"
+#include "eye_poses/eye_track.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -45,7 +45,8 @@ class Broadcaster {
   // A place among the watchers of a display; leaving it is destroying it.
   class Subscription;
 
-  // Joins or opens the display. A late joiner is offered the newest complete atlas at once.
+  // Joins or opens the display. A late joiner is offered the newest whole atlas at once, then told
+  // of the one that is being made.
   // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
   // RESOURCE_EXHAUSTED over a limit, UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
@@ -58,17 +59,14 @@ class Broadcaster {
   // without a finished atlas wants one. Set once, before anybody subscribes.
   void onDemandChange(std::function<void(const std::string& stream)> callback);
 
-  // Called by announceEyes(), on its thread. Set once, before anybody subscribes.
-  void onEyesMove(std::function<void(const ActiveDisplay& display)> callback);
-  // There are newer poses in the display's track.
-  void announceEyes(uint64_t display_id) const;
-
   // Called by publish() for an atlas that was seen by eyes, on its thread: other sources may serve
   // them better from now on. Set once, before anybody subscribes.
   void onEyesServed(std::function<void(const std::string& stream)> callback);
 
   // One snapshot of the displays of a stream; all of them with an empty name. Sorted by id.
   std::vector<ActiveDisplayPtr> displays(const std::string& stream) const;
+  // nullptr = nobody watches it any more.
+  ActiveDisplayPtr display(uint64_t display_id) const;
   uint32_t subscriberCount(const std::string& stream) const;
 
   // The layout of the display's next atlas, before that is traced. Told again when it changes.
@@ -76,9 +74,14 @@ class Broadcaster {
   // The layout last noted; nullptr = the display has met no frame of its stream yet.
   std::shared_ptr<const AtlasLayout> layout(uint64_t display_id) const;
 
-  // A finished atlas. Its sequence must grow. Atlases of a display that nobody watches any more are
-  // dropped.
+  // An atlas is being made, of which bands will come. Its sequence is the display's next. Of a
+  // display that nobody watches any more, nobody hears of it.
+  void begin(const GrowingAtlasPtr& atlas);
+  // A finished atlas, begun before or not. Its sequence must grow. Atlases of a display that nobody
+  // watches any more are dropped.
   void publish(const AtlasPtr& atlas);
+  // The sequence of the next atlas of a display.
+  uint64_t nextSequence(uint64_t display_id) const;
   // The display cannot be served: its subscribers end with this status.
   void refuse(uint64_t display_id, const absl::Status& status);
   // The newest complete atlas of a display; nullptr = none yet.

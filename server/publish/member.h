@@ -21,7 +21,16 @@ class Member {
 
   uint64_t id() const { return id_; }
 
-  // A joiner's first atlas and a newly published one may race: the older is then left out.
+  // What a joiner finds and what comes just then may race: the older is then left out.
+  void begin(const GrowingAtlasPtr& atlas) {
+    std::lock_guard lock(call_mutex_);
+    const uint64_t sequence = atlas->atlas().sequence;
+    if (gone_ || sequence <= begun_sequence_ || sequence <= offered_sequence_) return;
+    begun_sequence_ = sequence;
+    subscriber_->begin(atlas);
+  }
+
+  // The same of whole atlases.
   void offer(const AtlasPtr& atlas) {
     std::lock_guard lock(call_mutex_);
     if (gone_ || atlas->sequence <= offered_sequence_) return;
@@ -43,7 +52,8 @@ class Member {
   const std::shared_ptr<Subscriber> subscriber_;
   std::mutex call_mutex_;
   std::atomic<bool> gone_ = false;
-  uint64_t offered_sequence_ = 0;  // under call_mutex_
+  uint64_t begun_sequence_ = 0;  // under call_mutex_, as is the next
+  uint64_t offered_sequence_ = 0;
 };
 
 using MemberPtr = std::shared_ptr<Member>;

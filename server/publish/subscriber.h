@@ -4,14 +4,17 @@
 
 #include "base/status.h"
 #include "encode/encoded_band.h"
+#include "publish/growing_atlas.h"
 
 namespace viewloom {
 
 // Called from any thread, one call at a time per subscriber. No method may block.
-class Subscriber {
+class Subscriber : public AtlasReader {
  public:
-  virtual ~Subscriber() = default;
-  // The newest complete atlas. Keep it or drop it; it stays valid as long as it is held.
+  // An atlas is being made. It is offered once it is whole; until then it may be abandoned.
+  virtual void begin(GrowingAtlasPtr /*atlas*/) {}
+  void noteGrowth() override {}
+  // The newest whole atlas. Keep it or drop it; it stays valid as long as it is held.
   virtual void offer(AtlasPtr atlas) = 0;
   // The display cannot be served (its layout does not fit the stream), or the server drains (OK).
   // Nothing is offered afterwards.

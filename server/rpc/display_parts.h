@@ -3,8 +3,9 @@
 #pragma once
 
 #include "base/clock.h"
-#include "metrics/metrics.h"
 #include "display/atlas_layout.h"
+#include "eye_poses/eye_track.h"
+#include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 
@@ -13,6 +14,7 @@ namespace viewloom {
 struct DisplayParts {
   StreamDirectory& directory;
   Broadcaster& broadcaster;
+  EyeSink& eyes;
   const Clock& clock;
   const Metrics& metrics;
   AtlasLimits limits;

@@ -22,6 +22,7 @@ struct RpcParts {
   BytePool& pool;
   StreamDirectory& directory;
   Broadcaster& broadcaster;
+  EyeSink& eyes;
   const Clock& clock;
   const Metrics& metrics;
 };

@@ -17,6 +17,14 @@ class WatchCall::Seat final : public Subscriber {
   Seat(std::weak_ptr<WatchCall> call, uint64_t number, std::string field)
       : call_(std::move(call)), number_(number), field_(std::move(field)) {}
 
+  void begin(GrowingAtlasPtr atlas) override {
+    if (const auto call = call_.lock()) call->begin(number_, std::move(atlas));
+  }
+
+  void noteGrowth() override {
+    if (const auto call = call_.lock()) call->noteGrowth(number_);
+  }
+
   void offer(AtlasPtr atlas) override {
     if (const auto call = call_.lock()) call->offer(number_, std::move(atlas));
   }
@@ -75,7 +83,7 @@ absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   stream_ = request.stream();
   {
     std::lock_guard lock(mutex_);
-    count_ = request.count();
+    outbox_.limit(request.count());
   }
   // An unknown stream is waited for in the same seat: it is watched before it is there.
   VIEWLOOM_RETURN_IF_ERROR(takeSeat("open.display"));
@@ -115,7 +123,7 @@ absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request, int64_t rece
     VIEWLOOM_RETURN_IF_ERROR(validateInFront(*poses, *focal_distance_m));
   }
   eyes_->put(*std::move(poses));
-  parts_.broadcaster.announceEyes(display_id);
+  parts_.eyes.serveEyes(display_id);
   return absl::OkStatus();
 }
 
@@ -123,7 +131,7 @@ void WatchCall::notePresented(const v1::Presented& presented) {
   parts_.metrics.atlases_presented.add();
   std::lock_guard lock(mutex_);
   const std::optional<double> latency_s =
-      sent_poses_.latencySeconds(presented.sequence(), presented.presented_time_ns());
+      outbox_.sentPoses().latencySeconds(presented.sequence(), presented.presented_time_ns());
   if (latency_s) parts_.metrics.motion_to_image.observe(*latency_s);
 }
 
@@ -158,24 +166,23 @@ absl::Status WatchCall::settleEncoding() {
 }
 
 absl::Status WatchCall::takeSeat(const std::string& field) {
+  const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
   std::unique_ptr<Broadcaster::Subscription> left;
-  uint64_t seat_number = 0;
+  std::shared_ptr<Seat> seat;
   {
     std::lock_guard lock(mutex_);
-    seat_number = ++seat_number_;
+    seat = std::make_shared<Seat>(self, ++seat_number_, field);
     left = std::move(subscription_);
-    pending_ = nullptr;
-    announcements_.restart();
-    sent_poses_.clear();
+    outbox_.restart(seat);
+    advance();
   }
   leave(std::move(left));  // before the new one, so that a change never needs a second place
-  if (!isTracked(spec_))
+  if (!isTracked(spec_)) {
     eyes_ = nullptr;
-  else if (eyes_ == nullptr)
-    eyes_ = std::make_shared<EyeTrack>();
-  const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
-  auto subscription = parts_.broadcaster.subscribe(
-      stream_, spec_, encoding_, std::make_shared<Seat>(self, seat_number, field), eyes_);
+  } else {
+    eyes_ = eyes_ ? std::make_shared<EyeTrack>(*eyes_) : std::make_shared<EyeTrack>();
+  }
+  auto subscription = parts_.broadcaster.subscribe(stream_, spec_, encoding_, seat, eyes_);
   if (!subscription.ok()) return subscription.status();
   std::lock_guard lock(mutex_);
   if (ending()) return absl::OkStatus();  // the subscription goes with this scope
@@ -197,31 +204,37 @@ void WatchCall::handleWritten() {
   bool counted_out = false;
   {
     std::lock_guard lock(mutex_);
-    counted_out = count_ != 0 && sent_count_ == count_;
+    counted_out = outbox_.isThrough();
   }
   if (counted_out) end(absl::OkStatus());
 }
 
 void WatchCall::release() {
   std::unique_ptr<Broadcaster::Subscription> left;
-  AtlasPtr dropped;
   {
     std::lock_guard lock(mutex_);
     left = std::move(subscription_);
-    if (!draining_) dropped = std::move(pending_);
+    outbox_.close(draining_);
   }
   leave(std::move(left));
 }
 
-void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
-  AtlasPtr replaced;
+void WatchCall::begin(uint64_t seat_number, GrowingAtlasPtr atlas) {
   std::lock_guard lock(mutex_);
   if (seat_number != seat_number_ || ending()) return;
-  replaced = std::exchange(pending_, std::move(atlas));
-  if (replaced != nullptr) {
-    announcements_.noteSkipped();
-    parts_.metrics.replaced[HandOver::kGrpc].add();
-  }
+  outbox_.begin(std::move(atlas));
+  advance();
+}
+
+void WatchCall::noteGrowth(uint64_t seat_number) {
+  std::lock_guard lock(mutex_);
+  if (seat_number == seat_number_) advance();
+}
+
+void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
+  std::lock_guard lock(mutex_);
+  if (seat_number != seat_number_ || ending()) return;
+  outbox_.offer(std::move(atlas));
   advance();
 }
 
@@ -243,6 +256,40 @@ void WatchCall::endUnlessWatching() {
     if (subscription_ != nullptr) return;
   }
   end(absl::UnavailableError(kDrainMessage));
+}
+
+// What time it is goes before atlases, but no more often than every other message: whoever floods
+// the call with probes still gets them.
+std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
+  std::optional<grpc::ByteBuffer> message;
+  if (!std::exchange(replied_last_, false)) message = takeReply();
+  if (!message.has_value()) message = outbox_.take(!ending() || draining_);
+  if (!message.has_value()) message = takeReply();
+  if (!message.has_value()) message = takeHeartbeat();
+  if (message.has_value()) told_.restart();
+  return message;
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
+  if (!heartbeat_is_due_ || ending()) return std::nullopt;
+  heartbeat_is_due_ = false;
+  v1::StreamAtlasesResponse response;
+  response.mutable_heartbeat();
+  return bytesFromMessage(response);
+}
+
+void WatchCall::tick() {
+  std::lock_guard lock(mutex_);
+  if (!wants_heartbeats_ || ending() || !told_.reaches(kHeartbeatTicks)) return;
+  heartbeat_is_due_ = true;
+  advance();
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeReply() {
+  if (ending()) return std::nullopt;
+  std::optional<grpc::ByteBuffer> reply = clock_replies_.take(parts_.clock.nowNs());
+  replied_last_ = reply.has_value();
+  return reply;
 }
 
 }  // namespace viewloom

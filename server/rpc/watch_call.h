@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One client's call: watches a display and writes the newest atlas whenever the last one is
+// One client's call: watches a display and writes its atlases, the next whenever the last one is
 // through.
 #pragma once
 
@@ -8,9 +8,7 @@
 #include <string>
 
 #include "display/display_spec.h"
-#include "publish/sent_poses.h"
-#include "rpc/atlas_announcements.h"
-#include "rpc/atlas_messages.h"
+#include "rpc/atlas_outbox.h"
 #include "rpc/bidi_call.h"
 #include "rpc/clock_replies.h"
 #include "rpc/display_parts.h"
@@ -19,11 +17,10 @@
 
 namespace viewloom {
 
-// Holds two atlases at most: the one being written and the newest complete one after it.
 // Thread-safety: as BidiCall.
 class WatchCall final : public BidiCall {
  public:
-  explicit WatchCall(const DisplayParts& parts) : parts_(parts) {}
+  explicit WatchCall(const DisplayParts& parts) : parts_(parts), outbox_(parts_.metrics) {}
 
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
@@ -39,7 +36,7 @@ class WatchCall final : public BidiCall {
   void handleWritten() override;
   void release() override;
   std::optional<grpc::ByteBuffer> takeMessage() override;
-  bool moreFollows() const override { return sending_.has_value(); }
+  bool moreFollows() const override { return outbox_.hasMore(); }
 
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);
@@ -52,32 +49,27 @@ class WatchCall final : public BidiCall {
   absl::Status takeSeat(const std::string& field);
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
+  void begin(uint64_t seat_number, GrowingAtlasPtr atlas);
+  void noteGrowth(uint64_t seat_number);
   void offer(uint64_t seat_number, AtlasPtr atlas);
   void endSeat(uint64_t seat_number, const absl::Status& status);
-  bool mayStartAtlas() const;
   std::optional<grpc::ByteBuffer> takeReply();
-  std::optional<grpc::ByteBuffer> takeAtlasMessage();
   std::optional<grpc::ByteBuffer> takeHeartbeat();
 
   const DisplayParts parts_;
 
-  // Of the reads.
+  // Used only by the reads.
   std::string stream_;  // empty before the call was opened
   DisplaySpec spec_;
   v1::AtlasEncoding encoding_proto_;  // as it was asked for
   EncodingSpec encoding_;
-  EyeTrackPtr eyes_;  // while the display is tracked: a changed one is seen by the same eyes
+  EyeTrackPtr eyes_;  // while the display is tracked; a changed one is seen by the same eyes
 
   // Under mutex_.
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   uint64_t seat_number_ = 0;
-  bool draining_ = false;    // what is pending is still written
-  uint32_t count_ = 0;       // atlases asked for; 0 = no end
-  uint64_t sent_count_ = 0;  // atlases written, or being written, whole
-  AtlasPtr pending_;         // newest complete one
-  AtlasAnnouncements announcements_;
-  std::optional<AtlasMessages> sending_;
-  SentPoses sent_poses_;
+  bool draining_ = false;  // what waits is still written
+  AtlasOutbox outbox_;
   ClockReplies clock_replies_;
   bool replied_last_ = false;  // the last message written is one of them
   bool wants_heartbeats_ = false;

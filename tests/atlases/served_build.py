@@ -14,6 +14,7 @@ from google.protobuf import json_format
 from viewloom.v1 import atlas_pb2 as atlas
 from viewloom.v1 import display_service_pb2 as service
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
+from viewloom.v1.ingest_service_pb2_grpc import IngestServiceStub
 
 PATIENCE_S = 600
 # Fields of an answer that name a moment or a load, not a picture.
@@ -76,8 +77,20 @@ class ServedBuild:
 
     def watch(self, stream, display, encoding, on_atlas):
         """Calls on_atlas() after each atlas, on a thread, until stop() of what it returns."""
-        return Watching(self._displays, {"stream": stream, "display": display,
-                                         "encoding": encoding, "wait_for_stream": True}, on_atlas)
+        def on_message(message):
+            if message.WhichOneof("message") == "end":
+                on_atlas()
+
+        return self.watch_messages(stream, display, encoding, on_message)
+
+    def watch_messages(self, stream, display, encoding, on_message):
+        """The same with each message that comes."""
+        return Watching(self._displays, {"stream": stream, "display": display, "encoding": encoding,
+                                         "wait_for_stream": True}, on_message)
+
+    def send_frames(self, requests):
+        """Publishes what the iterator gives, on a thread of gRPC."""
+        return IngestServiceStub(self._channel).PublishFrames(requests)
 
     def render(self, folder, display, arguments):
         """The pictures that `viewloom render` writes, as planes."""
@@ -103,10 +116,10 @@ class ServedBuild:
 class Watching:
     """A viewer that goes on."""
 
-    def __init__(self, displays, opened, on_atlas):
+    def __init__(self, displays, opened, on_message):
         self._ended = threading.Event()
         self._call = displays.StreamAtlases(self._messages(opened))
-        self._thread = threading.Thread(target=self._run, args=(on_atlas,))
+        self._thread = threading.Thread(target=self._run, args=(on_message,))
         self._thread.start()
 
     def _messages(self, opened):
@@ -114,11 +127,10 @@ class Watching:
             open=json_format.ParseDict(opened, service.OpenDisplay()))
         self._ended.wait()
 
-    def _run(self, on_atlas):
+    def _run(self, on_message):
         try:
             for message in self._call:
-                if message.WhichOneof("message") == "end":
-                    on_atlas()
+                on_message(message)
         except grpc.RpcError as error:
             if not self._ended.is_set():
                 raise RuntimeError(f"{error.code().name}: {error.details()}") from error

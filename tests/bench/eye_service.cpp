@@ -140,7 +140,6 @@ class EyeBench {
                   {.encode_thread_count = std::max(1u, std::thread::hardware_concurrency())}) {
     broadcaster_.onDemandChange(
         [this](const std::string& stream) { pipeline_.serveDisplays(stream); });
-    broadcaster_.onEyesMove([this](const ActiveDisplay& display) { pipeline_.serveEyes(display); });
   }
 
   EyeFigures run() {
@@ -201,7 +200,7 @@ class EyeBench {
     poses.time_ns = tick + 1;
     poses.received_ns = clock_.nowNs();
     viewers_[head].eyes->put(std::move(poses));
-    broadcaster_.announceEyes(viewers_[head].subscription->displayId());
+    pipeline_.serveEyes(viewers_[head].subscription->displayId());
   }
 
   void moveOnTime() {

@@ -26,7 +26,6 @@ ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_p
                 {}) {
   broadcaster_.onDemandChange(
       [this](const std::string& stream) { pipeline_.serveDisplays(stream); });
-  broadcaster_.onEyesMove([this](const ActiveDisplay& display) { pipeline_.serveEyes(display); });
   const DisplaySpec spec =
       completeDisplaySpec({.kind = StereoSpec{.eye_size_px = eye_px, .is_tracked = true}}).value();
   const EncodingSpec encoding{.color = BandEncoding::kRaw,
@@ -43,7 +42,7 @@ ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_p
 AtlasPtr ServedHead::seenBy(EyePoses poses) {
   poses.received_ns = clock_.nowNs();
   eyes_->put(std::move(poses));
-  broadcaster_.announceEyes(subscription_->displayId());
+  pipeline_.serveEyes(subscription_->displayId());
   return newest_ = next();
 }
 

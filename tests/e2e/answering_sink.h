@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "eye_poses/eye_track.h"
 #include "frame/frame_sink.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
@@ -17,12 +18,13 @@ namespace viewloom {
 uint8_t expectedByte(uint64_t frame_number, uint32_t first_row, size_t index);
 
 // Thread-safety: all methods may be called from any thread.
-class AnsweringSink final : public FrameSink {
+class AnsweringSink final : public FrameSink, public EyeSink {
  public:
   AnsweringSink(StreamDirectory& directory, Broadcaster& broadcaster);
 
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   void forgetStream(const std::string& stream) override;
+  void serveEyes(uint64_t) override {}  // known bytes look the same to all eyes
 
   // Serves displays without an atlas from the resident frame.
   void demandChanged(const std::string& stream);

@@ -98,7 +98,7 @@ TEST_F(PipelineEyesFirstTest, takesTheEyesAsTheyAreWhenThereIsRoomForTheirRays) 
   const uint64_t tracked_id = subscribe(trackedEyes(), subscriber, eyes);
   clock_.advance(7);
   eyes->put(eyesAt(0.2, clock_.nowNs()));
-  server_->broadcaster.announceEyes(tracked_id);
+  server_->pipeline.serveEyes(tracked_id);
   clock_.advance(30);
   clock_.letGo();
   const auto atlases = subscriber->waitForAtlases(1);
@@ -147,7 +147,7 @@ class PipelineAgedEyesTest : public PipelineFixture {
 
   void moveTo(double x_m, int64_t received_ns) {
     eyes_->put(eyesAt(x_m, received_ns));
-    server_->broadcaster.announceEyes(subscription_->displayId());
+    server_->pipeline.serveEyes(subscription_->displayId());
   }
   void moveTo(double x_m) { moveTo(x_m, server_->clock.nowNs()); }
 

@@ -56,7 +56,7 @@ TEST_F(PipelineEyesTest, beginsNoAtlasBeforeTheLastOneOfTheDisplayIsOut) {
   slow->is_offered.get_future().wait();
   for (const double x_m : {0.1, 0.2, 0.3}) {
     eyes->put(eyesAt(x_m));
-    server.broadcaster.announceEyes(tracked_id);
+    server.pipeline.serveEyes(tracked_id);
   }
   // It is due later, and begins.
   const Viewer other = watch(server, smallQuilt());
@@ -82,7 +82,7 @@ TEST_F(PipelineEyesTest, neverTurnsADisplayBackToAnOlderFrame) {
   std::jthread flood([&](const std::stop_token& stop) {
     for (double x_m = 0; !stop.stop_requested(); x_m += 1e-4) {
       eyes->put(eyesAt(x_m));
-      server.broadcaster.announceEyes(subscription->displayId());
+      server.pipeline.serveEyes(subscription->displayId());
     }
   });
   constexpr uint64_t kFrameCount = 12;

@@ -84,7 +84,6 @@ class PipelineFixture : public GpuTest {
                .atlas_limits = options.atlas_limits}) {
       broadcaster.onDemandChange(
           [this](const std::string& stream) { pipeline.serveDisplays(stream); });
-      broadcaster.onEyesMove([this](const ActiveDisplay& display) { pipeline.serveEyes(display); });
     }
 
     ManualClock clock;

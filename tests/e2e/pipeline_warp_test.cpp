@@ -182,7 +182,7 @@ TEST_F(PipelineWarpTest, answersEveryPoseFromOneBuildAndAsTheWorldIs) {
     SCOPED_TRACE(tick);
     server.clock.advance(kSecond_ns / kPoses_hz);
     const Measured measured = move(server, *eyes, tick);
-    server.broadcaster.announceEyes(subscription->displayId());
+    server.pipeline.serveEyes(subscription->displayId());
     const auto atlases = subscriber->waitForAtlases(size_t(tick) + 1);
     ASSERT_THAT(atlases, SizeIs(tick + 1));
     const EncodedAtlas& answer = *atlases.back();
@@ -243,7 +243,7 @@ TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
     if (step % (kSteps_hz / kPoses_hz) == 0) {
       const int64_t tick = step / (kSteps_hz / kPoses_hz);
       const Measured measured = move(server, *eyes, tick);
-      server.broadcaster.announceEyes(subscription->displayId());
+      server.pipeline.serveEyes(subscription->displayId());
       const auto answers = subscriber->waitForAtlases(2 + size_t(tick));
       ASSERT_EQ(answers.size(), 2 + size_t(tick));
       EXPECT_EQ(answers.back()->eye_poses_time_ns, 2 * tick);

@@ -88,12 +88,12 @@ def quilt(columns, rows, focal_distance_m):
 
 
 def receive_still(channel, stream, what):
-    """The layout, header and decoded picture of one atlas."""
+    """The layout, header, end and decoded picture of one atlas."""
     request = watching.StreamAtlasesRequest(open=watching.OpenDisplay(
         stream=stream, display=what, count=1, encoding={"jpeg_quality": 95}))
     responses = watching_grpc.DisplayServiceStub(channel).StreamAtlases(
         iter([request]), timeout=PATIENCE_S)
-    layout, head, pieces, ended = None, None, [], False
+    layout, head, pieces, end = None, None, [], None
     for response in responses:
         kind = response.WhichOneof("message")
         if kind == "layout":
@@ -103,12 +103,12 @@ def receive_still(channel, stream, what):
         elif kind == "band":
             pieces.append(response.band)
         elif kind == "end":
-            ended = response.end.sequence == head.sequence
-    assert ended and responses.code() == grpc.StatusCode.OK
+            end = response.end
+    assert end.sequence == head.sequence and responses.code() == grpc.StatusCode.OK
     assert len({piece.first_row for piece in pieces}) == head.band_count
     picture = Image.open(io.BytesIO(b"".join(piece.data for piece in pieces)))
     picture.load()
-    return layout, head, picture
+    return layout, head, end, picture
 
 
 def tile(picture, layout, view):
@@ -155,15 +155,15 @@ class PythonClient(unittest.TestCase):
         self.assertAlmostEqual(self.report.stats.inv_z_max, 1 / DEPTH_M, delta=1e-4)
 
     def test_the_bands_of_a_quilt_are_one_jpeg(self):
-        layout, head, picture = receive_still(self.channel, "wall", quilt(4, 2, DEPTH_M))
+        layout, head, end, picture = receive_still(self.channel, "wall", quilt(4, 2, DEPTH_M))
         self.assertEqual(picture.format, "JPEG")
         self.assertEqual(picture.size, (4 * WIDTH_PX, 2 * HEIGHT_PX))
         self.assertEqual((layout.columns, layout.rows, layout.view_count), (4, 2, 8))
         self.assertEqual((head.frame_number, head.capture_time_ns), (1, 77))
-        self.assertGreater(head.coverage.hit, 0.8)
+        self.assertGreater(end.coverage.hit, 0.8)
 
     def test_what_lies_on_the_focal_plane_stands_still(self):
-        layout, _, picture = receive_still(self.channel, "wall", quilt(4, 2, DEPTH_M))
+        layout, _, _, picture = receive_still(self.channel, "wall", quilt(4, 2, DEPTH_M))
         for view in range(8):
             seen = tile(picture, layout, view)
             self.assertAlmostEqual(seam_px(seen), WIDTH_PX / 2, delta=SEAM_TOLERANCE_PX)
@@ -174,7 +174,7 @@ class PythonClient(unittest.TestCase):
 
     def test_what_lies_behind_it_moves_with_the_eye(self):
         focal_m = 1.0
-        layout, _, picture = receive_still(self.channel, "wall", quilt(4, 2, focal_m))
+        layout, _, _, picture = receive_still(self.channel, "wall", quilt(4, 2, focal_m))
         for view in range(8):
             eye_m = layout.views[view].pose.position.x
             # The wall's middle, x = 0 at 2 m, against the middle of the focal plane as this eye

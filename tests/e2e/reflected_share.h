@@ -6,8 +6,8 @@
 namespace viewloom::test {
 
 // Of the rays that mirrors sent on, those that ended somewhere: all, or none where nothing mirrors.
-inline double reflectedShare(const v1::AtlasHeader& header) {
-  const v1::ReflectionShares& shares = header.reflections();
+inline double reflectedShare(const v1::AtlasEnd& end) {
+  const v1::ReflectionShares& shares = end.reflections();
   return shares.hit() + shares.assumed() + shares.back() + shares.cube() + shares.environment();
 }
 

@@ -39,8 +39,8 @@ TEST(StreamAtlases, deliversEveryAtlasWithItsTruth) {
     EXPECT_EQ(atlas->header.frame_number(), number);
     EXPECT_EQ(atlas->header.sequence(), number - 4);
     EXPECT_EQ(atlas->header.capture_time_ns(), static_cast<int64_t>(number) * 1000);
-    EXPECT_EQ(atlas->header.coverage().hit(), 0.75);
-    EXPECT_EQ(atlas->header.coverage().hidden(), 0.25);
+    EXPECT_EQ(atlas->end.coverage().hit(), 0.75);
+    EXPECT_EQ(atlas->end.coverage().hidden(), 0.25);
     EXPECT_EQ(atlas->layout.has_value(), number == 5) << "a layout comes when it is new";
     expectBytesOf(*atlas);
     ASSERT_TRUE(publisher.sendFrame(number + 1));

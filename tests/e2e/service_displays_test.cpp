@@ -119,7 +119,7 @@ TEST_F(ServiceDisplaysTest, averagesSamplesOfSweptAndWalkedViewsAlike) {
   EXPECT_EQ(swept.header.method(), v1::TRACE_METHOD_SWEEP);
   EXPECT_EQ(walked.header.method(), v1::TRACE_METHOD_WALK);
   EXPECT_GT(psnrDb(colorOf(swept), colorOf(walked)), 30);
-  EXPECT_GT(swept.header.coverage().hit(), 0.5);
+  EXPECT_GT(swept.end.coverage().hit(), 0.5);
 }
 
 TEST_F(ServiceDisplaysTest, servesMicrolensPanels) {

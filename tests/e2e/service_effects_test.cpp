@@ -187,7 +187,7 @@ class ServiceEffectsTest : public ServiceFixture {
   }
 
   static void expectMirrorsOnSurfaces(const Atlas& plain, const Atlas& mirrored) {
-    EXPECT_NEAR(reflectedShare(mirrored.header), 1, kShareRounding);
+    EXPECT_NEAR(reflectedShare(mirrored.end), 1, kShareRounding);
     const auto shareWhere = [&](bool is_sky) {
       return changedShare(plain, mirrored, [=](double inv_z) { return (inv_z == 0) == is_sky; })
           .share();
@@ -210,7 +210,7 @@ TEST_F(ServiceEffectsTest, showsEachEffectOnEveryKind) {
     SCOPED_TRACE(kind.name);
     const Atlas plain = atlasOf(openOf(kind));
     EXPECT_EQ(plain.header.timing(), v1::TIMING_CAPTURED);
-    EXPECT_EQ(reflectedShare(plain.header), 0);
+    EXPECT_EQ(reflectedShare(plain.end), 0);
     const auto atlasWith = [&](std::initializer_list<void (*)(v1::OpenDisplay&)> effects) {
       v1::OpenDisplay open = openOf(kind);
       for (const auto& add : effects) add(open);
@@ -226,7 +226,7 @@ TEST_F(ServiceEffectsTest, showsEachEffectOnEveryKind) {
     expectCarriedOn(later);
     const Atlas all = atlasWith({addLens, addReflection, addTemporal});
     expectCarriedOn(all);
-    EXPECT_NEAR(reflectedShare(all.header), 1, kShareRounding);
+    EXPECT_NEAR(reflectedShare(all.end), 1, kShareRounding);
     for (const Atlas* other : {&plain, &blurred, &mirrored, &later}) {
       EXPECT_GT(changedShare(*other, all, everywhere).share(), kChangedMin);
     }

@@ -19,8 +19,8 @@ TEST_F(ServiceEyesTest, saysWhenPosesWereTakenAndHowOldTheyWere) {
   const int64_t seen_ns = clock_.nowNs();
   EXPECT_GE(first.header.eye_poses_age_ns(), 0);
   EXPECT_GE(first.header.eye_poses_latched_ns() - first.header.eye_poses_age_ns(), sent_ns);
-  EXPECT_LE(first.header.eye_poses_latched_ns() + first.header.times().trace_ns() +
-                first.header.times().encode_ns(),
+  EXPECT_LE(first.header.eye_poses_latched_ns() + first.end.times().trace_ns() +
+                first.end.times().encode_ns(),
             seen_ns);
   // The client falls silent, the stream goes on.
   publish();
@@ -79,7 +79,7 @@ TEST_F(ServiceEyesTest, answersEyesFromFarAwayAndOfAnyTime) {
     EXPECT_EQ(near.header.predicted_display_time_ns(), time_ns + 11'000'000);
     EXPECT_EQ(colorOf(near), colorOf(fixedAt({0.25, 0, 0}, {0.3125, 0, 0})));
     const Atlas far = tracked->seenBy(posesAt(time_ns + 1, {7000, -3000, 9000}, {7000, 8000, 0}));
-    const v1::Coverage& coverage = far.header.coverage();
+    const v1::Coverage& coverage = far.end.coverage();
     EXPECT_NEAR(coverage.hit() + coverage.hit_assumed() + coverage.hidden() + coverage.outside() +
                     coverage.empty(),
                 1, 1e-9);

@@ -43,6 +43,12 @@ TestWatcher::~TestWatcher() {
   finish();
 }
 
+std::optional<v1::StreamAtlasesResponse> TestWatcher::readMessage() {
+  v1::StreamAtlasesResponse response;
+  if (!call_->Read(&response)) return std::nullopt;
+  return response;
+}
+
 std::optional<ReceivedAtlas> TestWatcher::readAtlas() {
   ReceivedAtlas atlas;
   v1::StreamAtlasesResponse response;
@@ -67,7 +73,14 @@ std::optional<ReceivedAtlas> TestWatcher::readAtlas() {
       case v1::StreamAtlasesResponse::kEnd:
         EXPECT_EQ(response.end().sequence(), atlas.header.sequence());
         EXPECT_EQ(atlas.color_bands.size(), atlas.header.band_count());
+        atlas.end = response.end();
         return atlas;
+      case v1::StreamAtlasesResponse::kAbandoned:
+        EXPECT_EQ(response.abandoned().sequence(), atlas.header.sequence());
+        atlas.header.Clear();
+        atlas.color_bands.clear();
+        ++atlas.abandoned_count;
+        break;
       case v1::StreamAtlasesResponse::kClockReply:
         ADD_FAILURE() << "nobody asked what time it is";
         break;

@@ -23,6 +23,8 @@ struct ReceivedAtlas {
   std::optional<v1::AtlasLayout> layout;        // when a new one came before it
   uint64_t skipped_count = 0;                   // said to have been skipped before it
   size_t piece_count = 0;
+  size_t abandoned_count = 0;  // begun and abandoned before it
+  v1::AtlasEnd end;
 };
 
 // Every wait ends after a minute at the latest: the call then fails. Thread-safety: none.
@@ -34,6 +36,8 @@ class TestWatcher {
 
   bool send(const v1::StreamAtlasesRequest& request) { return call_->Write(request); }
   void halfClose() { call_->WritesDone(); }
+  // The next message, unchecked; empty when the call is over.
+  std::optional<v1::StreamAtlasesResponse> readMessage();
   // The next whole atlas, its messages checked; empty when the call is over before its end.
   std::optional<ReceivedAtlas> readAtlas();
   // Reads what is left and returns how the call ended.

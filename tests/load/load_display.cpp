@@ -93,7 +93,7 @@ LoadDisplay::LoadDisplay(const std::shared_ptr<grpc::Channel>& channel, const v1
 void LoadDisplay::note(const Atlas& atlas) {
   const int64_t now_ns = SteadyClock().nowNs();
   const v1::AtlasHeader& header = atlas.header;
-  const v1::StageTimes& times = header.times();
+  const v1::StageTimes& times = atlas.end.times();
   std::lock_guard lock(mutex_);
   book_.sequences_back += header.sequence() <= last_sequence_;
   book_.frames_back += header.frame_number() < last_frame_;

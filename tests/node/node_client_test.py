@@ -6,6 +6,7 @@ VIEWLOOM_REQUIRE_NODE is 1.
 """
 
 import hashlib
+import io
 import os
 import pathlib
 import re
@@ -17,6 +18,12 @@ import tempfile
 import unittest
 
 from PIL import Image
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "show"))
+from fake_displays import FakeDisplays  # noqa: E402
+
+from viewloom.v1 import atlas_pb2  # noqa: E402
+from viewloom.v1.display_service_pb2 import StreamAtlasesResponse  # noqa: E402
 
 SERVER, FOLDER, PROTOS = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
 
@@ -47,6 +54,29 @@ def install():
         raise Missing(f"npm could not install what package-lock.json lists, {problem}:\n"
                       f"{problem.stderr}") from None
     stamp.write_text(lock, encoding="ascii")
+
+
+class AbandonedThenWhole:
+    """An atlas that the server gives up after its first band, then a whole one of another
+    colour."""
+
+    layout = atlas_pb2.AtlasLayout(
+        size={"width": 16, "height": 16}, columns=1, rows=1, view_count=1, image_count=1,
+        tile_size={"width": 16, "height": 16}, suffix="_qs1x1a1")
+
+    @staticmethod
+    def _begun(sequence, colour):
+        file = io.BytesIO()
+        Image.new("RGB", (16, 16), colour).save(file, "JPEG")
+        band = {"sequence": sequence, "plane": atlas_pb2.ATLAS_PLANE_COLOR, "row_count": 16,
+                "encoding": atlas_pb2.BAND_ENCODING_JPEG, "data": file.getvalue(),
+                "last_piece": True}
+        return [StreamAtlasesResponse(header={"sequence": sequence, "frame_number": sequence,
+                                              "band_count": 1}), StreamAtlasesResponse(band=band)]
+
+    def messages(self, _):
+        return [*self._begun(1, "red"), StreamAtlasesResponse(abandoned={"sequence": 1}),
+                *self._begun(2, "lime"), StreamAtlasesResponse(end={"sequence": 2})]
 
 
 class NodeClient(unittest.TestCase):
@@ -103,6 +133,15 @@ class NodeClient(unittest.TestCase):
             self.assertGreater(red, 2 * blue, f"view {view}")
             red, _, blue = quilt.getpixel((left + 210, bottom - 20))
             self.assertGreater(blue, 2 * red, f"view {view}")
+
+    def test_an_atlas_that_is_abandoned_is_never_written(self):
+        server = FakeDisplays(lambda _: AbandonedThenWhole())
+        self.addCleanup(server.stop)
+        done, pictures = self.watch("--server", server.address, "--out", "whole")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("frame 2:", done.stdout)
+        red, green, _ = pictures["whole_qs1x1a1.jpg"].getpixel((8, 8))
+        self.assertGreater(green, 2 * red)
 
     def test_a_refusal_is_one_line_that_names_the_field(self):
         done, pictures = self.watch("--preset", "no_such")

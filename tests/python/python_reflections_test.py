@@ -87,7 +87,7 @@ class Mirrors(unittest.TestCase):
         # Along the edge between floor and wall px of both are blended.
         inner = is_floor & np.roll(is_floor, 2, axis=0)
         self.assertLessEqual(apart[inner].max(), APART)
-        shares = atlas.header.reflections
+        shares = atlas.end.reflections
         self.assertGreater(shares.hit, 0.95)
         self.assertAlmostEqual(shares.hit + shares.assumed + shares.back + shares.cube +
                                shares.environment, 1, places=9)
@@ -106,7 +106,7 @@ class Mirrors(unittest.TestCase):
         normal = np.zeros((HEIGHT_PX, WIDTH_PX, 3))
         normal[...] = [0, 1, 1]  # leans towards the camera: what it mirrors is above the picture
         atlas = self.picture(room(normal=normal), bounces=1, environment_rgb=0x204060)
-        self.assertGreater(atlas.header.reflections.environment, 0.8)
+        self.assertGreater(atlas.end.reflections.environment, 0.8)
         shown = atlas.color[is_floor]
         self.assertGreater((np.abs(shown.astype(int) - [0x20, 0x40, 0x60]).max(axis=-1) <= 1)
                            .mean(), 0.8)
@@ -114,7 +114,7 @@ class Mirrors(unittest.TestCase):
     def test_add_nothing_unasked_or_where_colour_has_it(self):
         _, is_floor = mirrored()
         plain = self.picture(room())
-        self.assertFalse(plain.header.HasField("reflections"))
+        self.assertFalse(plain.end.HasField("reflections"))
         self.assertEqual(plain.color[is_floor & np.roll(is_floor, 2, axis=0)].max(), 0)
         had = self.picture(room(color_has_reflections=True), bounces=1)
         np.testing.assert_array_equal(had.color, plain.color)
@@ -128,7 +128,7 @@ class Mirrors(unittest.TestCase):
         inner = is_floor & np.roll(is_floor, 2, axis=0)
         apart = np.abs(atlas.color.astype(float) - expected).max(axis=-1)
         self.assertLessEqual(apart[inner].max(), APART)
-        self.assertGreater(atlas.header.reflections.hit, 0.95)
+        self.assertGreater(atlas.end.reflections.hit, 0.95)
 
     def test_are_refused_of_colour_that_is_seen_through(self):
         opaque = room()

@@ -57,7 +57,7 @@ def replay(options: argparse.Namespace) -> None:
             header = atlas.header
             there_ns = header.eye_poses_latched_ns - clock.ahead_ns - moved_ns
             print(f"pose {number}: frame {header.frame_number}, "
-                  f"{header.coverage.outside:.1%} outside, motion to picture "
+                  f"{atlas.end.coverage.outside:.1%} outside, motion to picture "
                   f"{(shown_ns - moved_ns) / 1e6:.1f} ms, of that {there_ns / 1e6:.1f} ms until "
                   f"the first ray")
 

@@ -18,7 +18,11 @@ from viewloom.v1 import atlas_pb2, display_pb2, display_service_pb2, display_ser
 
 
 def receive_quilt(address, stream, display):
-    """One atlas: its layout, its header, and its bands joined, which are one JPEG file."""
+    """One atlas: its layout, header and end, and its bands joined, which are one JPEG file.
+
+    Only its end makes it whole: one that is abandoned, or that another header follows, is
+    discarded.
+    """
     request = display_service_pb2.StreamAtlasesRequest(
         open=display_service_pb2.OpenDisplay(
             stream=stream, display=display, count=1, wait_for_stream=True))
@@ -29,12 +33,14 @@ def receive_quilt(address, stream, display):
             kind = message.WhichOneof("message")
             if kind == "layout":
                 layout = message.layout
-            elif kind == "header":  # one that was begun before, and not ended, is discarded
+            elif kind == "header":
                 header, jpeg = message.header, bytearray()
             elif kind == "band" and message.band.plane == atlas_pb2.ATLAS_PLANE_COLOR:
                 jpeg += message.band.data
-            elif kind == "end":
-                return layout, header, bytes(jpeg)
+            elif kind == "abandoned":
+                header, jpeg = None, bytearray()
+            elif kind == "end" and header is not None:
+                return layout, header, message.end, bytes(jpeg)
     raise RuntimeError("the server ended before an atlas was whole")
 
 
@@ -58,7 +64,7 @@ def main():
     display = display_pb2.Display(preset=options.preset)
     print(f"waiting for a frame of {options.stream}", file=sys.stderr)
     try:
-        layout, header, jpeg = receive_quilt(options.server, options.stream, display)
+        layout, header, end, jpeg = receive_quilt(options.server, options.stream, display)
     except grpc.RpcError as error:
         sys.exit(f"watch_quilt: {options.server}: {error.code().name}: {error.details()}")
     quilt_file = f"{options.out}{layout.suffix}.jpg"
@@ -67,7 +73,7 @@ def main():
     view_file = f"{options.out}_view{options.view:02d}.png"
     cut_view(Image.open(io.BytesIO(jpeg)), layout, options.view).save(view_file)
     print(f"frame {header.frame_number}: {layout.view_count} views, "
-          f"{header.coverage.hidden:.1%} of the rays hidden; wrote {quilt_file} and {view_file}")
+          f"{end.coverage.hidden:.1%} of the rays hidden; wrote {quilt_file} and {view_file}")
 
 
 if __name__ == "__main__":

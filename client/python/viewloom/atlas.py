@@ -18,7 +18,7 @@ from viewloom.atlas_file import PathLike, save
 from viewloom.errors import BadInput, data_loss
 from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
-from viewloom.v1.display_service_pb2 import AtlasHeader
+from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader
 
 # Of a plane that is not a JPEG: sample type and samples a pixel.
 _SAMPLES = {atlas_pb2.ATLAS_PLANE_COLOR: ("u1", 3), atlas_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
@@ -83,7 +83,8 @@ class Atlas:
     """All views of a display at one instant. Pictures are decoded when first asked for.
 
     layout:   where the views lie and what they see (proto AtlasLayout).
-    header:   frame number, capture time, coverage, stage times (proto AtlasHeader).
+    header:   frame number, capture time, eyes, depth budget (proto AtlasHeader).
+    end:      what is known once it is whole: coverage, stage times (proto AtlasEnd).
     skipped:  atlases of this display that were made since the one before, and overtaken.
     stream:   the name of the stream.
     """
@@ -91,6 +92,7 @@ class Atlas:
     layout: AtlasLayout
     header: AtlasHeader
     bands: list[Band]
+    end: AtlasEnd = dataclasses.field(default_factory=AtlasEnd)
     skipped: int = 0
     stream: str = ""
 

@@ -11,10 +11,18 @@ from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
 from viewloom.v1 import display_service_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
-from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
+from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader, StreamAtlasesResponse
 
 # More than any atlas: 16384x16384 px of colour, depth and mask, not packed.
 _BYTES_MAX = 8 * 16384 * 16384
+
+
+def _take_outcome(header: AtlasHeader, end: AtlasEnd) -> None:
+    """Older servers, and recordings of them, say it before the bands."""
+    for name in ("times", "coverage", "reflections"):
+        if header.HasField(name) and not end.HasField(name):
+            getattr(end, name).CopyFrom(getattr(header, name))
+        header.ClearField(name)
 
 
 class AtlasInbox:
@@ -47,7 +55,9 @@ class AtlasInbox:
         elif kind == "band":
             self._add_band(response.band)
         elif kind == "end":
-            self._finish(response.end.sequence)
+            self._finish(response.end)
+        elif kind == "abandoned":  # what the server began will never be whole
+            self._header = None
         elif kind == "skipped":
             self._skipped += response.skipped.count
 
@@ -68,12 +78,14 @@ class AtlasInbox:
         band.data += piece.data
         self._band_is_open = not piece.last_piece
 
-    def _finish(self, sequence: int) -> None:
+    def _finish(self, end: AtlasEnd) -> None:
+        sequence = end.sequence
         if (self._layout is None or self._header is None or self._header.sequence != sequence
                 or self._band_is_open or len(self._bands) != self._header.band_count):
             raise data_loss(f"atlas {sequence} ended before it was whole")
         self._skipped += self._newest is not None
-        self._newest = Atlas(self._layout, self._header, self._bands, stream=self._stream)
+        _take_outcome(self._header, end)
+        self._newest = Atlas(self._layout, self._header, self._bands, end, stream=self._stream)
         self._header = None
 
     def end(self, error: Optional[ViewloomError]) -> None:

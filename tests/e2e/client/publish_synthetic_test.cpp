@@ -43,15 +43,15 @@ TEST_F(PublishSynthetic, mirrorsWhereItIsToldTo) {
   const std::vector<Atlas> mirrors = published("--mirrors", 1);
   ASSERT_FALSE(mirrors.empty());
   // Shares of the rays that mirrors sent on: of none where nothing mirrors.
-  EXPECT_NEAR(reflectedShare(mirrors.back().header), 1, 1e-6);
-  EXPECT_GT(mirrors.back().header.reflections().hit(), 0);
+  EXPECT_NEAR(reflectedShare(mirrors.back().end), 1, 1e-6);
+  EXPECT_GT(mirrors.back().end.reflections().hit(), 0);
 }
 
 TEST_F(PublishSynthetic, mirrorsAndMovesNothingByItself) {
   const std::vector<Atlas> plain = published("", 3);
   ASSERT_EQ(plain.size(), 3U);
   for (const Atlas& atlas : plain) {
-    EXPECT_EQ(reflectedShare(atlas.header), 0);
+    EXPECT_EQ(reflectedShare(atlas.end), 0);
     const v1::Pose& pose = atlas.header.source_camera().pose();
     EXPECT_EQ(pose.position().x(), 0);
     EXPECT_EQ(pose.position().y(), 0);

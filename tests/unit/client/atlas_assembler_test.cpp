@@ -99,6 +99,42 @@ TEST_F(AtlasAssemblerTest, discardsWhatIsHalfDoneWhenTheLayoutChangesOrTheCallIs
   EXPECT_EQ(assembler_.counts().whole, 0U);
 }
 
+TEST_F(AtlasAssemblerTest, discardsWhatTheServerAbandons) {
+  Message abandoned;
+  abandoned.mutable_abandoned()->set_sequence(1);
+  EXPECT_FALSE(add({layoutMessage(), headerMessage(1, 1), bandMessage(1, 0, "x"), abandoned}));
+  EXPECT_EQ(codeOf(endMessage(1)), absl::StatusCode::kDataLoss) << "whole it was never";
+  const auto atlas = add({headerMessage(2, 1), bandMessage(2, 0, "y"), endMessage(2)});
+  ASSERT_TRUE(atlas.has_value());
+  EXPECT_EQ(atlas->bands.at(0).bytes, "y");
+  EXPECT_EQ(assembler_.counts().discarded, 1U);
+  EXPECT_EQ(assembler_.counts().whole, 1U);
+}
+
+TEST_F(AtlasAssemblerTest, takesTheOutcomeFromTheEnd) {
+  Message end = endMessage(1);
+  end.mutable_end()->mutable_times()->set_trace_ns(5);
+  end.mutable_end()->mutable_coverage()->set_hit(0.5);
+  const auto atlas = add({layoutMessage(), headerMessage(1, 0), end});
+  EXPECT_EQ(atlas->end.times().trace_ns(), 5);
+  EXPECT_EQ(atlas->end.coverage().hit(), 0.5);
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+TEST_F(AtlasAssemblerTest, takesTheOutcomeOfOlderServersFromTheHeader) {
+  Message header = headerMessage(1, 0);
+  header.mutable_header()->mutable_times()->set_trace_ns(5);
+  header.mutable_header()->mutable_coverage()->set_hit(0.5);
+  header.mutable_header()->mutable_reflections()->set_hit(1);
+  const auto atlas = add({layoutMessage(), header, endMessage(1)});
+  EXPECT_EQ(atlas->end.times().trace_ns(), 5);
+  EXPECT_EQ(atlas->end.coverage().hit(), 0.5);
+  EXPECT_EQ(atlas->end.reflections().hit(), 1);
+  EXPECT_FALSE(atlas->header.has_times()) << "it stands in one place";
+}
+#pragma GCC diagnostic pop
+
 TEST_F(AtlasAssemblerTest, countsGapsFromTheFirstAtlasOn) {
   add({layoutMessage(), headerMessage(40, 0), endMessage(40)});
   EXPECT_EQ(assembler_.counts().gaps, 0U) << "others watched before";

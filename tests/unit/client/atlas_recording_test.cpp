@@ -48,6 +48,12 @@ Message bandMessage(uint64_t sequence) {
   return message;
 }
 
+Message abandonedMessage(uint64_t sequence) {
+  Message message;
+  message.mutable_abandoned()->set_sequence(sequence);
+  return message;
+}
+
 Message endMessage(uint64_t sequence) {
   Message message;
   message.mutable_end()->set_sequence(sequence);
@@ -99,10 +105,12 @@ TEST_F(AtlasRecordingTest, givesAtlasesBackWithTheTimesOfTheirEnds) {
 }
 
 TEST_F(AtlasRecordingTest, leavesOutWhatWasBrokenOff) {
-  // A call that broke within atlas 1, one that goes on, and the end of the recording within 3.
+  // A call that broke within atlas 1, one that goes on, an atlas that the server abandons, and the
+  // end of the recording within 4.
   const auto atlases =
       readAll(recordMessages({layoutMessage(), headerMessage(1), bandMessage(1), layoutMessage(),
-                              headerMessage(2), bandMessage(2), endMessage(2), headerMessage(3)}));
+                              headerMessage(2), bandMessage(2), endMessage(2), headerMessage(3),
+                              bandMessage(3), abandonedMessage(3), headerMessage(4)}));
   ASSERT_TRUE(atlases.ok()) << atlases.status();
   ASSERT_EQ(atlases->size(), 1U);
   EXPECT_EQ((*atlases)[0].atlas.header.sequence(), 2U);
@@ -113,7 +121,8 @@ TEST_F(AtlasRecordingTest, saysWhenAnAtlasIsOpen) {
   ASSERT_TRUE(recorder.ok());
   const std::pair<Message, bool> steps[] = {{layoutMessage(), false}, {headerMessage(1), true},
                                             {bandMessage(1), true},   {endMessage(1), false},
-                                            {headerMessage(2), true}, {layoutMessage(), false}};
+                                            {headerMessage(2), true}, {layoutMessage(), false},
+                                            {headerMessage(3), true}, {abandonedMessage(3), false}};
   for (const auto& [message, is_open] : steps) {
     ASSERT_EQ((*recorder)->add(message), absl::OkStatus());
     EXPECT_EQ((*recorder)->isWithinAtlas(), is_open);

@@ -90,14 +90,14 @@ TEST(ServerClock, leavesOutWhatNoClockCanHaveSaid) {
 
 TEST(MotionLatency, hasPartsThatAddUp) {
   // Measured at 1000 ms, there after 2 ms, latched after 5 more, made in 20, here after another 3.
-  v1::AtlasHeader header;
+  Atlas atlas;
   const ClockOffset server{.ahead_ns = 500 * kMs, .error_ns = 0};
-  EXPECT_EQ(motionLatency(header, 1000 * kMs, 1030 * kMs, server), std::nullopt);
-  header.set_eye_poses_latched_ns(1507 * kMs);
-  header.set_eye_poses_age_ns(5 * kMs);
-  header.mutable_times()->set_trace_ns(12 * kMs);
-  header.mutable_times()->set_encode_ns(8 * kMs);
-  const auto latency = motionLatency(header, 1000 * kMs, 1030 * kMs, server);
+  EXPECT_EQ(motionLatency(atlas, 1000 * kMs, 1030 * kMs, server), std::nullopt);
+  atlas.header.set_eye_poses_latched_ns(1507 * kMs);
+  atlas.header.set_eye_poses_age_ns(5 * kMs);
+  atlas.end.mutable_times()->set_trace_ns(12 * kMs);
+  atlas.end.mutable_times()->set_encode_ns(8 * kMs);
+  const auto latency = motionLatency(atlas, 1000 * kMs, 1030 * kMs, server);
   ASSERT_TRUE(latency.has_value());
   EXPECT_NEAR(latency->total_s, 0.030, 1e-9);
   EXPECT_NEAR(latency->to_server_s, 0.002, 1e-9);

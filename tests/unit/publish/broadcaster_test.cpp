@@ -52,8 +52,6 @@ TEST(Broadcaster, handsEachAtlasToAllWatchersOfItsDisplayAlone) {
 
 TEST(Broadcaster, givesEveryWatcherOfATrackedDisplayOneOfHisOwn) {
   Broadcaster broadcaster({});
-  std::vector<uint64_t> moved;
-  broadcaster.onEyesMove([&](const ActiveDisplay& display) { moved.push_back(display.id); });
   const DisplaySpec tracked =
       *completeDisplaySpec({.kind = StereoSpec{.eye_size_px = {100, 100}, .is_tracked = true}});
   const auto eyes = std::make_shared<EyeTrack>();
@@ -66,12 +64,10 @@ TEST(Broadcaster, givesEveryWatcherOfATrackedDisplayOneOfHisOwn) {
   EXPECT_NE(displays[0]->picture_key, displays[1]->picture_key);
   EXPECT_EQ(displays[0]->eyes, eyes);
   const uint64_t first_id = first->displayId();
-  broadcaster.announceEyes(second->displayId());
-  broadcaster.announceEyes(first_id);
-  EXPECT_THAT(moved, ElementsAre(second->displayId(), first_id));
+  EXPECT_EQ(broadcaster.display(first_id), displays[0]);
+  EXPECT_EQ(broadcaster.display(second->displayId()), displays[1]);
   first.reset();
-  broadcaster.announceEyes(first_id);
-  EXPECT_EQ(moved.size(), 2u) << "nobody watches it any more";
+  EXPECT_EQ(broadcaster.display(first_id), nullptr) << "nobody watches it any more";
 }
 
 TEST(Broadcaster, tellsALayoutBeforeAnAtlasIsTraced) {
@@ -99,6 +95,55 @@ TEST(Broadcaster, givesALateJoinerTheNewestCompleteAtlasAtOnce) {
   const auto second = join(broadcaster, "s", quiltOf(2), late);
   EXPECT_THAT(late->sequences(), ElementsAre(2));
   EXPECT_THAT(demands, ElementsAre("s")) << "the late joiner is served and asks for nothing";
+}
+
+TEST(Broadcaster, tellsAllWatchersOfAnAtlasThatIsBeingMade) {
+  Broadcaster broadcaster({});
+  const auto one = std::make_shared<Watcher>();
+  const auto two = std::make_shared<Watcher>();
+  const auto a = join(broadcaster, "s", quiltOf(2), one);
+  const auto b = join(broadcaster, "s", quiltOf(2), two);
+  const uint64_t id = a->displayId();
+  EXPECT_EQ(broadcaster.nextSequence(id), 1u);
+  const auto growing = std::make_shared<GrowingAtlas>(begunAtlas(id, 1, 0));
+  broadcaster.begin(growing);
+  EXPECT_THAT(one->begun(), ElementsAre(growing));
+  EXPECT_THAT(two->begun(), ElementsAre(growing)) << "the same bytes for all";
+  EXPECT_THAT(one->sequences(), IsEmpty()) << "it is not whole";
+  EXPECT_EQ(broadcaster.newest(id), nullptr);
+  EXPECT_EQ(broadcaster.nextSequence(id), 2u);
+  broadcaster.publish(growing->complete({}));
+  EXPECT_THAT(one->sequences(), ElementsAre(1));
+  EXPECT_EQ(broadcaster.nextSequence(id), 2u);
+}
+
+TEST(Broadcaster, givesAJoinerTheNewestWholeAtlasAndTheOneThatIsBeingMade) {
+  Broadcaster broadcaster({});
+  const auto first = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
+  const uint64_t id = first->displayId();
+  broadcaster.publish(atlasOf(id, 1));
+  const auto growing = std::make_shared<GrowingAtlas>(begunAtlas(id, 2, 0));
+  broadcaster.begin(growing);
+  const auto late = std::make_shared<Watcher>();
+  const auto second = join(broadcaster, "s", quiltOf(2), late);
+  EXPECT_THAT(late->sequences(), ElementsAre(1));
+  EXPECT_THAT(late->begun(), ElementsAre(growing));
+  broadcaster.publish(growing->complete({}));
+  const auto later = std::make_shared<Watcher>();
+  const auto third = join(broadcaster, "s", quiltOf(2), later);
+  EXPECT_THAT(later->sequences(), ElementsAre(2));
+  EXPECT_THAT(later->begun(), IsEmpty()) << "it is whole";
+}
+
+TEST(Broadcaster, tellsNobodyOfAnAtlasOfADisplayThatIsLeft) {
+  Broadcaster broadcaster({});
+  const auto watcher = std::make_shared<Watcher>();
+  auto place = join(broadcaster, "s", quiltOf(2), watcher);
+  const uint64_t id = place->displayId();
+  place.reset();
+  broadcaster.begin(std::make_shared<GrowingAtlas>(begunAtlas(id, 1)));
+  EXPECT_THAT(watcher->begun(), IsEmpty());
+  EXPECT_EQ(broadcaster.nextSequence(id), 1u);
 }
 
 TEST(Broadcaster, asksForAnAtlasWhenAJoinerFindsNone) {

@@ -29,9 +29,23 @@ inline AtlasPtr atlasOf(uint64_t display_id, uint64_t sequence) {
   return std::make_shared<EncodedAtlas>(atlas);
 }
 
+// An atlas whose bands are not packed yet.
+inline EncodedAtlas begunAtlas(uint64_t display_id, uint64_t sequence, size_t band_count = 1) {
+  EncodedAtlas atlas = *atlasOf(display_id, sequence);
+  atlas.bands.resize(band_count);
+  return atlas;
+}
+
 // Remembers what it was offered and how it ended; notes calls that overlap or come after the end.
 class Watcher : public Subscriber {
  public:
+  void begin(GrowingAtlasPtr atlas) override {
+    const bool overlaps = is_called_.exchange(true);
+    std::lock_guard lock(mutex_);
+    misused_ |= overlaps || !ends_.empty();
+    begun_.push_back(std::move(atlas));
+    is_called_ = false;
+  }
   void offer(AtlasPtr atlas) override {
     const bool overlaps = is_called_.exchange(true);
     std::lock_guard lock(mutex_);
@@ -50,6 +64,10 @@ class Watcher : public Subscriber {
     std::lock_guard lock(mutex_);
     return sequences_;
   }
+  std::vector<GrowingAtlasPtr> begun() const {
+    std::lock_guard lock(mutex_);
+    return begun_;
+  }
   std::vector<absl::Status> ends() const {
     std::lock_guard lock(mutex_);
     return ends_;
@@ -62,6 +80,7 @@ class Watcher : public Subscriber {
  private:
   std::atomic<bool> is_called_ = false;
   mutable std::mutex mutex_;
+  std::vector<GrowingAtlasPtr> begun_;
   std::vector<uint64_t> sequences_;
   std::vector<absl::Status> ends_;
   bool misused_ = false;

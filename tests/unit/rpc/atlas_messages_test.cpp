@@ -6,7 +6,9 @@
 #include <grpcpp/support/slice.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "messages/wire_message.h"
@@ -43,19 +45,34 @@ v1::StreamAtlasesResponse parsed(grpc::ByteBuffer bytes) {
   return response;
 }
 
+AtlasMessages messagesOf(AtlasPtr whole) {
+  return AtlasMessages(std::make_shared<GrowingAtlas>(std::move(whole)));
+}
+
+// The next, of an atlas that has one.
+v1::StreamAtlasesResponse next(AtlasMessages& messages) {
+  EXPECT_TRUE(messages.isReady());
+  auto bytes = messages.next({});
+  EXPECT_TRUE(bytes.has_value());
+  return bytes ? parsed(*std::move(bytes)) : v1::StreamAtlasesResponse();
+}
+
 TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
-  AtlasMessages messages(atlasOfTwoBands());
-  const auto header = parsed(messages.next());
+  const auto atlas = atlasOfTwoBands();
+  atlas->times.trace_ns = 5;
+  atlas->coverage = {.hit = 3, .hidden = 1};
+  AtlasMessages messages = messagesOf(atlas);
+  const auto header = next(messages);
   ASSERT_TRUE(header.has_header());
   EXPECT_EQ(header.header().sequence(), 300u);
   EXPECT_EQ(header.header().frame_number(), 12u);
   EXPECT_EQ(header.header().band_count(), 2u);
   EXPECT_FALSE(header.header().has_depth_budget());
-  const auto first = parsed(messages.next());
+  const auto first = next(messages);
   EXPECT_EQ(first.band().data().size(), 3u);
   EXPECT_TRUE(first.band().last_piece());
   for (const size_t offset : {size_t{0}, kPieceBytesMax, 2 * kPieceBytesMax}) {
-    const auto piece = parsed(messages.next());
+    const auto piece = next(messages);
     ASSERT_TRUE(piece.has_band());
     EXPECT_EQ(piece.band().sequence(), 300u);
     EXPECT_EQ(piece.band().image_index(), 2u);
@@ -68,81 +85,155 @@ TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
     EXPECT_EQ(piece.band().data().size(), std::min(kPieceBytesMax, kLargeBytes - offset));
   }
   EXPECT_FALSE(messages.done());
-  EXPECT_EQ(parsed(messages.next()).end().sequence(), 300u);
+  const v1::AtlasEnd end = next(messages).end();
+  EXPECT_EQ(end.sequence(), 300u);
+  EXPECT_EQ(end.times().trace_ns(), 5);
+  EXPECT_EQ(end.coverage().hit(), 0.75);
+  EXPECT_FALSE(end.has_reflections());
   EXPECT_TRUE(messages.done());
+  EXPECT_TRUE(messages.wasWhole());
 }
 
-// Three bands that adjoin, a fourth of another plane.
-std::shared_ptr<EncodedAtlas> atlasOfStrip(BandEncoding encoding, size_t band_bytes) {
-  auto atlas = std::make_shared<EncodedAtlas>();
-  for (uint32_t row = 0; row < 300; row += 128) {
-    atlas->bands.push_back({.plane = AtlasPlane::kRed,
-                            .first_row = row,
-                            .row_count = std::min(128U, 300 - row),
-                            .encoding = encoding,
-                            .bytes = bytesOf(band_bytes + row)});
+// Of each plane so many bands of 128 rows, without their bytes.
+EncodedAtlas begunOf(std::vector<AtlasPlane> planes, uint32_t band_count, BandEncoding encoding) {
+  EncodedAtlas atlas;
+  atlas.sequence = 4;
+  for (const AtlasPlane plane : planes) {
+    for (uint32_t band = 0; band < band_count; ++band) {
+      atlas.bands.push_back({.plane = plane,
+                             .first_row = 128 * band,
+                             .row_count = 128,
+                             .encoding = encoding,
+                             .bytes = nullptr});
+    }
   }
-  atlas->bands.push_back(
-      {.plane = AtlasPlane::kGreen, .row_count = 128, .encoding = encoding, .bytes = bytesOf(7)});
   return atlas;
 }
 
-std::vector<v1::Band> bandsOf(AtlasMessages messages) {
-  const uint32_t count = parsed(messages.next()).header().band_count();
-  std::vector<v1::Band> bands;
+AtlasPtr wholeOf(EncodedAtlas atlas, size_t band_bytes) {
+  for (size_t i = 0; i < atlas.bands.size(); ++i) atlas.bands[i].bytes = bytesOf(band_bytes + i);
+  return std::make_shared<EncodedAtlas>(std::move(atlas));
+}
+
+// The pieces of all bands; as many of these are ended as the header says.
+std::vector<v1::Band> piecesOf(AtlasMessages messages) {
+  const uint32_t count = next(messages).header().band_count();
+  std::vector<v1::Band> pieces;
+  uint32_t ended_count = 0;
   while (!messages.done()) {
-    const auto message = parsed(messages.next());
-    if (message.has_band()) bands.push_back(message.band());
+    const auto message = next(messages);
+    if (!message.has_band()) continue;
+    pieces.push_back(message.band());
+    ended_count += message.band().last_piece();
   }
-  EXPECT_EQ(bands.size(), count);
-  return bands;
+  EXPECT_EQ(ended_count, count);
+  return pieces;
 }
 
-TEST(AtlasMessages, joinBandsThatAreOneImagesTogether) {
-  for (const BandEncoding encoding :
-       {BandEncoding::kJpeg, BandEncoding::kJpegPlanes, BandEncoding::kRaw}) {
-    const auto atlas = atlasOfStrip(encoding, 1000);
-    const std::vector<v1::Band> bands = bandsOf(AtlasMessages(atlas));
-    ASSERT_EQ(bands.size(), 2u) << "the other plane's stays by itself";
-    EXPECT_EQ(bands[0].first_row(), 0u);
-    EXPECT_EQ(bands[0].row_count(), 300u);
-    EXPECT_TRUE(bands[0].last_piece());
-    std::string joined;
-    for (size_t i = 0; i < 3; ++i) {
-      joined.append(atlas->bands[i].bytes->begin(), atlas->bands[i].bytes->end());
-    }
-    EXPECT_EQ(bands[0].data(), joined);
-    EXPECT_EQ(bands[1].plane(), v1::ATLAS_PLANE_GREEN);
-    EXPECT_EQ(bands[1].data().size(), 7u);
+TEST(AtlasMessages, joinTheBandsOfAFile) {
+  const AtlasPtr atlas =
+      wholeOf(begunOf({AtlasPlane::kColor}, 3, BandEncoding::kJpeg), kPieceBytesMax / 2 - 1);
+  const std::vector<v1::Band> pieces = piecesOf(messagesOf(atlas));
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[0].data().size(), kPieceBytesMax - 1) << "as many bands as a message holds";
+  std::string file;
+  std::string joined;
+  for (const v1::Band& piece : pieces) {
+    EXPECT_EQ(piece.first_row(), 0u);
+    EXPECT_EQ(piece.row_count(), 384u);
+    EXPECT_EQ(piece.offset_bytes(), joined.size());
+    joined += piece.data();
+  }
+  for (const EncodedBand& band : atlas->bands) file.append(band.bytes->begin(), band.bytes->end());
+  EXPECT_EQ(joined, file);
+}
+
+TEST(AtlasMessages, letPlanesTakeTurnsFromTheTop) {
+  const AtlasPtr atlas =
+      wholeOf(begunOf({AtlasPlane::kRed, AtlasPlane::kGreen}, 16, BandEncoding::kJpegPlanes), 1000);
+  const std::vector<v1::Band> pieces = piecesOf(messagesOf(atlas));
+  ASSERT_EQ(pieces.size(), 16u);
+  for (uint32_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(pieces[i].plane(), i % 2 == 0 ? v1::ATLAS_PLANE_RED : v1::ATLAS_PLANE_GREEN);
+    EXPECT_EQ(pieces[i].first_row(), i / 2 * 256);
+    EXPECT_EQ(pieces[i].row_count(), 256u);
   }
 }
 
-TEST(AtlasMessages, leaveFramesOfZstdByThemselves) {
-  EXPECT_EQ(bandsOf(AtlasMessages(atlasOfStrip(BandEncoding::kZstd, 1000))).size(), 4u);
+TEST(AtlasMessages, leaveOtherBandsByThemselves) {
+  for (const BandEncoding encoding : {BandEncoding::kZstd, BandEncoding::kRaw}) {
+    const AtlasPtr atlas = wholeOf(begunOf({AtlasPlane::kColor}, 4, encoding), 1000);
+    EXPECT_EQ(piecesOf(messagesOf(atlas)).size(), 4u);
+  }
 }
 
-TEST(AtlasMessages, joinNoBandsThatDoNotAdjoinOrAreOfOtherImages) {
-  const auto gap = atlasOfStrip(BandEncoding::kJpeg, 1000);
-  gap->bands[2].first_row += 8;
-  EXPECT_EQ(bandsOf(AtlasMessages(gap)).size(), 3u);
-  const auto images = atlasOfStrip(BandEncoding::kJpeg, 1000);
-  for (size_t i = 1; i < 3; ++i) images->bands[i].image_index = 1;
-  EXPECT_EQ(bandsOf(AtlasMessages(images)).size(), 3u);
+TEST(AtlasMessages, keepImagesApart) {
+  EncodedAtlas atlas = begunOf({AtlasPlane::kColor}, 4, BandEncoding::kJpeg);
+  for (size_t i = 2; i < 4; ++i) atlas.bands[i].image_index = 1;
+  const std::vector<v1::Band> pieces = piecesOf(messagesOf(wholeOf(std::move(atlas), 1000)));
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[1].image_index(), 1u);
 }
 
-TEST(AtlasMessages, joinNoMoreThanAMessageHolds) {
-  const auto atlas = atlasOfStrip(BandEncoding::kJpeg, (kPieceBytesMax - 128) / 2);
-  const std::vector<v1::Band> bands = bandsOf(AtlasMessages(atlas));
-  ASSERT_EQ(bands.size(), 3u);
-  EXPECT_EQ(bands[0].data().size(), kPieceBytesMax) << "the first two fill it";
-  EXPECT_EQ(bands[1].first_row(), 256u);
+TEST(AtlasMessages, leaveWhenTheyArePacked) {
+  const auto growing =
+      std::make_shared<GrowingAtlas>(begunOf({AtlasPlane::kColor}, 4, BandEncoding::kJpeg));
+  EXPECT_FALSE(AtlasMessages::mayBegin(*growing, {}));
+  growing->put(1, bytesOf(10));
+  EXPECT_FALSE(AtlasMessages::mayBegin(*growing, {})) << "the first is not there";
+  growing->put(0, bytesOf(10));
+  EXPECT_TRUE(AtlasMessages::mayBegin(*growing, {}));
+  AtlasMessages messages(growing);
+  EXPECT_EQ(next(messages).header().band_count(), 1u);
+  EXPECT_EQ(next(messages).band().data().size(), 20u) << "the first piece waits for nothing";
+  EXPECT_FALSE(messages.isReady());
+  EXPECT_EQ(messages.next({}), std::nullopt);
+  growing->put(2, bytesOf(kPieceBytesMin - 1));
+  EXPECT_EQ(messages.next({}), std::nullopt) << "small pieces cost more than they bring";
+  growing->put(3, bytesOf(1));
+  const v1::Band last = next(messages).band();
+  EXPECT_EQ(last.offset_bytes(), 20u);
+  EXPECT_TRUE(last.last_piece());
+  EXPECT_EQ(messages.next({}), std::nullopt) << "its outcome is not known";
+  growing->complete({.coverage = {.hit = 1}});
+  EXPECT_EQ(next(messages).end().coverage().hit(), 1);
+  EXPECT_TRUE(messages.wasWhole());
+}
+
+TEST(AtlasMessages, endWithTheAtlasThatIsAbandoned) {
+  const auto growing =
+      std::make_shared<GrowingAtlas>(begunOf({AtlasPlane::kColor}, 2, BandEncoding::kRaw));
+  growing->put(0, bytesOf(10));
+  AtlasMessages messages(growing);
+  next(messages);
+  next(messages);
+  growing->abandon();
+  EXPECT_EQ(next(messages).abandoned().sequence(), 4u);
+  EXPECT_TRUE(messages.done());
+  EXPECT_FALSE(messages.wasWhole());
+}
+
+TEST(AtlasMessages, giveUpOnlyWhatIsNotWhole) {
+  const auto growing =
+      std::make_shared<GrowingAtlas>(begunOf({AtlasPlane::kColor}, 1, BandEncoding::kRaw));
+  AtlasMessages given_up(growing);
+  next(given_up);
+  given_up.giveUp();
+  EXPECT_TRUE(next(given_up).has_abandoned());
+  growing->put(0, bytesOf(10));
+  growing->complete({});
+  AtlasMessages whole(growing);
+  next(whole);
+  whole.giveUp();
+  EXPECT_TRUE(next(whole).has_band());
+  EXPECT_TRUE(next(whole).has_end());
 }
 
 // The bytes a piece is made of by hand are those that protobuf itself writes.
 TEST(AtlasMessages, areWhatProtobufWrites) {
-  AtlasMessages messages(atlasOfTwoBands());
+  AtlasMessages messages = messagesOf(atlasOfTwoBands());
   while (!messages.done()) {
-    const grpc::ByteBuffer bytes = messages.next();
+    const grpc::ByteBuffer bytes = messages.next({}).value();
     grpc::Slice whole;
     ASSERT_TRUE(bytes.DumpToSingleSlice(&whole).ok());
     EXPECT_EQ(parsed(bytes).SerializeAsString(), std::string(whole.begin(), whole.end()));
@@ -155,8 +246,8 @@ TEST(AtlasMessages, shareTheBytesOfTheBandsAndHoldThem) {
   const std::weak_ptr<const std::vector<uint8_t>> watched = atlas->bands[1].bytes;
   std::vector<grpc::ByteBuffer> written;
   {
-    AtlasMessages messages(std::move(atlas));
-    while (!messages.done()) written.push_back(messages.next());
+    AtlasMessages messages = messagesOf(std::move(atlas));
+    while (!messages.done()) written.push_back(messages.next({}).value());
   }
   EXPECT_FALSE(watched.expired()) << "a message that is being written holds its band";
   std::vector<grpc::Slice> slices;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "publish/sent_poses.h"
+#include "eye_poses/sent_poses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// By which eye poses the atlases were seen that one client got last: what it shows tells how long
-// that took.
+// The eye poses of the atlases that one client got last: what it shows tells how long that took.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@ class SentPoses {
     newest_ = (newest_ + 1) % sent_.size();
     sent_[newest_] = {.sequence = sequence, .poses_time_ns = poses_time_ns};
   }
-  // Of another display the sequence starts anew.
+  // The sequence of another display starts anew.
   void clear() { sent_ = {}; }
 
   // From the eyes' motion to its picture, both times of the client's clock. None for an atlas that

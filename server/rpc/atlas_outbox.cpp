@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/atlas_outbox.h"
+
+#include <utility>
+
+namespace viewloom {
+
+std::optional<grpc::ByteBuffer> AtlasAnnouncements::take(const EncodedAtlas& atlas) {
+  if (layout_message_.empty() || layout_ != atlas.layout) {
+    std::string message = layoutMessage(atlas);
+    layout_ = atlas.layout;
+    if (message != layout_message_) {
+      layout_message_ = std::move(message);
+      const grpc::Slice slice(layout_message_);
+      return grpc::ByteBuffer(&slice, 1);
+    }
+  }
+  if (skipped_count_ > 0) return skippedMessage(std::exchange(skipped_count_, 0));
+  return std::nullopt;
+}
+
+void AtlasOutbox::restart(std::shared_ptr<AtlasReader> reader) {
+  close(false);
+  reader_ = std::move(reader);
+  begun_sequence_ = 0;  // of another display the sequence starts anew
+  announcements_.restart();
+  sent_poses_.clear();
+}
+
+void AtlasOutbox::begin(GrowingAtlasPtr atlas) {
+  growing_ = std::move(atlas);
+}
+
+void AtlasOutbox::offer(AtlasPtr atlas) {
+  if (growing_ && growing_->atlas().sequence <= atlas->sequence) growing_ = nullptr;
+  if (atlas->sequence <= begun_sequence_) return;
+  if (std::exchange(whole_, std::move(atlas)) == nullptr) return;
+  announcements_.noteSkipped();
+  metrics_.replaced[HandOver::kGrpc].add();
+}
+
+void AtlasOutbox::close(bool is_draining) {
+  growing_ = nullptr;
+  if (!is_draining) whole_ = nullptr;
+  if (sending_) sending_->giveUp();
+}
+
+bool AtlasOutbox::mayBegin() {
+  if (count_ != 0 && sent_count_ >= count_) return false;
+  if (growing_ && growing_->state() == GrowingAtlas::State::kAbandoned) growing_ = nullptr;
+  return whole_ || (growing_ && AtlasMessages::mayBegin(*growing_, reader_));
+}
+
+std::optional<grpc::ByteBuffer> AtlasOutbox::takeBefore(bool may_begin) {
+  if (sending_ || !may_begin || !mayBegin()) return std::nullopt;
+  const EncodedAtlas& next = whole_ ? *whole_ : growing_->atlas();
+  std::optional<grpc::ByteBuffer> message = announcements_.take(next);
+  if (message) return message;
+  begun_sequence_ = next.sequence;
+  sent_poses_.note(next.sequence, next.eye_poses_time_ns);
+  sending_.emplace(whole_ ? std::make_shared<GrowingAtlas>(std::exchange(whole_, nullptr))
+                          : std::exchange(growing_, nullptr));
+  return std::nullopt;
+}
+
+std::optional<grpc::ByteBuffer> AtlasOutbox::take(bool may_begin) {
+  std::optional<grpc::ByteBuffer> message = takeBefore(may_begin);
+  if (!message && sending_) {
+    message = sending_->next(reader_);
+    if (sending_->done()) {
+      if (sending_->wasWhole()) {
+        ++sent_count_;
+        metrics_.atlases_sent[Transport::kGrpc].add();
+      }
+      sending_.reset();
+    }
+  }
+  if (message) metrics_.sent_bytes[Transport::kGrpc].add(static_cast<double>(message->Length()));
+  return message;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one call writes of the atlases of its display, and in which order.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <grpcpp/support/byte_buffer.h>
+
+#include "eye_poses/sent_poses.h"
+#include "metrics/metrics.h"
+#include "rpc/atlas_messages.h"
+
+namespace viewloom {
+
+// What must be said before an atlas: a new layout, or atlases that were skipped.
+// Thread-safety: none.
+class AtlasAnnouncements {
+ public:
+  // An atlas that the client will not get.
+  void noteSkipped() { ++skipped_count_; }
+  // The next atlas is of another display: its layout is announced anew.
+  void restart() { layout_message_.clear(); }
+  // The next message before this atlas; none = it may begin.
+  std::optional<grpc::ByteBuffer> take(const EncodedAtlas& atlas);
+
+ private:
+  uint64_t skipped_count_ = 0;                 // since the last Skipped message
+  std::shared_ptr<const AtlasLayout> layout_;  // the one announced last
+  std::string layout_message_;                 // and how; empty = to be announced anew
+};
+
+// One atlas at a time, to its end. The newest whole one is next; where none waits, the one that is
+// being made, once its first band is packed. So no client gets an atlas later than if it were sent
+// whole, and no more than two atlases are held for one that is slow, beside the newest, which is
+// held for all.
+// Thread-safety: none.
+class AtlasOutbox {
+ public:
+  explicit AtlasOutbox(const Metrics& metrics) : metrics_(metrics) {}
+
+  // So many atlases are wanted; 0 = no end.
+  void limit(uint32_t count) { count_ = count; }
+  // Atlases to come are of another display. The one that is being written is abandoned, unless it
+  // is whole. `reader` hears of atlases that have grown.
+  void restart(std::shared_ptr<AtlasReader> reader);
+  // As Subscriber::begin and Subscriber::offer.
+  void begin(GrowingAtlasPtr atlas);
+  void offer(AtlasPtr atlas);
+  // Nothing more comes in. The one that is being written is abandoned, unless it is whole; what is
+  // whole and waits is still written if the server drains.
+  void close(bool is_draining);
+
+  // The next message, if there is one; without may_begin only of the atlas that is being written.
+  std::optional<grpc::ByteBuffer> take(bool may_begin);
+  // take() has another to give at once.
+  bool hasMore() const { return sending_ && sending_->isReady(); }
+  // All that are wanted were written.
+  bool isThrough() const { return count_ != 0 && sent_count_ == count_; }
+
+  const SentPoses& sentPoses() const { return sent_poses_; }
+
+ private:
+  bool mayBegin();
+  std::optional<grpc::ByteBuffer> takeBefore(bool may_begin);
+
+  const Metrics& metrics_;
+  std::shared_ptr<AtlasReader> reader_;
+  uint32_t count_ = 0;
+  uint64_t sent_count_ = 0;      // atlases written, or being written, whole
+  uint64_t begun_sequence_ = 0;  // of the last that was begun to be written
+  AtlasPtr whole_;               // the newest that waits
+  GrowingAtlasPtr growing_;      // the same, unless it is whole or being written
+  std::optional<AtlasMessages> sending_;
+  AtlasAnnouncements announcements_;
+  SentPoses sent_poses_;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eye_poses/eye_track.h"
+
+#include <gtest/gtest.h>
+
+namespace viewloom {
+namespace {
+
+TEST(EyeTrack, keepsTheNewestPosesAndHowFastTheyCome) {
+  EyeTrack track;
+  EXPECT_EQ(track.newest(), nullptr);
+  EXPECT_EQ(track.times().received_ns, 0);
+  track.put({.time_ns = 1, .received_ns = 100});
+  EXPECT_EQ(track.times().interval_ns, 0) << "none came before";
+  track.put({.time_ns = 2, .received_ns = 130});
+  EXPECT_EQ(track.newest()->time_ns, 2);
+  EXPECT_EQ(track.times().received_ns, 130);
+  EXPECT_EQ(track.times().interval_ns, 30);
+}
+
+TEST(EyeTrack, knowsWhichPosesThePictureShows) {
+  EyeTrack track;
+  track.put({.time_ns = 1});
+  EXPECT_EQ(track.used(), nullptr);
+  track.noteUsed(track.newest());
+  track.put({.time_ns = 2});
+  EXPECT_EQ(track.used()->time_ns, 1) << "newer poses are not shown yet";
+}
+
+TEST(EyeTrack, goesOnBeforeAnotherDisplayThatShowsNothingYet) {
+  EyeTrack before;
+  before.put({.time_ns = 1, .received_ns = 100});
+  before.put({.time_ns = 2, .received_ns = 130});
+  before.noteUsed(before.newest());
+  const EyeTrack track(before);
+  EXPECT_EQ(track.newest(), before.newest());
+  EXPECT_EQ(track.times().interval_ns, 30);
+  EXPECT_EQ(track.used(), nullptr);
+}
+
+}  // namespace
+}  // namespace viewloom
