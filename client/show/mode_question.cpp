@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+
 #include "base/str_cat.h"
 #include "lib/channel.h"
 #include "viewloom/v1/catalog_service.grpc.pb.h"

@@ -42,7 +42,7 @@ endif()
 #   gtest    and GoogleTest: tests/
 # A file pays for its set whether it uses it or not: at the end of each file, GCC instantiates the
 # templates that inline functions of precompiled headers name. An empty file takes 1.5 s of CPU time with
-# common, 1.7 with proto, 2.2 to 3 with grpc and 5 with beast. So each file takes the smallest that serves it.
+# common, 1.7 with proto, 2.2 to 3 with grpc and 5 with beast. Choose the smallest set that serves a file.
 # Builds that prove that each file includes what it uses do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(viewloom_common_headers
   <algorithm> <array> <atomic> <chrono> <cmath> <condition_variable> <cstddef> <cstdint> <filesystem>
