@@ -4,34 +4,13 @@
 import unittest
 
 import build_rules
-import file_lengths
-import include_graph
 import layering
 import proto_rules
 import text_rules
 import user_texts
-from tree import Tree
+from planted_tree import rules_broken
 
-# Files of three folders, each of which includes the next.
-CHAIN = {"server/rpc/a.h": b'#include "publish/a.h"\n#include "base/a.h"\n',
-         "server/publish/a.h": b'#include "base/a.h"\n', "server/core/base/a.h": b""}
 LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
-
-
-def rules_broken(check, files):
-    """Sorted (path, rule) of every finding in a tree of {path: text or bytes}."""
-    tree = Tree({path: text if isinstance(text, bytes) else text.encode()
-                 for path, text in files.items()})
-    return sorted((finding.path, finding.rule) for finding in check(tree))
-
-
-class FileLengths(unittest.TestCase):
-    def test_the_median_the_90th_percentile_and_short_files_are_counted(self):
-        tree = Tree({f"{length}.{suffix}": b"x\n" * length
-                     for length, suffix in [(10, "cpp"), (39, "h"), (40, "glsl"), (90, "comp"),
-                                            (100, "cpp"), (1000, "py")]})
-        self.assertEqual(file_lengths.summary(tree), "5 files of C++ and GLSL: median 40 lines, "
-                         "90th percentile 100, 2 under 40")
 
 
 class Layers(unittest.TestCase):
@@ -277,29 +256,6 @@ class Proto(unittest.TestCase):
     def test_a_number_without_unit_or_comment_is_found(self):
         self.assertEqual(self.broken("package viewloom.v1;\nmessage A {\n  float far = 1;\n}\n"),
                          ["proto unit"])
-
-
-class IncludeGraph(unittest.TestCase):
-    def graph(self, **files):
-        return include_graph.arrows(Tree({**CHAIN, **files}))
-
-    def test_each_folder_is_above_what_it_includes(self):
-        self.assertEqual(include_graph.rows(self.graph()),
-                         [["server/core/base"], ["server/publish"], ["server/rpc"]])
-
-    def test_an_arrow_that_follows_from_others_is_not_drawn(self):
-        graph = self.graph()
-        self.assertIn(("server/rpc", "server/core/base"), graph)
-        self.assertEqual(include_graph.drawn(graph), [("server/publish", "server/core/base"),
-                                                      ("server/rpc", "server/publish")])
-        self.assertIn('"server/rpc" -> "server/publish";', include_graph.dot(graph))
-        self.assertEqual(include_graph.svg(graph).count("<line"), 2)
-
-    def test_a_cycle_is_found_where_it_begins(self):
-        upwards = {"server/core/base/b.h": '#include "rpc/a.h"\n'}
-        self.assertEqual(rules_broken(include_graph.check, {**CHAIN, **upwards}),
-                         [("server/core/base/b.h", "cycle")])
-        self.assertEqual(rules_broken(include_graph.check, CHAIN), [])
 
 
 if __name__ == "__main__":
