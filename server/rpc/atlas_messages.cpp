@@ -115,8 +115,11 @@ grpc::ByteBuffer skippedMessage(uint64_t count) {
   return bytesFromMessage(response);
 }
 
-AtlasMessages::AtlasMessages(GrowingAtlasPtr growing)
-    : growing_(std::move(growing)), atlas_(growing_->atlas()), strips_(stripsOf(atlas_)) {}
+AtlasMessages::AtlasMessages(GrowingAtlasPtr growing, size_t viewer_count)
+    : growing_(std::move(growing)),
+      atlas_(growing_->atlas()),
+      viewer_count_(viewer_count),
+      strips_(stripsOf(atlas_)) {}
 
 // How many there are, and their order, does not depend on what is packed when.
 std::vector<AtlasMessages::Strip> AtlasMessages::stripsOf(const EncodedAtlas& atlas) {
@@ -144,19 +147,20 @@ std::vector<AtlasMessages::Strip> AtlasMessages::stripsOf(const EncodedAtlas& at
   return strips;
 }
 
-bool AtlasMessages::mayBegin(GrowingAtlas& atlas, const std::weak_ptr<AtlasReader>& reader) {
-  const size_t first_count = std::min<size_t>(1, atlas.atlas().bands.size());
-  return atlas.await({.first = 0, .last = first_count}, reader) > 0;
+bool AtlasMessages::mayBegin(const std::weak_ptr<AtlasReader>& reader) const {
+  return growing_->await(wanted(), reader) > 0;
 }
 
-// Of the strip, the rest, of which so much leaves together.
+// The rest of the strip, of which so much leaves together.
 BandsWanted AtlasMessages::wanted() const {
   if (strip_ == strips_.size()) return {};
   const Strip& strip = strips_[strip_];
   const bool is_first = strip_ == 0 && strip_offset_bytes_ == 0;
+  const bool waits_for_nothing = (is_first && viewer_count_ == 1) || band_offset_bytes_ > 0;
+  const size_t bytes_min = std::min(kPieceBytesMin * viewer_count_, kPieceBytesMax);
   return {.first = strip.first_band + band_,
           .last = strip.first_band + strip.band_count,
-          .bytes_min = is_first || band_offset_bytes_ > 0 ? 1 : kPieceBytesMin};
+          .bytes_min = waits_for_nothing ? 1 : bytes_min};
 }
 
 GrowingAtlas::State AtlasMessages::state() const {

@@ -17,8 +17,8 @@ namespace viewloom {
 
 // Most data of bands in one message.
 inline constexpr size_t kPieceBytesMax = size_t{1} << 20;
-// Data that a piece waits for, unless it is the first of an atlas, or the last of its band: each
-// message costs the server and its reader some 10 us beside its bytes.
+// Data that a piece waits for, unless it is the last of its band: so much for each viewer of the
+// display. Each message has a cost beside its bytes, and many viewers multiply it.
 inline constexpr size_t kPieceBytesMin = size_t{128} << 10;
 
 // A serialised StreamAtlasesResponse, to compare with the layout sent before.
@@ -30,7 +30,11 @@ grpc::ByteBuffer skippedMessage(uint64_t count);
 // few, so that the planes take turns. Thread-safety: none.
 class AtlasMessages {
  public:
-  explicit AtlasMessages(GrowingAtlasPtr growing);
+  // The first piece of an atlas that has one viewer waits for nothing.
+  explicit AtlasMessages(GrowingAtlasPtr growing, size_t viewer_count = 1);
+
+  // Whether the first piece is there; else `reader` hears of it.
+  bool mayBegin(const std::weak_ptr<AtlasReader>& reader) const;
 
   // Whether next() has something to give.
   bool isReady() const;
@@ -44,9 +48,8 @@ class AtlasMessages {
   // Which of both.
   bool wasWhole() const { return outcome_ == GrowingAtlas::State::kWhole; }
   const EncodedAtlas& atlas() const { return atlas_; }
-
-  // Whether the first message of the atlas is there; else `reader` hears of it.
-  static bool mayBegin(GrowingAtlas& atlas, const std::weak_ptr<AtlasReader>& reader);
+  // Of the atlas, for this client.
+  GrowingAtlas::State state() const;
 
  private:
   // Packed bands in a row that leave as one.
@@ -57,14 +60,13 @@ class AtlasMessages {
 
   static std::vector<Strip> stripsOf(const EncodedAtlas& atlas);
   BandsWanted wanted() const;
-  // Of the atlas, for this client.
-  GrowingAtlas::State state() const;
   grpc::ByteBuffer header() const;
   grpc::ByteBuffer nextPiece(size_t ready_count);
   grpc::ByteBuffer last(GrowingAtlas::State outcome);
 
   GrowingAtlasPtr growing_;
   const EncodedAtlas& atlas_;  // the same
+  size_t viewer_count_;
   std::vector<Strip> strips_;
   bool has_begun_ = false;  // the header is out
   bool has_given_up_ = false;

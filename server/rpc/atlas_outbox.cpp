@@ -27,12 +27,12 @@ void AtlasOutbox::restart(std::shared_ptr<AtlasReader> reader) {
   sent_poses_.clear();
 }
 
-void AtlasOutbox::begin(GrowingAtlasPtr atlas) {
-  growing_ = std::move(atlas);
+void AtlasOutbox::begin(GrowingAtlasPtr atlas, size_t viewer_count) {
+  growing_.emplace(std::move(atlas), viewer_count);
 }
 
 void AtlasOutbox::offer(AtlasPtr atlas) {
-  if (growing_ && growing_->atlas().sequence <= atlas->sequence) growing_ = nullptr;
+  if (growing_ && growing_->atlas().sequence <= atlas->sequence) growing_.reset();
   if (atlas->sequence <= begun_sequence_) return;
   if (std::exchange(whole_, std::move(atlas)) == nullptr) return;
   announcements_.noteSkipped();
@@ -40,15 +40,15 @@ void AtlasOutbox::offer(AtlasPtr atlas) {
 }
 
 void AtlasOutbox::close(bool is_draining) {
-  growing_ = nullptr;
+  growing_.reset();
   if (!is_draining) whole_ = nullptr;
   if (sending_) sending_->giveUp();
 }
 
 bool AtlasOutbox::mayBegin() {
   if (count_ != 0 && sent_count_ >= count_) return false;
-  if (growing_ && growing_->state() == GrowingAtlas::State::kAbandoned) growing_ = nullptr;
-  return whole_ || (growing_ && AtlasMessages::mayBegin(*growing_, reader_));
+  if (growing_ && growing_->state() == GrowingAtlas::State::kAbandoned) growing_.reset();
+  return whole_ || (growing_ && growing_->mayBegin(reader_));
 }
 
 std::optional<grpc::ByteBuffer> AtlasOutbox::takeBefore(bool may_begin) {
@@ -58,8 +58,11 @@ std::optional<grpc::ByteBuffer> AtlasOutbox::takeBefore(bool may_begin) {
   if (message) return message;
   begun_sequence_ = next.sequence;
   sent_poses_.note(next.sequence, next.eye_poses_time_ns);
-  sending_.emplace(whole_ ? std::make_shared<GrowingAtlas>(std::exchange(whole_, nullptr))
-                          : std::exchange(growing_, nullptr));
+  if (whole_) {
+    sending_.emplace(std::make_shared<GrowingAtlas>(std::exchange(whole_, nullptr)));
+  } else {
+    sending_.emplace(*std::exchange(growing_, std::nullopt));
+  }
   return std::nullopt;
 }
 

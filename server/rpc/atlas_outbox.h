@@ -46,8 +46,8 @@ class AtlasOutbox {
   // Atlases to come are of another display. The one that is being written is abandoned, unless it
   // is whole. `reader` hears of atlases that have grown.
   void restart(std::shared_ptr<AtlasReader> reader);
-  // As Subscriber::begin and Subscriber::offer.
-  void begin(GrowingAtlasPtr atlas);
+  // As Subscriber::begin and Subscriber::offer; so many viewers share the atlas.
+  void begin(GrowingAtlasPtr atlas, size_t viewer_count);
   void offer(AtlasPtr atlas);
   // Nothing more comes in. The one that is being written is abandoned, unless it is whole; what is
   // whole and waits is still written if the server drains.
@@ -72,7 +72,8 @@ class AtlasOutbox {
   uint64_t sent_count_ = 0;      // atlases written, or being written, whole
   uint64_t begun_sequence_ = 0;  // of the last that was begun to be written
   AtlasPtr whole_;               // the newest that waits
-  GrowingAtlasPtr growing_;      // the same, unless it is whole or being written
+  // The same, unless it is whole or being written.
+  std::optional<AtlasMessages> growing_;
   std::optional<AtlasMessages> sending_;
   AtlasAnnouncements announcements_;
   SentPoses sent_poses_;

@@ -220,9 +220,11 @@ void WatchCall::release() {
 }
 
 void WatchCall::begin(uint64_t seat_number, GrowingAtlasPtr atlas) {
+  const ActiveDisplayPtr display = parts_.broadcaster.display(atlas->atlas().display_id);
+  if (!display) return;
   std::lock_guard lock(mutex_);
   if (seat_number != seat_number_ || ending()) return;
-  outbox_.begin(std::move(atlas));
+  outbox_.begin(std::move(atlas), display->subscriber_count);
   advance();
 }
 

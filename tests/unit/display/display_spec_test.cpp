@@ -14,7 +14,6 @@ namespace viewloom {
 namespace {
 
 using testing::HasSubstr;
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 

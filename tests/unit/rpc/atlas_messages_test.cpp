@@ -178,12 +178,12 @@ TEST(AtlasMessages, keepImagesApart) {
 TEST(AtlasMessages, leaveWhenTheyArePacked) {
   const auto growing =
       std::make_shared<GrowingAtlas>(begunOf({AtlasPlane::kColor}, 4, BandEncoding::kJpeg));
-  EXPECT_FALSE(AtlasMessages::mayBegin(*growing, {}));
-  growing->put(1, bytesOf(10));
-  EXPECT_FALSE(AtlasMessages::mayBegin(*growing, {})) << "the first is not there";
-  growing->put(0, bytesOf(10));
-  EXPECT_TRUE(AtlasMessages::mayBegin(*growing, {}));
   AtlasMessages messages(growing);
+  EXPECT_FALSE(messages.mayBegin({}));
+  growing->put(1, bytesOf(10));
+  EXPECT_FALSE(messages.mayBegin({})) << "the first is not there";
+  growing->put(0, bytesOf(10));
+  EXPECT_TRUE(messages.mayBegin({}));
   EXPECT_EQ(next(messages).header().band_count(), 1u);
   EXPECT_EQ(next(messages).band().data().size(), 20u) << "the first piece waits for nothing";
   EXPECT_FALSE(messages.isReady());
@@ -198,6 +198,20 @@ TEST(AtlasMessages, leaveWhenTheyArePacked) {
   growing->complete({.coverage = {.hit = 1}});
   EXPECT_EQ(next(messages).end().coverage().hit(), 1);
   EXPECT_TRUE(messages.wasWhole());
+}
+
+TEST(AtlasMessages, areLargerForManyViewers) {
+  const auto growing =
+      std::make_shared<GrowingAtlas>(begunOf({AtlasPlane::kColor}, 3, BandEncoding::kJpeg));
+  AtlasMessages for_two(growing, 2);
+  AtlasMessages for_many(growing, 1000);
+  growing->put(0, bytesOf(2 * kPieceBytesMin - 1));
+  EXPECT_FALSE(for_two.mayBegin({}));
+  growing->put(1, bytesOf(1));
+  EXPECT_TRUE(for_two.mayBegin({}));
+  EXPECT_FALSE(for_many.mayBegin({})) << "as if the atlas were sent whole";
+  growing->put(2, bytesOf(1));
+  EXPECT_TRUE(for_many.mayBegin({})) << "nothing more comes";
 }
 
 TEST(AtlasMessages, endWithTheAtlasThatIsAbandoned) {

@@ -44,7 +44,7 @@ class AtlasOutboxTest : public testing::Test {
 
   GrowingAtlasPtr grow(uint64_t sequence) {
     auto growing = std::make_shared<GrowingAtlas>(begun(sequence));
-    outbox_.begin(growing);
+    outbox_.begin(growing, 1);
     return growing;
   }
 
