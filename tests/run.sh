@@ -14,9 +14,6 @@ jobs="$(nproc)"
 
 minutes() { printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); }
 
-# One more than there are cores: servers wait for viewers, and pages for pictures.
-test_jobs=$((jobs + 1))
-
 SECONDS=0
 deploy/setup.sh --dev
 install_s=$SECONDS
@@ -28,7 +25,7 @@ build_s=$SECONDS
 
 SECONDS=0
 result=0
-ctest --test-dir build/release --parallel "$test_jobs" --no-tests=error "$@" || result=$?
+ctest --test-dir build/release --parallel "$jobs" --no-tests=error "$@" || result=$?
 test_s=$SECONDS
 
 echo
