@@ -213,7 +213,7 @@ class Refusals(CastTest):
         self.check_refusal(self.cast("--preset", "none"), FAILED, "none")
         self.check_refusal(self.cast(stream="silent"), FAILED, "gave no atlas within 1000 ms")
         self.check_refusal(self.cast(stream="a b"), USAGE, "stream", "letters")
-        self.check_refusal(self.cast("--preset", "a/b"), USAGE, "--preset", "letters")
+        self.check_refusal(self.cast("--preset", "a/b"), FAILED, 'there is no "a/b"')
 
     def test_a_page_that_is_none(self):
         self.check_refusal(self.cast(address=self.bridge.url), FAILED, self.bridge.url,
