@@ -87,7 +87,7 @@ PublisherCounts Publisher::counts() const {
   return counts_;
 }
 
-// As the stub of the service would; that one takes no messages which are serialised already.
+// Opens the call like the stub of the service. The stub takes no messages that are serialised.
 std::unique_ptr<Publisher::Call> Publisher::openCall(grpc::ClientContext& context) const {
   constexpr const char* kMethod = "/viewloom.v1.IngestService/PublishFrames";
   const grpc::internal::RpcMethod method(kMethod, grpc::internal::RpcMethod::BIDI_STREAMING,

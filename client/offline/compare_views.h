@@ -27,9 +27,9 @@ struct CompareOptions {
 absl::StatusOr<nlohmann::ordered_json> compareViews(const RenderedAtlas& atlas,
                                                     const CompareOptions& options);
 
-// As commands print scores: {"covered", "hidden", "outside", "all"}, each with "pixels", "share",
-// "psnr_db" (a number, "inf" for identical pictures, null without pixels), "ssim" and "flip" (null
-// without pixels).
+// Scores in the form that commands print: {"covered", "hidden", "outside", "all"}, each with
+// "pixels", "share", "psnr_db" (a number, "inf" for identical pictures, null without pixels),
+// "ssim" and "flip" (null without pixels).
 nlohmann::ordered_json scoreJson(const ClassScores& scores);
 
 // One view of a rendered atlas, in the form it is scored in.

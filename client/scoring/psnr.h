@@ -6,7 +6,7 @@
 
 namespace viewloom {
 
-// Of a mean of squared errors, dB. +inf: no error; NaN: a mean of nothing.
+// PSNR of a mean of squared errors, dB. +inf: no error; NaN: a mean of nothing.
 inline double psnrDb(double mean_square) {
   return -10 * std::log10(mean_square);
 }

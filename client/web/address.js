@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's address: what is watched, as /ws takes it, and the page's own choices.
 
-// Of the page: how much detail, which way to look. The others are those of /ws.
+// Parameters of the page: how much detail, which way to look. The others are those of /ws.
 export const kParameters = ['stream', 'preset', 'width', 'height', 'display', 'encoding', 'detail',
   'mode'];
 

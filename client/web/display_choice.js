@@ -88,7 +88,8 @@ export class DisplayChoice {
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
-  // As /ws takes it: {stream, display, encoding}, with the views that are seen and in their size.
+  // The request in the form of /ws: {stream, display, encoding}. Its views are those that are seen,
+  // in their size.
   // To be sent whenever one of them, the room for them, or the automatic detail is another.
   asked(stream) {
     const display = this.#document.whole;
@@ -168,7 +169,7 @@ export class DisplayChoice {
     this.autoDetail.begin(steps, isBlurred ? steps.length - 1 : start);
   }
 
-  // Of the quilt, by the display or its preset; 0 where neither says it.
+  // A number of the quilt, from the display or its preset; 0 where neither says it.
   #value(name) {
     return this.#document.get(`quilt.${name}`) ?? this.#document.preset?.layout?.[name] ?? 0;
   }

@@ -39,14 +39,14 @@ export class DisplayControls {
     });
   }
 
-  // What the display asks for, chosen: its DisplayDocument
+  // DisplayDocument of the chosen display
   showChosen(chosen) {
     this.#chosen = chosen;
     byId('follow').checked = chosen.get('focus_following_s') !== undefined;
     byId('reflections').checked = chosen.get('effects.reflection') !== undefined;
   }
 
-  // As if the sliders had been moved there: fields of the kind. They do not stay in the address.
+  // Sets the sliders: fields of the kind. They do not stay in the address.
   take(fields) {
     const {kind} = this.#chosen;
     const changes = Object.entries(fields).map(([name, value]) => [`${kind}.${name}`, value]);

@@ -46,7 +46,7 @@ export class DisplayLists {
     }
   }
 
-  // What the display asks for, chosen: its DisplayDocument
+  // DisplayDocument of the chosen display
   showChosen(chosen) {
     this.#chosen = chosen;
     for (const [id, list] of Object.entries(kLists)) {
