@@ -11,7 +11,9 @@ constexpr std::string_view kFieldPayload = "viewloom.field";
 constexpr std::string_view kProblemPayload = "viewloom.problem";
 
 // Debian's absl is built with a string_view of its own.
-absl::string_view toAbsl(std::string_view text) { return {text.data(), text.size()}; }
+absl::string_view toAbsl(std::string_view text) {
+  return {text.data(), text.size()};
+}
 
 std::string payloadOf(const absl::Status& status, std::string_view name) {
   return std::string(status.GetPayload(toAbsl(name)).value_or(absl::Cord()));
@@ -31,7 +33,9 @@ absl::Status invalidField(std::string_view field, std::string_view problem) {
   return fieldError(absl::StatusCode::kInvalidArgument, field, problem);
 }
 
-std::string fieldOf(const absl::Status& status) { return payloadOf(status, kFieldPayload); }
+std::string fieldOf(const absl::Status& status) {
+  return payloadOf(status, kFieldPayload);
+}
 
 absl::Status withFieldPrefix(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return status;

@@ -14,7 +14,9 @@ template <typename Part>
 const Part& asAbslPart(const Part& part) {
   return part;
 }
-inline absl::string_view asAbslPart(std::string_view part) { return {part.data(), part.size()}; }
+inline absl::string_view asAbslPart(std::string_view part) {
+  return {part.data(), part.size()};
+}
 
 // Text of all parts, one after the other; numbers with up to six significant digits.
 template <typename... Parts>
