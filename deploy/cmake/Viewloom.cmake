@@ -13,6 +13,22 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS
     -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
+# Sources of a folder are compiled several at a time (a unity build): they share what their headers cost,
+# which is most of what a small source costs. A change to one then compiles its neighbours too, so few are
+# joined. Builds that prove that each source includes what it uses compile each alone.
+set(VIEWLOOM_JOINED_SOURCES 1 CACHE STRING "How many sources of a folder are compiled at a time")
+if(VIEWLOOM_JOINED_SOURCES GREATER 1)
+  # GCC warns where a type of a joined source has a member of its unnamed namespace.
+  target_compile_options(viewloom_options INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
+function(viewloom_join_sources target)
+  if(VIEWLOOM_JOINED_SOURCES GREATER 1)
+    set_target_properties(${target} PROPERTIES
+      UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${VIEWLOOM_JOINED_SOURCES})
+  endif()
+endfunction()
+
 # Of folders that compute with vectors: with one rounding per operation, on every kind of CPU. And GCC
 # 12, for AVX-512, takes a bool that decides over whole vectors in a loop for the mask of their lanes,
 # and so over the first lane alone (few_rays_test), where it converts branches of loops.
@@ -101,6 +117,9 @@ function(viewloom_add_library folder)
       target_link_libraries(${target} PRIVATE viewloom_kernel_options)
     endif()
     target_precompile_headers(${target} REUSE_FROM viewloom_${ARG_PRECOMPILED}_headers)
+    if(NOT ARG_VECTORS AND NOT ARG_PRECOMPILED STREQUAL "beast")
+      viewloom_join_sources(${target})
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
