@@ -7,7 +7,6 @@
 
 #include "base/check.h"
 #include "messages/wire_message.h"
-#include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "viewloom/v1/display_service.pb.h"

@@ -6,9 +6,7 @@
 #include "display/named_display.h"
 #include "display/source_advice.h"
 #include "messages/display_from_proto.h"
-#include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
-#include "rpc/limits_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/status_to_grpc.h"
 

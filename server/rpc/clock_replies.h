@@ -4,8 +4,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <grpcpp/support/byte_buffer.h>
+
+#include "messages/wire_message.h"
+#include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {
 
@@ -17,7 +21,16 @@ class ClockReplies {
     waiting_ = Probe{.client_time_ns = client_time_ns, .received_ns = received_ns};
   }
   // A StreamAtlasesResponse; none when nobody asks.
-  std::optional<grpc::ByteBuffer> take(int64_t now_ns);
+  std::optional<grpc::ByteBuffer> take(int64_t now_ns) {
+    const std::optional<Probe> probe = std::exchange(waiting_, std::nullopt);
+    if (!probe) return std::nullopt;
+    v1::StreamAtlasesResponse response;
+    v1::ClockReply& reply = *response.mutable_clock_reply();
+    reply.set_client_time_ns(probe->client_time_ns);
+    reply.set_server_received_ns(probe->received_ns);
+    reply.set_server_sent_ns(now_ns);
+    return bytesFromMessage(response);
+  }
 
  private:
   struct Probe {

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the other end of a call lives, and how it learns that this end does.
+// Whether the other end of a call lives, and how it learns that this end does: by ticks.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "base/thread_name.h"
 
 namespace viewloom {
 
@@ -23,6 +30,25 @@ class TicksSince {
 
  private:
   uint32_t count_ = 0;
+};
+
+// Calls a function at regular intervals. Thread-safety: the function is called on a thread of the
+// ticker's own, until its destructor.
+class Ticker {
+ public:
+  Ticker(std::chrono::milliseconds interval, std::function<void()> on_tick)
+      : thread_([interval, on_tick = std::move(on_tick)](const std::stop_token& stop) {
+          nameThread("rpc ticker");
+          std::mutex mutex;
+          std::condition_variable_any never;
+          std::unique_lock lock(mutex);
+          while (!never.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
+            on_tick();
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
 };
 
 }  // namespace viewloom

@@ -7,7 +7,6 @@
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "rpc/frame_from_proto.h"
-#include "rpc/limits_to_proto.h"
 #include "rpc/read_chunk.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/stream_name.h"

@@ -8,13 +8,31 @@
 #include <string>
 #include <utility>
 
+#include "base/byte_pool.h"
+#include "base/clock.h"
+#include "decode/frame_intake.h"
+#include "frame/limits.h"
+#include "metrics/metrics.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
 #include "rpc/bidi_call.h"
-#include "rpc/ingest_parts.h"
 #include "rpc/liveness.h"
 #include "rpc/source_wants.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
+
+// Parts of the server that publishing a stream touches. They outlive the calls and the frames that
+// came through these.
+struct IngestParts {
+  FrameIntake& intake;
+  BytePool& pool;
+  StreamDirectory& directory;
+  const Broadcaster& broadcaster;
+  const Clock& clock;
+  const Metrics& metrics;
+  FrameLimits limits;
+};
 
 // However it ends, the stream's name is free at once, and the reports of the frames taken before
 // that are still written. Thread-safety: as BidiCall.

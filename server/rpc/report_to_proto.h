@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was measured → proto: coverage, stage times, depth statistics and budget, the report of a
-// frame.
+// Frames as clients are told of them → proto: accepted limits, and measurements. These are
+// coverage, stage times, depth statistics and budget, and the report of a frame.
 #pragma once
 
 #include "display/depth_budget.h"
 #include "display/views_outside.h"
 #include "frame/frame_sink.h"
+#include "frame/limits.h"
 #include "frame/stage_times.h"
 #include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
+
+v1::PublishAccepted limitsToProto(const FrameLimits& limits);
 
 // Shares of all rays; all zero when there were none.
 v1::Coverage coverageToProto(const Coverage& coverage);

@@ -9,8 +9,6 @@
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
-#include "rpc/liveness.h"
-
 namespace viewloom {
 namespace {
 

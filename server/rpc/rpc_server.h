@@ -10,9 +10,8 @@
 #include <grpcpp/server.h>
 
 #include "rpc/catalog_service.h"
-#include "rpc/display_service.h"
-#include "rpc/ingest_service.h"
-#include "rpc/ticker.h"
+#include "rpc/liveness.h"
+#include "rpc/stream_services.h"
 
 namespace viewloom {
 

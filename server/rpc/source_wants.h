@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a publisher is told that its stream's displays want, and keeps being told while depth merely
-// trembles.
+// Wants of a stream's displays, seen from its source → proto Wanted. A publisher keeps being told
+// the same while depth merely trembles.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,17 @@
 #include <span>
 
 #include "display/settled_range.h"
+#include "display/source_demand.h"
 #include "display/views_outside.h"
 #include "encode/encoded_band.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
+
+// From the newest atlas of each display, and the depths (of as many) between which its views are to
+// find something; a display without one adds nothing but its count.
+v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, std::span<const InvZRange> depths,
+                         uint32_t display_count);
 
 // Thread-safety: none; one owner.
 class SourceWants {

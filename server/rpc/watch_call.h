@@ -7,15 +7,30 @@
 #include <optional>
 #include <string>
 
+#include "base/clock.h"
+#include "display/atlas_layout.h"
 #include "display/display_spec.h"
+#include "eye_poses/eye_track.h"
+#include "metrics/metrics.h"
+#include "publish/broadcaster.h"
+#include "publish/stream_directory.h"
 #include "rpc/atlas_outbox.h"
 #include "rpc/bidi_call.h"
 #include "rpc/clock_replies.h"
-#include "rpc/display_parts.h"
 #include "rpc/liveness.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {
+
+// Parts of the server that watching a stream touches. They outlive the calls.
+struct DisplayParts {
+  StreamDirectory& directory;
+  Broadcaster& broadcaster;
+  EyeSink& eyes;
+  const Clock& clock;
+  const Metrics& metrics;
+  AtlasLimits limits;
+};
 
 // Thread-safety: as BidiCall.
 class WatchCall final : public BidiCall {

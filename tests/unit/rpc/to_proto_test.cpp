@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "messages/geometry_from_proto.h"
-#include "rpc/geometry_to_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
+#include "rpc/source_wants.h"
 #include "rpc/stream_name.h"
-#include "rpc/wanted_to_proto.h"
 
 namespace viewloom {
 namespace {

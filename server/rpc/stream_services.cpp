@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/ingest_service.h"
+#include "rpc/stream_services.h"
 
 #include "rpc/peer_host.h"
 
@@ -26,6 +26,22 @@ void IngestService::drain() {
   calls_.turnAway();
   const absl::Status status = absl::UnavailableError(kDrainMessage);
   calls_.forEach([&status](PublishCall& call) { call.end(status); });
+}
+
+grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::StreamAtlases(
+    grpc::CallbackServerContext*) {
+  const auto call = std::make_shared<WatchCall>(parts_);
+  calls_.open(call);
+  return call.get();
+}
+
+void DisplayService::tick() {
+  calls_.forEach([](WatchCall& call) { call.tick(); });
+}
+
+void DisplayService::drain() {
+  calls_.turnAway();
+  calls_.forEach([](WatchCall& call) { call.endUnlessWatching(); });
 }
 
 }  // namespace viewloom
