@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "base/clock.h"
 #include "base/latest_mailbox.h"
@@ -24,15 +25,28 @@ class AtlasInbox final : public Subscriber {
 
   // `on_change` is called, without a lock held, whenever there is something new to take or to
   // learn.
-  AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change);
+  AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change)
+      : clock_(clock), replaced_(replaced), on_change_(std::move(on_change)) {}
 
-  void offer(AtlasPtr atlas) override;
-  void end(const absl::Status& status) override;
+  void offer(AtlasPtr atlas) override {
+    if (mailbox_.push({std::move(atlas), clock_.nowNs()})) replaced_.add();
+    on_change_();
+  }
+  void end(const absl::Status& status) override {
+    {
+      std::lock_guard lock(mutex_);
+      ended_ = status;
+    }
+    on_change_();
+  }
 
   // Empties the slot.
   std::optional<Arrival> take() { return mailbox_.take(); }
   // Set once nothing will come any more.
-  std::optional<absl::Status> ended() const;
+  std::optional<absl::Status> ended() const {
+    std::lock_guard lock(mutex_);
+    return ended_;
+  }
   // Atlases that a newer one replaced before they were taken.
   uint64_t replacedCount() const { return mailbox_.replacedCount(); }
 

@@ -36,4 +36,9 @@ HttpReply errorReply(const absl::Status& status);
 HttpReply errorReply(unsigned http_status, const absl::Status& status);
 HttpReply redirectReply(std::string location);
 
+// A value of Content-Disposition (RFC 6266): the name under which a client saves the reply. The
+// plain name holds only what every file system takes and no path; where that is not `file_name`,
+// the whole name stands beside it in UTF-8 (RFC 5987).
+std::string contentDisposition(std::string_view file_name);
+
 }  // namespace viewloom

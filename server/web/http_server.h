@@ -11,7 +11,7 @@
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
-#include "web/http_options.h"
+#include "web/web_context.h"
 
 namespace viewloom {
 

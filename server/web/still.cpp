@@ -9,7 +9,7 @@
 #include "web/atlas_inbox.h"
 #include "web/atlas_message.h"
 #include "web/catalog_json.h"
-#include "web/content_disposition.h"
+#include "web/http_reply.h"
 #include "web/quilt_address.h"
 
 namespace viewloom {

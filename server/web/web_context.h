@@ -1,17 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every connection of the web server shares.
+// Options of the web server, and the parts of the server that all its connections share.
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "base/clock.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "web/host_policy.h"
-#include "web/http_options.h"
 
 namespace viewloom {
+
+// How the server listens and what it allows.
+struct HttpOptions {
+  std::string address = "127.0.0.1";  // numeric, IPv4 or IPv6
+  uint16_t port = 0;                  // 0 = any free one
+  uint32_t thread_count = 2;
+  uint32_t connection_count_max = 1024;
+  // Names a request may call this server by, beside localhost and numeric loopback addresses.
+  // Checked on loopback only: it keeps web pages from reading streams by DNS rebinding.
+  std::vector<std::string> allowed_hosts;
+
+  uint32_t header_bytes_max = 8192;
+  uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits
+  std::chrono::milliseconds request_timeout{
+      10'000};  // to send a request, from the one before; to shake hands
+  std::chrono::milliseconds idle_timeout{20'000};      // of a viewer that answers no ping
+  std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply
+  std::chrono::milliseconds still_timeout{10'000};     // until a still's atlas is there
+  std::chrono::milliseconds drain_timeout{2'000};      // for viewers to take their leave
+};
 
 // Outlives all connections. Thread-safety: may be used from any thread.
 struct WebContext {

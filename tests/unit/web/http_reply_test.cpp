@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web/content_disposition.h"
+#include "web/http_reply.h"
 
 #include <gtest/gtest.h>
 
