@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/structure_slot.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"

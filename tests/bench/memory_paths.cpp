@@ -10,9 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gpu/command_recorder.h"
 #include "gpu/compute_pass.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "offline/median.h"
 #include "shaders/memory_paths.h"
 #include "shared/kernel_constants.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
 #include "support/heap_meter.h"

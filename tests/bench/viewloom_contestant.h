@@ -9,8 +9,7 @@
 
 #include "bench/contestant.h"
 #include "bench/visit_counter.h"
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/structure_builder.h"
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"

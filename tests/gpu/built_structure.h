@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
 #include "support/test_frames.h"

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <vector>
 
-#include "gpu/barrier.h"
 #include "gpu/buffer.h"
-#include "gpu/command_recorder.h"
+#include "gpu/commands.h"
 #include "gpu/gpu_timer.h"
+#include "gpu/submission.h"
 #include "shaders/scale_floats.h"
 #include "shared/kernel_constants.h"
 #include "support/test_device.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "gpu/judge_views.h"
 #include "oracle/mirrored_ray.h"
 #include "oracle/passed_body.h"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
 #include "trace/reflection_settings.h"

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "gpu/command_recorder.h"
 #include "gpu/commands.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "trace/mirror_pass.h"
 #include "trace/view_tracer.h"

@@ -5,8 +5,7 @@
 
 #include <cstring>
 
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"

@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "calibration/make_lenticular.h"
-#include "gpu/barrier.h"
 #include "gpu/buffer.h"
-#include "gpu/command_recorder.h"
+#include "gpu/commands.h"
 #include "gpu/compute_pass.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "shaders/view_coordinates.h"
 #include "support/test_device.h"
 

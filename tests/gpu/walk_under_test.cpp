@@ -7,7 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <glm/gtc/type_precision.hpp>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "oracle/smooth_planes.h"
 
 namespace viewloom {

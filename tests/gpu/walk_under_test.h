@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "frame/frame.h"
-#include "gpu/command_recorder.h"
 #include "gpu/structure_image.h"
+#include "gpu/submission.h"
 #include "oracle/scene_generator.h"
 #include "oracle/view_generator.h"
 #include "structure/structure_builder.h"

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 
 namespace viewloom {
 

@@ -9,9 +9,8 @@
 
 #include "base/worker_pool.h"
 #include "display/atlas_layout.h"
-#include "gpu/command_recorder.h"
 #include "gpu/gpu_timer.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "lens/band_gatherer.h"
 #include "structure/frame_structure.h"
 #include "trace/view_tracer.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/slot_pool.h"
-#include "gpu/command_recorder.h"
+#include "gpu/submission.h"
 #include "trace/trace_slot.h"
 
 namespace viewloom {

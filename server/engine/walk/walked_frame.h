@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "engine/engine.h"
-#include "gpu/command_recorder.h"
-#include "gpu/timeline.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
 

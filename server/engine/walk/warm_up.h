@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "display/display_spec.h"
-#include "gpu/command_recorder.h"
+#include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "trace/view_tracer.h"
 #include "walk/walked_frame.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shared/kernel_constants.h"
 #include "structure/structure_layout.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 #include "bench/gpu/gpu_rivals.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/copy_bytes.h"
 #include "structure/structure_slot.h"
 

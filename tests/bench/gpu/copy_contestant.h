@@ -5,8 +5,8 @@
 
 #include "bench/contestant.h"
 #include "bench/gpu/shaders/rival_abi.h"
-#include "gpu/command_recorder.h"
 #include "gpu/compute_pass.h"
+#include "gpu/submission.h"
 
 namespace viewloom::bench {
 

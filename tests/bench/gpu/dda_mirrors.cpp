@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/dda_mirrors.h"
 #include "shared/reflection_abi.h"
 #include "trace/band_params.h"

@@ -7,7 +7,7 @@
 
 #include "bench/gpu/atlas_pass.h"
 #include "bench/gpu/gpu_rivals.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/floor_views.h"
 #include "structure/structure_builder.h"
 #include "trace/view_tracer.h"

@@ -9,7 +9,7 @@
 
 #include "bench/gpu/copy_contestant.h"
 #include "bench/gpu/test_loads.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/analytic_scenes.h"
 #include "structure/structure_layout.h"

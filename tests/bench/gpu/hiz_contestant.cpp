@@ -5,7 +5,7 @@
 #include "bench/gpu/atlas_pass.h"
 #include "bench/gpu/gpu_rivals.h"
 #include "bench/gpu/inv_z_build.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/build_boxes.h"
 #include "shaders/hiz_views.h"
 #include "shared/kernel_constants.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "structure/structure_passes.h"
 
 namespace viewloom::bench {

@@ -70,6 +70,20 @@ vk::raii::DeviceMemory makeMemory(const Device& device, const vk::MemoryRequirem
            .memoryTypeIndex = memoryType(device, needs.memoryTypeBits, intent)}};
 }
 
+vk::Format formatOf(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::kRg32Uint:
+      return vk::Format::eR32G32Uint;
+    case TexelFormat::kRgba32Uint:
+      return vk::Format::eR32G32B32A32Uint;
+    case TexelFormat::kR32Float:
+      return vk::Format::eR32Sfloat;
+    case TexelFormat::kR32Uint:
+      break;
+  }
+  return vk::Format::eR32Uint;
+}
+
 }  // namespace
 
 CountedMemory::CountedMemory(uint64_t size_bytes) : size_bytes_(size_bytes) {
@@ -111,6 +125,16 @@ uint64_t gpuAllocationCount() {
 
 uint64_t gpuMemoryBytes() {
   return memory_bytes;
+}
+
+TexelView::TexelView(const Device& device, const Buffer& buffer, TexelFormat format)
+    : view_(hide(vk::raii::BufferView(
+          device.handle(),
+          vk::BufferViewCreateInfo{
+              .buffer = buffer.handle(), .format = formatOf(format), .range = VK_WHOLE_SIZE}))) {}
+
+vk::BufferView TexelView::handle() const {
+  return **view_;
 }
 
 }  // namespace viewloom

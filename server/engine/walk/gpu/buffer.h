@@ -65,4 +65,20 @@ uint64_t gpuAllocationCount();
 // What its buffers hold now, as it was allocated: on the device, and where the CPU writes or reads.
 uint64_t gpuMemoryBytes();
 
+enum class TexelFormat : uint8_t { kR32Uint, kRg32Uint, kRgba32Uint, kR32Float };
+
+// Reads a buffer as a one-dimensional image of texels. The buffer must outlive it.
+class TexelView {
+ public:
+  TexelView() = default;
+  // Throws vk::SystemError. At most DeviceLimits::texel_count_max texels.
+  TexelView(const Device& device, const Buffer& buffer, TexelFormat format);
+
+  bool isEmpty() const { return !view_; }
+  vk::BufferView handle() const;
+
+ private:
+  Hidden<vk::raii::BufferView> view_;
+};
+
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording for the device: copies, and what the barriers and passes of this folder add.
+// A recording for the device: copies and barriers, and what the passes of this folder add.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,9 @@ struct CopiedBytes {
   uint64_t size_bytes = 0;
 };
 
-// A light handle of a recording; copies record into the same one. Nothing here synchronises
-// (gpu/barrier.h). Offsets and sizes are multiples of 4 but for copies. Thread-safety: none.
+// A light handle of a recording; copies of it record into the same one. Its methods do not
+// synchronise: barriers do. Offsets and sizes are multiples of 4, except for copy(). Thread-safety:
+// none.
 class Commands {
  public:
   explicit Commands(VkCommandBuffer_T* handle) : handle_(handle) {}
@@ -37,5 +38,14 @@ class Commands {
  private:
   VkCommandBuffer_T* handle_;
 };
+
+// Barriers: execution and memory dependencies between GPU work; "writes of the first are seen by
+// the second". This one is between compute shaders recorded before and after (reads and writes).
+void recordComputeBarrier(Commands commands);
+void recordComputeToTransfer(Commands commands);
+void recordTransferToCompute(Commands commands);
+// The CPU reads mapped memory once the submission's timeline value is reached.
+void recordComputeToHost(Commands commands);
+void recordTransferToHost(Commands commands);
 
 }  // namespace viewloom

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/validation_log.h"
+#include "gpu/device_error.h"
 #include "gpu/vulkan_names.h"
 
 namespace viewloom {

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/device_error.h"
 
+#include <cstdio>
+#include <utility>
+
 #include "base/str_cat.h"
 #include "gpu/vulkan.h"
 
 namespace viewloom {
+namespace {
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                         VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* message,
+                                         void* log) {
+  static_cast<ValidationLog*>(log)->add(message->pMessage);
+  return VK_FALSE;  // the call that caused it goes on
+}
+
+}  // namespace
 
 std::string deviceErrorText(const std::exception& error) {
   const auto* const problem = dynamic_cast<const vk::SystemError*>(&error);
@@ -32,6 +46,32 @@ std::string deviceErrorText(const std::exception& error) {
 
 bool isOutOfDeviceMemory(const std::exception& error) {
   return dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error) != nullptr;
+}
+
+void ValidationLog::add(std::string message) {
+  std::fprintf(stderr, "vulkan validation: %s\n", message.c_str());
+  std::lock_guard lock(mutex_);
+  ++message_count_;
+  if (kept_.size() < kKeptCount) kept_.push_back(std::move(message));
+}
+
+uint64_t ValidationLog::messageCount() const {
+  std::lock_guard lock(mutex_);
+  return message_count_;
+}
+
+std::vector<std::string> ValidationLog::messages() const {
+  std::lock_guard lock(mutex_);
+  return kept_;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT ValidationLog::messengerCreateInfo() {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+  return {.messageSeverity = Severity::eWarning | Severity::eError,
+          .messageType = Type::eValidation | Type::ePerformance,
+          .pfnUserCallback = onMessage,
+          .pUserData = this};
 }
 
 }  // namespace viewloom

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shared/cube_abi.h"
 
 namespace viewloom {

@@ -2,7 +2,6 @@
 // What the passes over a band tell their kernels, in the form in which they take it.
 #pragma once
 
-#include "gpu/barrier.h"
 #include "gpu/commands.h"
 #include "gpu/descriptor.h"
 #include "picture/trace_job.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/blend_samples.h"
 #include "structure/structure_slot.h"
 #include "trace/band_params.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "frame/cube_map.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/join_faces.h"
 #include "shared/cube_abi.h"
 #include "trace/band_params.h"

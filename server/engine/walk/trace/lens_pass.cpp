@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/lens_pass.h"
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/gather_lens.h"
 #include "shaders/list_met.h"
 #include "shared/kernel_constants.h"

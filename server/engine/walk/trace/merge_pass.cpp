@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "picture/ray_sources.h"
 #include "shaders/merge_sources.h"
 #include "shared/kernel_constants.h"

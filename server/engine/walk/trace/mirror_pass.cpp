@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "picture/ray_sources.h"
 #include "shaders/add_reflections.h"
 #include "shaders/reflect.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/pack_pass.h"
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shaders/pack_band.h"
 #include "shared/kernel_constants.h"
 #include "shared/trace_abi.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/check.h"
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "shared/lens_abi.h"
 #include "trace/px_runs.h"
 

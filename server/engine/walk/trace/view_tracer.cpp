@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/view_tracer.h"
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "trace/band_params.h"
 
 namespace viewloom {

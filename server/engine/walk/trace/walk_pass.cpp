@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "gpu/barrier.h"
+#include "gpu/commands.h"
 #include "picture/ray_sources.h"
 #include "shaders/walk_views.h"
 #include "shared/kernel_constants.h"

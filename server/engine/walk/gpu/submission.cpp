@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gpu/command_recorder.h"
+#include "gpu/submission.h"
 
 #include <utility>
 
@@ -8,6 +8,11 @@
 namespace viewloom {
 namespace {
 
+vk::raii::Semaphore makeSemaphore(const Device& device) {
+  const vk::SemaphoreTypeCreateInfo type{.semaphoreType = vk::SemaphoreType::eTimeline};
+  return {device.handle(), {.pNext = &type}};
+}
+
 vk::raii::CommandBuffer allocateCommands(const Device& device, vk::CommandPool pool) {
   vk::raii::CommandBuffers commands(device.handle(),
                                     {.commandPool = pool, .commandBufferCount = 1});
@@ -15,6 +20,24 @@ vk::raii::CommandBuffer allocateCommands(const Device& device, vk::CommandPool p
 }
 
 }  // namespace
+
+Timeline::Timeline(const Device& device)
+    : device_(&device), semaphore_(hide(makeSemaphore(device))) {}
+
+bool Timeline::wait(uint64_t value, uint64_t timeout_ns) const {
+  const vk::Semaphore semaphore = **semaphore_;
+  const vk::Result result = device_->handle().waitSemaphores(
+      {.semaphoreCount = 1, .pSemaphores = &semaphore, .pValues = &value}, timeout_ns);
+  return result == vk::Result::eSuccess;
+}
+
+uint64_t Timeline::completedValue() const {
+  return semaphore_->getCounterValue();
+}
+
+vk::Semaphore Timeline::handle() const {
+  return **semaphore_;
+}
 
 CommandRecorder::CommandRecorder(const Device& device)
     : device_(&device),
