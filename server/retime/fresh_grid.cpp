@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "sweep/link_bytes.h"
+#include "sweep/link_kernels.h"
 #include "sweep/row_source.h"
 
 namespace viewloom {

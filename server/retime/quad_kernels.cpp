@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sweep/link_bytes.h"
+#include "sweep/link_kernels.h"
 #include "sweep/vectors_inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep/link_bytes.h"
+#include "sweep/link_kernels.h"
 
 namespace viewloom {
 

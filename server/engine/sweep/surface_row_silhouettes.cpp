@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep/link_bytes.h"
+#include "sweep/link_kernels.h"
 #include "sweep/surface_row_builder.h"
 
 namespace viewloom {
