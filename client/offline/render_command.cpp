@@ -16,7 +16,7 @@
 #include "display/named_display.h"
 #include "display/rgbd.h"
 #include "files/file_bytes.h"
-#include "frame/timing_text.h"
+#include "frame/timing.h"
 #include "offline/atlas_pictures.h"
 #include "offline/compare_views.h"
 #include "offline/engine_settings.h"

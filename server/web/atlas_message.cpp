@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "frame/timing_text.h"
+#include "frame/timing.h"
 #include "web/catalog_json.h"
 
 namespace viewloom {

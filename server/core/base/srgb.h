@@ -6,7 +6,9 @@
 // the CPU.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace viewloom {
 
@@ -16,6 +18,17 @@ inline double linearFromSrgb(double encoded) {
 }
 inline double srgbFromLinear(double light) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+// Linear light, 0..1, by codes of 8 bits.
+inline const std::array<float, 256>& lightOfCodes() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> light;
+    for (int code = 0; code < 256; ++code)
+      light[size_t(code)] = float(linearFromSrgb(code / 255.0));
+    return light;
+  }();
+  return table;
 }
 
 }  // namespace viewloom

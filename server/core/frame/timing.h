@@ -9,4 +9,19 @@ namespace viewloom {
 // As proto viewloom.v1.Timing.
 enum class Timing : uint8_t { kCaptured, kPredicted, kInterpolated, kHeld };
 
+// In JSON: "captured", "predicted", "interpolated" or "held".
+inline const char* timingText(Timing timing) {
+  switch (timing) {
+    case Timing::kCaptured:
+      return "captured";
+    case Timing::kPredicted:
+      return "predicted";
+    case Timing::kInterpolated:
+      return "interpolated";
+    case Timing::kHeld:
+      return "held";
+  }
+  return "";
+}
+
 }  // namespace viewloom

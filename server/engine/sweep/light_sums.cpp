@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/light_of_codes.h"
 #include "base/srgb.h"
 
 namespace viewloom {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/light_of_codes.h"
+#include "base/srgb.h"
 #include "lens/open_rays.h"
 #include "trace/band_params.h"
 
