@@ -58,7 +58,7 @@ void visitFields(Grid& grid, Visitor& visit) {
 
 template <SpecOf<CamerasSpec> Cameras, typename Visitor>
 void visitFields(Cameras& cameras, Visitor& visit) {
-  visit.cameras("cameras", cameras.cameras);
+  visit.cameras("cameras", cameras.cameras, Range{1, kCameraCountMax, true});
   visit("tile_size", cameras.tile_size_px, Range{1, kEyeSidePxMax});
   visit("columns", cameras.columns, Range{1, kCameraCountMax, true});
   visit.word("order", cameras.order, kTileOrders);

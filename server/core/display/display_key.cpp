@@ -42,7 +42,7 @@ class KeyText {
   template <typename... Parts>
   void label(const char*, const Parts&...) {}
   void color(const char*, uint32_t value) { add(value); }
-  void cameras(const char*, const std::vector<ViewCamera>& value) {
+  void cameras(const char*, const std::vector<ViewCamera>& value, const Range&) {
     add(static_cast<uint32_t>(value.size()));
     for (const ViewCamera& camera : value) {
       add(camera.pose);

@@ -40,7 +40,7 @@ class RangeNotes {
   template <typename... Parts>
   void label(const char*, const Parts&...) {}
   void color(const char*, uint32_t) {}
-  void cameras(const char*, const std::vector<ViewCamera>&) {}
+  void cameras(const char*, const std::vector<ViewCamera>&, const Range&) {}
   void pose(const char*, const std::optional<Pose>&) {}
   template <typename Spec>
   void part(const char* name, const std::optional<Spec>&) {

@@ -29,6 +29,15 @@ absl::Status checkRange(double value, const Range& range, const std::string& fie
   return invalidField(field, strCat("got ", value, ", accepted is ", acceptedText(range)));
 }
 
+absl::Status checkCount(size_t count, const Range& counts, const std::string& field) {
+  if (accepts(counts, double(count))) return absl::OkStatus();
+  const std::string some =
+      counts.min == counts.max ? strCat(counts.min) : strCat(counts.min, "..", counts.max);
+  const bool is_none_apart = counts.accepts_zero && counts.min > 1;
+  return invalidField(
+      field, strCat("got ", count, ", accepted is ", is_none_apart ? "none or " : "", some));
+}
+
 void FieldChecks::operator()(const char* name, SizePx value, const Range& range) {
   number((std::string(name) + ".width").c_str(), value.width, range);
   number((std::string(name) + ".height").c_str(), value.height, range);
@@ -40,7 +49,9 @@ void FieldChecks::color(const char* name, uint32_t value) {
                                            absl::Hex(kColorMax))));
 }
 
-void FieldChecks::cameras(const char* name, const std::vector<ViewCamera>& value) {
+void FieldChecks::cameras(const char* name, const std::vector<ViewCamera>& value,
+                          const Range& counts) {
+  take(checkCount(value.size(), counts, prefix_ + name));
   for (size_t i = 0; i < value.size() && status_.ok(); ++i) {
     const std::string field = strCat(prefix_, name, "[", i, "]");
     take(validatePose(value[i].pose, field + ".pose"));

@@ -10,7 +10,7 @@
 //   color(name, value)         0xRRGGBB
 //   label(name, ...)           text, or an enum with words, that completing a display uses up: it
 //                              no longer changes the picture
-//   cameras(name, value), pose(name, value)
+//   cameras(name, value, counts), pose(name, value)
 //   part(name, value)          a message: an optional spec with a list of its own
 //   group(name, function)      a message whose fields are members of the same struct
 //   kind(value)                the oneof of proto Display
@@ -72,6 +72,8 @@ struct ViewCamera {
 
 // NaN fails. "got 51, accepted is 1..50"
 absl::Status checkRange(double value, const Range& range, const std::string& field);
+// Length of a list. "got 3, accepted is none or 2"
+absl::Status checkCount(size_t count, const Range& counts, const std::string& field);
 
 // A visitor that checks every field. It keeps the first refusal.
 class FieldChecks {
@@ -96,7 +98,7 @@ class FieldChecks {
   template <typename... Parts>
   void label(const char*, const Parts&...) {}
   void color(const char* name, uint32_t value);
-  void cameras(const char* name, const std::vector<ViewCamera>& value);
+  void cameras(const char* name, const std::vector<ViewCamera>& value, const Range& counts);
   void pose(const char* name, const std::optional<Pose>& value);
   template <typename Spec>
   void part(const char* name, const std::optional<Spec>& value) {

@@ -3,7 +3,6 @@
 
 #include <glm/common.hpp>
 
-#include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/cameras.h"
 #include "display/focal_window.h"
@@ -22,10 +21,6 @@ absl::Status takePreset(StereoSpec&) {
 
 absl::Status settle(StereoSpec& stereo) {
   if (stereo.eye_distance_m == 0) stereo.eye_distance_m = kDefaultEyeDistance_m;
-  if (!stereo.eyes.empty() && stereo.eyes.size() != 2) {
-    return invalidField("stereo.eyes",
-                        strCat("got ", stereo.eyes.size(), ", accepted is none or two"));
-  }
   if (stereo.is_tracked && !stereo.eyes.empty()) {
     return invalidField("stereo.eyes", "got two beside tracked, accepted is one of the two");
   }

@@ -33,7 +33,7 @@ void visitFields(Stereo& stereo, Visitor& visit) {
   visit("eye_distance_m", stereo.eye_distance_m, Range{0, 10});
   visit("focal_distance_m", stereo.focal_distance_m, kOptionalDistance);
   visit("fov_y_rad", stereo.fov_y_rad, kOptionalAngle);
-  visit.cameras("eyes", stereo.eyes);
+  visit.cameras("eyes", stereo.eyes, Range{2, 2, true});
   visit("tracked", stereo.is_tracked);
 }
 

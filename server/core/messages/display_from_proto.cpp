@@ -91,8 +91,13 @@ class ProtoReader {
     word(name, value, words);
   }
   void color(const char* name, uint32_t& value) { (*this)(name, value, Range{}); }
-  void cameras(const char* name, std::vector<ViewCamera>& value) {
-    absl::StatusOr<std::vector<ViewCamera>> cameras = camerasFromProto(*message_, fieldOf(name));
+  void cameras(const char* name, std::vector<ViewCamera>& value, const Range& counts) {
+    const FieldDescriptor& field = fieldOf(name);
+    const auto count = size_t(reflection().FieldSize(*message_, &field));
+    if (const absl::Status status = checkCount(count, counts, name); !status.ok()) {
+      return take(status);
+    }
+    absl::StatusOr<std::vector<ViewCamera>> cameras = camerasFromProto(*message_, field);
     take(cameras.status());
     if (cameras.ok()) value = *std::move(cameras);
   }

@@ -112,20 +112,6 @@ TEST(CompleteDisplaySpec, refusesEachFieldOutOfRangeByItsName) {
   }
 }
 
-TEST(CompleteDisplaySpec, namesTheCameraAtFault) {
-  CamerasSpec cameras = goodCameras();
-  cameras.cameras.resize(3, cameras.cameras[0]);
-  cameras.cameras[2].pose.position_m.x = kNan;
-  EXPECT_THAT(fieldOf(completeDisplaySpec({.kind = cameras}).status()),
-              testing::StartsWith("cameras.cameras[2].pose"));
-  cameras.cameras[1].projection = Fov{.left_rad = 0.5, .right_rad = -0.5};
-  EXPECT_THAT(fieldOf(completeDisplaySpec({.kind = cameras}).status()),
-              testing::StartsWith("cameras.cameras[1].fov"));
-  cameras.cameras[0].projection = Intrinsics{{0, 100}, {0, 0}};
-  EXPECT_THAT(fieldOf(completeDisplaySpec({.kind = cameras}).status()),
-              testing::StartsWith("cameras.cameras[0].intrinsics"));
-}
-
 TEST(CompleteDisplaySpec, refusesAWorldPoseThatIsNone) {
   DisplaySpec spec{.kind = goodQuilt(), .world_pose = Pose{}};
   spec.world_pose->orientation = {0, 0, 0, 0.5};

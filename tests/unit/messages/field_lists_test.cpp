@@ -34,7 +34,7 @@ class Paths {
     add(name);
   }
   void color(const char* name, uint32_t) { add(name); }
-  void cameras(const char* name, const std::vector<ViewCamera>&) { add(name); }
+  void cameras(const char* name, const std::vector<ViewCamera>&, const Range&) { add(name); }
   void pose(const char* name, const std::optional<Pose>&) { add(name); }
   template <typename Spec>
   void part(const char* name, const std::optional<Spec>&) {
