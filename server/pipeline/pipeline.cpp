@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "picture/ray_count.h"
+#include "display/atlas_layout.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
 #include "pipeline/picture_loop.h"

@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 
-#include "display/settled_range.h"
 #include "display/source_demand.h"
 #include "display/views_outside.h"
 #include "encode/encoded_band.h"

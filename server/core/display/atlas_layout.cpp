@@ -44,6 +44,14 @@ bool isUsable(const Intrinsics& intrinsics) {
 
 }  // namespace
 
+abi::DepthScale scaleOf(const DepthCodes& codes) {
+  const double zero = codes.is_black_near ? codes.inv_z_near : codes.inv_z_far;
+  const double full = codes.is_black_near ? codes.inv_z_far : codes.inv_z_near;
+  return {.inv_z_of_zero = float(zero),
+          .codes_per_inv_z = float(codes.codeMax() / (full - zero)),
+          .code_max = float(codes.codeMax())};
+}
+
 TileOrigin AtlasLayout::tileOrigin(uint32_t view) const {
   VIEWLOOM_DCHECK(view < views.size());
   const uint32_t row = view / columns;
@@ -110,6 +118,13 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
 
 TileGrid tileGridOf(const DisplaySpec& spec) {
   return std::visit([](const auto& kind) { return tileGrid(kind); }, spec.kind);
+}
+
+int64_t rayCount(const DisplaySpec& spec) {
+  const TileGrid grid = tileGridOf(spec);
+  const uint32_t of_lens = spec.lens ? spec.lens->walked_count : 1;
+  return int64_t(grid.width_px * grid.height_px * grid.rays_per_px) *
+         std::max(spec.filter.sample_count, of_lens);
 }
 
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits) {

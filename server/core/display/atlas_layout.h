@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/status.h"
-#include "display/depth_codes.h"
 #include "display/display_spec.h"
 #include "display/lens.h"
 #include "frame/stage_times.h"
+#include "shared/depth_scale.h"
 
 namespace viewloom {
 
@@ -56,6 +56,20 @@ struct LenticularRays {
 struct PinholeRays {};
 
 using DisplayRays = std::variant<PinholeRays, LenticularRays, MicrolensRays>;
+
+// Meaning of the depth codes of a display: grey beside colour, for displays that make their own
+// views. Linear in 1/Z of the view, 1/m (proto DepthCodes).
+struct DepthCodes {
+  uint32_t bits = 8;           // 8 or 16
+  double inv_z_near = 1;       // of the nearest code
+  double inv_z_far = 0;        // of the farthest, less than that; negative: further than infinity
+  bool is_black_near = false;  // else white is near
+
+  uint32_t codeMax() const { return (1U << bits) - 1; }
+};
+
+// As what makes codes takes them.
+abi::DepthScale scaleOf(const DepthCodes& codes);
 
 // A grid of equal tiles. `order` is the only statement about where views are.
 struct AtlasLayout {
@@ -132,6 +146,8 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
                                             const EyePoses* eyes = nullptr);
 // Its tiles, without a stream. Expects a completed spec.
 TileGrid tileGridOf(const DisplaySpec& spec);
+// Rays that such an atlas takes. Rays that are gathered or mirrored are not counted.
+int64_t rayCount(const DisplaySpec& spec);
 // Without a stream: checks sizes and counts before anything is allocated.
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
 

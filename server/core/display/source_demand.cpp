@@ -27,6 +27,17 @@ uint32_t sidePx(double focal_px, double tangent_extent) {
 
 }  // namespace
 
+const InvZRange& SettledRange::settle(const InvZRange& measured) {
+  const double margin = kMargin * measured.near;
+  const bool stays = settled_.far <= measured.far && settled_.near >= measured.near &&
+                     settled_.far >= measured.far - 2 * margin &&
+                     settled_.near <= measured.near + 2 * margin;
+  if (!stays) {
+    settled_ = {.far = std::max(measured.far - margin, 0.0), .near = measured.near + margin};
+  }
+  return settled_;
+}
+
 OutermostViews outermostViewsOf(const AtlasLayout& layout, const View& view) {
   if (!std::holds_alternative<PinholeRays>(layout.rays)) {
     RayExtent extent = rayExtent(layout);

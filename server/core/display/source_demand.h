@@ -16,6 +16,21 @@ struct InvZRange {
   double near = 0;
 };
 
+// Depths that stay while what is measured of a moving scene merely trembles. Thread-safety: none;
+// one owner.
+class SettledRange {
+ public:
+  // How much wider than what is measured it is when it is settled anew, at either end, as a share
+  // of the nearest 1/Z; it stays while it holds what is measured and is up to twice that wider.
+  // A scene that moves by less than 6 % of its distance moves nothing.
+  static constexpr double kMargin = 1.0 / 16;
+
+  const InvZRange& settle(const InvZRange& measured);
+
+ private:
+  InvZRange settled_;
+};
+
 // Pinholes of `size_px` that see whatever any ray of the display does, and nothing else where all
 // rays of its views come from their eyes.
 struct OutermostViews {
