@@ -8,7 +8,7 @@
 #include "base/str_cat.h"
 #include "cli/outside_text.h"
 #include "messages/display_from_proto.h"
-#include "messages/geometry_from_proto.h"
+#include "messages/source_from_proto.h"
 
 namespace viewloom::cli {
 namespace {

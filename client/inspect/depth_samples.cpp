@@ -7,7 +7,7 @@
 
 #include "frame/decode_depth.h"
 #include "inspect/stored_numbers.h"
-#include "messages/depth_format_from_proto.h"
+#include "messages/source_from_proto.h"
 
 namespace viewloom::inspect {
 namespace {

@@ -7,8 +7,7 @@
 
 #include "frame/cube_map.h"
 #include "frame/decode_depth.h"
-#include "messages/depth_format_from_proto.h"
-#include "messages/geometry_from_proto.h"
+#include "messages/source_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -2,7 +2,7 @@
 #include "rpc/eye_poses_from_proto.h"
 
 #include "base/str_cat.h"
-#include "messages/geometry_from_proto.h"
+#include "messages/source_from_proto.h"
 
 namespace viewloom {
 namespace {

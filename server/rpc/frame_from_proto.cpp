@@ -7,9 +7,8 @@
 
 #include "base/str_cat.h"
 #include "frame/cube_map.h"
-#include "messages/depth_format_from_proto.h"
 #include "messages/enum_from_proto.h"
-#include "messages/geometry_from_proto.h"
+#include "messages/source_from_proto.h"
 
 namespace viewloom {
 namespace {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "messages/display_from_proto.h"
-#include "messages/encoding_from_proto.h"
 #include "messages/wire_message.h"
 #include "publish/subscriber.h"
 #include "rpc/eye_poses_from_proto.h"

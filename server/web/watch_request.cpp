@@ -9,7 +9,6 @@
 #include "display/atlas_layout.h"
 #include "display/tracked_eyes.h"
 #include "messages/display_from_proto.h"
-#include "messages/encoding_from_proto.h"
 #include "web/asked_display.h"
 
 namespace viewloom {

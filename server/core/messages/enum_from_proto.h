@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/generated_enum_reflection.h>
 
 #include "base/status.h"
@@ -21,8 +22,16 @@ struct EnumRow {
 
 // UNIMPLEMENTED for a value the proto names, INVALID_ARGUMENT for 0 and for numbers it does not
 // know.
-absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int number,
-                        const std::string& accepted, std::string_view field);
+inline absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int number,
+                               const std::string& accepted, std::string_view field) {
+  const auto* known = type.FindValueByNumber(number);
+  if (known != nullptr && number != 0) {
+    return fieldError(absl::StatusCode::kUnimplemented, field,
+                      strCat("got ", known->name(), ", not served yet; accepted: ", accepted));
+  }
+  const std::string got = known != nullptr ? known->name() : strCat("number ", number);
+  return invalidField(field, strCat("got ", got, "; accepted: ", accepted));
+}
 
 // A table that lists the _UNSPECIFIED value has a default; one that does not refuses it.
 template <typename Proto, typename Value, size_t kRowCount>

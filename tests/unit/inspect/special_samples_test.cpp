@@ -12,7 +12,7 @@
 #include "frame/decode_depth.h"
 #include "inspect/depth_samples.h"
 #include "lib/inverse_depth.h"
-#include "messages/depth_format_from_proto.h"
+#include "messages/source_from_proto.h"
 #include "sweep/depth_columns.h"
 
 namespace viewloom::inspect {

@@ -5,8 +5,6 @@
 
 #include <numbers>
 
-#include "messages/encoding_from_proto.h"
-
 namespace viewloom {
 namespace {
 

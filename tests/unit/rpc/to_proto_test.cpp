@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/geometry_from_proto.h"
+#include "messages/source_from_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/source_wants.h"
