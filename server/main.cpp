@@ -7,9 +7,7 @@
 #include "base/log.h"
 #include "base/printable.h"
 #include "commands/command.h"
-#include "commands/serve.h"
 #include "config/read_config.h"
-#include "config/setting_options.h"
 #include "usage/command_line.h"
 
 namespace {

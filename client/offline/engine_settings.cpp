@@ -9,7 +9,7 @@
 #include "base/log.h"
 #include "base/printable.h"
 #include "cli/interrupt.h"
-#include "config/setting_options.h"
+#include "config/read_config.h"
 #include "gpu/device_error.h"
 
 namespace viewloom::cli {

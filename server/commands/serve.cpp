@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/serve.h"
-
+// viewloomd serve: runs the server.
 #include <unistd.h>
 
 #include <atomic>
