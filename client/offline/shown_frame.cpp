@@ -10,7 +10,7 @@
 #include "base/worker_pool.h"
 #include "picture/display_sources.h"
 #include "pipeline/tracked_frame.h"
-#include "temporal/display_instant.h"
+#include "temporal/output_rate.h"
 
 namespace viewloom {
 namespace {

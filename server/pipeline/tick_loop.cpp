@@ -7,7 +7,7 @@
 
 #include "base/thread_name.h"
 #include "picture/display_sources.h"
-#include "temporal/display_instant.h"
+#include "temporal/output_rate.h"
 
 namespace viewloom {
 namespace {

@@ -15,7 +15,7 @@
 #include "pipeline/pipeline_links.h"
 #include "pipeline/stream_table.h"
 #include "pipeline/wake_up.h"
-#include "temporal/output_clock.h"
+#include "temporal/output_rate.h"
 
 namespace viewloom {
 

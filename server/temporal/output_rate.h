@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a display with a rate of its own wants its next atlas.
+// Displays with an output rate: when they want their next atlas, and the instant that it shows.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+
+#include "display/display_spec.h"
+#include "temporal/camera_motion.h"
 
 namespace viewloom {
 
@@ -31,5 +34,9 @@ class OutputClock {
   int64_t start_ns_;
   uint64_t next_ = 0;
 };
+
+// The instant that a display is shown at `server_ns` of the server's clock, as spec.temporal asks
+// for, which it needs. A display in the world sees the same whatever the camera does.
+ShownInstant shownTo(const DisplaySpec& spec, const CameraMotion& motion, int64_t server_ns);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "temporal/output_clock.h"
+#include "temporal/output_rate.h"
 
 #include <gtest/gtest.h>
 
