@@ -5,31 +5,21 @@
 #include <cmath>
 
 #include "sweep/link_kernels.h"
+#include "sweep/surface_row_silhouettes.h"
 
 namespace viewloom {
 
 void SurfaceRowBuilder::reserve(const DepthColumns& columns) {
   const uint32_t width = columns.sizePx().width;
-  if (width == width_ && columns.layerCount() == layer_count_) return;
-  width_ = width;
-  layer_count_ = columns.layerCount();
+  if (width == row_.width && columns.layerCount() == row_.layer_count) return;
+  row_.width = width;
+  row_.layer_count = columns.layerCount();
   const uint32_t size = width + kRowSlack;
   inverse_.reserve(size);
   for (uint32_t n = 1; n < size; ++n) inverse_[n] = 1.0F / float(n);
-  for (uint32_t i = 0; i < layer_count_; ++i) {
-    LayerScratch& layer = layers_[i];
-    for (auto* values :
-         {&layer.slope_x, &layer.slope_y, &layer.slope_y_there, &layer.left, &layer.right}) {
-      values->reserve(size);
-    }
-    for (auto* values : {&layer.to_right, &layer.to_left}) values->reserve(size);
-    for (auto* values : {&layer.texels, &layer.color_here, &layer.color_there}) {
-      values->reserve(size);
-    }
-    layer.texel.reserve(size);
-  }
-  chain_.reserve(size_t{width_} * layer_count_ + 2 * kRowSlack);
-  made_.reserve(width_, layer_count_);
+  for (uint32_t i = 0; i < row_.layer_count; ++i) row_.layers[i].reserve(size);
+  chain_.reserve(size_t{row_.width} * row_.layer_count + 2 * kRowSlack);
+  made_.reserve(row_.width, row_.layer_count);
 }
 
 void SurfaceRowBuilder::begin(const RowSource& source, const ColorReach& reach) {
@@ -41,43 +31,44 @@ SurfaceRow& SurfaceRowBuilder::build(const RowSource& source, double y_px, float
                                      float px_per_inv_z) {
   const SizePx size_px = source.columns->sizePx();
   reserve(*source.columns);
-  steps_ = source.steps;
-  planted_fault_ = source.planted_fault;
+  row_.steps = source.steps;
+  row_.planted_fault = source.planted_fault;
   tolerance_ = tolerance;
-  px_per_inv_z_ = px_per_inv_z;
   made_.is_outside = !(y_px >= 0 && y_px < size_px.height);
   const int y = int(std::clamp(std::floor(y_px), 0.0, size_px.height - 1.0));
   // Without a sample above or below, its colour goes on.
   const double dy = made_.is_outside ? 0 : y_px - (y + 0.5);
-  findFacets(source, y, hasFault(SweepFault::kRowOff) ? 0 : float(dy));
+  findFacets(source, y, row_.hasFault(SweepFault::kRowOff) ? 0 : float(dy));
   blendTexels(source, y, float(dy));
   made_.clear();
-  for (uint32_t i = 0; i < layer_count_; ++i) {
-    const uint8_t* const to_left = layers_[i].to_left.data();
-    for (uint32_t x = 0; x < width_; ++x) {
-      x = findOther(to_left, x, width_, uint8_t(i + 1));
-      if (x < width_ && isSilhouette(to_left[x])) followSurface(i, x);
+  for (uint32_t i = 0; i < row_.layer_count; ++i) {
+    const uint8_t* const to_left = row_.layers[i].to_left.data();
+    for (uint32_t x = 0; x < row_.width; ++x) {
+      x = findOther(to_left, x, row_.width, uint8_t(i + 1));
+      if (x < row_.width && isSilhouette(to_left[x])) followSurface(i, x);
     }
   }
-  for (uint32_t i = 0; i < layer_count_; ++i) addSilhouettes(i);
-  made_.left_inv_z = layers_[0].left[0];
-  made_.right_inv_z = layers_[0].right[width_ - 1];
+  SurfaceRowSilhouettes silhouettes(row_, tolerance, px_per_inv_z, made_);
+  for (uint32_t i = 0; i < row_.layer_count; ++i) silhouettes.add(i);
+  made_.left_inv_z = row_.layers[0].left[0];
+  made_.right_inv_z = row_.layers[0].right[row_.width - 1];
   return made_;
 }
 
 void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
   const FiveRows rows = rowsAround(*source.columns, y);
-  inv_z_ = rows.inv_z[2];
-  made_.inv_z = inv_z_;
-  made_.deep = steps_.deep;
-  FacetRow facets{.inv_z = inv_z_, .slope = {}, .layer_count = layer_count_, .width = width_};
+  row_.inv_z = rows.inv_z[2];
+  made_.inv_z = row_.inv_z;
+  made_.deep = row_.steps.deep;
+  FacetRow facets{
+      .inv_z = row_.inv_z, .slope = {}, .layer_count = row_.layer_count, .width = row_.width};
   ByLayer<float*> slope_x{};
   ByLayer<float*> slope_y{};
   ByLayer<uint8_t*> to_right{};
   ByLayer<uint8_t*> to_left{};
   EdgeRow edges{};
-  for (uint32_t i = 0; i < layer_count_; ++i) {
-    LayerScratch& layer = layers_[i];
+  for (uint32_t i = 0; i < row_.layer_count; ++i) {
+    LayerFacets& layer = row_.layers[i];
     facets.slope[i] = slope_x[i] = layer.slope_x.data();
     slope_y[i] = layer.slope_y.data();
     slope_y_[i] = layer.slope_y.data();
@@ -89,20 +80,20 @@ void SurfaceRowBuilder::findFacets(const RowSource& source, int y, float dy) {
   if (averaged_.isNeeded()) {
     slope_y_ = averaged_.slopesAlongY(y);
     const RowColumns columns = averaged_.columnsOf(y);
-    for (uint32_t i = 0; i < layer_count_; ++i) {
-      std::copy_n(columns.slope_x[i], width_, slope_x[i]);
-      std::copy_n(columns.to_right[i], width_, to_right[i]);
-      std::copy_n(columns.to_left[i], width_, to_left[i]);
+    for (uint32_t i = 0; i < row_.layer_count; ++i) {
+      std::copy_n(columns.slope_x[i], row_.width, slope_x[i]);
+      std::copy_n(columns.to_right[i], row_.width, to_right[i]);
+      std::copy_n(columns.to_left[i], row_.width, to_left[i]);
     }
   } else {
     findSlopesX(rows, slope_x);
     findSlopesY(rows, slope_y);
     linkColumns(facets, source.steps, to_right, to_left);
   }
-  for (uint32_t i = 0; hasFault(SweepFault::kCrossLinks) && i < layer_count_; ++i) {
+  for (uint32_t i = 0; row_.hasFault(SweepFault::kCrossLinks) && i < row_.layer_count; ++i) {
     for (uint8_t* links : {to_right[i], to_left[i]}) {
       std::replace_if(
-          links, links + width_, [&](uint8_t link) { return link != i + 1; }, 0);
+          links, links + row_.width, [&](uint8_t link) { return link != i + 1; }, 0);
     }
   }
   some_fall_ = findEdges(facets, slope_y_, dy, edges);
@@ -115,19 +106,22 @@ void SurfaceRowBuilder::blendTexels(const RowSource& source, int y, float dy) {
   const bool has_there = y_there >= 0 && y_there < int(source.columns->sizePx().height);
   const float share = has_there ? float(steps) / kSubtexelSteps : 0;
   ByLayer<uint32_t*> texels{};
-  for (uint32_t i = 0; i < layer_count_; ++i) texels[i] = layers_[i].texels.data();
+  for (uint32_t i = 0; i < row_.layer_count; ++i) texels[i] = row_.layers[i].texels.data();
   if (averaged_.isNeeded()) {
     averaged_.blend({.y = y, .is_below = is_below, .share = share}, texels);
     return;
   }
   const FiveRows rows_there = rowsAround(*source.columns, has_there ? y_there : y);
   TexelRow row{.share = share, .is_below = is_below, .texels = texels};
-  row.here = {.inv_z = inv_z_, .slope = slope_y_, .layer_count = layer_count_, .width = width_};
-  row.there = {
-      .inv_z = rows_there.inv_z[2], .slope = {}, .layer_count = layer_count_, .width = width_};
+  row.here = {
+      .inv_z = row_.inv_z, .slope = slope_y_, .layer_count = row_.layer_count, .width = row_.width};
+  row.there = {.inv_z = rows_there.inv_z[2],
+               .slope = {},
+               .layer_count = row_.layer_count,
+               .width = row_.width};
   ByLayer<float*> slope_there{};
-  for (uint32_t i = 0; i < layer_count_; ++i) {
-    LayerScratch& layer = layers_[i];
+  for (uint32_t i = 0; i < row_.layer_count; ++i) {
+    LayerFacets& layer = row_.layers[i];
     slope_there[i] = layer.slope_y_there.data();
     row.there.slope[i] = slope_there[i];
     row.color_here[i] = readableColorRow(source, i, y, layer.color_here.data());
@@ -148,11 +142,12 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
       .before_layer = layer};
   uint32_t* const texels = made_.texels.data();
   uint8_t* const texel_layer = made_.texel_layer.data();
-  const bool begins_deep = layers_[layer].to_left[column] == abi::kDeepEdge;
+  const bool begins_deep = row_.layers[layer].to_left[column] == abi::kDeepEdge;
   bool ends_deep = false;
   for (;;) {
-    LayerScratch& own = layers_[layer];
-    const uint32_t last = findOther(own.to_right.data(), column, width_ - 1, uint8_t(layer + 1));
+    LayerFacets& own = row_.layers[layer];
+    const uint32_t last =
+        findOther(own.to_right.data(), column, row_.width - 1, uint8_t(layer + 1));
     const uint32_t count = last + 1 - column;
     std::copy_n(own.texels.data() + column, count, texels + texel);
     std::fill_n(texel_layer + texel, count, uint8_t(layer));
@@ -161,7 +156,7 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
     texel += count;
     followPiece(surface, layer, column, last);
     ends_deep = own.to_right[last] == abi::kDeepEdge;
-    if (last + 1 == width_ || isSilhouette(own.to_right[last])) break;
+    if (last + 1 == row_.width || isSilhouette(own.to_right[last])) break;
     layer = own.to_right[last] - 1U;
     column = last + 1;
   }
@@ -207,8 +202,8 @@ void SurfaceRowBuilder::noteMixed(uint32_t base, bool begins_deep, bool ends_dee
 // the planes of a structure they stray by no more than half the connection tolerance.
 void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t first,
                                     uint32_t last) {
-  RunSearch search = {.left = layers_[layer].left.data(),
-                      .right = layers_[layer].right.data(),
+  RunSearch search = {.left = row_.layers[layer].left.data(),
+                      .right = row_.layers[layer].right.data(),
                       .inverse = inverse_.data()};
   uint32_t falling = findFalling(layer, first, last);
   for (uint32_t begin = first; begin <= last;) {
@@ -218,24 +213,24 @@ void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t f
       continue;
     }
     search.last = falling - 1;
-    search.tolerance = std::min(tolerance_, 0.5F * steps_.kappa.at(search.left[begin]));
-    if (hasFault(SweepFault::kTolerance)) search.tolerance *= 8;
+    search.tolerance = std::min(tolerance_, 0.5F * row_.steps.kappa.at(search.left[begin]));
+    if (row_.hasFault(SweepFault::kTolerance)) search.tolerance *= 8;
     float end_inv_z = 0;
     const uint32_t end = findRunEnd(search, begin, &end_inv_z);
     addRun(surface, layer, float(begin), float(end), search.left[begin], end_inv_z);
     // Who passes by the end of a surface passes by its last run.
-    layers_[layer].right[end - 1] = end_inv_z;
+    row_.layers[layer].right[end - 1] = end_inv_z;
     begin = end;
   }
 }
 
 // The first facet of which an edge is at the sky only because nothing is below it; last + 1.
 uint32_t SurfaceRowBuilder::findFalling(uint32_t layer, uint32_t first, uint32_t last) const {
-  const bool is_sought = some_fall_ && !hasFault(SweepFault::kFallsBelowSky);
+  const bool is_sought = some_fall_ && !row_.hasFault(SweepFault::kFallsBelowSky);
   for (uint32_t x = first; is_sought && x <= last; ++x) {
-    const float left = layers_[layer].left[x];
-    const float right = layers_[layer].right[x];
-    const float rise = layers_[layer].slope_x[x];
+    const float left = row_.layers[layer].left[x];
+    const float right = row_.layers[layer].right[x];
+    const float rise = row_.layers[layer].slope_x[x];
     if (right == 0 && left > 0 && left + rise < 0) return x;
     if (left == 0 && right > 0 && right < rise) return x;
   }
@@ -244,9 +239,9 @@ uint32_t SurfaceRowBuilder::findFalling(uint32_t layer, uint32_t first, uint32_t
 
 // Down to the sky, and along it; or the other way round.
 void SurfaceRowBuilder::followFallingFacet(Surface& surface, uint32_t layer, uint32_t column) {
-  const float left = layers_[layer].left[column];
-  const float right = layers_[layer].right[column];
-  const float above_px = (left + right) / std::abs(layers_[layer].slope_x[column]);
+  const float left = row_.layers[layer].left[column];
+  const float right = row_.layers[layer].right[column];
+  const float above_px = (left + right) / std::abs(row_.layers[layer].slope_x[column]);
   const float begin_px = float(column);
   const float meets_px = left > 0 ? begin_px + above_px : begin_px + 1 - above_px;
   addRun(surface, layer, begin_px, meets_px, left, 0);
@@ -263,9 +258,9 @@ void SurfaceRowBuilder::addRun(Surface& surface, uint32_t layer, float begin_px,
   runs.end_inv_z[at] = end_inv_z;
   runs.texel_offset[at] = surface.texel_offset;
   const float before = surface.before_inv_z;
-  if (hasFault(SweepFault::kRunsOff)) runs.begin_px[at] += 1;
-  if (hasFault(SweepFault::kRunsOff)) runs.end_px[at] += 1;
-  if (before >= 0 && !hasFault(SweepFault::kBridges)) {
+  if (row_.hasFault(SweepFault::kRunsOff)) runs.begin_px[at] += 1;
+  if (row_.hasFault(SweepFault::kRunsOff)) runs.end_px[at] += 1;
+  if (before >= 0 && !row_.hasFault(SweepFault::kBridges)) {
     // Whoever comes over the lower side meets the higher one at the edge.
     const Travel travel = before > begin_inv_z ? Travel::kLeft : Travel::kRight;
     const Step bridge = {.edge_px = begin_px,
