@@ -24,7 +24,6 @@ layout(push_constant, scalar) uniform Push {
 };
 #include "lib/rays/views.glsl"
 #include "lib/rays/extras.glsl"
-#include "lib/lens/lens_points.glsl"
 
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];

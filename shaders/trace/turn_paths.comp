@@ -25,9 +25,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 };
 
 #include "lib/mirrors/albedo.glsl"
-#include "lib/mirrors/first_camera.glsl"
-#include "lib/mirrors/mirrored_path.glsl"
 #include "lib/mirrors/settings.glsl"
+#include "lib/mirrors/mirrored_path.glsl"
 #include "lib/rays/extras.glsl"
 #include "lib/rays/views.glsl"
 #include "lib/walk/pushed_scene.glsl"

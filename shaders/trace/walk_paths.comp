@@ -25,10 +25,9 @@ layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Answers {
   RayAnswer answers[];
 };
 
-#include "lib/mirrors/first_camera.glsl"
+#include "lib/mirrors/settings.glsl"
 #include "lib/mirrors/mirrored_path.glsl"
 #include "lib/mirrors/passed_body.glsl"
-#include "lib/mirrors/settings.glsl"
 #include "lib/rays/extras.glsl"
 #include "lib/walk/pushed_scene.glsl"
 #include "lib/light/ray_light.glsl"

@@ -25,11 +25,10 @@ layout(local_size_x = kTraceGroupSize) in;
 #include "lib/lens/px_view.glsl"
 #include "lib/walk/ray_answer.glsl"
 #include "lib/light/ray_light.glsl"
-#include "lib/walk/run_bound.glsl"
+#include "lib/walk/walk_tasks.glsl"
 #include "lib/light/store_px.glsl"
 #include "lib/walk/unfinished_runs.glsl"
 #include "lib/walk/walk.glsl"
-#include "lib/walk/walk_tasks.glsl"
 
 Seen seenOf(Scene scene, Ray ray, Walk walk, Light light, vec3 background) {
   const vec2 px_per_inv_z = ray.extent.xy / (ray.extent.z == 0.0 ? 1.0 : ray.extent.z);

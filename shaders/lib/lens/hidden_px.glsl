@@ -5,7 +5,6 @@
 #define VIEWLOOM_LIB_LENS_HIDDEN_PX_GLSL_
 
 #include "lib/lens/lens.glsl"
-#include "lib/lens/lens_points.glsl"
 #include "lib/lens/lens_rays.glsl"
 #include "lib/light/ray_light.glsl"
 #include "lib/light/srgb.glsl"

@@ -4,7 +4,13 @@
 #ifndef VIEWLOOM_LIB_LENS_LENS_GLSL_
 #define VIEWLOOM_LIB_LENS_LENS_GLSL_
 
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
+
+// Points of the lens: those of a sample of each px of the pattern, then those of the next sample.
+layout(set = 0, binding = kBindingLensPoints, scalar) readonly buffer LensPoints {
+  vec2 lens_points[];
+};
 
 // `px`: of the tile.
 uint lensPatternIndex(uvec2 px) {

@@ -5,7 +5,6 @@
 #define VIEWLOOM_LIB_LENS_PX_VIEW_GLSL_
 
 #include "lib/lens/lens.glsl"
-#include "lib/lens/lens_points.glsl"
 #include "lib/rays/extras.glsl"
 #include "lib/rays/ray_source.glsl"
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which px an invocation of trace/walk_views.comp traces.
+// Runs of px that invocations of trace/walk_views.comp trace, and the bound where their rays may
+// start.
 #ifndef VIEWLOOM_LIB_WALK_WALK_TASKS_GLSL_
 #define VIEWLOOM_LIB_WALK_WALK_TASKS_GLSL_
 
+#include "lib/rays/ray.glsl"
+#include "lib/walk/ray_start.glsl"
 #include "lib/rays/met_blocks.glsl"
 #include "lib/walk/walk_views.glsl"
 
@@ -83,6 +86,27 @@ Task taskOfBlock() {
   task.run.tile_y = float(push.first_row + row - tile_first_row) + 0.5;
   task.run.first_index = row * push.atlas_width_px + block.first_x;
   return task;
+}
+
+// The bound where rays may start that lie between two. Rays between two plain ones are plain, and
+// pass no cell outside the rectangle around those.
+float boundBetween(Scene scene, vec3 near_eye, vec3 first, vec3 last) {
+  if (!kRaysArePlain && !(isPlainRay(near_eye, first) && isPlainRay(near_eye, last))) {
+    return scene.inv_z_near;
+  }
+  const vec2 first_end = first.xy / first.z;
+  const vec2 last_end = last.xy / last.z;
+  const vec2 first_start = first_end * (1.0 - near_eye.z) + near_eye.xy;
+  const vec2 last_start = last_end * (1.0 - near_eye.z) + near_eye.xy;
+  const vec2 low_px = min(min(first_start, last_start), min(first_end, last_end));
+  const vec2 high_px = max(max(first_start, last_start), max(first_end, last_end));
+  return startBound(scene, low_px, high_px);
+}
+
+// The bound of a run whose rays come from one eye.
+float boundOfRun(Scene scene, ViewParams view, vec3 near_eye, Run run) {
+  const vec3 first = rayDirection(view, vec2(float(run.first_x) + 0.5, run.tile_y));
+  return boundBetween(scene, near_eye, first, first + float(run.count - 1u) * view.direction_dx);
 }
 
 #endif  // VIEWLOOM_LIB_WALK_WALK_TASKS_GLSL_
