@@ -23,7 +23,6 @@ layout(set = 0, binding = kBindingReflected, scalar) writeonly buffer ReflectedB
   ReflectedLight reflected_band[];
 };
 
-#include "lib/sources/load_answer.glsl"
 #include "lib/sources/merge.glsl"
 #include "lib/mirrors/reflected_light.glsl"
 #include "lib/mirrors/reflection_counts.glsl"

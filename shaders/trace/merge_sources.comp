@@ -29,7 +29,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/rays/extras.glsl"
 #include "lib/rays/views.glsl"
 #include "lib/walk/class_counts.glsl"
-#include "lib/sources/load_answer.glsl"
 #include "lib/sources/merge.glsl"
 #include "lib/rays/ray_source.glsl"
 #include "lib/light/srgb.glsl"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One answer of several: shaders/README.md, Several sources. A parameter that the
-// kernel sets: loadAnswer(source).
+// One answer of several: shaders/README.md, Several sources.
 #ifndef VIEWLOOM_LIB_SOURCES_MERGE_GLSL_
 #define VIEWLOOM_LIB_SOURCES_MERGE_GLSL_
 
+#include "lib/sources/load_answer.glsl"
 #include "lib/fault.glsl"
 #include "shared/trace_abi.h"
 
