@@ -9,7 +9,7 @@
 #include "base/str_cat.h"
 #include "base/worker_pool.h"
 #include "picture/display_sources.h"
-#include "pipeline/tracked_frame.h"
+#include "temporal/camera_track.h"
 #include "temporal/output_rate.h"
 
 namespace viewloom {

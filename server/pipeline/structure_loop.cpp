@@ -9,7 +9,6 @@
 #include "base/thread_name.h"
 #include "frame/same_content.h"
 #include "pipeline/stream_retimer.h"
-#include "pipeline/tracked_frame.h"
 
 namespace viewloom {
 namespace {

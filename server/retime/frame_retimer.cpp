@@ -45,10 +45,6 @@ void describeRetimed(SourceFormat& source) {
 
 }  // namespace
 
-bool movesByItself(const Frame& frame) {
-  return std::any_of(frame.sources.begin(), frame.sources.end(), moves);
-}
-
 FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds, Guesses guesses) {
   if (frame != prepared_) {
     sources_.resize(frame->sources.size());

@@ -11,9 +11,6 @@
 
 namespace viewloom {
 
-// Some surface of the frame moves by itself.
-bool movesByItself(const Frame& frame);
-
 // Keeps its memory, and what it has made of the last frame. Thread-safety: none; it shares its work
 // among threads.
 class FrameRetimer {

@@ -28,6 +28,10 @@ struct TrackedFrame {
   std::vector<TrackedSource> others = {};  // the sources after the first
 };
 
+// The frame as if it had been there, and built, when it was captured. `before`: the frame before;
+// nullptr: there is none. `inv_z_near`: 1/m, of its nearest surfaces.
+TrackedFrame trackedFrame(const Frame& frame, const Frame* before, double inv_z_near);
+
 // Frames further apart say nothing of how a camera moves now.
 inline constexpr int64_t kTrackedIntervalMax_ns = 2'000'000'000;
 // A camera that turns further from one frame to the next has been cut to another.

@@ -160,4 +160,16 @@ ContentMotion contentMotion(const Frame& before, const Frame& now, size_t source
   return ContentMotion::kUnclear;
 }
 
+bool movesByItself(const Frame& frame, size_t source) {
+  return std::ranges::any_of(frame.sources[source],
+                             [](const LayerPlanes& layer) { return layer.motion != nullptr; });
+}
+
+bool movesByItself(const Frame& frame) {
+  for (size_t source = 0; source < frame.sources.size(); ++source) {
+    if (movesByItself(frame, source)) return true;
+  }
+  return false;
+}
+
 }  // namespace viewloom

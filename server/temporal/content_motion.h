@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether what a source shows stands in the world, or goes where the source's camera goes.
+// Whether what a source shows stands in the world, goes where the source's camera goes, or moves by
+// itself.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +20,10 @@ enum class ContentMotion : uint8_t {
 // of another size or shape than before are unclear. Looks at kComparedSamplesMax samples.
 inline constexpr uint32_t kComparedSamplesMax = 4096;
 ContentMotion contentMotion(const Frame& before, const Frame& now, size_t source);
+
+// Surfaces of the source move by themselves: it has a plane of motion.
+bool movesByItself(const Frame& frame, size_t source);
+// Those of some source do.
+bool movesByItself(const Frame& frame);
 
 }  // namespace viewloom

@@ -9,7 +9,6 @@
 
 #include "bench/moving_frames.h"
 #include "offline/shown_frame.h"
-#include "pipeline/tracked_frame.h"
 #include "support/truth/picture_frame.h"
 #include "temporal/camera_track.h"
 #include "walk/offline_renderer.h"

@@ -134,5 +134,17 @@ TEST(ContentMotion, isUnclearWhereFramesDiffer) {
   EXPECT_EQ(contentMotion(box_alone, other, 0), ContentMotion::kUnclear);
 }
 
+TEST(MovesByItself, isSoOfSourcesWithAPlaneOfMotion) {
+  LayerPlanes moving;
+  moving.motion = std::make_shared<const std::vector<uint8_t>>(6);
+  Frame frame;
+  frame.sources = {{LayerPlanes{}}, {LayerPlanes{}, moving}};
+  EXPECT_TRUE(movesByItself(frame));
+  EXPECT_FALSE(movesByItself(frame, 0));
+  EXPECT_TRUE(movesByItself(frame, 1));
+  frame.sources.pop_back();
+  EXPECT_FALSE(movesByItself(frame));
+}
+
 }  // namespace
 }  // namespace viewloom
