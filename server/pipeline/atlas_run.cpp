@@ -39,6 +39,8 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
   }
   strips = AtlasStrips(*picture->layout, strip_row_count);
   strips_left_ = strips.count();
+  on_device = {.deadline_ns = job.deadline_ns, .is_tracked = isTracked(), .turn = kTurnRays};
+  at_work = {.deadline_ns = job.deadline_ns, .is_tracked = isTracked(), .turn = kTurn_ns};
 }
 
 void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
@@ -62,6 +64,36 @@ RayCounts AtlasRun::counts() const {
 int64_t AtlasRun::tracedNs() const {
   std::lock_guard lock(mutex_);
   return traced_ns_;
+}
+
+void BegunRuns::remove(const AtlasRun& run) {
+  std::erase_if(runs_, [&](const AtlasRunPtr& begun) { return begun.get() == &run; });
+}
+
+void BegunRuns::clear() {
+  for (const AtlasRunPtr& run : runs_) run->making = nullptr;
+  runs_.clear();
+}
+
+bool BegunRuns::hasTracked() const {
+  return std::any_of(runs_.begin(), runs_.end(),
+                     [](const AtlasRunPtr& run) { return run->isTracked(); });
+}
+
+Turns::Line<AtlasRunPtr> BegunRuns::lineUp() const {
+  return turns_.lineUp(runs_, [](const AtlasRunPtr& run) { return &run->on_device; });
+}
+
+const Claim* BegunRuns::firstClaim() const {
+  const AtlasRunPtr* const first = lineUp().first;
+  return first == nullptr ? nullptr : &(*first)->on_device;
+}
+
+AtlasRunPtr BegunRuns::inSlot() const {
+  const auto run = std::find_if(runs_.begin(), runs_.end(), [](const AtlasRunPtr& begun) {
+    return begun->making && begun->making->holdsRoom();
+  });
+  return run == runs_.end() ? nullptr : *run;
 }
 
 }  // namespace viewloom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One atlas on its way: what is being traced, for whom, and the bands that are already packed.
+// One atlas on its way: what is being traced, for whom, and the bands that are already packed. And
+// those that an engine has begun.
 #pragma once
 
 #include <atomic>
@@ -7,16 +8,17 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/trace_method.h"
 #include "encode/encoded_band.h"
 #include "engine/engine.h"
-#include "pipeline/job_queue.h"
 #include "pipeline/picture_cache.h"
-#include "pipeline/resident_structure.h"
 #include "publish/broadcaster.h"
 #include "publish/growing_atlas.h"
+#include "schedule/atlas_job.h"
+#include "schedule/turns.h"
 
 namespace viewloom {
 
@@ -28,11 +30,6 @@ struct AtlasOutput {
   uint32_t bands_per_image = 0;
   uint32_t bands_per_plane = 0;
 };
-
-// Rays that an atlas is walked by before others go first: a large quilt's.
-inline constexpr uint64_t kTurnRays = uint64_t{1} << 24;
-// Time of worker threads that an atlas takes before others go first: that of most atlases.
-inline constexpr int64_t kTurn_ns = 50'000'000;
 
 // Made in strips, for all displays of the picture at once.
 // Thread-safety: what follows begun_ns is the picture loop's; strips are noted from any thread.
@@ -46,11 +43,6 @@ class AtlasRun {
   // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
   // are then, and no other display waits for more than one of them. So do displays with a rate.
   bool isWaitedFor() const { return isTracked() || job.tick; }
-
-  // It has had more of the device than most atlases need: others go first, or take turns with it.
-  bool isLong() const { return !isTracked() && submitted_rays >= kTurnRays; }
-  // The same of the worker threads.
-  bool isLongWork() const { return !isTracked() && worked_ns >= kTurn_ns; }
 
   // Strips are made: what all of them have seen, together.
   void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
@@ -71,8 +63,8 @@ class AtlasRun {
   int64_t begun_ns = 0;
   PlanPtr plan;                    // of the picture, by the loop's engine
   std::unique_ptr<Making> making;  // from when there was room until the last step
-  uint64_t submitted_rays = 0;
-  int64_t worked_ns = 0;  // by worker threads, EncodeQueue's
+  Claim on_device;                 // in rays
+  Claim at_work;                   // before worker threads, in ns; EncodeQueue's
 
   RayCounts counts() const;
   int64_t tracedNs() const;
@@ -85,5 +77,29 @@ class AtlasRun {
 };
 
 using AtlasRunPtr = std::shared_ptr<AtlasRun>;
+
+// The atlases that one engine has begun, and whose turn it is at its device.
+// Thread-safety: none; the picture loop's.
+class BegunRuns {
+ public:
+  void add(AtlasRunPtr run) { runs_.push_back(std::move(run)); }
+  void remove(const AtlasRun& run);
+  // Lets go of them, and of what their making holds.
+  void clear();
+  bool isEmpty() const { return runs_.empty(); }
+
+  bool hasTracked() const;
+  Turns::Line<AtlasRunPtr> lineUp() const;
+  // The claim of the first in line; nullptr = nothing has begun.
+  const Claim* firstClaim() const;
+  // One that parts have been made of and holds memory, if there is one.
+  AtlasRunPtr inSlot() const;
+  // A part of it was submitted.
+  void note(AtlasRun& run, uint64_t ray_count) { turns_.note(run.on_device, int64_t(ray_count)); }
+
+ private:
+  std::vector<AtlasRunPtr> runs_;
+  Turns turns_;  // in rays
+};
 
 }  // namespace viewloom

@@ -75,29 +75,12 @@ std::optional<EncodeTask> EncodeQueue::take() {
   return task;
 }
 
-template <typename Counts>
-StripBatchPtr EncodeQueue::first(const Counts& counts) const {
-  StripBatchPtr first;
-  for (const StripBatchPtr& batch : batches_) {
-    if (!batch->hasPart() || !counts(*batch->run)) continue;
-    if (!first || goesFirstAtWork(*batch->run, *first->run)) first = batch;
-  }
-  return first;
-}
-
-// The batch that the next part is of: the first that has one to hand out, or the first of those
-// that would wait for it, if that is their turn. nullptr = there is none. Batches of one atlas keep
-// their order.
 StripBatchPtr EncodeQueue::next() const {
-  const StripBatchPtr first_of_all = first([](const AtlasRun&) { return true; });
-  if (!first_of_all || first_of_all->run->isLongWork()) return first_of_all;
-  StripBatchPtr other;
-  if (first_of_all->run->isTracked()) {
-    if (eyes_turn_.isOver()) other = first([](const AtlasRun& run) { return !run.isTracked(); });
-  } else if (short_turn_.isOver()) {
-    other = first([](const AtlasRun& run) { return run.isLongWork(); });
-  }
-  return other ? other : first_of_all;
+  const auto line = turns_.lineUp(batches_, [](const StripBatchPtr& batch) {
+    return batch->hasPart() ? &batch->run->at_work : nullptr;
+  });
+  const StripBatchPtr* const next = line.in_turn != nullptr ? line.in_turn : line.first;
+  return next == nullptr ? nullptr : *next;
 }
 
 void EncodeQueue::noteMade(StripBatch& batch) {
@@ -107,9 +90,7 @@ void EncodeQueue::noteMade(StripBatch& batch) {
 
 void EncodeQueue::noteServed(AtlasRun& run, int64_t duration_ns) {
   std::lock_guard lock(mutex_);
-  eyes_turn_.note(run.isTracked(), duration_ns);
-  if (!run.isTracked()) short_turn_.note(!run.isLongWork(), duration_ns);
-  run.worked_ns += duration_ns;
+  turns_.note(run.at_work, duration_ns);
 }
 
 void EncodeQueue::close() {

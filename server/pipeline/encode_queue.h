@@ -5,14 +5,36 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "pipeline/strip_batch.h"
-#include "pipeline/turns.h"
+#include "pipeline/atlas_run.h"
+#include "schedule/turns.h"
 
 namespace viewloom {
+
+// Strips of an atlas that an engine has handed on to the worker threads. Holding it keeps what it
+// is made of from reuse. Thread-safety: the counters are EncodeQueue's.
+struct StripBatch {
+  StripBatch(AtlasRunPtr run_of_strips, StripWorkPtr handed_on)
+      : run(std::move(run_of_strips)), work(std::move(handed_on)) {}
+
+  // A piece to make or a strip to pack; while the last pieces are made there is none.
+  bool hasPart() const {
+    return next_piece < work->shape.piece_count || made_count == work->shape.piece_count;
+  }
+
+  const AtlasRunPtr run;
+  const StripWorkPtr work;
+  uint32_t next_piece = 0;
+  uint32_t made_count = 0;
+  uint32_t next_strip = 0;  // counts from the first of the work
+};
+
+using StripBatchPtr = std::shared_ptr<StripBatch>;
 
 // A part of a batch: a piece of its work, or, once all are made, a strip to pack.
 struct EncodeTask {
@@ -44,10 +66,8 @@ class EncodeQueue {
   void waitForMore(std::unique_lock<std::mutex>& lock);
   void noteFilled();
   std::optional<EncodeTask> take();
+  // The batch that the next part is of; nullptr = there is none.
   StripBatchPtr next() const;
-  // The first of those that have a part to hand out and count.
-  template <typename Counts>
-  StripBatchPtr first(const Counts& counts) const;
 
   std::mutex mutex_;
   std::condition_variable filled_;
@@ -55,8 +75,7 @@ class EncodeQueue {
   std::atomic<uint32_t> fill_count_ = 0;
   uint32_t lookout_count_ = 0;          // of threads that will look at it before they sleep
   std::vector<StripBatchPtr> batches_;  // of which parts are left, as they came
-  EyesTurn eyes_turn_;                  // of those who pop, in ns
-  ShortTurn short_turn_;                // the same, of those that are not tracked
+  Turns turns_;                         // of those who pop, in ns
   bool is_closed_ = false;
 };
 

@@ -6,7 +6,7 @@
 
 #include "base/slot_pool.h"
 #include "pipeline/pipeline_links.h"
-#include "pipeline/resident_structure.h"
+#include "schedule/resident_structure.h"
 
 namespace viewloom {
 

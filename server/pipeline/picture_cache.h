@@ -14,22 +14,10 @@
 #include "display/atlas_layout.h"
 #include "display/focus_follower.h"
 #include "picture/trace_job.h"
-#include "pipeline/resident_structure.h"
+#include "pipeline/aim.h"
 #include "publish/broadcaster.h"
 
 namespace viewloom {
-
-// What a display sees, and from where.
-struct Aim {
-  std::vector<SeenSource> sources;
-  Pose display_pose;  // in the world
-
-  // In the place of the only source: the same is seen wherever that is.
-  bool standsInOnly() const {
-    return sources.size() == 1 && sources.front().camera.pose == display_pose;
-  }
-  bool operator==(const Aim&) const = default;
-};
 
 // Thread-safety: all methods may be called from any thread; pictures may be let go on any.
 class PictureCache {

@@ -5,20 +5,12 @@
 
 #include "base/str_cat.h"
 #include "base/thread_name.h"
-#include "pipeline/job_aim.h"
 
 namespace viewloom {
 namespace {
 
 const char* threadName(TraceMethod method) {
   return method == TraceMethod::kSweep ? "sweep" : "walk";
-}
-
-// The structures that the picture is made of.
-std::vector<const ResidentStructure*> structuresOf(const AtlasJob& job) {
-  std::vector<const ResidentStructure*> structures = {job.structure.get()};
-  if (job.before) structures.push_back(job.before.get());
-  return structures;
 }
 
 }  // namespace
@@ -61,11 +53,11 @@ void PictureLoop::run(const std::stop_token& stop) {
 
 bool PictureLoop::makePart(bool may_begin) {
   if (may_begin) beginDueJobs();
-  const AtlasRunPtr run = begun_.soonest();
-  if (!run) return false;
-  const AtlasRunPtr other = begun_.inTurn(*run);
-  if (other && makePartOf(other)) return true;
-  if (makePartOf(run)) return true;
+  const Turns::Line<AtlasRunPtr> line = begun_.lineUp();
+  if (line.first == nullptr) return false;
+  const AtlasRunPtr first = *line.first;
+  if (line.in_turn != nullptr && makePartOf(AtlasRunPtr(*line.in_turn))) return true;
+  if (makePartOf(first)) return true;
   // There is no room for it: an atlas that holds some makes room.
   const AtlasRunPtr holder = begun_.inSlot();
   return holder && makePartOf(holder);
@@ -111,7 +103,7 @@ bool PictureLoop::hasRoomForEyes() const {
 }
 
 void PictureLoop::beginDueJobs() {
-  while (auto job = desk_.board.begin(rank_, begun_, hasRoomForEyes())) {
+  while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), hasRoomForEyes())) {
     const std::string picture_key = job->picture_key;
     if (!begin(*job)) desk_.board.finish(picture_key);
   }

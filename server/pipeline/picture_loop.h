@@ -9,13 +9,13 @@
 #include <thread>
 #include <vector>
 
-#include "pipeline/begun_runs.h"
+#include "pipeline/atlas_run.h"
 #include "pipeline/encode_pool.h"
-#include "pipeline/job_board.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/plan_cache.h"
-#include "pipeline/served_displays.h"
 #include "pipeline/wake_up.h"
+#include "schedule/job_board.h"
+#include "schedule/served_displays.h"
 
 namespace viewloom {
 

@@ -3,8 +3,6 @@
 
 #include <atomic>
 #include <deque>
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include "display/atlas_layout.h"
@@ -16,14 +14,9 @@
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/tick_loop.h"
-#include "pipeline/turns.h"
 
 namespace viewloom {
 namespace {
-
-// An atlas is due after the time that its rays should take, so that a small one overtakes a large
-// one.
-constexpr int64_t kDueNsPerRay = 10;
 
 using OnFailure = std::function<void(const std::exception&)>;
 
@@ -86,8 +79,6 @@ struct Pipeline::Loops {
   bool offer(AtlasJob job);
   void noteComplete(const AtlasRun& run);
   void ringEngines();
-  // Of an atlas that is wanted from now on.
-  int64_t deadlineNs(const DisplaySpec& spec) const;
   void fail(const std::exception& error);
 
   const OnFailure on_failure;
@@ -140,16 +131,8 @@ void Pipeline::Loops::serve(const PipelineStream& stream, const FrameTicketPtr& 
   if (!resident) return;
   const std::vector<ActiveDisplayPtr> displays = links.broadcaster.displays(stream.name);
   if (ticket) ticket->noteBuilt(resident->stats, !displays.empty());
-  std::set<std::string_view> offered;
-  for (const ActiveDisplayPtr& display : displays) {
-    if (display->spec.temporal || !offered.insert(display->picture_key).second) continue;
-    offer({.picture_key = display->picture_key,
-           .structure = resident,
-           .deadline_ns = deadlineNs(display->spec),
-           .ticket = ticket,
-           .is_tracked = isTracked(display->spec),
-           .poses = display->eyes ? display->eyes->times() : PoseTimes{},
-           .asked_ns = links.clock.nowNs()});
+  for (AtlasJob& job : jobsOfFrame(resident, displays, ticket, links.clock.nowNs())) {
+    offer(std::move(job));
   }
   ticks.offer(stream.name, newest, ticket);
 }
@@ -169,16 +152,11 @@ void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
 }
 
 bool Pipeline::Loops::offerTrace(AtlasJob job, const DisplaySpec& spec) {
-  job.deadline_ns = deadlineNs(spec);
   job.asked_ns = links.clock.nowNs();
+  job.deadline_ns = deadlineNs(spec, job.asked_ns);
   const std::optional<JobBoard::Offered> offered = board.offerUnlessBusy(job);
   if (offered) engine_wake_ups[offered->engine].ring();
   return offered.has_value();
-}
-
-int64_t Pipeline::Loops::deadlineNs(const DisplaySpec& spec) const {
-  const int64_t due_ns = links.clock.nowNs() + kDueNsPerRay * rayCount(spec);
-  return isTracked(spec) ? due_ns - kEyesAhead_ns : due_ns;
 }
 
 Pipeline::Pipeline(PipelineLinks links, const PipelineOptions& options)
@@ -223,13 +201,7 @@ void Pipeline::serveEyes(uint64_t display_id) {
   if (!resident) return;
   // Only what is new wakes a loop: thousands of poses a second would each take a core from those
   // who answer them.
-  loops_->offer({.picture_key = display->picture_key,
-                 .structure = resident,
-                 .deadline_ns = loops_->deadlineNs(display->spec),
-                 .is_for_eyes = true,
-                 .is_tracked = true,
-                 .poses = display->eyes->times(),
-                 .asked_ns = loops_->links.clock.nowNs()});
+  loops_->offer(jobForEyes(*display, resident, loops_->links.clock.nowNs()));
 }
 
 void Pipeline::drain() {

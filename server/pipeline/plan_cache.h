@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/engines.h"
-#include "pipeline/job_queue.h"
 #include "publish/broadcaster.h"
+#include "schedule/atlas_job.h"
 
 namespace viewloom {
 

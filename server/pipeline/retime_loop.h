@@ -4,9 +4,7 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,15 +12,13 @@
 #include <vector>
 
 #include "metrics/metrics.h"
-#include "pipeline/job_queue.h"
-#include "publish/broadcaster.h"
+#include "schedule/retime_schedule.h"
 
 namespace viewloom {
 
-// Ticks of one stream are served one after the other, the picture that waits longest first, and
-// those of several streams at a time: on as many threads as there were such streams at once, each
-// made when it is first needed. Of a picture no more than one tick waits, the newest: what it
-// replaces is a tick skipped, and counted.
+// Serves ticks in the order of RetimeSchedule, of several streams at a time: on as many threads as
+// there were such streams at once, each made when it is first needed. A tick that is replaced is
+// counted.
 // Thread-safety: offer() and isBusy() from any thread; stop() from one thread, once.
 class RetimeLoop {
  public:
@@ -42,25 +38,15 @@ class RetimeLoop {
   void stop();
 
  private:
-  struct Tick {
-    AtlasJob job;
-    ActiveDisplayPtr display;
-  };
-  struct Stream {
-    std::vector<Tick> waiting;        // one of each picture, longest waiting first
-    std::optional<AtlasJob> in_hand;  // without its ticket
-  };
-  using Streams = std::map<std::string, Stream>;  // by name, those that have ticks
-
   void run();
-  std::optional<Tick> take();
+  std::optional<RetimeSchedule::Tick> take();
   void finish(const std::string& stream);
 
   const Metrics& metrics_;
   const Serve serve_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
-  Streams streams_;
+  RetimeSchedule schedule_;
   bool is_stopped_ = false;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "schedule/retime_schedule.h"
 
 namespace viewloom {
 
@@ -59,21 +60,16 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   return carried;
 }
 
-bool isRetimed(const AtlasJob& job) {
-  return job.structure->retimer && (job.before || job.tick->shown.carried_ns != 0);
-}
-
 bool showAsOfTick(AtlasJob& job) {
-  const int64_t carried_ns = job.tick->shown.carried_ns;
+  const RetimeDates dates = retimeDatesOf(job);
   const Guesses guesses = job.before ? Guesses::kGiveWay : Guesses::kStand;
-  // Of the frame before, only if that moves, too.
-  if (job.before && job.before->retimer) {
-    ResidentPtr before = job.before->retimer->carried(
-        job.before, carried_ns + job.tick->frames_apart_ns, StreamRetimer::Which::kBefore, guesses);
+  if (dates.before_ns) {
+    ResidentPtr before = job.before->retimer->carried(job.before, *dates.before_ns,
+                                                      StreamRetimer::Which::kBefore, guesses);
     if (!before) return false;
     job.before = std::move(before);
   }
-  ResidentPtr newest = job.structure->retimer->carried(job.structure, carried_ns,
+  ResidentPtr newest = job.structure->retimer->carried(job.structure, dates.newest_ns,
                                                        StreamRetimer::Which::kNewest, guesses);
   if (!newest) return false;
   job.structure = std::move(newest);

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "pipeline/frame_builder.h"
-#include "pipeline/job_queue.h"
 #include "retime/frame_retimer.h"
+#include "schedule/atlas_job.h"
 
 namespace viewloom {
 
@@ -48,9 +48,6 @@ class StreamRetimer {
   StreamPreparers preparers_;
   std::array<Carried, 2> carried_;
 };
-
-// What the job's tick shows is none of its frames: something that moves by itself has gone on.
-bool isRetimed(const AtlasJob& job);
 
 // Gives the job of a tick the structures of the time that is shown. False while there is no room.
 bool showAsOfTick(AtlasJob& job);

@@ -6,32 +6,15 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/latest_mailbox.h"
 #include "base/slot_pool.h"
-#include "display/taken_defaults.h"
-#include "pipeline/frame_ticket.h"
-#include "pipeline/resident_structure.h"
-#include "temporal/camera_track.h"
+#include "engine/engines.h"
+#include "schedule/stream_frames.h"
 
 namespace viewloom {
-
-struct OfferedFrame {
-  FramePtr frame;
-  uint64_t session = 0;  // see FrameOrigin
-  FrameTicketPtr ticket;
-};
-
-// What there is of a stream: its newest structure, and how its camera moves.
-struct StreamInstant {
-  ResidentPtr structure;
-  CameraMotion motion;
-  // The one before it, from elsewhere, where some display shows what lies between them.
-  ResidentPtr before = nullptr;
-};
 
 // Structures that an engine but the first may hold on to while the first goes on with newer ones:
 // that of an atlas on its way, which may take seconds, and that of the next. Where it holds more,
@@ -60,11 +43,7 @@ class PipelineStream {
   LatestMailbox<OfferedFrame> inbox;
   SlotPool<FrameForms> slots;
   StreamPreparers preparers;               // of those slots
-  FramePtr resident_frame;                 // of which the resident structure was made
-  std::optional<OfferedFrame> next;        // taken from the inbox, waits for a slot
-  uint64_t session = 0;                    // of the publisher, as the newest frame says
-  TakenDefaults defaults;                  // of the frames that were resident
-  CameraTrack track;                       // of the session's frames, resident or equal to it
+  StreamFrames frames;                     // since they were taken from the inbox
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
 
  private:

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/structure_loop.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/log.h"
-#include "base/str_cat.h"
 #include "base/thread_name.h"
-#include "frame/same_content.h"
 #include "pipeline/stream_retimer.h"
 
 namespace viewloom {
 namespace {
-
-TrackedFrame trackedFrame(const Frame& frame, const Frame* before, const SourceStats& stats,
-                          int64_t now_ns) {
-  TrackedFrame tracked = trackedFrame(frame, before, stats.inv_z_near);
-  tracked.arrived_ns = frame.times.first_chunk_ns;
-  tracked.built_ns = now_ns;
-  return tracked;
-}
 
 // What the frame itself says.
 ResidentStructure describe(const Frame& frame) {
@@ -70,57 +59,42 @@ void StructureLoop::run(const std::stop_token& stop) {
 // One frame of the stream; false when there is none or no slot for it.
 bool StructureLoop::serve(PipelineStream& stream) {
   if (auto newest = stream.inbox.take()) {
-    if (stream.next) links_.metrics.replaced[HandOver::kStructure].add();
-    stream.next = std::move(newest);
-    followSession(stream);
+    const auto replaced = stream.frames.offer(*std::move(newest));
+    if (replaced) links_.metrics.replaced[HandOver::kStructure].add();
     if (dropUnchanged(stream)) return true;
   }
-  if (!stream.next) return false;
+  const OfferedFrame* const next = stream.frames.next();
+  if (next == nullptr) return false;
   std::shared_ptr<FrameForms> slot;
   try {
-    slot = takeSlot(stream, stream.next->frame);
+    slot = takeSlot(stream, next->frame);
   } catch (const EngineOutOfMemory& error) {
     const std::string problem = error.what();
     log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", problem);
-    stream.next->ticket->noteRefused(problem);
-    stream.next.reset();
+    stream.frames.takeNext().ticket->noteRefused(problem);
     return true;
   }
   if (!slot) return false;
-  build(stream, *std::exchange(stream.next, std::nullopt), std::move(slot));
+  build(stream, stream.frames.takeNext(), std::move(slot));
   return true;
 }
 
-// A publisher's camera and clock say nothing about the camera and the clock of another.
-void StructureLoop::followSession(PipelineStream& stream) {
-  const uint64_t session = stream.next->session;
-  if (std::exchange(stream.session, session) != session) stream.track = {};
-}
-
-// The frame is compared with the resident one, not with the last: that may have been replaced or
-// refused. A camera that stood since the last frame moves no more: only then is there something to
-// tell. The first frame of a new session is built where the defaults are to be taken from it.
+// A camera that stood since the last frame moves no more: only then is there something to tell.
 bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   const ResidentPtr resident = stream.resident();
-  if (!resident || !haveSameContent(*stream.resident_frame, *stream.next->frame)) return false;
-  if (stream.defaults.isBegunBy(stream.session, resident->stats)) return false;
-  stream.defaults.follow(stream.session, resident->stats, resident->built_at_ns);
+  if (!resident) return false;
+  const auto motion = stream.frames.followUnchanged(*resident, links_.clock.nowNs());
+  if (!motion) return false;
   links_.metrics.frames_unchanged.add();
-  stream.next->ticket->noteUnchanged(resident->stats);
   const bool was_moving = stream.newest().motion.isMoving();
-  stream.setMotion(stream.track.add(trackedFrame(*stream.next->frame, stream.resident_frame.get(),
-                                                 resident->stats, links_.clock.nowNs())));
-  stream.next.reset();
+  stream.setMotion(*motion);
+  stream.frames.takeNext().ticket->noteUnchanged(resident->stats);
   if (was_moving) on_resident_(stream, nullptr);
   return true;
 }
 
-// Some display of the stream shows what lies between its frames.
 bool StructureLoop::isInterpolated(const PipelineStream& stream) const {
-  const std::vector<ActiveDisplayPtr> displays = links_.broadcaster.displays(stream.name);
-  return std::any_of(displays.begin(), displays.end(), [](const ActiveDisplayPtr& display) {
-    return display->spec.temporal && display->spec.temporal->mode == TemporalMode::kInterpolate;
-  });
+  return showBetweenFrames(links_.broadcaster.displays(stream.name));
 }
 
 std::shared_ptr<FrameForms> StructureLoop::takeSlot(PipelineStream& stream,
@@ -143,35 +117,18 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   }
 
   count(*structure, *offered.frame);
-  const CameraMotion& motion = stream.track.add(trackedFrame(
-      *offered.frame, stream.resident_frame.get(), structure->stats, structure->built_at_ns));
-  // A camera that stands has seen nothing else a frame ago.
-  const bool keeps_before = motion.isMoving() && motion.interval_ns > 0 && isInterpolated(stream);
-  stream.setNewest({std::move(structure), motion, keeps_before ? stream.resident() : nullptr});
-  stream.resident_frame = std::move(offered.frame);
+  stream.setNewest(stream.frames.becomeResident(std::move(offered.frame), std::move(structure),
+                                                stream.resident(), isInterpolated(stream)));
   on_resident_(stream, std::move(offered.ticket));
 }
 
-// Defaults of the stream, from this frame or from an earlier one; tells where they are others now.
+// Defaults of the stream; tells where they are others now.
 void StructureLoop::takeDefaults(PipelineStream& stream, const OfferedFrame& offered,
                                  ResidentStructure& structure) {
-  const std::string before =
-      stream.defaults.taking().count == 0 ? "" : depthRangeText(stream.defaults.stats());
-  const bool are_taken =
-      stream.defaults.follow(offered.session, structure.stats, structure.built_at_ns);
-  const SeenSource& first = structure.sources.front();
-  structure.defaults =
-      streamDefaults(first.camera.intrinsics, first.size_px, stream.defaults.stats());
-  structure.taking = stream.defaults.taking();
-  if (!are_taken || before.empty()) return;
-  const bool has_moved = structure.taking.reason == DefaultsReason::kDepthMoved;
-  const std::string note =
-      strCat(has_moved ? "" : "a new publisher: ", "depth was ", before, " and is ",
-             depthRangeText(structure.stats),
-             "; focal plane, depth range and aperture are taken anew from this frame, where a "
-             "display leaves them open");
-  log(LogLevel::kInfo, "stream ", stream.name, ": ", note);
-  if (has_moved) offered.ticket->say(note);
+  const auto note = stream.frames.takeDefaults(offered.session, structure);
+  if (!note) return;
+  log(LogLevel::kInfo, "stream ", stream.name, ": ", *note);
+  if (structure.taking.reason == DefaultsReason::kDepthMoved) offered.ticket->say(*note);
 }
 
 void StructureLoop::count(const ResidentStructure& structure, const Frame& frame) const {

@@ -31,7 +31,6 @@ class StructureLoop {
  private:
   void run(const std::stop_token& stop);
   bool serve(PipelineStream& stream);
-  static void followSession(PipelineStream& stream);
   bool dropUnchanged(PipelineStream& stream) const;
   bool isInterpolated(const PipelineStream& stream) const;
   std::shared_ptr<FrameForms> takeSlot(PipelineStream& stream, const FramePtr& frame) const;

@@ -4,18 +4,15 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "pipeline/job_queue.h"
 #include "pipeline/pipeline_links.h"
-#include "pipeline/stream_table.h"
 #include "pipeline/wake_up.h"
-#include "temporal/output_rate.h"
+#include "schedule/tick_schedule.h"
 
 namespace viewloom {
 
@@ -40,31 +37,17 @@ class TickLoop {
   void stop();
 
  private:
-  struct Picture {
-    ActiveDisplayPtr display;  // one of those that share it
-    OutputClock clock;
-    FrameTicketPtr ticket;
-  };
-  using Tickets = std::vector<FrameTicketPtr>;
-  struct DueTick {
-    ActiveDisplayPtr display;
-    AtlasJob job;
-    uint64_t missed_count = 0;
-  };
-
   void run(const std::stop_token& stop);
-  std::vector<DueTick> takeDue();
+  std::vector<TickSchedule::DueTick> takeDue();
   std::optional<int64_t> soonestNs();
-  void noteDisplays(const std::string& stream, Tickets& released);
-  void offerTick(DueTick& due);
+  void offerTick(TickSchedule::DueTick& due);
 
   const PipelineLinks& links_;
   const OfferTick offer_tick_;
   WakeUp wake_up_;
-  std::mutex mutex_;                              // guards what follows
-  std::map<std::string, StreamInstant> streams_;  // with such displays
-  std::map<std::string, Picture> pictures_;       // by picture_key
-  std::jthread thread_;                           // last: it uses all of the above
+  std::mutex mutex_;
+  TickSchedule schedule_;  // guarded by mutex_
+  std::jthread thread_;    // last: it uses all of the above
 };
 
 }  // namespace viewloom

@@ -12,7 +12,7 @@
 
 #include "e2e/gate_clock.h"
 #include "e2e/pipeline_fixture.h"
-#include "pipeline/moving_heads.h"
+#include "schedule/moving_heads.h"
 
 namespace viewloom::test {
 namespace {

@@ -55,10 +55,13 @@ LAYERS = {
     # Poses come in as frames do.
     "server/eye_poses": (["base", "display"], []),
     "server/publish": (["base", "frame", "display", "eye_poses", BAND], ["absl"]),
+    # What is made when, without threads (schedule_rules.py); those are the pipeline's.
+    "server/schedule": (["base", "frame", "display", "picture", "eye_poses", "temporal", "publish"],
+                        ["absl"]),
     # How an engine makes a picture is nobody else's business.
     "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", ENGINE,
                          "engine/engines.h", "eye_poses", "retime", "temporal", "encode", "publish",
-                         "metrics", SHADERS_SHARED],
+                         "schedule", "metrics", SHADERS_SHARED],
                         ["absl", "glm"]),
     "server/rpc": (["base", "frame", "decode", "display", "eye_poses", "messages", "metrics", BAND,
                     "publish"],
@@ -112,7 +115,8 @@ COMPOSITION = ("server/main.cpp", "server/service", "server/commands", "server/e
 
 # What must stay free of what it judges.
 INDEPENDENT = {
-    "tests/oracle": ["server/engine", "server/picture", "server/pipeline", "shaders"],
+    "tests/oracle": ["server/engine", "server/picture", "server/pipeline", "server/schedule",
+                     "shaders"],
 }
 
 THIRD_PARTY = [

@@ -12,6 +12,7 @@ import file_lengths
 import include_graph
 import layering
 import proto_rules
+import schedule_rules
 import text_rules
 import user_texts
 from tree import Tree
@@ -23,7 +24,7 @@ def main():
         include_graph.write(tree, sys.argv[3])
         return 0
     findings = sorted(finding for rules in (build_rules, include_graph, layering, proto_rules,
-                                              text_rules, user_texts)
+                                            schedule_rules, text_rules, user_texts)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)

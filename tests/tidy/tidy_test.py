@@ -6,6 +6,7 @@ import unittest
 import build_rules
 import layering
 import proto_rules
+import schedule_rules
 import text_rules
 import user_texts
 from planted_tree import rules_broken
@@ -56,6 +57,12 @@ class Layers(unittest.TestCase):
         self.assertEqual(self.broken("client/lib/a.h", "<vulkan/vulkan_raii.hpp>"), ["layers"])
         self.assertEqual(self.broken("server/rpc/a.h", "<grpcpp/server.h>"), [])
 
+    def test_the_schedule_knows_no_pipeline(self):
+        self.assertEqual(self.broken("server/schedule/a.h", '"pipeline/tick_loop.h"',
+                                     server__pipeline__tick_loop=1), ["layers"])
+        self.assertEqual(self.broken("server/pipeline/a.h", '"schedule/job_queue.h"',
+                                     server__schedule__job_queue=1), [])
+
     def test_the_standard_library_is_everybodys(self):
         self.assertEqual(self.broken("server/core/base/a.h", "<vector>"), [])
         self.assertEqual(self.broken("server/core/base/a.h", "<sys/socket.h>"), [])
@@ -74,6 +81,28 @@ class Layers(unittest.TestCase):
     def test_a_shader_library_knows_no_entry_point(self):
         self.assertEqual(self.broken("shaders/lib/a.glsl", '"trace/walk.h"',
                                      shaders__trace__walk=1), ["layers"])
+
+
+class Schedule(unittest.TestCase):
+    def broken(self, text, path="server/schedule/a.cpp"):
+        return [rule for _, rule in rules_broken(schedule_rules.check, {path: text + "\n"})]
+
+    def test_threads_waits_and_clocks_are_found(self):
+        for text in ("std::jthread thread_;", "std::thread thread;", "#include <thread>",
+                     "#include <condition_variable>", "std::condition_variable_any changed_;",
+                     "std::this_thread::sleep_for(nap);", "changed_.wait(lock);", "usleep (5);",
+                     "std::binary_semaphore may_go_on_{0};",
+                     "const auto now = std::chrono::steady_clock::now();", "SteadyClock clock;"):
+            self.assertEqual(self.broken(text), ["schedule"], text)
+
+    def test_clocks_that_are_handed_in_and_a_mutex_are_allowed(self):
+        for text in ("explicit Board(const Clock& clock);", "std::mutex mutex_;",
+                     "const int64_t now_ns = clock_.nowNs();", "std::lock_guard lock(mutex_);",
+                     "int64_t eyesWaitUntilNs(int64_t now_ns);", "// no std::thread here"):
+            self.assertEqual(self.broken(text), [], text)
+
+    def test_other_folders_have_threads(self):
+        self.assertEqual(self.broken("std::jthread thread_;", "server/pipeline/a.h"), [])
 
 
 class UserTexts(unittest.TestCase):

@@ -109,7 +109,7 @@ TEST_F(EncodeQueueTest, trackedDisplaysGoFirstButLeaveOthersTheirTurn) {
 TEST_F(EncodeQueueTest, anAtlasThatTakesLongLetsOthersGoFirstAndHasHalfOfTheTime) {
   push(runOf("lens", 100), 1, 3);
   EXPECT_EQ(popName(), "lens piece 0");
-  popped_->run->worked_ns = kTurn_ns;
+  popped_->run->at_work.had = kTurn_ns;
   push(runOf("quilt", 200), 1, 3);
   EXPECT_EQ(popName(), "quilt piece 0");
   queue_.noteServed(*popped_->run, 1000);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "pipeline/begun_runs.h"
-#include "pipeline/job_queue.h"
+#include "schedule/job_queue.h"
+#include "schedule/turns.h"
 
 namespace viewloom {
 
@@ -37,8 +37,9 @@ class JobBoard {
 
   // The next job that an engine may begin: one that is due before everything that has begun there,
   // or any where all that has is long, or one of eyes that wait where nobody's are served. None
-  // while eyes wait for newer poses: to begin a quilt would take longer.
-  std::optional<AtlasJob> begin(size_t engine, const BegunRuns& begun, bool has_room_for_eyes);
+  // while eyes wait for newer poses: to begin a quilt would take longer. `first_begun`: what goes
+  // first of all that has begun; nullptr = nothing has.
+  std::optional<AtlasJob> begin(size_t engine, const Claim* first_begun, bool has_room_for_eyes);
   // Until when tracked displays of the engine rather wait for poses, as begin() found it.
   std::optional<int64_t> eyesWaitUntilNs(size_t engine) const;
   // A job that has begun turns out to be another engine's, and so are later ones of its picture.

@@ -2,8 +2,8 @@
 // Which of the heads that move is next, by hand.
 #include <gtest/gtest.h>
 
-#include "pipeline/job_queue.h"
-#include "unit/pipeline/head_jobs.h"
+#include "schedule/job_queue.h"
+#include "unit/schedule/head_jobs.h"
 
 namespace viewloom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/job_aim.h"
+#include "pipeline/aim.h"
 
 namespace viewloom {
 namespace {
@@ -23,9 +23,16 @@ Aim aimOf(const ActiveDisplay& display, const AtlasJob& job) {
   Camera camera = job.structure->sources.front().camera;
   if (job.tick) camera.pose = job.tick->shown.source_pose;
   Aim aim{.sources = {}, .display_pose = displayPose(display.spec, camera)};
-  addSources(*job.structure, job.tick, aim.sources);
-  if (job.before) addSources(*job.before, job.tick, aim.sources);
+  for (const ResidentStructure* structure : structuresOf(job)) {
+    addSources(*structure, job.tick, aim.sources);
+  }
   return aim;
+}
+
+std::vector<const ResidentStructure*> structuresOf(const AtlasJob& job) {
+  std::vector<const ResidentStructure*> structures = {job.structure.get()};
+  if (job.before) structures.push_back(job.before.get());
+  return structures;
 }
 
 }  // namespace viewloom

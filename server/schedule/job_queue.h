@@ -4,40 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "eye_poses/eye_track.h"
-#include "pipeline/frame_ticket.h"
-#include "pipeline/moving_heads.h"
-#include "pipeline/resident_structure.h"
-#include "temporal/camera_motion.h"
+#include "schedule/atlas_job.h"
+#include "schedule/moving_heads.h"
 
 namespace viewloom {
-
-// What a display with a rate of its own wants at one of its ticks.
-struct OutputTick {
-  int64_t due_ns = 0;  // server's monotonic clock
-  ShownInstant shown;
-  int64_t frames_apart_ns = 0;  // the newest and the one before, by the publisher's clock
-};
-
-// An atlas to be made: one picture, from one structure. Displays with equal picture_key share it.
-struct AtlasJob {
-  std::string picture_key;
-  ResidentPtr structure;
-  int64_t deadline_ns = 0;   // server's monotonic clock
-  FrameTicketPtr ticket;     // of the structure's frame; nullptr when the frame is reported already
-  bool is_for_eyes = false;  // that have moved since the display was given this structure
-  bool is_tracked = false;   // of a tracked display
-  PoseTimes poses = {};      // of its eyes
-  std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
-  int64_t asked_ns = 0;                           // when it was first offered
-  ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
-};
 
 // How often all tracked displays may go before one that waits, which then is next. Of eight heads
 // that move at random times, 2.4 of them answered in an interval of 90 Hz, none is passed over more

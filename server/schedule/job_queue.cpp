@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/job_queue.h"
+#include "schedule/job_queue.h"
 
 #include <algorithm>
 #include <utility>

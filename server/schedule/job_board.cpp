@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/job_board.h"
+#include "schedule/job_board.h"
 
 #include <algorithm>
 #include <utility>
@@ -40,15 +40,16 @@ bool JobBoard::isBusy(const std::string& picture_key) const {
   return lanes_[engineOf(picture_key)].jobs.isBusy(picture_key);
 }
 
-std::optional<AtlasJob> JobBoard::begin(size_t engine, const BegunRuns& begun,
+std::optional<AtlasJob> JobBoard::begin(size_t engine, const Claim* first_begun,
                                         bool has_room_for_eyes) {
   std::lock_guard lock(mutex_);
   Lane& lane = lanes_[engine];
   lane.eyes_wait_until_ns.reset();
   const std::optional<int64_t> due_ns = lane.jobs.soonestDeadlineNs();
-  const AtlasRunPtr run = begun.soonest();
-  const bool is_due = due_ns && (!run || run->isLong() || *due_ns < run->job.deadline_ns);
-  const bool eyes_wait = run && !run->isTracked() && lane.jobs.hasTracked();
+  const bool is_due = due_ns && (first_begun == nullptr || first_begun->isLong() ||
+                                 *due_ns < first_begun->deadline_ns);
+  const bool eyes_wait =
+      first_begun != nullptr && !first_begun->is_tracked && lane.jobs.hasTracked();
   if (!is_due && !eyes_wait) return std::nullopt;
   if (!lane.jobs.isSoonestTracked()) return lane.jobs.begin();
   // One head at a time: who is next depends on the poses that there are when it is his turn.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/frame_ticket.h"
+#include "schedule/frame_ticket.h"
 
 #include <utility>
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "pipeline/job_queue.h"
-#include "pipeline/resident_structure.h"
+#include "schedule/job_queue.h"
+#include "schedule/resident_structure.h"
 
 namespace viewloom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structure of one frame, ready to be traced, and what is known of that frame.
+// The structure of one frame, ready to be traced, and what is known of that frame and its stream.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 #include "display/atlas_layout.h"
 #include "display/taken_defaults.h"
-#include "engine/engines.h"
 #include "frame/depth_spread.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 #include "picture/trace_job.h"
+#include "temporal/camera_motion.h"
 
 namespace viewloom {
 
+class FrameForms;
 class StreamRetimer;
 
 // Immutable once built. Its slot goes back to the stream's pool with the last reader, so whoever
@@ -44,5 +45,13 @@ struct ResidentStructure {
 };
 
 using ResidentPtr = std::shared_ptr<const ResidentStructure>;
+
+// The newest structure of a stream, and how its camera moves.
+struct StreamInstant {
+  ResidentPtr structure;
+  CameraMotion motion;
+  // The one before it, from elsewhere, where some display shows what lies between them.
+  ResidentPtr before = nullptr;
+};
 
 }  // namespace viewloom

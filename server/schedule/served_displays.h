@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/job_queue.h"
 #include "publish/broadcaster.h"
+#include "schedule/atlas_job.h"
 
 namespace viewloom {
 

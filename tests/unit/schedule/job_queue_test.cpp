@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/job_queue.h"
+#include "schedule/job_queue.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/resident_structure.h"
+#include "schedule/resident_structure.h"
 
 namespace viewloom {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/job_queue.h"
-#include "unit/pipeline/head_jobs.h"
+#include "schedule/job_queue.h"
+#include "unit/schedule/head_jobs.h"
 
 namespace viewloom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/served_displays.h"
+#include "schedule/served_displays.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/moving_heads.h"
+#include "schedule/moving_heads.h"
 
 #include <algorithm>
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "schedule/atlas_job.h"
+
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "display/tracked_eyes.h"
+#include "picture/ray_count.h"
+
+namespace viewloom {
+
+int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns) {
+  const int64_t due_ns = now_ns + kDueNsPerRay * rayCount(spec);
+  return isTracked(spec) ? due_ns - kEyesAhead_ns : due_ns;
+}
+
+std::vector<AtlasJob> jobsOfFrame(const ResidentPtr& structure,
+                                  const std::vector<ActiveDisplayPtr>& displays,
+                                  const FrameTicketPtr& ticket, int64_t now_ns) {
+  std::vector<AtlasJob> jobs;
+  std::set<std::string_view> offered;
+  for (const ActiveDisplayPtr& display : displays) {
+    if (display->spec.temporal || !offered.insert(display->picture_key).second) continue;
+    jobs.push_back({.picture_key = display->picture_key,
+                    .structure = structure,
+                    .deadline_ns = deadlineNs(display->spec, now_ns),
+                    .ticket = ticket,
+                    .is_tracked = isTracked(display->spec),
+                    .poses = display->eyes ? display->eyes->times() : PoseTimes{},
+                    .asked_ns = now_ns});
+  }
+  return jobs;
+}
+
+AtlasJob jobForEyes(const ActiveDisplay& display, ResidentPtr structure, int64_t now_ns) {
+  return {.picture_key = display.picture_key,
+          .structure = std::move(structure),
+          .deadline_ns = deadlineNs(display.spec, now_ns),
+          .ticket = nullptr,
+          .is_for_eyes = true,
+          .is_tracked = true,
+          .poses = display.eyes->times(),
+          .asked_ns = now_ns};
+}
+
+}  // namespace viewloom
