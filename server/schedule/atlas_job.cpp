@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "display/atlas_layout.h"
 #include "display/tracked_eyes.h"
-#include "picture/ray_count.h"
 
 namespace viewloom {
 

@@ -202,7 +202,7 @@ TEST_F(LensList, takesAnOpenRayToSeeTheFarSideOfWhatItPassedBehind) {
   // Behind the wall alone: what it passed into, at 60 - 10 / 4.
   EXPECT_EQ(guessedTexel(host, 60, -10), 57);
   // From further away than px can be told.
-  EXPECT_EQ(guessedTexel(host, 120, 3e38F), kNoTexel);
+  EXPECT_EQ(guessedTexel(host, 120, 3e38F), kNothingSeen);
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ struct LensCounts {
   uint32_t gathered;
 };
 constexpr std::array<LensCounts, 3> kLensCounts = {{{4, 16}, {8, 32}, {16, 64}}};
-struct ReflectionCounts {
+struct ReflectedRays {
   uint32_t bounces;
   uint32_t samples;
 };
-constexpr std::array<ReflectionCounts, 3> kReflectionCounts = {{{1, 2}, {2, 4}, {4, 16}}};
+constexpr std::array<ReflectedRays, 3> kReflectionCounts = {{{1, 2}, {2, 4}, {4, 16}}};
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void settle(TemporalSpec& temporal) {
 }
 
 void settle(ReflectionSpec& reflection, Quality quality) {
-  const ReflectionCounts& counts = kReflectionCounts[size_t(quality)];
+  const ReflectedRays& counts = kReflectionCounts[size_t(quality)];
   if (reflection.bounce_count == 0) reflection.bounce_count = counts.bounces;
   if (reflection.sample_count == 0) reflection.sample_count = counts.samples;
 }

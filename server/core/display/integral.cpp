@@ -20,7 +20,7 @@ struct KnownPanel {
   double focal_length_m;
 };
 
-constexpr KnownPanel kPresets[] = {
+constexpr KnownPanel kPanels[] = {
     {.device = {.name = "near_eye_2013",
                 .device = "Near-eye display of Lanman and Luebke, 2013",
                 .note = "a Sony ECX332A of 15.36 x 8.64 mm; the paper crops it to 15 x 8 lenses",
@@ -42,12 +42,11 @@ absl::Status completeLensCount(uint32_t& count, uint32_t side_px, double lens_px
 
 absl::Status takePreset(IntegralSpec& integral) {
   if (integral.preset.empty()) return absl::OkStatus();
-  const auto preset =
-      std::find_if(std::begin(kPresets), std::end(kPresets),
-                   [&](const auto& known) { return integral.preset == known.device.name; });
-  if (preset == std::end(kPresets)) {
-    return unknownPreset(integral.preset, "integral.preset",
-                         {std::string(kPresets[0].device.name)});
+  const auto preset = std::find_if(std::begin(kPanels), std::end(kPanels), [&](const auto& known) {
+    return integral.preset == known.device.name;
+  });
+  if (preset == std::end(kPanels)) {
+    return unknownPreset(integral.preset, "integral.preset", {std::string(kPanels[0].device.name)});
   }
   const auto fill = [](double& given, double value) {
     if (given == 0) given = value;
@@ -83,7 +82,7 @@ std::optional<OpenFov> openFov(const IntegralSpec&) {
 
 std::vector<KnownDevice> devicesOf(const IntegralSpec&) {
   std::vector<KnownDevice> devices;
-  for (const KnownPanel& preset : kPresets) devices.push_back(preset.device);
+  for (const KnownPanel& preset : kPanels) devices.push_back(preset.device);
   return devices;
 }
 

@@ -110,7 +110,7 @@ int32_t guessSeen(const GatheredRays& rays, const OpenRay& open) {
         std::abs(near_side - far_side) <= structure.kappa.at(std::max(near_side, far_side));
     return passing.texelAt(path.at(is_linked ? behind : front));
   }
-  return kNoTexel;
+  return kNothingSeen;
 }
 
 }  // namespace viewloom

@@ -9,11 +9,12 @@
 
 namespace viewloom {
 
-inline constexpr int32_t kNoTexel = -1;
+inline constexpr int32_t kNothingSeen = -1;
 
 // The texel, in the color of all layers, that an open ray of these is taken to see: the far side of
 // a silhouette that it passed behind; or what it passed into, if that was no silhouette but a
-// surface that no sheet stands for. kNoTexel: it passed behind nothing that it could be told by.
+// surface that no sheet stands for. kNothingSeen: it passed behind nothing that it could be told
+// by.
 int32_t guessSeen(const GatheredRays& rays, const OpenRay& open);
 
 }  // namespace viewloom

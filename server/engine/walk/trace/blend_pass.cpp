@@ -11,9 +11,9 @@
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingSample, DescriptorKind::kStorage},
-                                     {abi::kBindingSums, DescriptorKind::kStorage},
-                                     {abi::kBindingBand, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kBlendSlots[] = {{abi::kBindingSample, DescriptorKind::kStorage},
+                                          {abi::kBindingSums, DescriptorKind::kStorage},
+                                          {abi::kBindingBand, DescriptorKind::kStorage}};
 
 // Groups a row of the dispatch: bands have more px than a row may have groups.
 constexpr uint32_t kGroupsPerRow = 1024;
@@ -31,7 +31,7 @@ ComputePass BlendPass::makePass(const Device& device, const std::monostate&) {
   return {device,
           {.spirv = blend_samples_spirv,
            .push_bytes = sizeof(abi::BlendPush),
-           .descriptors = kSlots,
+           .descriptors = kBlendSlots,
            .debug_name = "blend samples"}};
 }
 

@@ -12,7 +12,7 @@
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingAnswers, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kJoinSlots[] = {{abi::kBindingAnswers, DescriptorKind::kStorage}};
 
 }  // namespace
 
@@ -20,7 +20,7 @@ ComputePass JoinPass::makePass(const Device& device, const std::monostate&) {
   return {device,
           {.spirv = join_faces_spirv,
            .push_bytes = sizeof(abi::JoinPush),
-           .descriptors = kSlots,
+           .descriptors = kJoinSlots,
            .debug_name = "join faces"}};
 }
 

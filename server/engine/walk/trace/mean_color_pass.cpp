@@ -11,10 +11,11 @@
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
-                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
-                                     {abi::kBindingColor, DescriptorKind::kTexels},
-                                     {abi::kBindingMeans, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kMeanColorSlots[] = {
+    {abi::kBindingStructure, DescriptorKind::kTexels},
+    {abi::kBindingStructureHalves, DescriptorKind::kTexels},
+    {abi::kBindingColor, DescriptorKind::kTexels},
+    {abi::kBindingMeans, DescriptorKind::kStorage}};
 
 // Px of a strip share what they load, and what an invocation costs before it does anything; on
 // hardware neighbouring invocations would then load what lies apart.
@@ -37,7 +38,7 @@ ComputePass MeanColorPass::makePass(const Device& device, const Variant& variant
           {.spirv = average_color_spirv,
            .push_bytes = sizeof(abi::AveragePush),
            .constants = constants,
-           .descriptors = kSlots,
+           .descriptors = kMeanColorSlots,
            .debug_name = "average color"}};
 }
 

@@ -14,10 +14,10 @@
 namespace viewloom {
 namespace {
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingViews, DescriptorKind::kStorage},
-                                     {abi::kBindingExtras, DescriptorKind::kUniform},
-                                     {abi::kBindingBand, DescriptorKind::kStorage},
-                                     {abi::kBindingAnswers, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kMergeSlots[] = {{abi::kBindingViews, DescriptorKind::kStorage},
+                                          {abi::kBindingExtras, DescriptorKind::kUniform},
+                                          {abi::kBindingBand, DescriptorKind::kStorage},
+                                          {abi::kBindingAnswers, DescriptorKind::kStorage}};
 
 bool hasBit(uint64_t bits, uint32_t index) {
   return (bits >> index & 1) != 0;
@@ -67,7 +67,7 @@ ComputePass MergePass::makePass(const Device& device, const Variant& variant) {
           {.spirv = merge_sources_spirv,
            .push_bytes = sizeof(abi::MergePush),
            .constants = constants,
-           .descriptors = kSlots,
+           .descriptors = kMergeSlots,
            .debug_name = "merge sources"}};
 }
 

@@ -13,8 +13,8 @@ namespace {
 constexpr uint32_t kPixelsPerInvocation = 8;  // of a row
 static_assert(YcbcrLayout::kPadding_px % kPixelsPerInvocation == 0);
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingBand, DescriptorKind::kStorage},
-                                     {abi::kBindingPlanes, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kPackSlots[] = {{abi::kBindingBand, DescriptorKind::kStorage},
+                                         {abi::kBindingPlanes, DescriptorKind::kStorage}};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ ComputePass PackPass::makePass(const Device& device, const ColorForm& form) {
           {.spirv = pack_band_spirv,
            .push_bytes = sizeof(abi::PackPush),
            .constants = {&is_420, 1},
-           .descriptors = kSlots,
+           .descriptors = kPackSlots,
            .debug_name = "pack band"}};
 }
 

@@ -21,17 +21,17 @@ namespace {
 // (abi::kAtEye).
 constexpr double kInvZOfOthers = 1;  // 1/m
 
-constexpr DescriptorSlot kSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
-                                     {abi::kBindingStructureHalves, DescriptorKind::kTexels},
-                                     {abi::kBindingColor, DescriptorKind::kTexels},
-                                     {abi::kBindingMeasured, DescriptorKind::kUniform},
-                                     {abi::kBindingViews, DescriptorKind::kStorage},
-                                     {abi::kBindingExtras, DescriptorKind::kUniform},
-                                     {abi::kBindingLensPoints, DescriptorKind::kStorage},
-                                     {abi::kBindingBand, DescriptorKind::kStorage},
-                                     {abi::kBindingSums, DescriptorKind::kStorage},
-                                     {abi::kBindingIncomplete, DescriptorKind::kStorage},
-                                     {abi::kBindingUnfinished, DescriptorKind::kStorage}};
+constexpr DescriptorSlot kWalkSlots[] = {{abi::kBindingStructure, DescriptorKind::kTexels},
+                                         {abi::kBindingStructureHalves, DescriptorKind::kTexels},
+                                         {abi::kBindingColor, DescriptorKind::kTexels},
+                                         {abi::kBindingMeasured, DescriptorKind::kUniform},
+                                         {abi::kBindingViews, DescriptorKind::kStorage},
+                                         {abi::kBindingExtras, DescriptorKind::kUniform},
+                                         {abi::kBindingLensPoints, DescriptorKind::kStorage},
+                                         {abi::kBindingBand, DescriptorKind::kStorage},
+                                         {abi::kBindingSums, DescriptorKind::kStorage},
+                                         {abi::kBindingIncomplete, DescriptorKind::kStorage},
+                                         {abi::kBindingUnfinished, DescriptorKind::kStorage}};
 
 uint32_t shownBeside(const TraceJob& job) {
   uint32_t flags = 0;
@@ -75,7 +75,7 @@ ComputePass WalkPass::makePass(const Device& device, const Variant& variant) {
           {.spirv = walk_views_spirv,
            .push_bytes = sizeof(abi::TracePush),
            .constants = constants,
-           .descriptors = kSlots,
+           .descriptors = kWalkSlots,
            .debug_name = "walk views"}};
 }
 
