@@ -68,7 +68,7 @@ struct DepthCodes {
   uint32_t codeMax() const { return (1U << bits) - 1; }
 };
 
-// As what makes codes takes them.
+// Scale of the codes, for those who make them.
 abi::DepthScale scaleOf(const DepthCodes& codes);
 
 // A grid of equal tiles. `order` is the only statement about where views are.

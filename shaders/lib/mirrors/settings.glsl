@@ -10,7 +10,7 @@ layout(set = 0, binding = kBindingReflection, scalar) uniform Settings {
   ReflectionSettings settings;
 };
 
-// Of the normals that the walk's source gives.
+// Axes of the normals that the walk's source gives.
 mat3 normalAxes() {
   return mat3(settings.source_right, settings.source_down, settings.source_forward);
 }
