@@ -5,8 +5,8 @@
 #include <initializer_list>
 
 #include "patterns/layer_drawing.h"
-#include "patterns/lettering.h"
 #include "patterns/pattern.h"
+#include "text/font.h"
 
 namespace viewloom::patterns {
 

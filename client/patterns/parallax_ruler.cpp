@@ -9,7 +9,7 @@
 #include "base/str_cat.h"
 #include "patterns/finish_pattern.h"
 #include "patterns/layer_drawing.h"
-#include "patterns/lettering.h"
+#include "text/font.h"
 
 namespace viewloom::patterns {
 namespace {

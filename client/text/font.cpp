@@ -4,6 +4,10 @@
 #include <SDL.h>
 #include <SDL_ttf.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -57,6 +61,30 @@ absl::StatusOr<WrittenText> Font::write(const std::string& text) const {
     }
   }
   return picture;
+}
+
+namespace {
+
+constexpr double kEmMin_px = 5;  // smaller letters are none
+
+}  // namespace
+
+WrittenText Lettering::write(double em_px, const std::string& text) {
+  if (!status_.ok()) return {};
+  const int size_px = static_cast<int>(std::floor(std::max(em_px, kEmMin_px)));
+  std::unique_ptr<Font>& font = fonts_[size_px];
+  if (font == nullptr) {
+    absl::StatusOr<std::unique_ptr<Font>> opened = Font::open(size_px);
+    if (!opened.ok()) {
+      status_ = opened.status();
+      return {};
+    }
+    font = *std::move(opened);
+  }
+  absl::StatusOr<WrittenText> written = font->write(text);
+  if (written.ok()) return *std::move(written);
+  status_ = written.status();
+  return {};
 }
 
 }  // namespace viewloom

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,19 @@ class Font {
   explicit Font(_TTF_Font* font) : font_(font) {}
 
   _TTF_Font* font_;
+};
+
+// Letters of every size that somebody asks for. Thread-safety: as Font.
+class Lettering {
+ public:
+  // An empty picture where it cannot be written; status() says why.
+  WrittenText write(double em_px, const std::string& text);
+  // The first problem there was.
+  const absl::Status& status() const { return status_; }
+
+ private:
+  std::map<int, std::unique_ptr<Font>> fonts_;  // by their size, px
+  absl::Status status_;
 };
 
 }  // namespace viewloom
