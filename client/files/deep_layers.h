@@ -22,7 +22,7 @@ struct DeepReport {
   uint32_t samples_per_px_max = 0;
   uint64_t pixel_count = 0;         // with samples
   uint64_t merged_pixel_count = 0;  // with surfaces at more depths than there are layers
-  double error_mean_per_m = 0;      // occlusion error (deep/partition.h), 1/m
+  double error_mean_per_m = 0;      // occlusion error (deep/split_pixel.h), 1/m
   double error_max_per_m = 0;
 
   double mergedShare() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deep/partition.h"
+#include "deep/split_pixel.h"
 
 #include <gtest/gtest.h>
 
