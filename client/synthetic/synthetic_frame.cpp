@@ -13,9 +13,7 @@
 #include "base/check.h"
 #include "base/srgb.h"
 #include "synthetic/cast_row.h"
-#include "synthetic/surface_color.h"
-#include "synthetic/surface_gloss.h"
-#include "synthetic/surface_motion.h"
+#include "synthetic/surface.h"
 
 namespace viewloom {
 namespace {

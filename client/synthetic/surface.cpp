@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synthetic/surface_color.h"
+#include "synthetic/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <glm/vec2.hpp>
 
 namespace viewloom::synthetic {
 namespace {
@@ -133,6 +135,66 @@ vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
 vec3 surfaceNormal(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
                    const glm::dvec3& direction) {
   return materialAt(scene, hit, point_m, direction, 1.0F).normal;
+}
+
+Gloss glossOf(const Hit& hit) {
+  switch (hit.kind) {
+    case SurfaceKind::kGround:
+      return {.light = {0.30F, 0.34F, 0.38F}, .roughness = 0, .own_share = 0.35F};
+    case SurfaceKind::kPanel:
+      return {.light = {0.85F, 0.87F, 0.90F}, .roughness = 0, .own_share = 0.08F};
+    case SurfaceKind::kSphere:
+      if (hit.index == 1 || hit.index == 5) {  // chrome
+        return {.light = {0.80F, 0.80F, 0.82F}, .roughness = 0, .own_share = 0.12F};
+      }
+      if (hit.index == 0 || hit.index == 4) {  // brushed copper
+        return {.light = {0.75F, 0.45F, 0.30F}, .roughness = 0.4F, .own_share = 0.3F};
+      }
+      return {};
+    default:
+      return {};
+  }
+}
+
+uint32_t octahedron(const glm::vec3& normal) {
+  const glm::vec3 size = glm::abs(normal);
+  const glm::vec3 on = normal / (size.x + size.y + size.z);
+  const auto folded = [](float value, float other) {
+    return std::copysign(1.0F - std::abs(other), value);
+  };
+  const glm::vec2 uv =
+      on.z >= 0 ? glm::vec2(on) : glm::vec2(folded(on.x, on.y), folded(on.y, on.x));
+  const auto code = [](float value) {
+    return static_cast<uint32_t>(std::lround((std::clamp(value, -1.0F, 1.0F) + 1.0F) * 32767.5F));
+  };
+  return code(uv.x) | code(uv.y) << 16;
+}
+
+namespace {
+
+// Of a body that turns around the upright through its centre.
+glm::dvec3 motionAt(const glm::dvec3& velocity_mps, double turn_rad_per_s,
+                    const glm::dvec3& from_center_m) {
+  return velocity_mps + glm::cross(glm::dvec3(0, turn_rad_per_s, 0), from_center_m);
+}
+
+}  // namespace
+
+glm::dvec3 surfaceMotion(const Scene& scene, const Hit& hit, const glm::dvec3& point_m) {
+  if (hit.kind == SurfaceKind::kSphere) {
+    const Sphere& ball = scene.spheres[hit.index];
+    return motionAt(ball.velocity_mps, ball.spin_rad_per_s, point_m - ball.center_m);
+  }
+  if (hit.kind == SurfaceKind::kPanel) {
+    const Panel& panel = scene.panel;
+    return motionAt(panel.velocity_mps, panel.turn_rad_per_s, point_m - panel.center_m);
+  }
+  return glm::dvec3(0.0);
+}
+
+std::array<uint16_t, 3> halvesOf(const glm::dvec3& vector) {
+  return {glm::packHalf1x16(float(vector.x)), glm::packHalf1x16(float(vector.y)),
+          glm::packHalf1x16(float(vector.z))};
 }
 
 }  // namespace viewloom::synthetic
