@@ -9,7 +9,7 @@
 
 #include "base/status.h"
 #include "offline/truth_image.h"
-#include "scoring/class_scores.h"
+#include "scoring/image_score.h"
 #include "walk/offline_renderer.h"
 
 namespace viewloom {

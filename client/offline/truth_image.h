@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/status.h"
-#include "scoring/class_scores.h"
+#include "scoring/image_score.h"
 #include "viewloom/v1/manifest.pb.h"
 
 namespace viewloom {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "base/check.h"
 #include "scoring/flip.h"
@@ -138,6 +139,21 @@ ImageScore ImageComparison::score(std::span<const uint8_t> selected,
   result.ssim = ssim_sum / count;
   result.flip = flip_sum / count;
   return result;
+}
+
+ClassScores scoreByClass(const ImageComparison& comparison, std::span<const PixelClass> classes) {
+  std::vector<uint8_t> selected(classes.size());
+  const auto score = [&](auto is_selected) {
+    std::transform(classes.begin(), classes.end(), selected.begin(), is_selected);
+    return comparison.score(selected, classes.size());
+  };
+  const auto of_class = [&](PixelClass wanted) {
+    return score([wanted](PixelClass given) { return given == wanted; });
+  };
+  return {.covered = of_class(PixelClass::kCovered),
+          .hidden = of_class(PixelClass::kHidden),
+          .outside = of_class(PixelClass::kOutside),
+          .all = score([](PixelClass) { return true; })};
 }
 
 }  // namespace viewloom

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// How close a picture comes to the truth: PSNR, SSIM and FLIP over chosen pixels.
+// How close a picture comes to the truth: PSNR, SSIM and FLIP over chosen pixels, and apart for
+// what the source knows and what had to be made up.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/srgb.h"
 #include "frame/size.h"
-#include "scoring/score_transfer.h"
 
 namespace viewloom {
+
+// How light becomes the numbers that are compared.
+enum class ScoreTransfer : uint8_t { kSrgb, kGamma22 };
+
+// An sRGB-encoded sample (0..1) in the transfer that is scored, and what is scored as light.
+inline float scoredSample(float srgb_encoded, ScoreTransfer transfer) {
+  if (transfer == ScoreTransfer::kSrgb) return srgb_encoded;
+  return static_cast<float>(std::pow(std::max(linearFromSrgb(srgb_encoded), 0.0), 1 / 2.2));
+}
+inline double linearFromScored(double scored, ScoreTransfer transfer) {
+  return transfer == ScoreTransfer::kSrgb ? linearFromSrgb(scored) : std::pow(scored, 2.2);
+}
 
 // float[height][width][3], R G B in 0..1 in the transfer that is scored; top row first.
 struct ScoredImage {
@@ -43,5 +58,19 @@ class ImageComparison {
   std::vector<double> ssim_;           // [pixel]
   std::vector<float> flip_;            // [pixel]
 };
+
+// Whether a pixel of a view can be known from the source: covered by what it shows, hidden behind
+// that, or outside its image.
+enum class PixelClass : uint8_t { kHidden, kOutside, kCovered };
+
+struct ClassScores {
+  ImageScore covered;
+  ImageScore hidden;
+  ImageScore outside;
+  ImageScore all;
+};
+
+// classes: PixelClass[height][width] of the pictures compared.
+ClassScores scoreByClass(const ImageComparison& comparison, std::span<const PixelClass> classes);
 
 }  // namespace viewloom

@@ -13,7 +13,7 @@
 
 #include "base/str_cat.h"
 #include "offline/manifest_frame.h"
-#include "scoring/score_transfer.h"
+#include "scoring/image_score.h"
 #include "support/data_sets.h"
 
 namespace viewloom::bench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scoring/class_scores.h"
+#include "scoring/image_score.h"
 #include "support/data_sets.h"
 
 namespace viewloom::fidelity {
