@@ -22,8 +22,7 @@
 #include "cli/watch_words.h"
 #include "eyes/eye_feed.h"
 #include "lib/channel.h"
-#include "lib/clock_follower.h"
-#include "lib/frame_latency.h"
+#include "lib/latency.h"
 #include "lib/watcher.h"
 #include "usage/command_line.h"
 

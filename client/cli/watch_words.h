@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/motion_latency.h"
+#include "lib/latency.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom::cli {

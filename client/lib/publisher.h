@@ -16,8 +16,8 @@
 #include <grpcpp/client_context.h>
 
 #include "base/status.h"
-#include "lib/chunk_size.h"
 #include "lib/compress_frame.h"
+#include "lib/frame_messages.h"
 #include "lib/heartbeat_writer.h"
 #include "lib/retry_loop.h"
 #include "lib/silence_watch.h"

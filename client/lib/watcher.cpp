@@ -2,6 +2,8 @@
 #include "lib/watcher.h"
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <utility>
 
 #include "lib/channel.h"
@@ -180,6 +182,24 @@ absl::Status Watcher::deliver(v1::StreamAtlasesResponse message) {
   if (is_layout && callbacks_.on_layout) callbacks_.on_layout(*assembler_.layout());
   if (atlas->has_value() && callbacks_.on_atlas) callbacks_.on_atlas(**std::move(atlas));
   return absl::OkStatus();
+}
+
+namespace {
+
+constexpr std::chrono::milliseconds kFirstPause(50);
+constexpr std::chrono::milliseconds kPause(1000);
+constexpr size_t kFirstCount = ServerClock::kProbeCount;
+
+}  // namespace
+
+void ClockFollower::run(Watcher& watcher, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any stopped;
+  std::unique_lock lock(mutex);
+  for (size_t count = 0; !stop.stop_requested(); ++count) {
+    watcher.probeClock();
+    stopped.wait_for(lock, stop, count < kFirstCount ? kFirstPause : kPause, [] { return false; });
+  }
 }
 
 }  // namespace viewloom

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches one stream on one display: whole atlases, through broken connections.
+// Watches one stream on one display: whole atlases, through broken connections, and the clock of
+// the server.
 #pragma once
+
+#include <grpcpp/channel.h>
 
 #include <condition_variable>
 #include <cstdint>
@@ -8,9 +11,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
-
-#include <grpcpp/channel.h>
 
 #include "base/status.h"
 #include "lib/atlas_assembler.h"
@@ -96,6 +98,22 @@ class Watcher {
   Call* call_ = nullptr;    // null = no call; guarded by write_mutex_
 
   std::jthread thread_;  // last: joins before what it uses goes
+};
+
+// Asks the server again and again what time it is: quickly at first, so that the clock is known at
+// once, then once a second, since clocks drift.
+// Thread-safety: none; the watcher outlives it.
+class ClockFollower {
+ public:
+  explicit ClockFollower(Watcher& watcher)
+      : thread_([&watcher](const std::stop_token& stop) { run(watcher, stop); }) {}
+  // Stop the watcher first: a probe may wait for a network that is not there.
+  ~ClockFollower() = default;
+
+ private:
+  static void run(Watcher& watcher, const std::stop_token& stop);
+
+  std::jthread thread_;
 };
 
 }  // namespace viewloom

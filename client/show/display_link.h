@@ -10,7 +10,6 @@
 #include <optional>
 #include <thread>
 
-#include "lib/clock_follower.h"
 #include "lib/watcher.h"
 
 namespace viewloom::show {

@@ -8,7 +8,7 @@
 
 #include "base/str_cat.h"
 #include "eyes/eye_feed.h"
-#include "lib/frame_latency.h"
+#include "lib/latency.h"
 #include "show/arrivals.h"
 #include "show/display_link.h"
 #include "show/mode_question.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/chunk_size.h"
+#include "lib/frame_messages.h"
 
 #include <gtest/gtest.h>
 

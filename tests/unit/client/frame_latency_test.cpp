@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/frame_latency.h"
+#include "lib/latency.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/predict_plane.h"
+#include "lib/compress_frame.h"
 
 #include <gtest/gtest.h>
 

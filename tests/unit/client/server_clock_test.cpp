@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "lib/motion_latency.h"
+#include "lib/latency.h"
 
 namespace viewloom {
 namespace {
