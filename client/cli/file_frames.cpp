@@ -9,7 +9,6 @@
 #include "base/str_cat.h"
 #include "cli/status_line.h"
 #include "files/container.h"
-#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {

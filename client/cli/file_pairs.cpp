@@ -10,7 +10,6 @@
 #include "base/str_cat.h"
 #include "files/container.h"
 #include "files/exr_description.h"
-#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "files/file_extension.h"
+#include "files/container.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpret_deep.h"
 

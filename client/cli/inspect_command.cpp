@@ -19,7 +19,6 @@
 #include "files/container.h"
 #include "files/exr_description.h"
 #include "files/file_bytes.h"
-#include "files/file_extension.h"
 #include "files/png_image.h"
 
 namespace viewloom::cli {

@@ -12,7 +12,6 @@
 #include "cli/status_line.h"
 #include "files/container.h"
 #include "files/exr_description.h"
-#include "files/file_extension.h"
 #include "photos/photo.h"
 
 namespace viewloom::cli {

@@ -92,8 +92,12 @@ const char* nameOf(Container container) {
   return kNames[static_cast<size_t>(container)];
 }
 
-bool hasExtension(const std::filesystem::path& path, const char* extension) {
-  return absl::AsciiStrToLower(path.extension().string()) == extension;
+std::string extensionOf(const std::filesystem::path& path) {
+  return absl::AsciiStrToLower(path.extension().string());
+}
+
+bool hasExtension(const std::filesystem::path& path, std::string_view extension) {
+  return extensionOf(path) == extension;
 }
 
 Container containerOf(const std::filesystem::path& path) {

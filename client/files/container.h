@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "base/status.h"
 
@@ -40,8 +41,10 @@ inline bool isExr(const std::filesystem::path& path) {
   return containerOf(path) == Container::kExr;
 }
 
+// The end of the file's name in small letters, with its dot: ".exr"; "" where there is none.
+std::string extensionOf(const std::filesystem::path& path);
 // The file's name ends so, in any case: ".yuv".
-bool hasExtension(const std::filesystem::path& path, const char* extension);
+bool hasExtension(const std::filesystem::path& path, std::string_view extension);
 
 // OK for a file that one of the readers takes. Else a sentence that says what the file is (missing,
 // a folder, empty, a video, a model, another kind of picture) and what to do.

@@ -15,7 +15,7 @@
 #include "deep/tidy_pixel.h"
 #include "files/deep_exr.h"
 #include "files/file_bytes.h"
-#include "files/primaries.h"
+#include "files/plane_image.h"
 
 namespace viewloom::files {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "files/dpt_image.h"
+#include "files/picture_file.h"
 
 #include <bit>
 

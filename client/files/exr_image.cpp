@@ -11,7 +11,6 @@
 #include <exception>
 
 #include "base/str_cat.h"
-#include "files/exr_channels.h"
 #include "files/exr_description.h"
 #include "files/exr_open.h"
 #include "files/exr_plane_reader.h"

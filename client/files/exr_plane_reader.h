@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads channels of one part of an OpenEXR file into a plane.
+// Finds channels in the parts and views of an OpenEXR file, and reads them into a plane.
 #pragma once
 
 #include <OpenEXR/ImfInputPart.h>
@@ -7,14 +7,28 @@
 #include <OpenEXR/ImfPixelType.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "files/exr_channels.h"
 #include "files/exr_header.h"
 
 namespace viewloom::files {
+
+struct ExrChannel {
+  int part = 0;
+  std::string name;  // in that part
+  Imf::PixelType type = Imf::HALF;
+  int x_sampling = 1;
+  int y_sampling = 1;
+
+  bool isSubsampled() const { return x_sampling != 1 || y_sampling != 1; }
+};
+
+// The channel a name stands for, see exr_image.h.
+std::optional<ExrChannel> findExrChannel(const Imf::MultiPartInputFile& file,
+                                         const std::string& name);
 
 // Samples of a plane lie pixel by pixel and have one type. May throw what OpenEXR throws.
 class ExrPlaneReader {

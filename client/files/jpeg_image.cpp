@@ -11,7 +11,7 @@
 #include "files/file_bytes.h"
 #include "files/icc_profile.h"
 #include "files/jpeg_segments.h"
-#include "files/primaries.h"
+#include "files/plane_image.h"
 
 namespace viewloom::files {
 namespace {

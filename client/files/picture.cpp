@@ -14,7 +14,7 @@
 #include "base/str_cat.h"
 #include "files/depth_packing.h"
 #include "files/file_bytes.h"
-#include "files/primaries.h"
+#include "files/plane_image.h"
 
 namespace viewloom::files {
 namespace {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/picture_file.h"
 
-#include "files/bmp_image.h"
-#include "files/dpt_image.h"
 #include "files/file_bytes.h"
 #include "files/jpeg_image.h"
-#include "files/npy_image.h"
-#include "files/pfm_image.h"
+#include "files/netpbm_image.h"
 #include "files/png_image.h"
-#include "files/pnm_image.h"
-#include "files/tiff_image.h"
-#include "files/webp_image.h"
 
 namespace viewloom::files {
 

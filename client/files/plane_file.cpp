@@ -17,7 +17,6 @@
 #include "files/jpeg_image.h"
 #include "files/picture_file.h"
 #include "files/plane_image.h"
-#include "files/primaries.h"
 #include "files/yuv_image.h"
 
 namespace viewloom::files {

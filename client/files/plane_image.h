@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One plane as a file gave it, in an encoding of the wire.
+// One plane as a file gave it, in an encoding of the wire, and which primaries its colour has.
 #pragma once
 
 #include <OpenEXR/ImfChromaticities.h>
@@ -30,5 +30,18 @@ struct PlaneImage {
 
 // Refuses what no plane may be, before memory is spent on it.
 absl::Status checkPlaneSize(const std::string& file, int64_t width_px, int64_t height_px);
+
+// Which of the primaries that the wire knows they are, all with white D65; nothing for others, as
+// ACEScg.
+std::optional<v1::ColorPrimaries> knownPrimaries(const Imf::Chromaticities& chromaticities);
+
+// The primaries of a RGBA16F image: those that its file states, BT709 without. The colour of
+// unknown ones is converted to BT2020, its white adapted to D65 (Bradford). Chromaticities that
+// span no colours are refused.
+absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file, PlaneImage& image);
+// The same for RGBA16F px alone.
+absl::StatusOr<v1::ColorPrimaries> settlePrimaries(const std::string& file,
+                                                   const Imf::Chromaticities& stated,
+                                                   std::vector<uint8_t>& rgba16f);
 
 }  // namespace viewloom::files

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "files/primaries.h"
+#include "files/plane_image.h"
 #include "inputs/exr_camera.h"
 #include "inputs/unreal_camera.h"
 

@@ -8,7 +8,6 @@
 #include "base/str_cat.h"
 #include "files/container.h"
 #include "files/file_bytes.h"
-#include "files/file_extension.h"
 #include "files/yuv_image.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpret_exr.h"

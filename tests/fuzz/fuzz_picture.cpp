@@ -2,12 +2,9 @@
 #include <string>
 
 #include "base/check.h"
-#include "files/bmp_image.h"
-#include "files/dpt_image.h"
 #include "files/jpeg_segments.h"
-#include "files/npy_image.h"
-#include "files/pfm_image.h"
-#include "files/pnm_image.h"
+#include "files/netpbm_image.h"
+#include "files/picture_file.h"
 #include "fuzz/fuzz_decode.h"
 
 namespace viewloom {

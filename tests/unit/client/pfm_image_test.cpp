@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "files/pfm_image.h"
+#include "files/netpbm_image.h"
 
 #include <Imath/half.h>
 #include <gmock/gmock.h>

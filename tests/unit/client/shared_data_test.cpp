@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "files/exr_image.h"
-#include "files/pfm_image.h"
+#include "files/netpbm_image.h"
 #include "files/png_image.h"
 
 namespace viewloom::files {
