@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "files/picture.h"
 #include "files/plane_image.h"
-#include "photos/color_profile.h"
+#include "photos/heif_image.h"
 #include "photos/photo_depth.h"
 
 namespace viewloom::photos {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "photos/depth_xmp.h"
-#include "photos/heif_handles.h"
+#include "photos/heif_image.h"
 
 namespace viewloom::photos {
 

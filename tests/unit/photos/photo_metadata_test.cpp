@@ -5,8 +5,8 @@
 
 #include "files/exif.h"
 #include "files/icc_profile.h"
-#include "photos/color_profile.h"
 #include "photos/depth_xmp.h"
+#include "photos/heif_image.h"
 #include "unit/photos/written_photo.h"
 
 namespace viewloom::test {

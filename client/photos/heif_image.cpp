@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "photos/color_profile.h"
+#include "photos/heif_image.h"
 
 #include <vector>
 

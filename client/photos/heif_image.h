@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What libheif hands out, each freed by its owner.
+// Things that libheif hands out, each freed by its owner, and the colour profile of an image.
 #pragma once
 
 #include <libheif/heif.h>
 
 #include <memory>
+#include <optional>
+
+#include "viewloom/v1/frame.pb.h"
 
 namespace viewloom::photos {
 
@@ -21,5 +24,15 @@ struct FreeHeif {
 
 template <typename Type>
 using HeifOwned = std::unique_ptr<Type, FreeHeif>;
+
+// Which primaries a photo's colour profile means.
+struct ColorProfile {
+  bool is_stated = false;
+  std::optional<v1::ColorPrimaries> primaries;  // stated ones, where the wire knows them
+  bool is_hdr = false;                          // stated as PQ or HLG
+};
+
+// ICC where the photo has one, else nclx; an nclx that leaves its primaries open states nothing.
+ColorProfile colorProfileOf(const heif_image_handle* image);
 
 }  // namespace viewloom::photos
