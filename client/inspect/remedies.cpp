@@ -2,14 +2,16 @@
 #include "inspect/remedies.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <concepts>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "base/str_cat.h"
-#include "inspect/fewer_bits.h"
-#include "inspect/number_text.h"
+#include "inspect/stored_numbers.h"
 
 namespace viewloom::inspect {
 namespace {
@@ -46,6 +48,13 @@ bool isMetric(const v1::DepthFormat& format) {
 
 double scaleOf(const v1::DepthFormat& format) {
   return format.scale() == 0 ? 1 : format.scale();
+}
+
+// As a command line takes it, the shortest that reads back the same: "0.001", "1e+30", "inf".
+std::string numberText(std::floating_point auto number) {
+  std::array<char, 64> text;
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), number);
+  return {text.data(), written.ptr};
 }
 
 std::string scaleOption(double scale) {

@@ -2,7 +2,10 @@
 // Depth samples as a plane stores them, before anybody says what they mean.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,5 +31,25 @@ struct ZeroPattern {
   bool isScattered() const;
 };
 ZeroPattern zeroPattern(std::span<const float> stored, uint32_t width_px, uint32_t height_px);
+
+inline constexpr uint32_t kU16Max = 65535;
+
+struct FewerBits {
+  uint32_t last_code;
+  const char* what;
+};
+
+// The bits whose last code is the largest number of a plane. Photoshop's filters overshoot by a few
+// codes.
+inline std::optional<FewerBits> fewerBits(double largest) {
+  constexpr FewerBits kPhotoshop{32768, "Photoshop's 15 bits"};
+  if (std::abs(largest - kPhotoshop.last_code) <= 0.002 * kPhotoshop.last_code) return kPhotoshop;
+  constexpr std::array<FewerBits, 3> kFewerBits{
+      {{1023, "10 bits"}, {4095, "12 bits"}, {16383, "14 bits"}}};
+  for (const FewerBits& fewer : kFewerBits) {
+    if (largest == fewer.last_code) return fewer;
+  }
+  return std::nullopt;
+}
 
 }  // namespace viewloom::inspect

@@ -6,7 +6,7 @@
 
 #include "base/str_cat.h"
 #include "inspect/arrangement.h"
-#include "inspect/fewer_bits.h"
+#include "inspect/stored_numbers.h"
 #include "shared/histogram.h"
 
 namespace viewloom::inspect {
