@@ -5,7 +5,7 @@
 
 #include "files/container.h"
 #include "inputs/depth_format.h"
-#include "inputs/interpret_deep.h"
+#include "inputs/exr_header_facts.h"
 
 namespace viewloom::cli {
 

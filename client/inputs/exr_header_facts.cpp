@@ -1,14 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs/exr_header_facts.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/str_cat.h"
+#include "files/exr_description.h"
+#include "files/file_bytes.h"
 #include "files/plane_image.h"
 #include "inputs/exr_camera.h"
-#include "inputs/unreal_camera.h"
 
 namespace viewloom::inputs {
+namespace {
+
+using files::ExrWindow;
+
+std::string textOf(const ExrWindow& window) {
+  return strCat(window.width(), "x", window.height(), " px from ", window.min_x, ", ",
+                window.min_y);
+}
+
+bool isInside(const ExrWindow& inner, const ExrWindow& outer) {
+  return isSame(intersection(inner, outer), inner);
+}
+
+}  // namespace
+
+ExrWindow intersection(const ExrWindow& a, const ExrWindow& b) {
+  return {std::max(a.min_x, b.min_x), std::max(a.min_y, b.min_y), std::min(a.max_x, b.max_x),
+          std::min(a.max_y, b.max_y)};
+}
+
+bool isSame(const ExrWindow& a, const ExrWindow& b) {
+  return a.min_x == b.min_x && a.min_y == b.min_y && a.max_x == b.max_x && a.max_y == b.max_y;
+}
+
+void settleWindow(const ExrFrameWindows& windows, v1::ExrWindow& window, Interpretation& result) {
+  const ExrWindow& display = windows.display;
+  const ExrWindow& data = windows.data;
+  if (isSame(display, data) || data.width() < 1 || data.height() < 1) return;
+  const ExrWindow all{std::min(display.min_x, data.min_x), std::min(display.min_y, data.min_y),
+                      std::max(display.max_x, data.max_x), std::max(display.max_y, data.max_y)};
+  const std::string between =
+      strCat("data window ", textOf(data), ", display window ", textOf(display));
+  if (isInside(data, display)) {
+    result.notes.push_back(between + ": no surface where there is no data");
+    return;
+  }
+  if (all.width() > files::kSideMax_px || all.height() > files::kSideMax_px) {
+    result.notes.push_back(strCat(between,
+                                  ": what is beyond the display window is left out, "
+                                  "since planes have at most ",
+                                  files::kSideMax_px, " px a side"));
+    return;
+  }
+  window.set_min_x(all.min_x);
+  window.set_min_y(all.min_y);
+  window.mutable_size()->set_width(static_cast<uint32_t>(all.width()));
+  window.mutable_size()->set_height(static_cast<uint32_t>(all.height()));
+  result.display = DisplayFrame{.left_px = double(display.min_x) - all.min_x,
+                                .top_px = double(display.min_y) - all.min_y,
+                                .width_px = double(display.width()),
+                                .height_px = double(display.height())};
+  result.notes.push_back(between +
+                         ": overscan is used, and --fov, --focal-px and --principal-px "
+                         "are those of the display window");
+}
+
 namespace {
 
 using files::ExrEnvmap;
@@ -97,6 +155,26 @@ absl::Status readHeaderCamera(const InputSettings& settings, const std::string& 
       "camera of worldToCamera", (*camera)->intrinsics ? " and worldToNDC" : "",
       ", which looks along ", settings.looks_along_minus_z ? "-z" : "+z", " (--camera-forward)"));
   return absl::OkStatus();
+}
+
+absl::StatusOr<Interpretation> interpretDeep(const InputSettings& settings, v1::DeepFile& deep) {
+  const absl::StatusOr<files::ExrDescription> description = files::describeExr(deep.file());
+  if (!description.ok()) return description.status();
+  Interpretation result;
+  if (settings.pixel_aspect) result.pixel_aspect = *settings.pixel_aspect;
+  readHeaderFacts(settings, *description, result);
+  if (result.projection != Projection::kFlat) {
+    return files::refuseFile(deep.file(),
+                             "is a deep panorama; accepted are panoramas of flat files, and "
+                             "--projection flat to read it as a flat picture");
+  }
+  for (const files::ExrDescribedPart& part : description->parts) {
+    if (!part.isDeep()) continue;
+    settleWindow({part.display, part.data}, *deep.mutable_window(), result);
+    break;
+  }
+  VIEWLOOM_RETURN_IF_ERROR(readHeaderCamera(settings, deep.file(), *description, result));
+  return result;
 }
 
 }  // namespace viewloom::inputs

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -56,6 +57,62 @@ std::optional<InputKind> toolOf(const files::ExrDescription& description) {
 bool isOfNuke(const files::ExrDescription& description) {
   const auto is_nuke = [](const auto& text) { return text.first.starts_with("nuke/"); };
   return std::any_of(description.texts.begin(), description.texts.end(), is_nuke);
+}
+
+namespace {
+
+using Names = std::set<std::string>;
+
+Names namesIn(const files::ExrDescription& description) {
+  Names names;
+  for (const files::ExrDescribedPart& part : description.parts) {
+    for (const files::ExrDescribedChannel& channel : part.channels) names.insert(channel.name);
+  }
+  return names;
+}
+
+// R, G, B and, where it is there, A, each behind the prefix.
+std::optional<std::vector<std::string>> colorBehind(const Names& names, const std::string& prefix) {
+  std::vector<std::string> color;
+  for (const char* channel : {"R", "G", "B"}) {
+    if (!names.contains(prefix + channel)) return std::nullopt;
+    color.push_back(prefix + channel);
+  }
+  if (names.contains(prefix + "A")) color.push_back(prefix + "A");
+  return color;
+}
+
+}  // namespace
+
+std::optional<ExrLayers> blenderLayers(const files::ExrDescription& description,
+                                       const std::string& view) {
+  const Names names = namesIn(description);
+  const std::string of_view = view.empty() ? "" : view + ".";
+  const std::string ending = ".Combined." + of_view + "R";
+  for (const std::string& name : names) {
+    if (!name.ends_with(ending)) continue;
+    const std::string layer = name.substr(0, name.size() - ending.size());
+    const auto color = colorBehind(names, layer + ".Combined." + of_view);
+    const std::string depth = layer + ".Depth." + of_view + "Z";
+    if (color && names.contains(depth)) return ExrLayers{*color, depth};
+  }
+  return std::nullopt;
+}
+
+std::optional<ExrLayers> unrealLayers(const files::ExrDescription& description) {
+  const Names names = namesIn(description);
+  const auto is_depth = [](const std::string& name) { return name.ends_with("WorldDepth.R"); };
+  const auto depth = std::find_if(names.begin(), names.end(), is_depth);
+  if (depth == names.end()) return std::nullopt;
+  for (const std::string& name : names) {
+    const bool is_pass = name.find("MovieRenderQueue_") != std::string::npos;
+    if (is_pass || !name.starts_with("FinalImage") || !name.ends_with(".R")) continue;
+    if (const auto color = colorBehind(names, name.substr(0, name.size() - 1))) {
+      return ExrLayers{*color, *depth};
+    }
+  }
+  if (const auto color = colorBehind(names, "")) return ExrLayers{*color, *depth};
+  return std::nullopt;
 }
 
 }  // namespace viewloom::inputs

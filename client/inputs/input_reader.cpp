@@ -10,11 +10,10 @@
 #include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "inputs/cut_depth.h"
+#include "inputs/depth_conventions.h"
 #include "inputs/missing_channels.h"
 #include "inputs/panorama.h"
-#include "inputs/photo_frame.h"
-#include "inputs/renderer_depth.h"
-#include "inputs/sensor_presets.h"
+#include "inputs/photo_input.h"
 #include "inspect/stored_numbers.h"
 #include "photos/photo.h"
 

@@ -14,9 +14,7 @@
 #include "files/exr_image.h"
 #include "files/file_bytes.h"
 #include "inputs/exr_header_facts.h"
-#include "inputs/exr_layers.h"
 #include "inputs/exr_tool.h"
-#include "inputs/exr_windows.h"
 
 namespace viewloom::inputs {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inputs/interpret_photo.h"
+#include "inputs/photo_input.h"
 
 #include <algorithm>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "base/str_cat.h"
 #include "files/file_bytes.h"
+#include "files/plane_file.h"
 #include "inputs/depth_format.h"
 #include "photos/photo.h"
 
@@ -125,6 +126,41 @@ absl::Status interpretPhoto(const InputSettings& settings, const InputFiles& fil
   }
   VIEWLOOM_RETURN_IF_ERROR(photo->requireDepth());
   return readDepth(settings, files.color, *description.depth, result);
+}
+
+namespace {
+
+absl::StatusOr<files::LoadedPlane> loadDepth(const v1::LayerFiles& layer,
+                                             const photos::Photo& photo) {
+  if (layer.depth().file() != layer.color().file()) return files::loadDepthPlane(layer.depth(), "");
+  absl::StatusOr<files::PlaneImage> image = photo.readDepth();
+  if (!image.ok()) return image.status();
+  return files::makeDepthPlane(layer.depth(), *std::move(image));
+}
+
+}  // namespace
+
+absl::StatusOr<files::LoadedFrame> loadPhotoFrame(const v1::SourceFiles& source) {
+  const v1::LayerFiles& layer = source.layers(0);
+  const absl::StatusOr<photos::Photo> photo = photos::Photo::open(layer.color().file());
+  if (!photo.ok()) return photo.status();
+  absl::StatusOr<files::PlaneImage> image = photo->readColor();
+  if (!image.ok()) return image.status();
+  absl::StatusOr<files::LoadedPlane> color =
+      files::makeColorPlane(layer.color(), *std::move(image));
+  if (!color.ok()) return color.status();
+  absl::StatusOr<files::LoadedPlane> depth = loadDepth(layer, *photo);
+  if (!depth.ok()) return depth.status();
+  files::LoadedFrame frame;
+  v1::Source& loaded = *frame.wire.header.add_sources();
+  loaded.set_connection_tolerance(source.connection_tolerance());
+  frame.code_max.push_back(depth->code_max);
+  v1::Layer& planes = *loaded.add_layers();
+  for (files::LoadedPlane* plane : {&*color, &*depth}) {
+    *planes.add_planes() = std::move(plane->plane);
+    frame.wire.planes.push_back(std::move(plane->bytes));
+  }
+  return frame;
 }
 
 }  // namespace viewloom::inputs

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth files of data sets and sensors, whose numbers have a unit of their own.
+// Depth by the conventions of those who write it: renderers with any sign and huge numbers where
+// they hit nothing, sensors and data sets with units of their own.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "base/byte_pool.h"
 #include "base/status.h"
+#include "inputs/input_settings.h"
 #include "inputs/interpretation.h"
 
 namespace viewloom::inputs {
+
+// Arnold, V-Ray, Redshift and Houdini.
+bool isRenderer(InputKind kind);
+
+// Metric depth of floats, as far as the settings do not say it: depth that is negative is turned
+// over, and what is 1e9 and more, as 1e30, becomes infinitely far. `notes`: what was found.
+void settleRendererDepth(const InputSettings& settings, v1::Plane& plane, SharedBytes& bytes,
+                         std::vector<std::string>& notes);
 
 // Whether the kind is one of these: sensor, kitti, tum, l515, d405, record3d.
 bool isSensor(InputKind kind);
