@@ -5,8 +5,6 @@
 
 #include <utility>
 
-#include "show/wall_time.h"
-
 namespace viewloom::show {
 
 void Arrivals::take(const Atlas& atlas) {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws pictures into the window: woven for a panel, or placed as they are.
+// Draws pictures into the window: woven for a panel, placed as they are, or lines of text.
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "base/status.h"
 #include "calibration/calibration.h"
 #include "frame/size.h"
 #include "show/gl_program.h"
 #include "show/gl_texture.h"
+#include "text/font.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom::show {
@@ -52,6 +55,22 @@ class Painter {
   GlProgram tune_;
   uint32_t vertices_ = 0;  // none, but OpenGL 3.3 wants an array of them
   SizePx window_px_;
+};
+
+// Lines of text as a picture in a corner of the window. Thread-safety: main thread.
+class TextOverlay {
+ public:
+  // The errors of Font::open.
+  static absl::StatusOr<std::unique_ptr<TextOverlay>> make();
+
+  // White on black, top left; lines end in a line feed. Not empty.
+  absl::Status draw(const std::string& text, Painter& painter);
+
+ private:
+  explicit TextOverlay(std::unique_ptr<Font> font) : font_(std::move(font)) {}
+
+  const std::unique_ptr<Font> font_;
+  GlTexture texture_;
 };
 
 }  // namespace viewloom::show

@@ -2,6 +2,7 @@
 // Pictures that wait for their time; the newest that is due is shown, older ones never are.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -9,6 +10,13 @@
 #include <utility>
 
 namespace viewloom::show {
+
+// Nanoseconds since 1970, by the clock that publishers on machines with the same time say as well.
+inline int64_t wallTimeNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
 
 // A publisher whose clock is further ahead than this has another clock than this machine: its times
 // say nothing here, and its pictures are shown at once.

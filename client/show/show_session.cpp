@@ -12,11 +12,10 @@
 #include "show/arrivals.h"
 #include "show/display_link.h"
 #include "show/mode_question.h"
+#include "show/painter.h"
 #include "show/show_statistics.h"
 #include "show/shown_atlas.h"
 #include "show/stage.h"
-#include "show/text_overlay.h"
-#include "show/wall_time.h"
 
 namespace viewloom::show {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window on the monitor that is meant, ready to be drawn in.
+// The window system, one window on the monitor that is meant, and its OpenGL context. Its px are
+// drawn as they are, without scaling and without colour management.
 #pragma once
 
 #include <functional>
@@ -9,10 +10,58 @@
 
 #include "base/status.h"
 #include "frame/size.h"
+#include "show/monitors.h"
 #include "show/painter.h"
-#include "show/show_window.h"
+
+struct SDL_Window;
 
 namespace viewloom::show {
+
+// The window system, for as long as this lives. Ctrl-C stays the program's.
+// Thread-safety: main thread.
+class SdlVideo {
+ public:
+  // FAILED_PRECONDITION when there is no screen.
+  static absl::StatusOr<std::unique_ptr<SdlVideo>> start();
+  ~SdlVideo();
+  SdlVideo(const SdlVideo&) = delete;
+  SdlVideo& operator=(const SdlVideo&) = delete;
+
+ private:
+  SdlVideo() = default;
+};
+
+struct WindowOptions {
+  std::string title;
+  Monitor monitor;
+  bool is_windowed = false;
+  SizePx windowed_px;  // without frame and buttons
+};
+
+// OpenGL 3.3, or OpenGL ES 3.0 where that is all there is; its context is current.
+// Thread-safety: main thread.
+class ShowWindow {
+ public:
+  // FAILED_PRECONDITION when there is no such window or no such OpenGL.
+  static absl::StatusOr<std::unique_ptr<ShowWindow>> open(const WindowOptions& options);
+  ~ShowWindow();
+  ShowWindow(const ShowWindow&) = delete;
+  ShowWindow& operator=(const ShowWindow&) = delete;
+
+  // What can be drawn on, in px of the screen.
+  SizePx sizePx() const;
+  bool isGles() const { return is_gles_; }
+  void toggleFullScreen();
+  // Shows what was drawn; returns when the screen has taken it.
+  void swap();
+
+ private:
+  ShowWindow() = default;
+
+  SDL_Window* window_ = nullptr;
+  void* context_ = nullptr;  // SDL_GLContext
+  bool is_gles_ = false;
+};
 
 struct StageOptions {
   std::string title;
@@ -22,7 +71,7 @@ struct StageOptions {
   std::optional<SizePx> panel_px;  // px of the window have to be these
 };
 
-// In the order in which they need one another.
+// The window, ready to be drawn in. In the order in which they need one another.
 struct Stage {
   std::unique_ptr<SdlVideo> video;
   std::unique_ptr<ShowWindow> window;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "show/tune_keys.h"
+#include "show/tune_session.h"
 
 #include <SDL_keycode.h>
 #include <gmock/gmock.h>
