@@ -11,9 +11,25 @@
 
 #include "base/status.h"
 #include "bridge/http_request.h"
-#include "bridge/quilt.h"
 
 namespace viewloom::bridge {
+
+struct QuiltShape {
+  uint32_t columns = 0;
+  uint32_t rows = 0;
+  uint32_t width_px = 0;  // of the whole
+  uint32_t height_px = 0;
+  double aspect = 0;  // of a view
+};
+
+// A quilt by its address, with all that a player has to know of it.
+struct AddressedQuilt {
+  std::string uri;
+  uint32_t columns = 0;
+  uint32_t rows = 0;
+  uint32_t view_count = 0;
+  double aspect = 0;
+};
 
 struct BridgeDisplay {
   int index = 0;

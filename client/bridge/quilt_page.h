@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/status.h"
+#include "bridge/bridge.h"
 #include "bridge/http_request.h"
-#include "bridge/quilt.h"
 
 namespace viewloom::bridge {
 
