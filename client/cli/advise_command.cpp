@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/advise_command.h"
+#include "cli/commands.h"
 
 #include <cmath>
 #include <cstdio>

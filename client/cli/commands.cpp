@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
-#include "cli/advise_command.h"
-#include "cli/cast_command.h"
-#include "cli/inspect_command.h"
-#include "cli/list_command.h"
-#include "cli/publish_command.h"
-#include "cli/record_command.h"
-#include "cli/show_command.h"
-#include "cli/watch_command.h"
-
 namespace viewloom::cli {
 
 std::vector<NamedCommand> addCommands(const usage::Command& app) {

@@ -7,8 +7,7 @@
 #include <variant>
 
 #include "base/str_cat.h"
-#include "cli/field_range.h"
-#include "cli/size_option.h"
+#include "cli/bounded_options.h"
 #include "display/named_display.h"
 #include "files/file_bytes.h"
 #include "files/json_message.h"

@@ -5,9 +5,8 @@
 #include <string>
 
 #include "base/status.h"
-#include "cli/lens_options.h"
+#include "cli/effect_options.h"
 #include "cli/rgbd_options.h"
-#include "cli/temporal_options.h"
 #include "frame/size.h"
 #include "usage/command_line.h"
 #include "viewloom/v1/atlas.pb.h"

@@ -8,7 +8,6 @@
 #include "inputs/exr_header_facts.h"
 
 namespace viewloom::cli {
-
 namespace {
 
 bool hasLinearColor(const v1::FrameHeader& header) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/inspect_command.h"
+#include "cli/commands.h"
 
 #include <cstdio>
 #include <memory>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A test pattern as a feed: one frame, which then stands.
+// A test pattern as a feed: options that say which one and for which display, and one frame, which
+// then stands.
 #pragma once
 
 #include <memory>
@@ -8,8 +9,20 @@
 #include "cli/frame_feed.h"
 #include "lib/wire_frame.h"
 #include "patterns/pattern.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
+
+struct PatternFeedOptions {
+  std::string name;      // "" = none
+  double cone_deg = 40;  // replaces that of `pattern`, as the name does its kind
+  patterns::PatternOptions pattern;
+};
+
+void addPatternOptions(const usage::Command& app, PatternFeedOptions& options);
+
+// What patterns are drawn from. `name` is one that addPatternOptions accepts.
+patterns::PatternOptions patternOptions(const PatternFeedOptions& options);
 
 class PatternFrames final : public FrameFeed {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/publish_command.h"
+#include "cli/commands.h"
 
 #include <filesystem>
 #include <memory>
@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "base/str_cat.h"
+#include "cli/bounded_options.h"
 #include "cli/file_frames.h"
 #include "cli/folder_frames.h"
 #include "cli/pattern_frames.h"
-#include "cli/pattern_options.h"
 #include "cli/plane_options.h"
 #include "cli/publish_run.h"
 #include "cli/replayed_frames.h"
 #include "cli/report_error.h"
-#include "cli/size_option.h"
 #include "cli/synthetic_frames.h"
 #include "usage/command_line.h"
 

@@ -8,13 +8,12 @@
 
 #include "base/output_file.h"
 #include "base/str_cat.h"
-#include "cli/frame_pace.h"
+#include "cli/frame_feed.h"
 #include "cli/interrupt.h"
 #include "cli/outside_text.h"
 #include "cli/report_error.h"
 #include "cli/sent_frames.h"
 #include "cli/status_line.h"
-#include "cli/user_words.h"
 #include "lib/channel.h"
 #include "lib/publisher.h"
 

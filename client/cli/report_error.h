@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as a person wants to read them: what happened, and what to do about it.
+// Errors as a person wants to read them: what happened, in the words of the command line, and what
+// to do about it.
 #pragma once
 
 #include <functional>
@@ -24,5 +25,10 @@ OnConnection sayConnections(StatusLine& line, const CommonOptions& common);
 // The same; but give_up gets the reason why it went where it is not to be tried again.
 OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has_no_retry,
                          std::function<void(const absl::Status&)> give_up);
+
+// The message with the field that it begins with named as the user knows it: "--cone: got 400; ..."
+// for "display.quilt.view_cone_rad: got 400; ...", "layer 2, depth: ..." for
+// "sources[0].layers[1].depth: ...". Other messages stay.
+std::string inUserWords(const std::string& message);
 
 }  // namespace viewloom::cli

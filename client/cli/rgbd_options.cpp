@@ -4,8 +4,7 @@
 #include <map>
 #include <string>
 
-#include "cli/field_range.h"
-#include "cli/size_option.h"
+#include "cli/bounded_options.h"
 
 namespace viewloom::cli {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/synthetic_frames.h"
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -9,13 +8,6 @@
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom::cli {
-
-int64_t captureTimeNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 namespace {
 
 // So far apart that each sees much of what the nearest surfaces, 1.8 m away, hide from the next.

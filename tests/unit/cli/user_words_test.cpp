@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/user_words.h"
+#include "cli/report_error.h"
 
 #include <gmock/gmock.h>
 #include <grpcpp/support/status.h>
@@ -9,7 +9,6 @@
 
 #include "cli/commands.h"
 #include "cli/display_options.h"
-#include "cli/report_error.h"
 #include "lib/channel.h"
 #include "unit/client/test_files.h"
 

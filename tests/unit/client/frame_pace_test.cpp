@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/frame_pace.h"
+#include "cli/frame_feed.h"
 
 #include <gtest/gtest.h>
 

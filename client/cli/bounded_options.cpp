@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/size_option.h"
+#include "cli/bounded_options.h"
 
 #include <charconv>
 #include <optional>
 
 #include "base/str_cat.h"
+#include "display/display_spec.h"
 
 namespace viewloom::cli {
 namespace {
@@ -33,6 +34,15 @@ usage::Option addSizeOption(const usage::Command& app, const std::string& name, 
     size_px = *parsed;
   };
   return app.addTaken(name, take, description).valueName("WxH");
+}
+
+usage::Option within(const usage::Option& option, std::string_view field) {
+  const Range range = rangeOf(field);
+  return option.between(range.min, range.max);
+}
+
+uint32_t sideMax(std::string_view field) {
+  return static_cast<uint32_t>(rangeOf(field).max);
 }
 
 }  // namespace viewloom::cli

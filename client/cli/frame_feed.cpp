@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/frame_pace.h"
+#include "cli/frame_feed.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace viewloom::cli {
@@ -10,6 +11,12 @@ namespace {
 constexpr double kLeftMax_s = 1e9;  // thirty years: more does not fit ns everywhere
 
 }  // namespace
+
+int64_t captureTimeNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
 
 FramePace::FramePace(const Clock& clock, double rate_hz)
     : clock_(clock), start_ns_(clock.nowNs()), rate_hz_(rate_hz) {}

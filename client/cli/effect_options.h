@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options for a lens before the views of a display.
+// Options for the effects of a display.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,7 @@
 
 namespace viewloom::cli {
 
+// A lens before every view.
 struct LensOptions {
   double aperture_radius_m = 0;  // 0 = everything is sharp
   bool has_automatic_aperture = false;
@@ -25,5 +26,18 @@ void addLensOptions(const usage::Command& app, LensOptions& options, usage::Opti
 
 // No lens without an aperture.
 void setLens(const LensOptions& options, v1::Display& display);
+
+// Atlases between the frames of a stream.
+struct TemporalOptions {
+  double output_rate_hz = 0;  // 0 = an atlas a frame
+  v1::TemporalMode mode = v1::TEMPORAL_MODE_UNSPECIFIED;
+  double bridge_s = 0;
+};
+
+// None of them beside `file`, which says it all.
+void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usage::Option file);
+
+// Nothing is set without a rate.
+void setTemporal(const TemporalOptions& options, v1::Display& display);
 
 }  // namespace viewloom::cli
