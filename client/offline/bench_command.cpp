@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "offline/bench_command.h"
+#include "offline/engine_commands.h"
 
 #include <sys/resource.h>
 
@@ -14,7 +14,6 @@
 #include "base/log.h"
 #include "messages/display_from_proto.h"
 #include "offline/atlas_pictures.h"
-#include "offline/engine_settings.h"
 #include "offline/loopback_bench.h"
 #include "offline/manifest_frame.h"
 #include "offline/stage_bench.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "offline/render_command.h"
+#include "offline/engine_commands.h"
 
 #include <unistd.h>
 
@@ -19,7 +19,6 @@
 #include "frame/timing.h"
 #include "offline/atlas_pictures.h"
 #include "offline/compare_views.h"
-#include "offline/engine_settings.h"
 #include "offline/manifest_frame.h"
 #include "offline/shown_frame.h"
 #include "usage/command_line.h"

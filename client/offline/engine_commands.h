@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings of the server that its engines follow here, too.
+// The subcommands that run engines of the server, and the settings that those follow here, too.
 #pragma once
 
 #include <functional>
@@ -18,5 +18,11 @@ namespace viewloom::cli {
 RunCommand withEngineSettings(const usage::Command& command,
                               const std::vector<std::string>& beginnings,
                               std::function<int(const Config& config)> act);
+
+// Renders one frame from files, on one display, to picture files. The command returns kExitFailed
+// when its input is refused.
+RunCommand addRenderCommand(const usage::Command& command);
+// Measures what this machine does with the built-in scene on a Looking Glass Portrait; prints JSON.
+RunCommand addBenchCommand(const usage::Command& command);
 
 }  // namespace viewloom::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "offline/engine_settings.h"
+#include "offline/engine_commands.h"
 
 #include <cstdio>
 #include <exception>
@@ -11,6 +11,7 @@
 #include "cli/interrupt.h"
 #include "config/read_config.h"
 #include "gpu/device_error.h"
+#include "offline/offline_commands.h"
 
 namespace viewloom::cli {
 
@@ -32,6 +33,15 @@ RunCommand withEngineSettings(const usage::Command& command,
       return kExitUsage;
     }
   };
+}
+
+std::vector<NamedCommand> addOfflineCommands(const usage::Command& app) {
+  const usage::Command render = app.addCommand(
+      "render", "Render a frame from files to picture files, without a server; print a report");
+  const usage::Command bench = app.addCommand(
+      "bench",
+      "Time this machine on the built-in scene, 1920x1080 in two layers, as a Portrait quilt");
+  return {{render, addRenderCommand(render)}, {bench, addBenchCommand(bench)}};
 }
 
 }  // namespace viewloom::cli
