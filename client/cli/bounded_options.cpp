@@ -41,6 +41,10 @@ usage::Option within(const usage::Option& option, std::string_view field) {
   return option.between(range.min, range.max);
 }
 
+usage::Option upTo(const usage::Option& option, std::string_view field) {
+  return option.between(0, static_cast<int>(rangeOf(field).max));
+}
+
 uint32_t sideMax(std::string_view field) {
   return static_cast<uint32_t>(rangeOf(field).max);
 }

@@ -19,6 +19,8 @@ usage::Option addSizeOption(const usage::Command& app, const std::string& name, 
 // The option accepts what a field of proto Display accepts when it is given. `field`: its path,
 // "quilt.columns".
 usage::Option within(const usage::Option& option, std::string_view field);
+// The same, and all whole numbers from 0 on: for fields whose 0 has a meaning of its own.
+usage::Option upTo(const usage::Option& option, std::string_view field);
 uint32_t sideMax(std::string_view field);
 
 }  // namespace viewloom::cli

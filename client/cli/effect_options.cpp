@@ -36,8 +36,8 @@ void addLensOptions(const usage::Command& app, LensOptions& options, usage::Opti
          "effects.lens.focus_distance_m")
       .excludes(file)
       .group(group);
-  app.add("--blades", options.blades, "Straight sides of the opening; 0 = round")
-      .between(0, 16)
+  upTo(app.add("--blades", options.blades, "Straight sides of the opening; 0 = round"),
+       "effects.lens.blades")
       .excludes(file)
       .group(group);
   within(app.add("--lens-samples", options.walked_count, "Walked rays a px [by --effort]"),
@@ -85,9 +85,10 @@ void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usa
               "predict: from the newest frame; interpolate: one frame late, from two [predict]")
       .needs(rate)
       .group(group);
-  app.add("--bridge", options.bridge_s,
-          "Seconds for which a late frame is bridged before the picture is held [0.25]")
-      .between(0.001, 10.0)
+  within(app.add("--bridge", options.bridge_s,
+                 "Seconds for which a late frame is bridged before the picture is held [0.25]"),
+         "effects.temporal.bridge_s")
+      .positive()
       .needs(rate)
       .group(group);
 }
