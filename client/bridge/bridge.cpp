@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr unsigned kHttpOk = 200;
 constexpr const char* kOrchestration = "default";
 constexpr const char* kNotABridge = "; check that --bridge names Looking Glass Bridge";
 constexpr size_t kQuotedBytesMax = 60;
@@ -116,7 +115,7 @@ absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
     return absl::FailedPreconditionError(
         strCat(asked(endpoint), "answered no HTTP (", reason, ")", kNotABridge));
   }
-  if (response->status != kHttpOk) {
+  if (!response->isOk()) {
     return absl::FailedPreconditionError(
         strCat(asked(endpoint), "answered with HTTP status ", response->status, kNotABridge));
   }

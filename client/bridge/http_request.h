@@ -34,6 +34,8 @@ struct HttpResponse {
   unsigned status = 0;
   std::string location;  // header; empty when not given
   std::string body;
+
+  bool isOk() const { return status == 200; }
 };
 
 // Blocks until the answer is there, at most so long (looking up a name takes its own time).

@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr unsigned kHttpOk = 200;
 constexpr unsigned kHttpFound = 302;
 
 absl::Status checkName(const std::string& what, const std::string& name) {
@@ -96,7 +95,7 @@ absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQue
     VIEWLOOM_RETURN_IF_ERROR(response.status());
   }
   const json layout = json::parse(response->body, nullptr, false);
-  if (response->status != kHttpOk || !layout.is_object()) return refused(page, *response);
+  if (!response->isOk() || !layout.is_object()) return refused(page, *response);
   AddressedQuilt quilt;
   try {
     quilt = {.uri = "",

@@ -15,7 +15,6 @@ namespace {
 constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kVersion = 2;
 constexpr uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800;
-constexpr uint32_t kMultiPartFlag = 0x1000;
 // More than any file has; each takes several times its bytes in the file as memory.
 constexpr size_t kPartsMax = 256;
 constexpr size_t kChannelsMax = 1024;
@@ -32,12 +31,12 @@ class HeaderReader {
   absl::StatusOr<DeepExrHeader> read() {
     if (cursor_.take32() != kMagic) return refuse("begins with other bytes than an EXR file does");
     const uint32_t version = cursor_.take32();
-    const uint32_t known = kTiledFlag | kLongNamesFlag | kDeepFlag | kMultiPartFlag | 0xFF;
+    const uint32_t known = kTiledFlag | kLongNamesFlag | kDeepFlag | kExrMultiPartFlag | 0xFF;
     if ((version & 0xFF) != kVersion || (version & ~known) != 0) {
       return refuse(strCat("is of version ", version & 0xFF, " with flags ", version & ~0xFFU,
                            "; accepted is version 2"));
     }
-    const bool is_multi_part = (version & kMultiPartFlag) != 0;
+    const bool is_multi_part = (version & kExrMultiPartFlag) != 0;
     std::vector<ExrPart> parts;
     VIEWLOOM_RETURN_IF_ERROR(readParts(is_multi_part, parts));
     uint64_t table_offset = cursor_.offset();

@@ -16,6 +16,8 @@ namespace viewloom::files {
 
 // Of a data window: far beyond any display window, yet no count of chunks is out of reach.
 inline constexpr int64_t kExrDataSideMax_px = 32768;
+// In the version field: headers of several parts follow each other.
+inline constexpr uint32_t kExrMultiPartFlag = 0x1000;
 
 // The last column and row belong to it.
 struct ExrWindow {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "base/str_cat.h"
+#include "files/exr_header.h"
 #include "files/file_bytes.h"
 
 namespace viewloom::files {
@@ -23,7 +24,6 @@ constexpr int kDataSideMax_px = 32768;
 // hundred kilobytes, previews less.
 constexpr uint64_t kAttributeBytesMax = uint64_t{16} << 20;
 constexpr uint64_t kHeaderBytesMax = uint64_t{64} << 20;  // of all parts together
-constexpr uint32_t kMultiPartFlag = 0x1000;
 
 // Walks over the attributes of all headers and believes none of them.
 class AttributeWalk {
@@ -33,7 +33,7 @@ class AttributeWalk {
 
   absl::Status check() {
     takeNumber();  // the magic number, which OpenEXR checks
-    const bool is_multi_part = (takeNumber() & kMultiPartFlag) != 0;
+    const bool is_multi_part = (takeNumber() & kExrMultiPartFlag) != 0;
     do {
       bool is_empty = true;
       VIEWLOOM_RETURN_IF_ERROR(checkPart(is_empty));

@@ -68,39 +68,40 @@ struct ForeignName {
 };
 
 // Formats that begin as they like, or inside an archive.
-constexpr std::array kNames{ForeignName{".obj", Family::kModel, "a 3D model (OBJ)"},
-                            ForeignName{".stl", Family::kModel, "a 3D model (STL)"},
-                            ForeignName{".gltf", Family::kModel, "a 3D model (glTF)"},
-                            ForeignName{".glb", Family::kModel, "a 3D model (glTF)"},
-                            ForeignName{".ply", Family::kModel, "a 3D model (PLY)"},
-                            ForeignName{".fbx", Family::kModel, "a 3D model (FBX)"},
-                            ForeignName{".blend", Family::kModel, "a Blender scene"},
-                            ForeignName{".usd", Family::kModel, "a 3D scene (USD)"},
-                            ForeignName{".usda", Family::kModel, "a 3D scene (USD)"},
-                            ForeignName{".usdc", Family::kModel, "a 3D scene (USD)"},
-                            ForeignName{".usdz", Family::kModel, "a 3D scene (USD)"},
-                            ForeignName{".dae", Family::kModel, "a 3D model (COLLADA)"},
-                            ForeignName{".3ds", Family::kModel, "a 3D model (3DS)"},
-                            ForeignName{".splat", Family::kModel, "a 3D model (Gaussian splats)"},
-                            ForeignName{".r3d", Family::kArchive, "a Record3D archive"},
-                            ForeignName{".npz", Family::kArchive, "an archive of arrays (NPZ)"},
-                            ForeignName{".bag", Family::kVideo, "a recording of a sensor (BAG)"},
-                            ForeignName{".mp4", Family::kVideo, "a video (MP4)"},
-                            ForeignName{".m4v", Family::kVideo, "a video (MP4)"},
-                            ForeignName{".mov", Family::kVideo, "a video (MOV)"},
-                            ForeignName{".mkv", Family::kVideo, "a video (MKV)"},
-                            ForeignName{".webm", Family::kVideo, "a video (WebM)"},
-                            ForeignName{".avi", Family::kVideo, "a video (AVI)"},
-                            ForeignName{".mpg", Family::kVideo, "a video (MPEG)"},
-                            ForeignName{".mpeg", Family::kVideo, "a video (MPEG)"},
-                            ForeignName{".ts", Family::kVideo, "a video (MPEG)"},
-                            ForeignName{".wmv", Family::kVideo, "a video (WMV)"},
-                            ForeignName{".gif", Family::kPicture, "a GIF"},
-                            ForeignName{".avif", Family::kPicture, "an AVIF"},
-                            ForeignName{".psd", Family::kPicture, "a Photoshop document"},
-                            ForeignName{".tga", Family::kPicture, "a TGA"},
-                            ForeignName{".hdr", Family::kPicture, "a Radiance HDR"},
-                            ForeignName{".svg", Family::kPicture, "a drawing (SVG)"}};
+constexpr std::array kForeignNames{
+    ForeignName{".obj", Family::kModel, "a 3D model (OBJ)"},
+    ForeignName{".stl", Family::kModel, "a 3D model (STL)"},
+    ForeignName{".gltf", Family::kModel, "a 3D model (glTF)"},
+    ForeignName{".glb", Family::kModel, "a 3D model (glTF)"},
+    ForeignName{".ply", Family::kModel, "a 3D model (PLY)"},
+    ForeignName{".fbx", Family::kModel, "a 3D model (FBX)"},
+    ForeignName{".blend", Family::kModel, "a Blender scene"},
+    ForeignName{".usd", Family::kModel, "a 3D scene (USD)"},
+    ForeignName{".usda", Family::kModel, "a 3D scene (USD)"},
+    ForeignName{".usdc", Family::kModel, "a 3D scene (USD)"},
+    ForeignName{".usdz", Family::kModel, "a 3D scene (USD)"},
+    ForeignName{".dae", Family::kModel, "a 3D model (COLLADA)"},
+    ForeignName{".3ds", Family::kModel, "a 3D model (3DS)"},
+    ForeignName{".splat", Family::kModel, "a 3D model (Gaussian splats)"},
+    ForeignName{".r3d", Family::kArchive, "a Record3D archive"},
+    ForeignName{".npz", Family::kArchive, "an archive of arrays (NPZ)"},
+    ForeignName{".bag", Family::kVideo, "a recording of a sensor (BAG)"},
+    ForeignName{".mp4", Family::kVideo, "a video (MP4)"},
+    ForeignName{".m4v", Family::kVideo, "a video (MP4)"},
+    ForeignName{".mov", Family::kVideo, "a video (MOV)"},
+    ForeignName{".mkv", Family::kVideo, "a video (MKV)"},
+    ForeignName{".webm", Family::kVideo, "a video (WebM)"},
+    ForeignName{".avi", Family::kVideo, "a video (AVI)"},
+    ForeignName{".mpg", Family::kVideo, "a video (MPEG)"},
+    ForeignName{".mpeg", Family::kVideo, "a video (MPEG)"},
+    ForeignName{".ts", Family::kVideo, "a video (MPEG)"},
+    ForeignName{".wmv", Family::kVideo, "a video (WMV)"},
+    ForeignName{".gif", Family::kPicture, "a GIF"},
+    ForeignName{".avif", Family::kPicture, "an AVIF"},
+    ForeignName{".psd", Family::kPicture, "a Photoshop document"},
+    ForeignName{".tga", Family::kPicture, "a TGA"},
+    ForeignName{".hdr", Family::kPicture, "a Radiance HDR"},
+    ForeignName{".svg", Family::kPicture, "a drawing (SVG)"}};
 
 constexpr std::array kArchives{
     Signature{0, "PK\x03\x04"sv, Family::kArchive, "an archive (ZIP)"},
@@ -158,7 +159,7 @@ std::optional<ForeignKind> foreignKind(std::string_view head, const std::filesys
   const Signature* const known = find(kSignatures, head);
   if (known != nullptr && (known->bytes != "ftyp" || has_brand)) return kindOf(*known);
   const std::string extension = absl::AsciiStrToLower(path.extension().string());
-  for (const ForeignName& name : kNames) {
+  for (const ForeignName& name : kForeignNames) {
     if (extension == name.extension) return kindOf({0, {}, name.family, name.what});
   }
   const Signature* const found = find(kArchives, head);

@@ -112,7 +112,7 @@ namespace {
 constexpr double kMetresPerCentimetre = 0.01;
 constexpr char kPrefix[] = "unreal/camera/";
 // Beyond any scene, and far from where squares overflow.
-constexpr double kNumberMax = 1e12;
+constexpr double kAttributeMax = 1e12;
 
 // Numbers of the header, found by how their names end.
 class HeaderNumbers {
@@ -126,7 +126,7 @@ class HeaderNumbers {
     for (const auto& [name, text] : texts_) {
       if (!name.starts_with(kPrefix) || !name.ends_with(ending)) continue;
       double value = 0;
-      if (absl::SimpleAtod(text, &value) && std::abs(value) <= kNumberMax) return value;
+      if (absl::SimpleAtod(text, &value) && std::abs(value) <= kAttributeMax) return value;
       if (status_.ok()) {
         status_ = absl::InvalidArgumentError(
             strCat(file_, ": header ", name, " is \"", text.substr(0, 40),

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr uint64_t kCameraBytesMax = uint64_t{1} << 24;  // thousands of cameras
-constexpr double kNumberMax = 1e9;
+constexpr double kCameraNumberMax = 1e9;
 // A far plane from here on is meant to be infinitely far: 1/Z is then below any step of the codes.
 constexpr double kInfinite_m = 1e5;
 
@@ -79,7 +79,7 @@ class CameraReader {
     }
     if (!value.is_number()) return refuse(key, "a number, or \"inf\"");
     const double number = value.get<double>();
-    if (!(std::abs(number) <= kNumberMax)) return refuse(key, "a number up to 1e9");
+    if (!(std::abs(number) <= kCameraNumberMax)) return refuse(key, "a number up to 1e9");
     return number;
   }
 

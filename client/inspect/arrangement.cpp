@@ -10,8 +10,6 @@
 namespace viewloom::inspect {
 namespace {
 
-// Longer sides are thinned out to this.
-constexpr uint32_t kGridSideMax = 256;
 // Neighbours that differ by more in 1/Z belong to different areas.
 constexpr float kAreaStep = 0.1F;
 constexpr size_t kIslandCells = 8;       // smaller areas are none
@@ -26,12 +24,11 @@ constexpr float kStraighter = 0.25F;  // of the other's bend: it is straight ins
 constexpr double kBendDominance = 4;
 constexpr double kBendShare = 0.02;  // of all cells
 
-// The depth on a grid of at most kGridSideMax cells a side.
+// The depth on a grid of gridStride_px.
 class Grid {
  public:
   explicit Grid(const DepthSamples& samples) {
-    const uint32_t longest = std::max(samples.width_px, samples.height_px);
-    const uint32_t stride = std::max(1U, (longest + kGridSideMax - 1) / kGridSideMax);
+    const uint32_t stride = samples.gridStride_px();
     width_ = (samples.width_px + stride - 1) / stride;
     height_ = (samples.height_px + stride - 1) / stride;
     for (uint32_t y = 0; y < height_; ++y) {

@@ -2,6 +2,7 @@
 // The depth of a layer as 1/Z, and what its samples were.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -50,6 +51,11 @@ struct DepthSamples {
   bool has_points_alone = false;     // ZeroPattern::isOfPoints
 
   uint64_t sampleCount() const { return uint64_t{width_px} * height_px; }
+  // From one sample to the next of a grid of at most 256 cells a side.
+  uint32_t gridStride_px() const {
+    constexpr uint32_t kCellsMax = 256;
+    return std::max(1U, (std::max(width_px, height_px) + kCellsMax - 1) / kCellsMax);
+  }
 };
 
 // `plane`: of depth, with its bytes packed. Faces of cube maps are read as PLANAR. Errors name the

@@ -10,8 +10,6 @@
 namespace viewloom::inspect {
 namespace {
 
-// Longer sides are thinned out to this.
-constexpr uint32_t kGridSideMax = 256;
 constexpr float kStep = 0.1F;        // of 1/Z, from where on two cells are different surfaces
 constexpr int kEdgeMin = 12;         // of the three channels together; less is noise
 constexpr ptrdiff_t kSlack = 1;      // cells by which colour and depth may lie apart
@@ -25,8 +23,7 @@ constexpr double kClearly = 2;  // times
 class CoarseGrid {
  public:
   CoarseGrid(const DepthSamples& samples, const ColorPixels& color) {
-    const uint32_t longest = std::max(samples.width_px, samples.height_px);
-    const uint32_t stride = std::max(1U, (longest + kGridSideMax - 1) / kGridSideMax);
+    const uint32_t stride = samples.gridStride_px();
     width_ = samples.width_px / stride;
     height_ = samples.height_px / stride;
     for (ptrdiff_t row = 0; row < height_; ++row) {

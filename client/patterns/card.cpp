@@ -19,7 +19,7 @@ constexpr Rgb kFrame = {60, 60, 60};
 
 // Of 1080, from the middle: nothing but frames and corners lies further out than the narrowest
 // panel shows.
-constexpr double kHalfWidth = 288;
+constexpr double kCardHalfWidth = 288;
 constexpr double kColorsTop = -300, kColorsHeight = 110;
 constexpr double kStepsTop = -180, kStepsHeight = 70;
 constexpr double kRampTop = -100, kRampHeight = 50;
@@ -181,7 +181,7 @@ CardPlaces cardPlaces(SizePx size_px) {
   const double unit = unitPx(size_px);
   const double x = size_px.width / 2.0, y = size_px.height / 2.0;
   const auto row = [&](double top, double height) {
-    return PxBox{x - kHalfWidth * unit, y + top * unit, x + kHalfWidth * unit,
+    return PxBox{x - kCardHalfWidth * unit, y + top * unit, x + kCardHalfWidth * unit,
                  y + (top + height) * unit};
   };
   CardPlaces places;

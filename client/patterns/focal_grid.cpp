@@ -14,7 +14,7 @@
 namespace viewloom::patterns {
 namespace {
 
-constexpr Rgb kPlate = {232, 230, 222};
+constexpr Rgb kPaper = {232, 230, 222};
 constexpr Rgb kFineLine = {160, 170, 178};
 constexpr Rgb kStrongLine = {40, 60, 84};
 constexpr Rgb kSlant = {36, 66, 96};
@@ -47,8 +47,8 @@ class GridDrawing {
         places_(gridPlaces(options)),
         unit_(unitPx(options.size_px)),
         whole_(wholeImage(options.size_px)),
-        first_(options.size_px, kPlate),
-        second_(options.size_px, kPlate) {}
+        first_(options.size_px, kPaper),
+        second_(options.size_px, kPaper) {}
 
   absl::StatusOr<Pattern> draw() {
     first_.place(whole_, {.inv_z = kFocalPlane_inv_m});
@@ -78,7 +78,7 @@ class GridDrawing {
         const std::string place = strCat(column, ",", -row);
         const WrittenText text = lettering_.write(20 * unit_, place);
         const PxBox paper = boxAround(x, y, text.size_px.width + 6 * unit_, text.size_px.height);
-        canvas.fill(paper, kPlate);
+        canvas.fill(paper, kPaper);
         canvas.write(text, TextAnchor::kMiddle, x, y, kStrongLine);
       });
     });

@@ -14,7 +14,7 @@
 namespace viewloom::patterns {
 namespace {
 
-constexpr Rgb kPlate = {44, 48, 56};
+constexpr Rgb kWall = {44, 48, 56};
 constexpr Rgb kNear = {246, 196, 92};
 constexpr Rgb kFar = {126, 190, 244};
 constexpr Rgb kLevel = {196, 200, 204};
@@ -29,7 +29,7 @@ constexpr double kLabelMiddle = 17;
 constexpr double kSlidingTop = 32;
 constexpr double kSlidingHeight = 40;
 constexpr double kFocalHeight = 32;
-constexpr double kHalfWidth = 232;
+constexpr double kRulerHalfWidth = 232;
 
 constexpr uint32_t kStepsEachSide = 4;   // each half of the one before
 constexpr double kMarkDistance_px = 10;  // of a view
@@ -76,8 +76,8 @@ class RulerDrawing {
         places_(rulerPlaces(options)),
         unit_(unitPx(options.size_px)),
         zero_px_(options.size_px.width / 2.0),
-        first_(options.size_px, kPlate),
-        second_(options.size_px, kPlate) {}
+        first_(options.size_px, kWall),
+        second_(options.size_px, kWall) {}
 
   absl::StatusOr<Pattern> draw() {
     first_.place(wholeImage(options_.size_px), {.inv_z = kFocalPlane_inv_m});
@@ -118,7 +118,7 @@ class RulerDrawing {
     PxBox behind = row.sliding;
     behind.left -= std::ceil(reach_px) + 2;
     behind.right += std::ceil(reach_px) + 2;
-    LayerDrawing wide(options_.size_px, kPlate);
+    LayerDrawing wide(options_.size_px, kWall);
     drawSliding(behind, kFar, wide);
     // Eyes above and below the others see more of it.
     const PxBox tall{.left = behind.left,
@@ -160,7 +160,7 @@ RulerPlaces rulerPlaces(const PatternOptions& options) {
   // farthest ruler may reach as far to the sides as the source sees.
   const double per_share_px = view_focal_px * views.pitchTangent();
   const double reach_share =
-      (middle - kHalfWidth * unit - 3) / (places.focal_px * views.outermostTangent());
+      (middle - kRulerHalfWidth * unit - 3) / (places.focal_px * views.outermostTangent());
   const double most_px = per_share_px * std::min(kDepthShareMax, reach_share);
   const double largest_px = std::exp2(std::floor(std::log2(most_px)));
   const double top = (options.size_px.height - 1080 * unit) / 2 + kRowsTop * unit;
@@ -173,9 +173,9 @@ RulerPlaces rulerPlaces(const PatternOptions& options) {
                                              std::exp2(std::abs(from_plane) - steps);
     row.inv_z = kFocalPlane_inv_m * (1 + row.disparity_px / per_share_px);
     const double row_top = std::round(top + step * kRowHeight * unit);
-    row.sliding = {.left = std::round(middle - kHalfWidth * unit),
+    row.sliding = {.left = std::round(middle - kRulerHalfWidth * unit),
                    .top = row_top + std::round(kSlidingTop * unit),
-                   .right = std::round(middle + kHalfWidth * unit),
+                   .right = std::round(middle + kRulerHalfWidth * unit),
                    .bottom = row_top + std::round((kSlidingTop + kSlidingHeight) * unit)};
     row.focal_ruler_top_px = row.sliding.bottom;
     places.rows.push_back(row);

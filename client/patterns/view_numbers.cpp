@@ -15,7 +15,7 @@
 namespace viewloom::patterns {
 namespace {
 
-constexpr Rgb kPlate = {58, 62, 70};
+constexpr Rgb kNumberPlate = {58, 62, 70};
 constexpr Rgb kWall = {18, 18, 22};
 constexpr Rgb kPaper = {236, 232, 220};
 constexpr Rgb kInk = {16, 16, 16};
@@ -142,7 +142,7 @@ absl::StatusOr<Pattern> drawViewNumbers(const PatternOptions& options) {
   const absl::StatusOr<NumberPlaces> places = numberPlaces(options);
   if (!places.ok()) return places.status();
   Lettering lettering;
-  LayerDrawing plate(options.size_px, kPlate);
+  LayerDrawing plate(options.size_px, kNumberPlate);
   LayerDrawing strip(options.size_px, kWall);
   const PxBox whole = wholeImage(options.size_px);
   plate.place(whole, {.inv_z = kFocalPlane_inv_m});

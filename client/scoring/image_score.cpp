@@ -19,7 +19,7 @@ constexpr double kWindowSigma_px = 1.5;
 constexpr double kStabiliserMean = 0.01 * 0.01;      // (K1 L)^2 with peak L = 1
 constexpr double kStabiliserContrast = 0.03 * 0.03;  // (K2 L)^2
 
-using Plane = std::vector<double>;  // [pixel]
+using Values = std::vector<double>;  // [pixel]
 
 std::array<double, 2 * kWindowRadius_px + 1> windowWeights() {
   std::array<double, 2 * kWindowRadius_px + 1> weights{};
@@ -47,21 +47,21 @@ void blurLine(const double* from, double* to, int count, size_t step) {
   }
 }
 
-Plane blurred(const Plane& plane, SizePx size_px) {
-  Plane rows(plane.size());
+Values blurred(const Values& plane, SizePx size_px) {
+  Values rows(plane.size());
   for (size_t y = 0; y < size_px.height; ++y) {
     const size_t begin = y * size_px.width;
     blurLine(&plane[begin], &rows[begin], int(size_px.width), 1);
   }
-  Plane both(plane.size());
+  Values both(plane.size());
   for (size_t x = 0; x < size_px.width; ++x) {
     blurLine(&rows[x], &both[x], int(size_px.height), size_px.width);
   }
   return both;
 }
 
-Plane lumaOf(const ScoredImage& image) {
-  Plane luma(image.size_px.area());
+Values lumaOf(const ScoredImage& image) {
+  Values luma(image.size_px.area());
   for (size_t i = 0; i < luma.size(); ++i) {
     const float* rgb = &image.rgb[3 * i];
     luma[i] = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
@@ -69,19 +69,19 @@ Plane lumaOf(const ScoredImage& image) {
   return luma;
 }
 
-Plane product(const Plane& a, const Plane& b) {
-  Plane products(a.size());
+Values product(const Values& a, const Values& b) {
+  Values products(a.size());
   std::transform(a.begin(), a.end(), b.begin(), products.begin(), std::multiplies<>());
   return products;
 }
 
-Plane ssimMap(const Plane& a, const Plane& b, SizePx size_px) {
-  const Plane mean_a = blurred(a, size_px);
-  const Plane mean_b = blurred(b, size_px);
-  const Plane mean_aa = blurred(product(a, a), size_px);
-  const Plane mean_bb = blurred(product(b, b), size_px);
-  const Plane mean_ab = blurred(product(a, b), size_px);
-  Plane map(a.size());
+Values ssimMap(const Values& a, const Values& b, SizePx size_px) {
+  const Values mean_a = blurred(a, size_px);
+  const Values mean_b = blurred(b, size_px);
+  const Values mean_aa = blurred(product(a, a), size_px);
+  const Values mean_bb = blurred(product(b, b), size_px);
+  const Values mean_ab = blurred(product(a, b), size_px);
+  Values map(a.size());
   for (size_t i = 0; i < map.size(); ++i) {
     const double variance_a = mean_aa[i] - mean_a[i] * mean_a[i];
     const double variance_b = mean_bb[i] - mean_b[i] * mean_b[i];
