@@ -107,8 +107,9 @@ TEST_F(PipelineTicksTest, costsNothingWhileNothingMoves) {
     server.clock.advance(kFrame_ns);
   }
   server.clock.advance(10 * kFrame_ns);
-  // A joiner of another encoding gets the atlas that stands.
+  // A joiner of another encoding gets the atlas that stands, at the next tick.
   const Viewer joiner = watch(server, ticking(), {.color = BandEncoding::kRaw});
+  server.clock.advance(kTick_ns);
   const AtlasPtr joined = joiner.subscriber->waitForAtlases(1).front();
   EXPECT_EQ(joined->timing, Timing::kCaptured);
   server.pipeline.drain();
