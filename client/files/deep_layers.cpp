@@ -24,12 +24,11 @@ constexpr size_t kColorBytes = 8;  // a px
 constexpr size_t kDepthBytes = 4;
 // Of all planes together; as much as the server takes of a frame.
 constexpr uint64_t kLayersBytesMax = uint64_t{3} << 29;
-constexpr double kHalfMax = 65504;
 // Half a step of binary16 below 1: less cannot be told from an opaque px.
 constexpr double kOpaque = 1 - 1.0 / 4096;
 
 uint16_t halfBits(double value) {
-  return Imath::half(static_cast<float>(std::clamp(value, -kHalfMax, kHalfMax))).bits();
+  return Imath::half(static_cast<float>(std::clamp<double>(value, -kHalfMax, kHalfMax))).bits();
 }
 
 // Layers as they fill. A layer that no px needs is never made.

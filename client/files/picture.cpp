@@ -22,7 +22,6 @@ namespace {
 // Mean difference between channels, as a share of the largest sample. JPEG gives grey a thousandth,
 // colour maps of depth are beyond a tenth.
 constexpr double kGreyDifferenceMax = 0.02;
-constexpr float kHalfMax = 65504;
 
 bool hasAlpha(const Picture& picture) {
   return picture.channels == 2 || picture.channels == 4;

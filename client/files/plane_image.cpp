@@ -78,7 +78,6 @@ bool isFinite(const Imath::M33d& matrix) {
 }
 
 void convert(const Imath::M33d& matrix, std::vector<uint8_t>& rgba16f) {
-  constexpr float kHalfMax = 65504;
   for (size_t at = 0; at < rgba16f.size(); at += 8) {
     std::array<Imath::half, 3> rgb;
     std::memcpy(static_cast<void*>(rgb.data()), &rgba16f[at], 6);

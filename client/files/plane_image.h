@@ -15,6 +15,7 @@
 namespace viewloom::files {
 
 inline constexpr int64_t kSideMax_px = 8192;  // of a plane, as the server accepts
+inline constexpr float kHalfMax = 65504;      // the largest finite number of binary16
 
 struct PlaneImage {
   uint32_t width_px = 0;

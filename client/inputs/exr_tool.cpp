@@ -61,10 +61,10 @@ bool isOfNuke(const files::ExrDescription& description) {
 
 namespace {
 
-using Names = std::set<std::string>;
+using NameSet = std::set<std::string>;
 
-Names namesIn(const files::ExrDescription& description) {
-  Names names;
+NameSet namesIn(const files::ExrDescription& description) {
+  NameSet names;
   for (const files::ExrDescribedPart& part : description.parts) {
     for (const files::ExrDescribedChannel& channel : part.channels) names.insert(channel.name);
   }
@@ -72,7 +72,8 @@ Names namesIn(const files::ExrDescription& description) {
 }
 
 // R, G, B and, where it is there, A, each behind the prefix.
-std::optional<std::vector<std::string>> colorBehind(const Names& names, const std::string& prefix) {
+std::optional<std::vector<std::string>> colorBehind(const NameSet& names,
+                                                    const std::string& prefix) {
   std::vector<std::string> color;
   for (const char* channel : {"R", "G", "B"}) {
     if (!names.contains(prefix + channel)) return std::nullopt;
@@ -86,7 +87,7 @@ std::optional<std::vector<std::string>> colorBehind(const Names& names, const st
 
 std::optional<ExrLayers> blenderLayers(const files::ExrDescription& description,
                                        const std::string& view) {
-  const Names names = namesIn(description);
+  const NameSet names = namesIn(description);
   const std::string of_view = view.empty() ? "" : view + ".";
   const std::string ending = ".Combined." + of_view + "R";
   for (const std::string& name : names) {
@@ -100,7 +101,7 @@ std::optional<ExrLayers> blenderLayers(const files::ExrDescription& description,
 }
 
 std::optional<ExrLayers> unrealLayers(const files::ExrDescription& description) {
-  const Names names = namesIn(description);
+  const NameSet names = namesIn(description);
   const auto is_depth = [](const std::string& name) { return name.ends_with("WorldDepth.R"); };
   const auto depth = std::find_if(names.begin(), names.end(), is_depth);
   if (depth == names.end()) return std::nullopt;

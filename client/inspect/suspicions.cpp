@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/str_cat.h"
+#include "files/plane_image.h"
 #include "inspect/arrangement.h"
 #include "inspect/stored_numbers.h"
 #include "shared/histogram.h"
@@ -12,7 +13,6 @@
 namespace viewloom::inspect {
 namespace {
 
-constexpr double kHalfMax = 65504;  // of binary16
 constexpr double kFarClip_m = 100;  // far planes of renderers lie here or further away
 constexpr double kFarMedian_m = 200, kNearMedian_m = 0.02;
 constexpr uint64_t kSteppedCount = 32;  // fewer places are too few to judge by
@@ -78,7 +78,7 @@ class Rules {
   void suspectClipped() {
     if (samples_.stored_min == samples_.stored_max) return;  // flat, as is said
     const double code_max = facts_.plane.encoding() == v1::PLANE_ENCODING_DEPTH_F16
-                                ? kHalfMax
+                                ? double{files::kHalfMax}
                                 : std::max(facts_.code_max, 1U);
     const bool is_cut = 1 / double{measures_.inv_z_min} >= kFarClip_m &&
                         1 / double{measures_.inv_z_median} <= kFarMedian_m;

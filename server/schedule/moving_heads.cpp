@@ -15,7 +15,7 @@ void MovingHeads::add(const PoseTimes& poses) {
   ++count_;
   newest_ns_ = std::max(newest_ns_, poses.received_ns);
   if (const auto due_ns = nextDueNs(poses)) {
-    soonest_due_ns_ = std::min(soonest_due_ns_.value_or(*due_ns), *due_ns);
+    if (!soonest_due_ns_ || *due_ns < *soonest_due_ns_) soonest_due_ns_ = *due_ns;
   }
 }
 

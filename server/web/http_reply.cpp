@@ -54,12 +54,12 @@ unsigned httpStatusOf(absl::StatusCode code) {
 }
 
 std::string errorJson(const absl::Status& status) {
-  const nlohmann::json json = {{"error",
-                                {{"code", absl::StatusCodeToString(status.code())},
-                                 {"field", fieldOf(status)},
-                                 {"message", std::string(status.message())}}}};
+  const nlohmann::json error = {{"error",
+                                 {{"code", absl::StatusCodeToString(status.code())},
+                                  {"field", fieldOf(status)},
+                                  {"message", std::string(status.message())}}}};
   // Foreign text in a message may be no UTF-8.
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return error.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 HttpReply jsonReply(std::string json) {
