@@ -20,7 +20,6 @@
 namespace viewloom::cli {
 namespace {
 
-constexpr int64_t kTick_ns = 50'000'000;
 constexpr int64_t kFinish_ns = 5'000'000'000;     // for the rest of an atlas that has begun
 constexpr int64_t kInterrupted_ns = 800'000'000;  // the same after Ctrl-C
 
@@ -55,7 +54,8 @@ class RecordRun {
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
-    while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok() && !isTimeOver()) {
+    while (!watcher_->waitEnded(kInterruptTick_ns) && !isInterrupted() && failure().ok() &&
+           !isTimeOver()) {
       if (line_.isDue()) line_.show(status());
     }
     finishAtlas();
@@ -112,10 +112,10 @@ class RecordRun {
     const auto isOver = [&] {
       return clock_.nowNs() - begun_ns >= (isInterrupted() ? kInterrupted_ns : kFinish_ns);
     };
-    while (isWithinAtlas() && !isOver() && !watcher_->waitEnded(kTick_ns)) {
+    while (isWithinAtlas() && !isOver() && !watcher_->waitEnded(kInterruptTick_ns)) {
     }
     watcher_->stop();
-    while (!watcher_->waitEnded(kTick_ns)) {
+    while (!watcher_->waitEnded(kInterruptTick_ns)) {
     }
   }
 

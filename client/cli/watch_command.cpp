@@ -29,8 +29,6 @@
 namespace viewloom::cli {
 namespace {
 
-constexpr int64_t kTick_ns = 50'000'000;
-
 struct WatchOptions {
   std::string stream = "demo";
   std::string recording;  // "" = watch the stream
@@ -80,7 +78,7 @@ class WatchRun {
     // Only the line says how the server's clock stands: who sees none need not ask.
     if (!options_.is_quiet) clock_ = std::make_unique<ClockFollower>(*watcher_);
     if (eyes_) eyes_->start(eyeCallbacks());
-    while (!watcher_->waitEnded(kTick_ns) && !isInterrupted() && failure().ok()) {
+    while (!watcher_->waitEnded(kInterruptTick_ns) && !isInterrupted() && failure().ok()) {
       if (line_.isDue()) line_.show(status());
     }
     return end();
@@ -224,7 +222,7 @@ class WatchRun {
     watcher_->stop();
     clock_.reset();
     eyes_.reset();
-    while (!watcher_->waitEnded(kTick_ns)) {
+    while (!watcher_->waitEnded(kInterruptTick_ns)) {
     }
     if (watcher_->counts().atlases.whole > 0) line_.show(status());
     if (const absl::Status failed = failure(); !failed.ok()) return reportError(failed, common_);

@@ -15,7 +15,7 @@ void MovingHeads::add(const PoseTimes& poses) {
   ++count_;
   newest_ns_ = std::max(newest_ns_, poses.received_ns);
   if (const auto due_ns = nextDueNs(poses)) {
-    if (!soonest_due_ns_ || *due_ns < *soonest_due_ns_) soonest_due_ns_ = *due_ns;
+    soonest_due_ns_ = std::min(soonest_due_ns_, *due_ns);
   }
 }
 
@@ -43,6 +43,7 @@ std::optional<int64_t> MovingHeads::waitForUntilNs(const PoseTimes& poses) const
 std::optional<int64_t> MovingHeads::waitForAnyUntilNs() const {
   const int64_t age_ns = now_ns_ - newest_ns_;
   if (age_ns <= kAlikePoses_ns) return std::nullopt;
+  if (soonest_due_ns_ == kNever_ns) return std::nullopt;
   return waitUntilNs(soonest_due_ns_, std::min(age_ns, kAnyAwaited_ns));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "eye_poses/eye_track.h"
@@ -46,14 +47,16 @@ class MovingHeads {
   std::optional<int64_t> waitForAnyUntilNs() const;
 
  private:
+  static constexpr int64_t kNever_ns = std::numeric_limits<int64_t>::max();
+
   bool areFresh(const PoseTimes& poses) const;
   std::optional<int64_t> nextDueNs(const PoseTimes& poses) const;
   std::optional<int64_t> waitUntilNs(std::optional<int64_t> due_ns, int64_t at_most_ns) const;
 
   int64_t now_ns_;
   int64_t count_ = 0;
-  int64_t newest_ns_ = 0;                  // when the newest of all poses came
-  std::optional<int64_t> soonest_due_ns_;  // the next poses of all
+  int64_t newest_ns_ = 0;               // when the newest of all poses came
+  int64_t soonest_due_ns_ = kNever_ns;  // the next poses of all
 };
 
 }  // namespace viewloom

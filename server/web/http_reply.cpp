@@ -62,11 +62,11 @@ std::string errorJson(const absl::Status& status) {
   return error.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-HttpReply jsonReply(std::string json) {
+HttpReply jsonReply(std::string text) {
   HttpReply reply;
   reply.type = "application/json";
   reply.headers = {{"Cache-Control", "no-store"}};
-  reply.text = std::move(json);
+  reply.text = std::move(text);
   return reply;
 }
 
