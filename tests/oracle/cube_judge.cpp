@@ -15,7 +15,6 @@ namespace {
 
 // A chain of binary32 from the ray to the place of its hit, a share of 1/Z.
 constexpr double kInvZShareTolerance = 1e-3;
-constexpr size_t kWorstCount = 6;
 
 double invZIn(const ViewRay& ray, const CubeAnswer& answer) {
   return glm::length(ray.ray.direction) / answer.distance_m;
@@ -85,7 +84,7 @@ void CubeJudge::consider(const ViewRay& ray, const TestedCubeAnswer& tested,
     return;
   }
   ++verdict_.differing;
-  if (verdict_.worst.size() >= kWorstCount) return;
+  if (verdict_.worst.size() >= Verdict::kWorstCount) return;
   std::ostringstream text;
   text << where << ": oracle " << own.ray_class << " at " << own_inv_z << " 1/m on face "
        << own.face << " (" << own.hit.x_px << ", " << own.hit.y_px << "), tested "

@@ -19,7 +19,6 @@ namespace {
 // Units in the last place of binary32 that a chain of clip, step and solve may lose.
 constexpr double kRoundingUlps = 16;
 constexpr double kUlp = 1.0 / (1 << 23);
-constexpr size_t kWorstCount = 6;
 
 // Where a ray is compared with a surface on its way.
 constexpr double kStepsPerPx = 4;
@@ -67,7 +66,7 @@ void Verdict::add(const Verdict& other) {
   excused += other.excused;
   differing += other.differing;
   for (const std::string& line : other.worst) {
-    if (worst.size() < kWorstCount) worst.push_back(line);
+    if (worst.size() < Verdict::kWorstCount) worst.push_back(line);
   }
 }
 
@@ -122,7 +121,7 @@ void Judge::consider(const ViewRay& ray, const TestedAnswer& tested, const std::
     return;
   }
   ++verdict_.differing;
-  if (verdict_.worst.size() < kWorstCount) {
+  if (verdict_.worst.size() < Verdict::kWorstCount) {
     verdict_.worst.push_back(where + ": oracle " + describe(own) + ", tested " + describe(tested) +
                              ", " + describe(ray.ray));
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,12 +36,14 @@ JudgeTolerance toleranceOf(const OracleSource& source, double output_px);
 
 // Counts of rays. exact + within + excused + differing = rays.
 struct Verdict {
+  static constexpr size_t kWorstCount = 6;
+
   uint64_t rays = 0;
   uint64_t exact = 0;    // the oracle's own answer, up to rounding
   uint64_t within = 0;   // the answer of the ray, or its surface, moved by less than the tolerance
   uint64_t excused = 0;  // not the oracle's, but the moved rays do not agree with each other either
   uint64_t differing = 0;          // the moved rays all agree, and not with it
-  std::vector<std::string> worst;  // the first few differing rays, in words
+  std::vector<std::string> worst;  // the first kWorstCount differing rays, in words
 
   void add(const Verdict& other);
   double excusedShare() const { return rays == 0 ? 0 : double(excused) / double(rays); }

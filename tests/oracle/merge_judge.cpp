@@ -18,7 +18,6 @@ constexpr double kShareTolerance = 0.02;
 constexpr double kInvZShareTolerance = 1e-3;
 // Whether two hits are one is decided within so much of the tolerance.
 constexpr double kSlacks[] = {1, 0.98, 1.02};
-constexpr size_t kWorstCount = 6;
 
 bool isExact(const MergedAnswer& tested, const MergedAnswer& own) {
   if (tested.ray_class != own.ray_class) return false;
@@ -197,7 +196,7 @@ void MergeJudge::consider(const ViewRay& ray, const MergedAnswer& tested,
     return;
   }
   ++verdict_.differing;
-  if (verdict_.worst.size() < kWorstCount) {
+  if (verdict_.worst.size() < Verdict::kWorstCount) {
     verdict_.worst.push_back(where + ": oracle " + describe(own) + ", tested " + describe(tested));
   }
 }
