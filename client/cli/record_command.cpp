@@ -20,8 +20,8 @@
 namespace viewloom::cli {
 namespace {
 
-constexpr int64_t kFinish_ns = 5'000'000'000;     // for the rest of an atlas that has begun
-constexpr int64_t kInterrupted_ns = 800'000'000;  // the same after Ctrl-C
+constexpr int64_t kRestOfAtlas_ns = 5'000'000'000;     // for the rest of an atlas that has begun
+constexpr int64_t kInterruptedAtlas_ns = 800'000'000;  // the same after Ctrl-C
 
 struct RecordOptions {
   std::string stream = "demo";
@@ -110,7 +110,8 @@ class RecordRun {
   void finishAtlas() {
     const int64_t begun_ns = clock_.nowNs();
     const auto isOver = [&] {
-      return clock_.nowNs() - begun_ns >= (isInterrupted() ? kInterrupted_ns : kFinish_ns);
+      return clock_.nowNs() - begun_ns >=
+             (isInterrupted() ? kInterruptedAtlas_ns : kRestOfAtlas_ns);
     };
     while (isWithinAtlas() && !isOver() && !watcher_->waitEnded(kInterruptTick_ns)) {
     }
