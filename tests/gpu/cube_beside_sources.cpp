@@ -6,11 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "gpu/cube_scenes.h"
+#include "oracle/scene_generator.h"
 
 namespace viewloom {
 namespace {
-
-constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
 // Anywhere around where it is, m, and turned.
 void move(oracle::Random& random, double distance_m, double angle_rad, PosedScene& posed) {
@@ -66,7 +65,7 @@ oracle::Verdict judgeCubeBesideSources(SourcesUnderTest& tracer, uint64_t seed) 
     views[i].orientation = eye.orientation;
   }
   return judgeScenes(tracer, scenes, views,
-                     {.tolerance_px = kTolerances_px[seed % 3],
+                     {.tolerance_px = oracle::toleranceOfSeed_px(seed),
                       .is_half_float = seed % 2 == 0,
                       .name = "seed " + std::to_string(seed)});
 }

@@ -4,13 +4,12 @@
 #include <glm/geometric.hpp>
 
 #include "gpu/cube_scenes.h"
+#include "oracle/scene_generator.h"
 
 namespace viewloom {
 namespace {
 
 using oracle::kFaceCount;
-
-constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
 // Some from the cube's own place, others from up to 0.8 m beside it; all turned anywhere.
 std::vector<oracle::OutputView> viewsAround(oracle::Random& random) {
@@ -29,7 +28,7 @@ std::vector<oracle::OutputView> viewsAround(oracle::Random& random) {
 }  // namespace
 
 JudgedCube judgeCube(SourcesUnderTest& tracer, uint64_t seed) {
-  const double tolerance_px = kTolerances_px[seed % 3];
+  const double tolerance_px = oracle::toleranceOfSeed_px(seed);
   oracle::Random random(seed);
   const int side = random.integer(3, 28), layer_count = random.integer(1, 4);
   const oracle::Scene scene = randomCubeScene(random, seed, side, layer_count);

@@ -3,10 +3,10 @@
 
 #include <sstream>
 
+#include "oracle/scene_generator.h"
+
 namespace viewloom {
 namespace {
-
-constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
 std::string describe(uint64_t seed, const oracle::Scene& scene,
                      const oracle::OracleSource& source) {
@@ -28,7 +28,7 @@ JudgedSeed judgeSeed(WalkUnderTest& walk, uint64_t seed) {
   const oracle::OracleSource source = sourceOf(scene, *slot);
   const StructureImage image = walk.readBack(*slot);
 
-  const double tolerance_px = kTolerances_px[seed % 3];
+  const double tolerance_px = oracle::toleranceOfSeed_px(seed);
   oracle::Random random(seed);
   JudgedViews judged;
   for (const int kind_count : {oracle::kViewKindCount, oracle::kInPlaneKindCount}) {
@@ -45,7 +45,7 @@ JudgedSeed judgeSweptSeed(SweepUnderTest& sweep, uint64_t seed) {
   for (int i = 0; i < 3; ++i) views.push_back(oracle::randomView(random, 0, 24, 18));
   sweep.prepare(frameOf(scene));
   const oracle::OracleSource source = sourceOf(scene, sweep.source().measured().stats);
-  const double tolerance_px = kTolerances_px[seed % 3];
+  const double tolerance_px = oracle::toleranceOfSeed_px(seed);
   return {describe(seed, scene, source), Complaints(),
           judgeTraced(sweep.trace(views, tolerance_px), source, views, tolerance_px, "soak")};
 }

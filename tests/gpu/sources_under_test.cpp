@@ -7,11 +7,10 @@
 #include <span>
 
 #include "gpu/cube_scenes.h"
+#include "oracle/scene_generator.h"
 
 namespace viewloom {
 namespace {
-
-constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
 
 oracle::MergedAnswer answerOf(uint8_t mask, float view_inv_z, const float* srgb, size_t sources) {
   constexpr oracle::RayClass kClasses[] = {oracle::RayClass::kHit, oracle::RayClass::kHitAssumed,
@@ -163,7 +162,7 @@ oracle::Verdict judgeSources(SourcesUnderTest& tracer, uint64_t seed) {
   const std::vector<PosedScene> scenes = randomSources(seed, random);
   const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
   return judgeScenes(tracer, scenes, views,
-                     {.tolerance_px = kTolerances_px[seed % 3],
+                     {.tolerance_px = oracle::toleranceOfSeed_px(seed),
                       .is_half_float = seed % 2 == 0,
                       .name = "seed " + std::to_string(seed)});
 }

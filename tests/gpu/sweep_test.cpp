@@ -7,6 +7,7 @@
 
 #include "gpu/judge_views.h"
 #include "gpu/sweep_under_test.h"
+#include "oracle/scene_generator.h"
 
 namespace viewloom {
 namespace {
@@ -31,13 +32,12 @@ JudgedViews judge(SweepUnderTest& sweep, const oracle::Scene& scene,
 }
 
 JudgedViews judgeSeeds(SweepUnderTest& sweep, uint64_t seed_count) {
-  constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
   oracle::Random random(11);
   JudgedViews sum;
   for (uint64_t seed = 0; seed < seed_count; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed);
     const auto views = viewsBeside(random, 3, 24, 18);
-    sum.add(judge(sweep, scene, views, kTolerances_px[seed % 3],
+    sum.add(judge(sweep, scene, views, oracle::toleranceOfSeed_px(seed),
                   "seed " + std::to_string(seed) + " " + scene.name));
   }
   return sum;

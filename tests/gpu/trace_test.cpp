@@ -4,6 +4,7 @@
 
 #include "gpu/judge_views.h"
 #include "oracle/analytic_scenes.h"
+#include "oracle/scene_generator.h"
 #include "support/test_device.h"
 
 namespace viewloom {
@@ -25,13 +26,12 @@ class TraceTest : public GpuTest {
 };
 
 TEST_F(TraceTest, agreesWithTheOracleFromAllSides) {
-  constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
   oracle::Random random(11);
   JudgedViews sum;
   for (uint64_t seed = 0; seed < 112; ++seed) {
     const oracle::Scene scene = oracle::randomScene(seed);
     const auto views = oracle::randomViews(random, oracle::kViewKindCount, 13, 10);
-    sum.add(judge(scene, views, kTolerances_px[seed % 3],
+    sum.add(judge(scene, views, oracle::toleranceOfSeed_px(seed),
                   "seed " + std::to_string(seed) + " " + scene.name));
   }
   EXPECT_EQ(sum.verdict.differing, 0u) << sum.summary();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <string>
 
 #include "oracle/oracle_source.h"
@@ -33,6 +34,12 @@ struct Scene {
 
 // Every size and kind comes up within a few dozen seeds.
 Scene randomScene(uint64_t seed);
+
+// How exact the structure of such a scene is asked for, px: each third seed the same.
+inline double toleranceOfSeed_px(uint64_t seed) {
+  constexpr double kTolerances_px[] = {0.25, 0.05, 0.01};
+  return kTolerances_px[seed % std::size(kTolerances_px)];
+}
 
 // A scene of given size and layer count.
 Scene randomScene(uint64_t seed, int width, int height, int layer_count);
