@@ -6,12 +6,10 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/support/byte_buffer.h>
 
-#include <chrono>
+#include "e2e/patience.h"
 
 namespace viewloom {
 namespace {
-
-constexpr std::chrono::seconds kPatience(60);
 
 // Waits for the one operation that is under way.
 bool nextOk(grpc::CompletionQueue& queue) {
@@ -35,7 +33,7 @@ RawReply converse(const std::shared_ptr<grpc::Channel>& channel, const std::stri
   RawReply reply;
   grpc::CompletionQueue queue;
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kPatience);
+  endAfterAMinute(context);
   grpc::GenericStub stub(channel);
   const auto call = stub.PrepareCall(&context, method, &queue);
   call->StartCall(nullptr);

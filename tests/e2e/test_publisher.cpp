@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "e2e/test_publisher.h"
 
-#include <chrono>
 #include <utility>
+
+#include "e2e/patience.h"
 
 namespace viewloom {
 namespace {
 
 constexpr uint32_t kSidePx = 4;
-constexpr std::chrono::seconds kPatience(60);
 
 v1::Plane smallPlane(v1::PlaneKind kind, v1::PlaneEncoding encoding, uint32_t pixel_bytes) {
   v1::Plane plane;
@@ -49,7 +49,7 @@ v1::FrameChunk chunkOf(uint32_t plane_index, uint64_t offset_bytes, std::string 
 
 TestPublisher::TestPublisher(const std::shared_ptr<grpc::Channel>& channel)
     : stub_(v1::IngestService::NewStub(channel)) {
-  context_.set_deadline(std::chrono::system_clock::now() + kPatience);
+  endAfterAMinute(context_);
   call_ = stub_->PublishFrames(&context_);
 }
 

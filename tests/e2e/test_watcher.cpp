@@ -3,14 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include "e2e/patience.h"
 
 namespace viewloom {
-namespace {
-
-constexpr std::chrono::seconds kPatience(60);
-
-}  // namespace
 
 v1::OpenDisplay smallQuilt(const std::string& stream) {
   v1::OpenDisplay open;
@@ -26,7 +21,7 @@ v1::OpenDisplay smallQuilt(const std::string& stream) {
 
 TestWatcher::TestWatcher(const std::shared_ptr<grpc::Channel>& channel)
     : stub_(v1::DisplayService::NewStub(channel)) {
-  context_.set_deadline(std::chrono::system_clock::now() + kPatience);
+  endAfterAMinute(context_);
   call_ = stub_->StreamAtlases(&context_);
 }
 
