@@ -16,7 +16,11 @@ int run(int argc, char** argv) {
   const viewloom::usage::CommandLine app(
       "Computes the views of light-field displays from pictures with depth.", "viewloomd");
   app.version(VIEWLOOM_VERSION);
-  app.footer("To render files or to time this machine: viewloom render, viewloom bench.");
+  app.footer(
+      "viewloomd --help lists all settings; they stand before or after serve and doctor. A file "
+      "and the environment\nset the same: VIEWLOOM_GRPC_ADDRESS for --grpc.address. Options beat "
+      "the environment, the environment beats the file.\n"
+      "To render files or to time this machine: viewloom render, viewloom bench.");
   viewloom::ConfigSources sources{.file = {}, .environment = viewloom::processEnvironment()};
   viewloom::addSettingOptions(app, sources);
   viewloom::RunCommand run_command = viewloom::serve;

@@ -45,8 +45,8 @@ int doctor(const Config& config) {
 }  // namespace
 
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen) {
-  const usage::Command command =
-      app.addCommand("doctor", "Checks device, ports and host, and says what to do");
+  const usage::Command command = app.addCommand(
+      "doctor", "Checks the device, the ports and the host, and says how to fix each problem");
   command.onChosen([&chosen] { chosen = doctor; });
 }
 

@@ -87,7 +87,8 @@ int serve(const Config& config) {
 }
 
 void addServeCommand(const usage::Command& app, RunCommand& chosen) {
-  const usage::Command command = app.addCommand("serve", "Runs the server (default)");
+  const usage::Command command =
+      app.addCommand("serve", "Runs the server until Ctrl-C or SIGTERM (default)");
   command.onChosen([&chosen] { chosen = serve; });
 }
 

@@ -110,7 +110,7 @@ void addSettingOptions(const usage::Command& command, ConfigSources& sources,
                        const std::vector<std::string>& beginnings) {
   command.addTaken(
       "--config", [&sources](const std::string& file) { sources.file = file; },
-      "Settings as TOML; see deploy/viewloomd.example.toml");
+      "Settings file (TOML); deploy/viewloomd.example.toml explains every setting");
   Config defaults;
   for (const Setting& setting : settingsOf(defaults)) {
     const std::string key(setting.key);
@@ -120,7 +120,8 @@ void addSettingOptions(const usage::Command& command, ConfigSources& sources,
     command
         .addTaken(
             "--" + key, [&sources, key](const std::string& text) { sources.flags[key] = text; },
-            acceptedText(setting))
+            strCat(setting.help, ". Accepted: ", acceptedText(setting),
+                   "; default: ", valueText(setting)))
         .group("Settings");
   }
 }

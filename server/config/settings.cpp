@@ -97,35 +97,96 @@ struct Assign {
   }
 };
 
+std::vector<Setting> machineSettings(Config& config) {
+  return {
+      {"device", "",
+       "Vulkan device: part of its name, or its index in `viewloomd doctor`; empty = a GPU, else "
+       "the CPU renderer",
+       TextSetting{&config.device}},
+      {"kernel_folder", "",
+       "Folder that keeps GPU kernels compiled between starts; auto = the user's cache, empty = "
+       "none",
+       TextSetting{&config.kernel_folder}},
+      {"validation", "", "Load the Vulkan validation layers and log what they say; slow",
+       BoolSetting{&config.validation}},
+  };
+}
+
+std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
+  using Form = TextSetting::Form;
+  return {
+      {"grpc.address", "",
+       "Address for publishers and displays; port 0 = a free port. No password: keep it on "
+       "loopback "
+       "or in a network that you trust",
+       TextSetting{&grpc.address, Form::kGrpcAddress}},
+      {"grpc.keepalive_s", "s",
+       "Silence before a connection is pinged; after half as long without an answer it is closed",
+       CountSetting{&grpc.keepalive_s, 1, 3600}},
+      {"http.enabled", "", "Serve the viewer page, stills, motion JPEG and /metrics",
+       BoolSetting{&http.enabled}},
+      {"http.address", "",
+       "Address of the viewer page; port 0 = a free port. No password, as grpc.address",
+       TextSetting{&http.address, Form::kHostPort}},
+      {"http.allowed_hosts", "",
+       "Host names that a page on loopback answers to beside localhost, such as a proxy's",
+       TextSetting{&http.allowed_hosts, Form::kHostNames}},
+  };
+}
+
+std::vector<Setting> limitSettings(LimitsConfig& limits) {
+  return {
+      {"limits.frame_bytes_max", "bytes", "Largest frame: all its planes, unpacked",
+       CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
+      {"limits.plane_side_px_max", "px", "Largest side of a colour or depth plane",
+       CountSetting{&limits.plane_side_px_max, 1, 8192}},
+      {"limits.streams_max", "", "Streams at once; each keeps its newest frame in memory",
+       CountSetting{&limits.streams_max, 1, 1024}},
+      {"limits.displays_max", "",
+       "Displays at once that differ in stream, picture or encoding; each costs its own rendering",
+       CountSetting{&limits.displays_max, 1, 4096}},
+      {"limits.subscribers_max", "", "Watching clients at once, of all displays together",
+       CountSetting{&limits.subscribers_max, 1, 65536}},
+      {"limits.atlas_side_px_max", "px",
+       "Largest side of an atlas (quilt, stereo pair, ...); the device may allow less",
+       CountSetting{&limits.atlas_side_px_max, 1, 16384}},
+      {"limits.views_max", "", "Most views of one display",
+       CountSetting{&limits.views_max, 1, 2500}},
+  };
+}
+
+std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
+  return {
+      {"pipeline.decode_threads", "", "Threads that unpack frames; 0 = one per core, 8 at most",
+       CountSetting{&pipeline.decode_threads, 0, 64}},
+      {"pipeline.encode_threads", "",
+       "Threads that encode atlases and render on the CPU; 0 = one per core, 8 at most",
+       CountSetting{&pipeline.encode_threads, 0, 64}},
+      {"pipeline.structure_slots", "",
+       "Frames of one stream held at once: one is rendered while the next is prepared; more costs "
+       "memory",
+       CountSetting{&pipeline.structure_slots, 2, 16}},
+      {"pipeline.trace_slots", "",
+       "Strips of atlases (on the CPU: whole atlases) in the making at once; more costs memory",
+       CountSetting{&pipeline.trace_slots, 2, 16}},
+      {"pipeline.warm_up", "",
+       "Compile the kernels of most displays right after the start, before a viewer needs them",
+       BoolSetting{&pipeline.warm_up}},
+  };
+}
+
 }  // namespace
 
 std::vector<Setting> settingsOf(Config& config) {
-  using Form = TextSetting::Form;
-  LimitsConfig& limits = config.limits;
-  PipelineConfig& pipeline = config.pipeline;
-  return {
-      {"device", "", TextSetting{&config.device}},
-      {"kernel_folder", "", TextSetting{&config.kernel_folder}},
-      {"validation", "", BoolSetting{&config.validation}},
-      {"grpc.address", "", TextSetting{&config.grpc.address, Form::kGrpcAddress}},
-      {"grpc.keepalive_s", "s", CountSetting{&config.grpc.keepalive_s, 1, 3600}},
-      {"http.enabled", "", BoolSetting{&config.http.enabled}},
-      {"http.address", "", TextSetting{&config.http.address, Form::kHostPort}},
-      {"http.allowed_hosts", "", TextSetting{&config.http.allowed_hosts, Form::kHostNames}},
-      {"limits.frame_bytes_max", "bytes", CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
-      {"limits.plane_side_px_max", "px", CountSetting{&limits.plane_side_px_max, 1, 8192}},
-      {"limits.streams_max", "", CountSetting{&limits.streams_max, 1, 1024}},
-      {"limits.displays_max", "", CountSetting{&limits.displays_max, 1, 4096}},
-      {"limits.subscribers_max", "", CountSetting{&limits.subscribers_max, 1, 65536}},
-      {"limits.atlas_side_px_max", "px", CountSetting{&limits.atlas_side_px_max, 1, 16384}},
-      {"limits.views_max", "", CountSetting{&limits.views_max, 1, 2500}},
-      {"pipeline.decode_threads", "", CountSetting{&pipeline.decode_threads, 0, 64}},
-      {"pipeline.encode_threads", "", CountSetting{&pipeline.encode_threads, 0, 64}},
-      {"pipeline.structure_slots", "", CountSetting{&pipeline.structure_slots, 2, 16}},
-      {"pipeline.trace_slots", "", CountSetting{&pipeline.trace_slots, 2, 16}},
-      {"pipeline.warm_up", "", BoolSetting{&pipeline.warm_up}},
-      {"log.level", "", TextSetting{&config.log.level, Form::kLogLevel}},
-  };
+  std::vector<Setting> settings = machineSettings(config);
+  for (const std::vector<Setting>& part :
+       {addressSettings(config.grpc, config.http), limitSettings(config.limits),
+        pipelineSettings(config.pipeline)}) {
+    settings.insert(settings.end(), part.begin(), part.end());
+  }
+  settings.push_back({"log.level", "", "Least severity of what is logged to standard error",
+                      TextSetting{&config.log.level, TextSetting::Form::kLogLevel}});
+  return settings;
 }
 
 std::string acceptedText(const Setting& setting) {

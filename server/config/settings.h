@@ -32,6 +32,7 @@ struct TextSetting {
 struct Setting {
   std::string_view key;   // "limits.frame_bytes_max"
   std::string_view unit;  // "" = none
+  std::string_view help;  // for --help: what it sets, in words of users
   std::variant<BoolSetting, CountSetting, TextSetting> target;
 };
 
