@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of viewloomd, typed, with their defaults. deploy/viewloomd.example.toml is the
-// manual; config/settings.cpp holds key, unit and range of each.
+// The settings of viewloomd, typed, with their defaults. config/settings.cpp holds key, unit, help
+// text and range of each. deploy/viewloomd.example.toml and deploy/README.md explain them.
 #pragma once
 
 #include <cstdint>

@@ -55,6 +55,14 @@ TEST(ExampleFile, statesWhatEachSettingAccepts) {
   }
 }
 
+TEST(Settings, areExplainedInTheHelp) {
+  Config config;
+  for (const Setting& setting : settingsOf(config)) {
+    EXPECT_FALSE(setting.help.empty()) << setting.key;
+    EXPECT_FALSE(setting.help.ends_with('.')) << setting.key;  // "Accepted: ..." follows it
+  }
+}
+
 TEST(ExampleFile, namesAVariableThatWorks) {
   EXPECT_THAT(exampleText(), testing::HasSubstr("VIEWLOOM_GRPC_ADDRESS"));
   EXPECT_EQ(readConfig({.environment = {{"VIEWLOOM_GRPC_ADDRESS", "host:1"}}}).grpc.address,
