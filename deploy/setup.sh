@@ -22,7 +22,7 @@ runtime_packages=(
 )
 build_packages=(
   ccache cmake g++ git mold ninja-build pkg-config
-  glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers libglm-dev
+  glslang-tools libvulkan-dev mesa-vulkan-drivers libglm-dev
   libabsl-dev libgrpc++-dev libhwy-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc grpc-proto
   libheif-dev libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libpng-dev libtiff-dev libwebp-dev
   libzstd-dev zlib1g-dev

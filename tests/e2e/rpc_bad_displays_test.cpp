@@ -115,6 +115,11 @@ const std::vector<BadDisplay> kOtherKinds = {
      {kInvalid, kStereo + "eye_distance_m"}},
     {"one eye",
      [](auto& o) { stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1); },
+     {kInvalid, kStereo + "eyes"}},
+    {"two eyes of no height",
+     [](auto& o) {
+       for (int i = 0; i < 2; ++i) stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1);
+     },
      {kInvalid, kStereo + "eyes[0].intrinsics.focal_y_px"}},
     {"an eye without projection",
      [](auto& o) { stereo(o).add_eyes(); },
