@@ -121,8 +121,10 @@ const std::vector<BadDisplay> kOtherKinds = {
        for (int i = 0; i < 2; ++i) stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1);
      },
      {kInvalid, kStereo + "eyes[0].intrinsics.focal_y_px"}},
-    {"an eye without projection",
-     [](auto& o) { stereo(o).add_eyes(); },
+    {"eyes without projection",
+     [](auto& o) {
+       for (int i = 0; i < 2; ++i) stereo(o).add_eyes();
+     },
      {kInvalid, kStereo + "eyes[0].projection"}},
     {"given and tracked eyes",
      [](auto& o) {
