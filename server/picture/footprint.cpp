@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many px of a source a px of the views covers, and so how far colour is averaged
-// (shaders/README.md, Colour).
+// (shaders/color.md, Means).
 
 #include <algorithm>
 #include <cmath>

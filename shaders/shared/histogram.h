@@ -13,10 +13,10 @@ VIEWLOOM_ABI_CONST uint kNoiseMantissaBits = 4u;
 VIEWLOOM_ABI_CONST uint kLeastExponent = 127u - 40u;
 
 // Differences of a few roundings are none: 8 ulp, as a share of inv_z. Nothing else is a share of
-// inv_z itself: that depends on where infinity lies (shaders/README.md, Steps).
+// inv_z itself: that depends on where infinity lies (shaders/structure.md, Steps).
 VIEWLOOM_ABI_CONST float kRoundingShare = 8.0f / 8388608.0f;
 
-// kappa of a source that does not state its own (see shaders/README.md, Links).
+// kappa of a source that does not state its own (see shaders/structure.md, Links).
 VIEWLOOM_ABI_CONST float kKappaSteps = 1.5f;
 VIEWLOOM_ABI_CONST float kKappaSigmas = 8.0f;
 // A surface is one up to where neighbours differ by a fiftieth of their distance from the base:
@@ -32,7 +32,7 @@ VIEWLOOM_ABI_CONST float kStepQuantile = 0.01f;
 VIEWLOOM_ABI_CONST float kFarQuantile = 0.02f;
 VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 
-// What is coarse is smoothed (shaders/README.md, Coarse depth).
+// What is coarse is smoothed (shaders/structure.md, Coarse depth).
 // px of disparity between the far and the near percentile from the outermost eye of a wide cone. In
 // a small source it is no more than this share of the width.
 VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far surfaces that rays through a lens meet may lie off the sheet that stands for them
-// (shaders/README.md, A lens).
+// (shaders/lens.md).
 #ifndef VIEWLOOM_SHADERS_SHARED_SHEET_REACH_H_
 #define VIEWLOOM_SHADERS_SHARED_SHEET_REACH_H_
 

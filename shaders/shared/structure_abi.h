@@ -3,7 +3,7 @@
 //
 // What every px needs comes by push constants and bindings: on software devices a load through an
 // address costs five times one through a storage binding, and thirteen times a texel fetch
-// (shaders/README.md, Measured). Addresses serve what is larger than the device's bindings.
+// (shaders/README.md, Memory). Addresses serve what is larger than the device's bindings.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 
@@ -114,7 +114,7 @@ VIEWLOOM_ABI_FUNCTION uint invZIndex(uint pitch, uint x, int y) {
   return uint(y + kBlockPx) * pitch + x;
 }
 
-// Coarse depth is smoothed in passes, each over neighbours half as far away (shaders/README.md).
+// Coarse depth is smoothed in passes, each over neighbours half as far away (shaders/structure.md).
 VIEWLOOM_ABI_CONST uint kSmoothingPassCount = 8u;
 VIEWLOOM_ABI_CONST uint kFirstShortPass = 4u;  // of those that noise takes
 
@@ -197,8 +197,8 @@ struct MeasuredHead {
   uint inv_z_min_bits;  // float bits, over surfaces of all layers
   float depth_step;     // 1/m
   float noise_sigma;    // 1/m
-  // Steps between two surfaces, 1/m (shaders/README.md, Steps): the least, and a share of how far
-  // the nearer one is before inv_z_base.
+  // Steps between two surfaces, 1/m (shaders/structure.md, Steps): the least, and a share of how
+  // far the nearer one is before inv_z_base.
   float kappa_abs;  // within a surface
   float kappa_rel;
   float deep_abs;  // between two things; its share is kDeepStep

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slopes of every facet (shaders/README.md, Facets), a block of 4x4 px an invocation.
+// Slopes of every facet (shaders/structure.md, Facets), a block of 4x4 px an invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

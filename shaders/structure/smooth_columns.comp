@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One pass over inv_z that is so coarse that it shows: samples approach the plane through their
-// neighbours, within what they may be off (shaders/README.md, Coarse depth). A block of 4x4 px an
-// invocation.
+// neighbours, within what they may be off (shaders/structure.md, Coarse depth). A block of 4x4 px
+// an invocation.
 //
 // Passes read what the one before has left and write elsewhere: to two halves of where facets will
 // be, in turn; the last one back to inv_z. Until then, inv_z holds the samples.

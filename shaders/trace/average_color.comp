@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mean of each sample's colour along one axis, over the samples that links lead to on both
-// sides (shaders/README.md, Colour).
+// sides (shaders/color.md, Means).
 //
 // An invocation takes a strip of px along the axis, one after the other, and keeps the samples
 // around the one it is at: those of its own layer. The few px whose links lead to another layer are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The second stage of a lens: more rays of each px, compared with the sheets that the walked rays
-// of its block met (shaders/README.md, A lens). In settled blocks the one sheet is what they see,
+// of its block met (shaders/lens.md). In settled blocks the one sheet is what they see,
 // elsewhere the nearest that has a facet where the ray meets it. In mode exact rays that something
 // may stand in the way of are walked. Px are the mean of all rays.
 #version 460

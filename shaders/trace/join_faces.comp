@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one answer of what the faces of a cube map answered to a ray: shaders/README.md, Cube maps.
+// Makes one answer of what the faces of a cube map answered to a ray: shaders/walk.md, Cube maps.
 // An invocation a px.
 #version 460
 #extension GL_GOOGLE_include_directive : require

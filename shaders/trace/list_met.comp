@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sheets that a round of walked rays of each block of 8x8 px met (shaders/README.md, A lens),
+// The sheets that a round of walked rays of each block of 8x8 px met (shaders/lens.md),
 // in the order in which they are found, after those of the rounds before: an invocation a block.
 // Blocks that are not complete are listed. What lies outside the band is not looked at.
 #version 460

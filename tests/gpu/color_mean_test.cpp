@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colour where a px of the view covers several of the source, walked and swept, against means that
-// are taken sample by sample in double precision (shaders/README.md, Colour).
+// are taken sample by sample in double precision (shaders/color.md, Means).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far colour is averaged for views of given px (shaders/README.md, Colour).
+// How far colour is averaged for views of given px (shaders/color.md, Means).
 #include <gtest/gtest.h>
 
 #include <cmath>

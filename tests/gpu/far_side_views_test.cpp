@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the far sides of one layer are taken to go on (shaders/README.md, Far sides go on),
+// How far the far sides of one layer are taken to go on (shaders/walk.md, Far sides go on),
 // judged by the true pictures of the built-in scene from the outermost views of a cone. Needs no
 // device.
 #include <gtest/gtest.h>

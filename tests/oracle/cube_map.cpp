@@ -12,7 +12,7 @@
 namespace viewloom::oracle {
 namespace {
 
-// What the definition says: shaders/README.md.
+// What the definition says: shaders/structure.md and shaders/walk.md.
 constexpr double kSeamOverlap_px = 1.0 / 64;
 constexpr double kSeam_px = 1 - 1.0 / 64;
 constexpr double kSeamShare = 1e-4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cube maps by definition (shaders/README.md, Cube maps): what surrounds each face, and what a ray
-// through several of them answers.
+// Cube maps by definition (shaders/structure.md and walk.md, Cube maps): what surrounds each face,
+// and what a ray through several of them answers.
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray that a surface of a source sends on, by the definition in shaders/README.md
-// (Reflections).
+// The ray that a surface of a source sends on, by the definition in shaders/reflections.md.
 #pragma once
 
 #include "oracle/projected_ray.h"

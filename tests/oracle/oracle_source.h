@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One source as the surface model of shaders/README.md sees it: facets and links, by definition
+// One source as the surface model of shaders/structure.md sees it: facets and links, by definition
 // alone.
 #pragma once
 

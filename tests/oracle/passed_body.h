@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What becomes of a ray behind the body that it passes behind first, by the definition in
-// shaders/README.md (Reflections).
+// shaders/reflections.md.
 #pragma once
 
 #include "oracle/oracle_source.h"

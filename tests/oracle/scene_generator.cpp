@@ -11,7 +11,7 @@
 namespace viewloom::oracle {
 namespace {
 
-// kappa_rel of a source that does not state its tolerance (shaders/README.md, Links).
+// kappa_rel of a source that does not state its tolerance (shaders/structure.md, Links).
 constexpr float kMeasuredKappaRelative = 0.02f;
 
 // inv_z in 1/m at a sample, kNoSurface where the sheet has a gap.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a ray is answered by several sources together, from what the oracle says of each, in metric
-// space and double precision: shaders/README.md, Several sources.
+// space and double precision: shaders/walk.md, Several sources.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarse depth as shaders/README.md smooths it, by definition alone.
+// Coarse depth as shaders/structure.md smooths it, by definition alone.
 #pragma once
 
 #include "oracle/oracle_source.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloom-step-pictures: the pictures of shaders/README.md.
+// viewloom-step-pictures: the pictures of shaders/*.md.
 #include <exception>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture for each step of the algorithm, as shaders/README.md shows them.
+// One picture for each step of the algorithm, as the documents in shaders/ show them.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of shaders/README.md are those that the program draws.
+// The pictures of shaders/*.md are those that the program draws.
 #include <gtest/gtest.h>
 
 #include <fstream>

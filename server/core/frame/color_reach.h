@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the colour of a sample is averaged (shaders/README.md, Colour).
+// How far the colour of a sample is averaged (shaders/color.md, Means).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of 1/Z between two surfaces side by side: which are within one surface, and which lead to
-// another thing (shaders/README.md, Steps).
+// another thing (shaders/structure.md, Steps).
 #pragma once
 
 #include <algorithm>

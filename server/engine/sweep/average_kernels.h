@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means of texels along an axis, with the vectors of the CPU it runs on. What they mean:
-// shaders/README.md, Colour.
+// shaders/color.md, Means.
 #pragma once
 
 #include <array>

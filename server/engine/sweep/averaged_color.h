@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of a source's colour, each sample the mean along y over what a px of the views covers
-// (shaders/README.md, Colour).
+// (shaders/color.md, Means).
 #pragma once
 
 #include <array>

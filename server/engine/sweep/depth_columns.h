@@ -28,14 +28,14 @@ struct ColumnCounts {
   void add(const ColumnCounts& other);
 };
 
-// How coarse columns are smoothed (shaders/README.md, Coarse depth).
+// How coarse columns are smoothed (shaders/structure.md, Coarse depth).
 struct Smoothing {
   float reach = 0;  // 1/m; 0 = not at all
   uint32_t first_pass = 0;
 };
 
 // float inv_z[layer][row][column], 1/m, nearest layer first, abi::kNoSurface where there is none:
-// what prepare_columns.comp makes (shaders/README.md, Source).
+// what prepare_columns.comp makes (shaders/structure.md, Source).
 // Thread-safety: rows may be prepared by several threads at a time, others than are read.
 class DepthColumns {
  public:

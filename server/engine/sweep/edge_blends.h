@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Px that silhouettes cover in part (shaders/README.md, Edges), with the vectors of the CPU it runs
+// Px that silhouettes cover in part (shaders/color.md, Edges), with the vectors of the CPU it runs
 // on.
 #pragma once
 

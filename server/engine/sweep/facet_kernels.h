@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of columns to rows of facets and to straight runs of them, with the vectors of the CPU it
-// runs on. What they mean: shaders/README.md. Every array may be read and written a vector beyond
-// its width.
+// runs on. What they mean: shaders/structure.md. Every array may be read and written a vector
+// beyond its width.
 #pragma once
 
 #include <array>

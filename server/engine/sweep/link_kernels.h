@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Links of a row of facets, and colours blended along links to the next row, with the vectors of
-// the CPU it runs on. What they mean: shaders/README.md. Every array that kernels take may be read
-// and written a vector beyond its width.
+// the CPU it runs on. What they mean: shaders/structure.md. Every array that kernels take may be
+// read and written a vector beyond its width.
 #pragma once
 
 #include <algorithm>

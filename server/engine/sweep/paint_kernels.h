@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps a row of a view over the surfaces of a row of the source (shaders/README.md, The sweep),
+// Sweeps a row of a view over the surfaces of a row of the source (shaders/sweep.md),
 // with the vectors of the CPU it runs on.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One pass of smoothing over a row of coarse columns, with the vectors of the CPU it runs on: what
-// smooth_columns.comp does (shaders/README.md, Coarse depth).
+// smooth_columns.comp does (shaders/structure.md, Coarse depth).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps atlases on the worker threads (shaders/README.md): views beside the only source of a
+// Sweeps atlases on the worker threads (shaders/sweep.md): views beside the only source of a
 // frame, in its rows.
 #pragma once
 

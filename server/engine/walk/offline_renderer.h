@@ -28,7 +28,7 @@ struct RenderedAtlas {
   ReflectionCounts reflections;
 };
 
-// Where a lens's second stage is gathered (shaders/README.md, A lens).
+// Where a lens's second stage is gathered (shaders/lens.md).
 enum class GatheringPlace : uint8_t {
   kHost,   // by the CPU, where that can be
   kDevice  // by the device alone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks rays through structures on a Vulkan device (shaders/README.md): any picture of any frame.
+// Walks rays through structures on a Vulkan device (shaders/walk.md): any picture of any frame.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Px that a silhouette covers in part (shaders/README.md, Edges): of two neighbours in a row of a
+// Px that a silhouette covers in part (shaders/color.md, Edges): of two neighbours in a row of a
 // view, the one in which the edge lies takes some of the other's colour.
 #ifndef VIEWLOOM_LIB_LIGHT_EDGE_BLEND_GLSL_
 #define VIEWLOOM_LIB_LIGHT_EDGE_BLEND_GLSL_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The body behind whose silhouette a ray passes: how far back it is taken to reach, and whether the
-// ray meets it there (shaders/README.md, Reflections).
+// ray meets it there (shaders/reflections.md).
 #ifndef VIEWLOOM_LIB_MIRRORS_PASSED_BODY_GLSL_
 #define VIEWLOOM_LIB_MIRRORS_PASSED_BODY_GLSL_
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One answer of several: shaders/README.md, Several sources.
+// One answer of several: shaders/walk.md, Several sources.
 #ifndef VIEWLOOM_LIB_SOURCES_MERGE_GLSL_
 #define VIEWLOOM_LIB_SOURCES_MERGE_GLSL_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the px of the apron of a face lie on the neighbouring faces (shaders/README.md, Cube maps).
-// In integers: all who ask name the same sample.
+// Where the px of the apron of a face lie on the neighbouring faces (shaders/structure.md, Cube
+// maps). In integers: all who ask name the same sample.
 #ifndef VIEWLOOM_LIB_STRUCTURE_CUBE_APRON_GLSL_
 #define VIEWLOOM_LIB_STRUCTURE_CUBE_APRON_GLSL_
 

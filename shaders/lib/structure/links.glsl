@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which facets on the two sides of an edge are one surface (shaders/README.md, Links), for four
+// Which facets on the two sides of an edge are one surface (shaders/structure.md, Links), for four
 // edges at a time.
 #ifndef VIEWLOOM_LIB_STRUCTURE_LINKS_GLSL_
 #define VIEWLOOM_LIB_STRUCTURE_LINKS_GLSL_

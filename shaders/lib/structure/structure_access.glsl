@@ -113,7 +113,7 @@ uint withLink(uint links, uint edge, uint link) {
   return (links & ~(7u << (edge * kLinkBits))) | (link << (edge * kLinkBits));
 }
 
-// Steps between two surfaces, 1/m (shaders/README.md, Steps): x = the least, y = share of the
+// Steps between two surfaces, 1/m (shaders/structure.md, Steps): x = the least, y = share of the
 // nearer one's distance from z. Every operation is rounded alone, as the sweep does it.
 float stepAt(vec3 steps, float nearer_inv_z) {
   return max(steps.x, steps.y * (nearer_inv_z - steps.z));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stretch of a ray that a face of a cube map is asked about, and what it answers
-// (shaders/README.md, Cube maps).
+// (shaders/walk.md, Cube maps).
 #ifndef VIEWLOOM_LIB_WALK_FACE_RAY_GLSL_
 #define VIEWLOOM_LIB_WALK_FACE_RAY_GLSL_
 

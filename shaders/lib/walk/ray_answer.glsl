@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one source tells of a ray, so that it can be compared with what others tell
-// (shaders/README.md, Several sources).
+// (shaders/walk.md, Several sources).
 #ifndef VIEWLOOM_LIB_WALK_RAY_ANSWER_GLSL_
 #define VIEWLOOM_LIB_WALK_RAY_ANSWER_GLSL_
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walk: the first event of a ray (shaders/README.md, What a ray answers), found through the
+// The walk: the first event of a ray (shaders/walk.md, What a ray answers), found through the
 // pyramid.
 //
 // Opaque layers are walked one after the other. Layer l + 1 lies behind layer l, so it is entered

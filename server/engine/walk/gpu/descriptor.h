@@ -2,7 +2,7 @@
 // What a shader reads and writes through bindings: pushed with each dispatch, never pooled.
 //
 // Most data could be reached by address alone, but software devices load through bindings several
-// times faster (shaders/README.md, Measured).
+// times faster (shaders/README.md, Memory).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lens before the views of an atlas where device and CPU share memory: px are the mean of many
-// rays, which meet what the structure holds around them (shaders/README.md, A lens).
+// rays, which meet what the structure holds around them (shaders/lens.md).
 #pragma once
 
 #include <cstdint>

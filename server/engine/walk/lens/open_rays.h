@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What rays through a lens are taken to see that met nothing they could have: as walks have it
-// (shaders/README.md, The walk).
+// (shaders/walk.md).
 #pragma once
 
 #include <cstdint>

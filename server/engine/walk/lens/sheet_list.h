@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces that rays of a block of px may meet, as few planes (shaders/README.md, A lens).
+// The surfaces that rays of a block of px may meet, as few planes (shaders/lens.md).
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ ViewTracer::ViewTracer(const Device& device)
       pack_(device) {}
 
 // A software device has nothing to read back, and packing px costs it more than converting them
-// costs the encoder (shaders/README.md, Bands for the encoder).
+// costs the encoder (shaders/color.md, Bands for the encoder).
 ColorForm ViewTracer::colorForm(ColorForm wanted) const {
   return device_.info().is_software ? ColorForm::kRgba : wanted;
 }
