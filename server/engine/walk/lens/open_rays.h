@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What rays through a lens are taken to see that met nothing they could have: as walks have it
-// (shaders/walk.md).
+// (shaders/color.md, Colour of hidden and outside rays).
 #pragma once
 
 #include <cstdint>
