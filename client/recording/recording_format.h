@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How recordings lie in their files; client/README.md writes it down for others. Little endian:
+// How recordings lie in their files; client/watch.md writes it down for others. Little endian:
 //   8 bytes "VIEWLOOM", uint32 version, uint32 kind, then records:
 //   int64 ns since the recording began, uint32 length, so many bytes of a message.
 // A record of length 0 is the last of a recording that was completed.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the README says to type for Python and Node works on what the demo has built."""
+"""What the READMEs of Python and Node say to type works on what the demo has built."""
 
 import os
 import pathlib
@@ -18,12 +18,13 @@ import viewloom
 
 BUILD = pathlib.Path(sys.argv.pop(1))
 ROOT = pathlib.Path(__file__).parents[2]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+README = "".join((ROOT / "client" / folder / "README.md").read_text(encoding="utf-8")
+                 for folder in ("python", "node"))
 PACKAGE_FOLDER = "build/release/client/python"
 
 
 def block(holds, language=""):
-    """The block of the README with these words."""
+    """The block of the READMEs with these words."""
     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
     return next(text for of, text in blocks if of == language and holds in text)
 
@@ -60,7 +61,7 @@ class ReadmeLines(unittest.TestCase):
         self.assertTrue((self.clone / "ball.jpg").is_file())
 
     def test_the_python_block_says_what_it_gives(self):
-        code = block("viewloom.Source(", "python")
+        code = block("quilt.view(24)", "python")
         names = {"viewloom": viewloom, "color": scene.smooth_color(),
                  "depth_m": scene.step_depth()}
         exec(code.replace("connect()", f"connect({self.daemon.address!r})"), names)

@@ -98,7 +98,7 @@ TEST_F(FrameRecordingTest, givesFramesBackWithTheirTimes) {
   }
 }
 
-// The file by hand, from the words of client/README.md.
+// The file by hand, from the words of client/watch.md.
 std::string number(uint64_t value, size_t byte_count) {
   std::string bytes;
   for (size_t i = 0; i < byte_count; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
