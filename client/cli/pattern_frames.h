@@ -21,7 +21,7 @@ struct PatternFeedOptions {
 
 void addPatternOptions(const usage::Command& app, PatternFeedOptions& options);
 
-// What patterns are drawn from. `name` is one that addPatternOptions accepts.
+// Settings of patterns. `name` is one that addPatternOptions accepts.
 patterns::PatternOptions patternOptions(const PatternFeedOptions& options);
 
 class PatternFrames final : public FrameFeed {

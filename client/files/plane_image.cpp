@@ -62,7 +62,7 @@ Imath::V3d whiteXyz(const Imf::Chromaticities& chromaticities) {
   return {x / y, 1, (1 - x - y) / y};
 }
 
-// What adapts XYZ from one white to another, by the cone responses of Bradford.
+// Adapts XYZ from one white to another, by the cone responses of Bradford.
 Imath::M33d adaptation(const Imath::V3d& from_white, const Imath::V3d& to_white) {
   const Imath::M33d cones(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
                           1.0296);

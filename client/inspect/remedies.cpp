@@ -50,7 +50,7 @@ double scaleOf(const v1::DepthFormat& format) {
   return format.scale() == 0 ? 1 : format.scale();
 }
 
-// As a command line takes it, the shortest that reads back the same: "0.001", "1e+30", "inf".
+// The shortest text for a command line that reads back the same: "0.001", "1e+30", "inf".
 std::string numberText(std::floating_point auto number) {
   std::array<char, 64> text;
   const auto written = std::to_chars(text.data(), text.data() + text.size(), number);

@@ -43,7 +43,7 @@ std::optional<MotionLatency> motionLatency(const Atlas& atlas, int64_t measured_
   const v1::AtlasHeader& header = atlas.header;
   const v1::StageTimes& times = atlas.end.times();
   if (header.eye_poses_latched_ns() == 0) return std::nullopt;
-  // As floating point: whatever a server says, nothing overflows.
+  // In floating point nothing overflows, whatever a server says.
   const auto seconds = [](double duration_ns) { return duration_ns * 1e-9; };
   const double latched_ns = double(header.eye_poses_latched_ns()) - double(server.ahead_ns);
   MotionLatency latency;

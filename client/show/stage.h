@@ -48,7 +48,7 @@ class ShowWindow {
   ShowWindow(const ShowWindow&) = delete;
   ShowWindow& operator=(const ShowWindow&) = delete;
 
-  // What can be drawn on, in px of the screen.
+  // The area that can be drawn on, in px of the screen.
   SizePx sizePx() const;
   bool isGles() const { return is_gles_; }
   void toggleFullScreen();

@@ -172,7 +172,7 @@ uint32_t octahedron(const glm::vec3& normal) {
 
 namespace {
 
-// Of a body that turns around the upright through its centre.
+// Motion of a body that turns around the upright through its centre.
 glm::dvec3 motionAt(const glm::dvec3& velocity_mps, double turn_rad_per_s,
                     const glm::dvec3& from_center_m) {
   return velocity_mps + glm::cross(glm::dvec3(0, turn_rad_per_s, 0), from_center_m);

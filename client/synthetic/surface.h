@@ -37,7 +37,7 @@ uint32_t octahedron(const glm::vec3& normal);
 // m/s in the world. The balls and the panel move; the rest stands.
 glm::dvec3 surfaceMotion(const Scene& scene, const Hit& hit, const glm::dvec3& point_m);
 
-// As binary16.
+// Bits of binary16.
 std::array<uint16_t, 3> halvesOf(const glm::dvec3& vector);
 
 }  // namespace viewloom::synthetic

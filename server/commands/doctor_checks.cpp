@@ -28,7 +28,7 @@ constexpr uint64_t kComfortableFileCount = 4096;
 std::string whyNotBind(const addrinfo& candidate) {
   const int probe = socket(candidate.ai_family, candidate.ai_socktype, candidate.ai_protocol);
   if (probe < 0) return std::strerror(errno);
-  // As the servers do: a port whose last connections still linger counts as free.
+  // The servers do the same: a port whose last connections still linger counts as free.
   const int yes = 1;
   setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   const bool is_free =
