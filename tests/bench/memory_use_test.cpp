@@ -12,7 +12,7 @@
 #include "support/test_device.h"
 #include "synthetic/synthetic_frame.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::memory_use_test {
 namespace {
 
 constexpr uint64_t kMib = 1 << 20;
@@ -89,4 +89,4 @@ TEST_F(MemoryUseTest, fitsThe32InchQuiltOf4KFramesOfFourLayersIntoAGiB) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::memory_use_test

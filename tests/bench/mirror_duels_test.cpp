@@ -9,7 +9,7 @@
 
 #include "support/test_device.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::mirror_duels_test {
 namespace {
 
 // Of all px of mirrors, above the view without reflections: seen 28 and more of the floor, 13 and
@@ -84,4 +84,4 @@ TEST_F(MirrorDuelsTest, itMirrorsMirrorsInMirrorsNoBetterThanTheWalk) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::mirror_duels_test

@@ -10,7 +10,7 @@
 #include "gpu/gathering_places.h"
 #include "support/test_device.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::quality_lens_test {
 namespace {
 
 class QualityOfLens : public GatheringTest, public ::testing::WithParamInterface<GatheringPlace> {
@@ -106,4 +106,4 @@ TEST_P(QualityOfLens, comesNearerToTheTruthByDeeperLayers) {
 INSTANTIATE_TEST_SUITE_P(Places, QualityOfLens, kGatheringPlaces, gatheringPlaceName);
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::quality_lens_test

@@ -8,7 +8,7 @@
 #include "bench/quality_reflections.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::quality_reflections_test {
 namespace {
 
 using QualityReflectionsTest = GpuTest;
@@ -160,4 +160,4 @@ TEST_F(QualityReflectionsTest, mirrorsShowWhatTheSourcesHold) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::quality_reflections_test

@@ -8,7 +8,7 @@
 
 #include "support/test_device.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::quality_stereo_test {
 namespace {
 
 class QualityStereoTest : public GpuTest {};
@@ -27,4 +27,4 @@ TEST_F(QualityStereoTest, servesAHeadThatMovesWhatItWouldSee) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::quality_stereo_test

@@ -7,7 +7,7 @@
 #include "bench/quality_time.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::quality_time_test {
 namespace {
 
 using QualityTimeTest = GpuTest;
@@ -49,4 +49,4 @@ TEST_F(QualityTimeTest, carriesCameraAndThingsOnBetterThanRepeatingOrWarpingFram
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::quality_time_test

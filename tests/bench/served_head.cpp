@@ -11,7 +11,7 @@
 namespace viewloom::bench {
 namespace {
 
-constexpr char kStream[] = "head";
+constexpr char kHeadStream[] = "head";
 
 }  // namespace
 
@@ -32,10 +32,10 @@ ServedHead::ServedHead(const Device& device, const FramePtr& frame, SizePx eye_p
                               .with_depth = true,
                               .with_mask = true,
                               .planes = BandEncoding::kRaw};
-  auto subscription = broadcaster_.subscribe(kStream, spec, encoding, subscriber_, eyes_);
+  auto subscription = broadcaster_.subscribe(kHeadStream, spec, encoding, subscriber_, eyes_);
   if (!subscription.ok()) throw std::runtime_error(std::string(subscription.status().message()));
   subscription_ = *std::move(subscription);
-  pipeline_.offerFrame({kStream, 1}, frame, [](const FrameReport&) {});
+  pipeline_.offerFrame({kHeadStream, 1}, frame, [](const FrameReport&) {});
   newest_ = next();
 }
 

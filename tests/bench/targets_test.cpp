@@ -8,7 +8,7 @@
 
 #include "bench/load_list.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::targets_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,4 +87,4 @@ TEST(Targets, areLeftOutWhereNothingWasMeasured) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::targets_test

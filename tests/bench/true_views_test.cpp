@@ -8,7 +8,7 @@
 #include "bench/true_views.h"
 #include "synthetic/synthetic_frame.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::true_views_test {
 namespace {
 
 constexpr SizePx kSize_px{192, 108};
@@ -95,4 +95,4 @@ TEST(TrueViews, knowWhatTheImageDoesNotReach) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::true_views_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::bench {
+namespace viewloom::bench::visit_counter_test {
 namespace {
 
 // Two tiles side by side, two rows of them, each 12x10 px: blocks end with their tile.
@@ -46,4 +46,4 @@ TEST(VisitCounter, saysWhatOneRayInAHundredExceeds) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::visit_counter_test

@@ -17,7 +17,7 @@
 #include "e2e/render_folder.h"
 #include "files/png_image.h"
 
-namespace viewloom::test {
+namespace viewloom::test::commands_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -213,4 +213,4 @@ TEST(Bench, reportsEveryStageAsJson) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::commands_test

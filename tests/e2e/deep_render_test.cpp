@@ -18,7 +18,7 @@
 #include "support/deep_exr_writer.h"
 #include "support/srgb_transfer.h"
 
-namespace viewloom::test {
+namespace viewloom::test::deep_render_test {
 namespace {
 
 using deep::DeepPoint;
@@ -195,4 +195,4 @@ TEST_F(DeepRenderTest, refusesADeepFileByFieldAndFile) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::deep_render_test

@@ -4,7 +4,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_bytes_test {
 namespace {
 
 using testing::SizeIs;
@@ -114,4 +114,4 @@ TEST_F(PipelineBytesTest, comeInOrderOfSequenceAndFrame) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_bytes_test

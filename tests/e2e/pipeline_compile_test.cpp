@@ -8,7 +8,7 @@
 #include "e2e/pipeline_fixture.h"
 #include "walk/walk_engine.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_compile_test {
 namespace {
 
 using testing::IsEmpty;
@@ -128,4 +128,4 @@ TEST_F(PipelineCompileTest, aServerEndsWhilePicturesWaitForTheirKernels) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_compile_test

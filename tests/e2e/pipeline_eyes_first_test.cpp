@@ -14,7 +14,7 @@
 #include "e2e/pipeline_fixture.h"
 #include "schedule/moving_heads.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_eyes_first_test {
 namespace {
 
 using testing::ElementsAre;
@@ -178,4 +178,4 @@ TEST_F(PipelineAgedEyesTest, doNotWaitForThemForEver) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_eyes_first_test

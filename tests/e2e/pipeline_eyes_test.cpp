@@ -7,7 +7,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_eyes_test {
 namespace {
 
 using testing::SizeIs;
@@ -107,4 +107,4 @@ TEST_F(PipelineEyesTest, neverTurnsADisplayBackToAnOlderFrame) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_eyes_test

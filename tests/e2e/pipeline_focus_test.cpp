@@ -7,7 +7,7 @@
 #include "display/focus_follower.h"
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_focus_test {
 namespace {
 
 using testing::SizeIs;
@@ -68,4 +68,4 @@ TEST_F(PipelineFocusTest, costsNothingWhileNothingMoves) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_focus_test

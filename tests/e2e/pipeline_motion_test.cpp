@@ -11,7 +11,7 @@
 
 #include "e2e/ticks_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_motion_test {
 namespace {
 
 constexpr SizePx kPicture_px{64, 48};
@@ -278,4 +278,4 @@ TEST_F(PipelineMotionTest, standsBetweenTwoFramesWithThingsWhereTheyWereThen) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_motion_test

@@ -12,7 +12,7 @@
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_quality_test {
 namespace {
 
 using testing::HasSubstr;
@@ -182,4 +182,4 @@ TEST_F(PipelineQualityTest, givesEachLensAndEachMirrorItsOwnAtOnce) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_quality_test

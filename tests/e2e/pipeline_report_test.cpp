@@ -7,7 +7,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_report_test {
 namespace {
 
 using testing::ElementsAre;
@@ -111,4 +111,4 @@ TEST_F(PipelineReportTest, finishesWhatHasBegunAndReportsTheRestWhenItDrains) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_report_test

@@ -4,7 +4,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_resident_test {
 namespace {
 
 using testing::SizeIs;
@@ -118,4 +118,4 @@ TEST_F(PipelineResidentTest, forgetsAStreamWithItsStructure) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_resident_test

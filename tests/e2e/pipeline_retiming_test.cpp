@@ -11,7 +11,7 @@
 #include "e2e/gate_clock.h"
 #include "e2e/ticks_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_retiming_test {
 namespace {
 
 using testing::SizeIs;
@@ -132,4 +132,4 @@ TEST_F(PipelineRetimingTest, outlivesItsStreamAndTheDisplay) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_retiming_test

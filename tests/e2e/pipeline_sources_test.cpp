@@ -4,7 +4,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_sources_test {
 namespace {
 
 using testing::SizeIs;
@@ -70,4 +70,4 @@ TEST_F(PipelineSourcesTest, mayComeAndGoFromFrameToFrame) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_sources_test

@@ -9,7 +9,7 @@
 
 #include "e2e/ticks_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_ticks_test {
 namespace {
 
 using testing::SizeIs;
@@ -236,4 +236,4 @@ TEST_F(PipelineTicksTest, leavesDisplaysWithoutARateTheirFrames) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_ticks_test

@@ -6,7 +6,7 @@
 
 #include "e2e/pipeline_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_unchanged_test {
 namespace {
 
 using testing::ElementsAre;
@@ -143,4 +143,4 @@ TEST_F(PipelineUnchangedTest, isThatAlsoOfACubeMap) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_unchanged_test

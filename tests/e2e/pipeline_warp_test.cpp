@@ -9,7 +9,7 @@
 #include "support/eyes/head_truth.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom::test {
+namespace viewloom::test::pipeline_warp_test {
 namespace {
 
 using testing::SizeIs;
@@ -263,4 +263,4 @@ TEST_F(PipelineWarpTest, answersPosesBesideADisplayOfARateOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::pipeline_warp_test

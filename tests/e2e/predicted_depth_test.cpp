@@ -13,7 +13,7 @@
 #include "support/depth_reference.h"
 #include "synthetic/synthetic_wire_frame.h"
 
-namespace viewloom {
+namespace viewloom::predicted_depth_test {
 namespace {
 
 constexpr int64_t kLong_ns = 60'000'000'000;  // only a failing test waits so long
@@ -103,4 +103,4 @@ TEST(PredictedDepth, reachesTheServerToTheBitWhenItHasSixteenBits) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::predicted_depth_test

@@ -17,7 +17,7 @@
 #include "support/data_sets.h"
 #include "support/forward_map.h"
 
-namespace viewloom::test {
+namespace viewloom::test::real_data_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -141,4 +141,4 @@ TEST(ForwardMap, movesAPlaneByItsDisparityAndKeepsTheNearest) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::real_data_test

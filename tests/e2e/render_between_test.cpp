@@ -8,7 +8,7 @@
 
 #include "e2e/render_folder.h"
 
-namespace viewloom::test {
+namespace viewloom::test::render_between_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -153,4 +153,4 @@ TEST_F(RenderBetweenTest, refusesTimesThatTheDisplayDoesNotShow) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::render_between_test

@@ -10,7 +10,7 @@
 #include "e2e/render_folder.h"
 #include "support/srgb_transfer.h"
 
-namespace viewloom::test {
+namespace viewloom::test::render_effects_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -126,4 +126,4 @@ TEST_F(RenderEffectsTest, aStereoDisplayMovesWhatIsNearApart) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::render_effects_test

@@ -12,7 +12,7 @@
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/zstd_samples.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_chunks_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -266,4 +266,4 @@ TEST(PublishFrames, reportsFramesThatDoNotDecodeAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_chunks_test

@@ -5,7 +5,7 @@
 #include "e2e/bad_header.h"
 #include "e2e/test_server.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_cube_maps_test {
 namespace {
 
 // Of 6 px a side, as it should be.
@@ -92,4 +92,4 @@ TEST(PublishFrames, takesTheCubeMapThatTheBadOnesAreMadeFrom) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_cube_maps_test

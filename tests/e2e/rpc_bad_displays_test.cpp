@@ -10,7 +10,7 @@
 #include "e2e/bad_display.h"
 #include "e2e/bystander.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_displays_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -251,4 +251,4 @@ TEST(StreamAtlases, saysWhichStreamsAndPresetsThereAre) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_displays_test

@@ -9,7 +9,7 @@
 #include "e2e/bystander.h"
 #include "e2e/refusal.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_eyes_test {
 namespace {
 
 constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
@@ -134,4 +134,4 @@ TEST(EyePoses, makeADisplayItsClientsAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_eyes_test

@@ -11,7 +11,7 @@
 #include "e2e/bad_header.h"
 #include "e2e/test_server.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_headers_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -267,4 +267,4 @@ TEST(PublishFrames, takesTheHeaderThatTheBadOnesAreMadeFrom) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_headers_test

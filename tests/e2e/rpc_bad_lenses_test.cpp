@@ -8,7 +8,7 @@
 
 #include "e2e/bad_display.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_lenses_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -69,4 +69,4 @@ TEST(StreamAtlases, refusesLensesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_lenses_test

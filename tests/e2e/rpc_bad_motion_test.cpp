@@ -5,7 +5,7 @@
 #include "e2e/bad_header.h"
 #include "e2e/test_server.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_motion_test {
 namespace {
 
 const std::string kMotionPath = kSourcePath + "layers[0].planes[2].";
@@ -89,4 +89,4 @@ TEST(PublishFrames, takesTheMotionThatTheBadOnesAreMadeFrom) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_motion_test

@@ -7,7 +7,7 @@
 
 #include "e2e/bad_display.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_panels_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -102,4 +102,4 @@ TEST(StreamAtlases, refusesMicrolensPanelsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_panels_test

@@ -7,7 +7,7 @@
 
 #include "e2e/bad_display.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_reflections_test {
 namespace {
 
 constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
@@ -36,4 +36,4 @@ TEST(StreamAtlases, refusesReflectionsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_reflections_test

@@ -8,7 +8,7 @@
 
 #include "e2e/bad_display.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_rgbd_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -68,4 +68,4 @@ TEST(StreamAtlases, refusesColorWithDepthThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_rgbd_test

@@ -8,7 +8,7 @@
 
 #include "e2e/bad_display.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_times_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -51,4 +51,4 @@ TEST(StreamAtlases, refusesTimesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_times_test

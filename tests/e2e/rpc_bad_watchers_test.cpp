@@ -8,7 +8,7 @@
 #include "e2e/bystander.h"
 #include "e2e/refusal.h"
 
-namespace viewloom {
+namespace viewloom::rpc_bad_watchers_test {
 namespace {
 
 constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
@@ -109,4 +109,4 @@ TEST(StreamAtlases, endsWhenTheDisplayFitsNoCameraOfTheStream) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_bad_watchers_test

@@ -10,7 +10,7 @@
 
 #include "e2e/bystander.h"
 
-namespace viewloom {
+namespace viewloom::rpc_churn_test {
 namespace {
 
 constexpr unsigned kThreadCount = 4;
@@ -94,4 +94,4 @@ TEST(Churn, holdsTwoAtlasesAtMostForAClientThatNeverReads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_churn_test

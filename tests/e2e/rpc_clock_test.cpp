@@ -12,7 +12,7 @@
 #include "e2e/bystander.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
-namespace viewloom {
+namespace viewloom::rpc_clock_test {
 namespace {
 
 constexpr uint32_t kWide_px = 4096;
@@ -126,4 +126,4 @@ TEST(ClockProbe, leavesAtlasesThroughHoweverOftenItComes) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_clock_test

@@ -9,7 +9,7 @@
 #include "e2e/test_server.h"
 #include "e2e/test_watcher.h"
 
-namespace viewloom {
+namespace viewloom::rpc_growing_test {
 namespace {
 
 using Message = v1::StreamAtlasesResponse;
@@ -140,4 +140,4 @@ TEST_F(GrowingAtlases, waitForNobodyWhoDoesNotRead) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_growing_test

@@ -12,7 +12,7 @@
 #include "google/rpc/status.pb.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
-namespace viewloom {
+namespace viewloom::rpc_liveness_test {
 namespace {
 
 using testing::HasSubstr;
@@ -142,4 +142,4 @@ TEST(Liveness, aViewerThatDoesNotAskHearsNone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_liveness_test

@@ -14,7 +14,7 @@
 #include "e2e/raw_call.h"
 #include "e2e/refusal.h"
 
-namespace viewloom {
+namespace viewloom::rpc_publish_test {
 namespace {
 
 StreamEntry entryOf(const TestServer& server, const std::string& stream) {
@@ -204,4 +204,4 @@ TEST(PublishFrames, refusesBytesThatAreNoMessage) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_publish_test

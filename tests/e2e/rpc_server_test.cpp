@@ -19,7 +19,7 @@
 #include "e2e/test_watcher.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 
-namespace viewloom {
+namespace viewloom::rpc_server_test {
 namespace {
 
 namespace health = grpc::health::v1;
@@ -255,4 +255,4 @@ TEST(RpcServer, cancelsAReceiverThatDoesNotReadWhenItGoes) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_server_test

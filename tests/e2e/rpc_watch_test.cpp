@@ -6,7 +6,7 @@
 #include "e2e/test_server.h"
 #include "e2e/test_watcher.h"
 
-namespace viewloom {
+namespace viewloom::rpc_watch_test {
 namespace {
 
 void expectBytesOf(const ReceivedAtlas& atlas) {
@@ -221,4 +221,4 @@ TEST(StreamAtlases, endsWholeWhenTheServerDrains) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rpc_watch_test

@@ -11,7 +11,7 @@
 #include "lib/channel.h"
 #include "scoring/psnr.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_displays_test {
 namespace {
 
 double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
@@ -134,4 +134,4 @@ TEST_F(ServiceDisplaysTest, servesMicrolensPanels) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_displays_test

@@ -10,7 +10,7 @@
 #include "e2e/wire_displays.h"
 #include "synthetic/synthetic_wire_frame.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_effects_test {
 namespace {
 
 using testing::StartsWith;
@@ -250,4 +250,4 @@ TEST_F(ServiceEffectsTest, refusesALensThatTheDisplayGivesNoFocusOrNoWidth) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_effects_test

@@ -18,7 +18,7 @@
 #include "support/test_device.h"
 #include "viewloom/v1/display_service.grpc.pb.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_exit_test {
 namespace {
 
 const std::vector<std::string> kAnyPorts{"--grpc.address", "127.0.0.1:0", "--http.address",
@@ -177,4 +177,4 @@ TEST_F(ViewloomdProcess, exitsWithTwoWhenTheDeviceDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_exit_test

@@ -4,7 +4,7 @@
 
 #include "e2e/service_eyes_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_eyes_test {
 namespace {
 
 // The eye stands in the source's row plane, in front of it, aside of the display, and above.
@@ -137,4 +137,4 @@ TEST_F(ServiceEyesTest, endsWithEyesThatTheStreamPutsBehindItsFocalPlane) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_eyes_test

@@ -11,7 +11,7 @@
 #include "support/srgb_transfer.h"
 #include "synthetic/synthetic_wire_frame.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_lens_test {
 namespace {
 
 // A black wall in two halves, the left one in focus and the right one behind, with white dots.
@@ -203,4 +203,4 @@ TEST_F(ServiceLensTest, givesItTheShapeOfItsBladesTurnedAsAskedFor) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_lens_test

@@ -5,7 +5,7 @@
 
 #include "e2e/service_eyes_fixture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_motion_test {
 namespace {
 
 TEST_F(ServiceEyesTest, saysWhenPosesWereTakenAndHowOldTheyWere) {
@@ -89,4 +89,4 @@ TEST_F(ServiceEyesTest, answersEyesFromFarAwayAndOfAnyTime) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_motion_test

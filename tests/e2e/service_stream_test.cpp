@@ -17,7 +17,7 @@
 #include "lib/watcher.h"
 #include "viewloom/v1/catalog_service.grpc.pb.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_stream_test {
 namespace {
 
 // The frames of which a display got an atlas. Thread-safety: all methods from any thread.
@@ -162,4 +162,4 @@ TEST_F(ServiceStreamTest, namesItsThreadsAfterTheirStages) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_stream_test

@@ -15,7 +15,7 @@
 #include "service.h"
 #include "support/test_device.h"
 
-namespace viewloom::test {
+namespace viewloom::test::service_ticks_test {
 namespace {
 
 constexpr int64_t kInterval_ns = 100'000'000;
@@ -108,4 +108,4 @@ TEST_F(ServiceTicksTest, showsWhatADisplayInThePredictedPlaceSees) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::service_ticks_test

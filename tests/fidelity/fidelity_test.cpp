@@ -10,7 +10,7 @@
 #include "fidelity/report.h"
 #include "support/test_device.h"
 
-namespace viewloom::fidelity {
+namespace viewloom::fidelity::fidelity_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -159,4 +159,4 @@ TEST_F(FidelityTest, findsTheRivalsAsTheyAreKnown) {
 }
 
 }  // namespace
-}  // namespace viewloom::fidelity
+}  // namespace viewloom::fidelity::fidelity_test

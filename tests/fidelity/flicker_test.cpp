@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::fidelity {
+namespace viewloom::fidelity::flicker_test {
 namespace {
 
 constexpr SizePx kSize = {6, 4};
@@ -37,4 +37,4 @@ TEST(Flicker, isTheMeanOverPixelsAndChannelsInside) {
 }
 
 }  // namespace
-}  // namespace viewloom::fidelity
+}  // namespace viewloom::fidelity::flicker_test

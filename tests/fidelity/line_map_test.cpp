@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::test {
+namespace viewloom::test::line_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -89,4 +89,4 @@ TEST(LineMap, coversAnImageWithLinesInEveryDirection) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::line_map_test

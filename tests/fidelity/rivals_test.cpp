@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::fidelity {
+namespace viewloom::fidelity::rivals_test {
 namespace {
 
 using testing::ElementsAre;
@@ -93,4 +93,4 @@ TEST(Mask, knowsHiddenFromOutside) {
 }
 
 }  // namespace
-}  // namespace viewloom::fidelity
+}  // namespace viewloom::fidelity::rivals_test

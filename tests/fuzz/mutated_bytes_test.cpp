@@ -9,7 +9,7 @@
 #include "fuzz/fuzz_decode.h"
 #include "fuzz/seeds.h"
 
-namespace viewloom {
+namespace viewloom::mutated_bytes_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -69,4 +69,4 @@ TEST(MutatedBytes, leavePicturesWholeOrRefused) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::mutated_bytes_test

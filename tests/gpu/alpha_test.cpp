@@ -10,7 +10,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::alpha_test {
 namespace {
 
 // sRGB-encoded; half floats, interpolation and the transfer curve: a fifth of an 8-bit step.
@@ -118,4 +118,4 @@ TEST_F(AlphaTest, aRoughSurfaceCountsOnce) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::alpha_test

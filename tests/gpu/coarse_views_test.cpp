@@ -13,7 +13,7 @@
 #include "support/truth/scenes.h"
 #include "walk/offline_renderer.h"
 
-namespace viewloom {
+namespace viewloom::coarse_views_test {
 namespace {
 
 constexpr SizePx kSource_px{640, 480};
@@ -123,4 +123,4 @@ TEST_F(CoarseViewsTest, coarseDepthIsNearlyAsGoodAsExactDepth) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::coarse_views_test

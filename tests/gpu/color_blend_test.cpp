@@ -11,7 +11,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::color_blend_test {
 namespace {
 
 constexpr int kWidth = 256;
@@ -120,4 +120,4 @@ TEST_F(ColorBlendTest, opaqueLightSurvives) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_blend_test

@@ -11,7 +11,7 @@
 #include "oracle/analytic_scenes.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::color_mean_test {
 namespace {
 
 constexpr int kWidth = 192;
@@ -278,4 +278,4 @@ TEST_F(ColorMeanTest, flickersLessThanSamplesDo) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_mean_test

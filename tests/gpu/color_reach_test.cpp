@@ -7,7 +7,7 @@
 
 #include "picture/trace_job.h"
 
-namespace viewloom {
+namespace viewloom::color_reach_test {
 namespace {
 
 abi::ViewParams tileOf(const abi::vec3& step_x, const abi::vec3& step_y) {
@@ -45,4 +45,4 @@ TEST(ColorReach, isThatOfTheSmallestPixelsAndBounded) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_reach_test

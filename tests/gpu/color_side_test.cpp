@@ -8,7 +8,7 @@
 #include "oracle/analytic_scenes.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::color_side_test {
 namespace {
 
 constexpr double kTolerance_px = 0.05;
@@ -194,4 +194,4 @@ TEST_F(ColorSideTest, fromTheSourcesOwnPlaceTexelsAreAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_side_test

@@ -9,7 +9,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::color_size_test {
 namespace {
 
 constexpr double kTolerance_px = 0.05;
@@ -98,4 +98,4 @@ TEST_F(ColorSizeTest, layersOfDifferentSizesDoNotMixTheirRows) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_size_test

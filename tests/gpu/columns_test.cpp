@@ -16,7 +16,7 @@
 #include "sweep/depth_columns.h"
 #include "sweep/sweep_source.h"
 
-namespace viewloom {
+namespace viewloom::columns_test {
 namespace {
 
 // Both sides odd: rows end within a vector, planes of 2-byte samples within a word.
@@ -295,4 +295,4 @@ TEST_F(ColumnsTest, areTheDevicesWhereEncodingsMeet) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::columns_test

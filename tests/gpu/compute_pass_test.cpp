@@ -13,7 +13,7 @@
 #include "shared/kernel_constants.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::compute_pass_test {
 namespace {
 
 struct ScalePush {
@@ -154,4 +154,4 @@ TEST_F(ComputePassTest, takesExactlyTheConstantsOfTheKernel) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::compute_pass_test

@@ -10,7 +10,7 @@
 #include "support/test_device.h"
 #include "sweep/sweep_source.h"
 
-namespace viewloom {
+namespace viewloom::content_focus_test {
 namespace {
 
 // Of the distance. The device's range is that of its nodes: of a plane's middle they keep 14 bits
@@ -52,4 +52,4 @@ TEST_F(ContentFocus, liesOnAWallSquareToTheView) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::content_focus_test

@@ -12,7 +12,7 @@
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom {
+namespace viewloom::cube_beside_views_test {
 namespace {
 
 constexpr uint32_t kSide_px = 384;
@@ -109,4 +109,4 @@ TEST_F(CubeBesideViewsTest, bothShowMoreThanEither) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::cube_beside_views_test

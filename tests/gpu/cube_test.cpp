@@ -6,7 +6,7 @@
 #include "shared/fault.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::cube_test {
 namespace {
 
 // Of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(Each, CubeFaultTest,
                          });
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::cube_test

@@ -15,7 +15,7 @@
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom {
+namespace viewloom::cube_views_test {
 namespace {
 
 constexpr uint32_t kSide_px = 512;
@@ -184,4 +184,4 @@ TEST_F(CubeViewsTest, showsSeamsWithoutAprons) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::cube_views_test

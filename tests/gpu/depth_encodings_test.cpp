@@ -10,7 +10,7 @@
 #include "support/depth_reference.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::depth_encodings_test {
 namespace {
 
 // Both sides odd: planes of 2-byte samples end within a word.
@@ -145,4 +145,4 @@ TEST_F(DepthEncodingsTest, aSurfaceInTwoEncodingsIsOne) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::depth_encodings_test

@@ -8,7 +8,7 @@
 #include "gpu/vulkan.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::device_test {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST_F(DeviceTest, knowsWhatItsBuffersHold) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::device_test

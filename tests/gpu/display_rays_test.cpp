@@ -8,7 +8,7 @@
 #include "gpu/rendered_display.h"
 #include "support/srgb_transfer.h"
 
-namespace viewloom {
+namespace viewloom::display_rays_test {
 namespace {
 
 // A panel of 12 x 8 lenses of 10 px, which stands where the source's camera does.
@@ -143,4 +143,4 @@ TEST_F(RenderedDisplay, averageTheSamplesOfAPxAsLight) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::display_rays_test

@@ -15,7 +15,7 @@
 #include "sweep/view_sweeper.h"
 #include "synthetic/synthetic_frame.h"
 
-namespace viewloom::test {
+namespace viewloom::test::far_side_views_test {
 namespace {
 
 constexpr SizePx kView_px{480, 360};
@@ -115,4 +115,4 @@ TEST_F(FarSideViewsTest, areBestOfAWideConeWhereFarSidesGoOnAsFarAsTheyReach) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::far_side_views_test

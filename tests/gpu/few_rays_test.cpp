@@ -11,7 +11,7 @@
 #include "gpu/sweep_under_test.h"
 #include "sweep/paint_kernels.h"
 
-namespace viewloom {
+namespace viewloom::few_rays_test {
 namespace {
 
 constexpr uint64_t kSceneCount = 60;
@@ -146,4 +146,4 @@ TEST_F(FewRays, fromPlacesBesideEachOtherSeeWhatEachOfTheseSees) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::few_rays_test

@@ -11,7 +11,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::fill_test {
 namespace {
 
 constexpr int kWidth = 64;
@@ -284,4 +284,4 @@ TEST_F(FillTest, behindASoftEdgeIsTheFarSideAndNotTheSurfaceItself) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::fill_test

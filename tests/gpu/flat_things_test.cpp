@@ -7,7 +7,7 @@
 #include "support/test_device.h"
 #include "sweep/sweep_source.h"
 
-namespace viewloom {
+namespace viewloom::flat_things_test {
 namespace {
 
 class FlatThings : public GpuTest {
@@ -62,4 +62,4 @@ TEST_F(FlatThings, joinWhereDepthIsRounded) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::flat_things_test

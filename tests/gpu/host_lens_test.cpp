@@ -6,7 +6,7 @@
 #include "gpu/through_lens.h"
 #include "picture/display_sources.h"
 
-namespace viewloom {
+namespace viewloom::host_lens_test {
 namespace {
 
 class HostLens : public ThroughLens {
@@ -154,4 +154,4 @@ TEST_F(HostLens, isTheSameInPieces) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::host_lens_test

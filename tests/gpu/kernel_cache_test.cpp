@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace viewloom {
+namespace viewloom::kernel_cache_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -65,4 +65,4 @@ TEST_F(KernelCacheTest, goesOnWhereNothingCanBeWritten) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::kernel_cache_test

@@ -8,7 +8,7 @@
 #include "oracle/analytic_scenes.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::large_source_test {
 namespace {
 
 constexpr int kSide_px = 8192;
@@ -58,4 +58,4 @@ TEST_F(LargeSourceTest, raysMeetAPlaneOf8192By8192Px) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::large_source_test

@@ -3,7 +3,7 @@
 #include "gpu/gathering_places.h"
 #include "gpu/through_lens.h"
 
-namespace viewloom {
+namespace viewloom::lens_exact_test {
 namespace {
 
 // A white pole of 1 px, near the lens and far out of focus, before a dark wall that is in focus.
@@ -114,4 +114,4 @@ TEST_P(ExactLens, showsWhatTheWalkedRaysOfABlockMissed) {
 INSTANTIATE_TEST_SUITE_P(Places, ExactLens, kGatheringPlaces, gatheringPlaceName);
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_exact_test

@@ -13,7 +13,7 @@
 #include "lens/open_rays.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::lens_list_test {
 namespace {
 
 constexpr SizePx kSource_px{320, 180};
@@ -206,4 +206,4 @@ TEST_F(LensList, takesAnOpenRayToSeeTheFarSideOfWhatItPassedBehind) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_list_test

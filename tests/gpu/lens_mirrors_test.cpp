@@ -7,7 +7,7 @@
 #include "support/truth/mirror_scenes.h"
 #include "support/truth/picture_frame.h"
 
-namespace viewloom {
+namespace viewloom::lens_mirrors_test {
 namespace {
 
 class LensMirrors : public ThroughLens {
@@ -89,4 +89,4 @@ TEST_F(LensMirrors, leaveTheMaskToTheRayThroughTheMiddle) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_mirrors_test

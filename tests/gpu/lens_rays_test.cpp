@@ -9,7 +9,7 @@
 #include "calibration/calibration.h"
 #include "gpu/rendered_display.h"
 
-namespace viewloom {
+namespace viewloom::lens_rays_test {
 namespace {
 
 Calibration smallLenses() {
@@ -123,4 +123,4 @@ TEST_P(SubpixelRays, comeFromTheEyeThatTheLensSendsThemTo) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_rays_test

@@ -7,7 +7,7 @@
 #include "trace/band_parts.h"
 #include "trace/met_blocks.h"
 
-namespace viewloom {
+namespace viewloom::lens_test {
 namespace {
 
 class Lens : public ThroughLens {
@@ -158,4 +158,4 @@ TEST_F(Lens, leavesDepthAndMaskToTheRayThroughItsMiddle) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_test

@@ -6,7 +6,7 @@
 #include "gpu/judge_views.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::long_walks_test {
 namespace {
 
 constexpr int kHeight_px = 16;
@@ -88,4 +88,4 @@ TEST_F(LongWalksTest, areRightFromBeforeTheSource) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::long_walks_test

@@ -9,7 +9,7 @@
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom {
+namespace viewloom::merged_views_test {
 namespace {
 
 constexpr SizePx kSource_px{640, 480};
@@ -77,4 +77,4 @@ TEST_F(MergedViewsTest, twoSourcesShowLargeSmoothSurfaces) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::merged_views_test

@@ -17,7 +17,7 @@
 #include "support/test_device.h"
 #include "support/truth/mirror_scenes.h"
 
-namespace viewloom {
+namespace viewloom::mirror_filter_test {
 namespace {
 
 constexpr SizePx kView_px{160, 120};
@@ -241,4 +241,4 @@ TEST_F(MirrorFilter, keepsSharpWhatTouchesTheMirror) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::mirror_filter_test

@@ -12,7 +12,7 @@
 #include "support/test_frames.h"
 #include "trace/view_tracer.h"
 
-namespace viewloom {
+namespace viewloom::missing_kernels_test {
 namespace {
 
 constexpr SizePx kSource_px{64, 48};
@@ -165,4 +165,4 @@ TEST_F(MissingKernelsTest, ofACubeMap) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::missing_kernels_test

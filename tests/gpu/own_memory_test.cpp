@@ -4,7 +4,7 @@
 #include "gpu/walk_under_test.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::own_memory_test {
 namespace {
 
 constexpr double kTolerance_px = 0.05;
@@ -52,4 +52,4 @@ TEST_F(OwnMemoryTest, answersAsSharedMemoryDoes) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::own_memory_test

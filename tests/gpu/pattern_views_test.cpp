@@ -12,7 +12,7 @@
 #include "patterns/parallax_ruler.h"
 #include "support/srgb_transfer.h"
 
-namespace viewloom {
+namespace viewloom::pattern_views_test {
 namespace {
 
 using patterns::PatternKind;
@@ -195,4 +195,4 @@ TEST_F(PatternViews, haveTheirFocalPlaneByDefaultAndStayAsSharpAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::pattern_views_test

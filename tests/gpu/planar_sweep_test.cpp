@@ -7,7 +7,7 @@
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
 
-namespace viewloom::test {
+namespace viewloom::test::planar_sweep_test {
 namespace {
 
 constexpr SizePx kSource_px{160, 90};
@@ -99,4 +99,4 @@ TEST_F(PlanarSweepTest, isOfferedOnlyWhereViewsShareTheirRows) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::planar_sweep_test

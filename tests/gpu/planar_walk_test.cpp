@@ -9,7 +9,7 @@
 #include "support/test_frames.h"
 #include "support/ycbcr_planes.h"
 
-namespace viewloom {
+namespace viewloom::planar_walk_test {
 namespace {
 
 constexpr SizePx kSource_px{160, 90};
@@ -109,4 +109,4 @@ TEST_F(PlanarWalkTest, storesThePlanesOfWhatIsSemitransparent) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::planar_walk_test

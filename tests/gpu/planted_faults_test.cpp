@@ -12,7 +12,7 @@
 #include "shared/fault.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::planted_faults_test {
 namespace {
 
 constexpr double kTolerance_px = 0.005;
@@ -160,4 +160,4 @@ TEST_F(NoFaultTest, withoutAFaultNothingIsFound) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::planted_faults_test

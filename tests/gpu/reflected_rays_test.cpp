@@ -7,7 +7,7 @@
 #include "shared/fault.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::reflected_rays_test {
 namespace {
 
 // Of the views. The less, the less is left to the judge.
@@ -70,4 +70,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::reflected_rays_test

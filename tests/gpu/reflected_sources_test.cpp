@@ -17,7 +17,7 @@
 #include "support/truth/picture_frame.h"
 #include "trace/reflection_settings.h"
 
-namespace viewloom {
+namespace viewloom::reflected_sources_test {
 namespace {
 
 constexpr SizePx kSource_px{160, 120};
@@ -127,4 +127,4 @@ TEST_F(ReflectedSourcesTest, pxDoNotDependOnHowManyRowsAreReflectedAtATime) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::reflected_sources_test

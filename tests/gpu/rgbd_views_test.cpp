@@ -15,7 +15,7 @@
 #include "sweep/sweep_source.h"
 #include "sweep/view_sweeper.h"
 
-namespace viewloom {
+namespace viewloom::rgbd_views_test {
 namespace {
 
 constexpr double kTolerance_px = 0.05;
@@ -283,4 +283,4 @@ TEST_F(RgbdViewsTest, keepsCodesThatAreFiltered) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rgbd_views_test

@@ -17,7 +17,7 @@
 #include "support/test_device.h"
 #include "trace/albedos.h"
 
-namespace viewloom {
+namespace viewloom::rough_mirrors_test {
 namespace {
 
 constexpr SizePx kView_px{32, 24};
@@ -203,4 +203,4 @@ TEST_F(RoughMirrors, takeEvenLightWithoutNoise) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rough_mirrors_test

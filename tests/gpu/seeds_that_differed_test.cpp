@@ -6,7 +6,7 @@
 #include "gpu/judge_seed.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::seeds_that_differed_test {
 namespace {
 
 struct OnceDiffered {
@@ -122,4 +122,4 @@ INSTANTIATE_TEST_SUITE_P(Each, SeedsThatDiffered, testing::ValuesIn(kSeeds), nam
 INSTANTIATE_TEST_SUITE_P(Each, SweptSeedsThatDiffered, testing::ValuesIn(kSweptSeeds), nameOf);
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::seeds_that_differed_test

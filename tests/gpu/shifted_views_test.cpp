@@ -14,7 +14,7 @@
 #include "support/truth/scenes.h"
 #include "walk/offline_renderer.h"
 
-namespace viewloom {
+namespace viewloom::shifted_views_test {
 namespace {
 
 constexpr SizePx kSource_px{320, 240};
@@ -118,4 +118,4 @@ TEST_F(ShiftedViewsTest, walkedScoreTheSameWhereverInfinityLies) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::shifted_views_test

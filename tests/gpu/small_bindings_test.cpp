@@ -4,7 +4,7 @@
 #include "gpu/structure_checks.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::small_bindings_test {
 namespace {
 
 // Less than any array of the scenes below takes.
@@ -45,4 +45,4 @@ TEST_F(SmallBindingsTest, texelsAreReadByAddress) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::small_bindings_test

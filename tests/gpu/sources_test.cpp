@@ -9,7 +9,7 @@
 #include "shared/fault.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::sources_test {
 namespace {
 
 // Of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
@@ -105,4 +105,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sources_test

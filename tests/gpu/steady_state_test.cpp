@@ -18,7 +18,7 @@
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/zstd_samples.h"
 
-namespace viewloom {
+namespace viewloom::steady_state_test {
 namespace {
 
 constexpr SizePx kFramePx{480, 270};
@@ -203,4 +203,4 @@ TEST_F(SteadyState, allocatesNothingLargeFromWireToAtlas) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::steady_state_test

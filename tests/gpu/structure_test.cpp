@@ -8,7 +8,7 @@
 #include "offline/effective_nodes.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::structure_test {
 namespace {
 
 // What walks read.
@@ -129,4 +129,4 @@ TEST_F(StructureTest, theBenchCountsItsNodesAsReadHere) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::structure_test

@@ -9,7 +9,7 @@
 #include "gpu/sweep_under_test.h"
 #include "oracle/scene_generator.h"
 
-namespace viewloom {
+namespace viewloom::sweep_test {
 namespace {
 
 // Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
@@ -173,4 +173,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<PlantedFault>& fault) { return fault.param.name; });
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sweep_test

@@ -13,7 +13,7 @@
 #include "sweep/view_sweeper.h"
 #include "walk/offline_renderer.h"
 
-namespace viewloom {
+namespace viewloom::sweep_walk_test {
 namespace {
 
 constexpr SizePx kSource_px{320, 180};
@@ -286,4 +286,4 @@ TEST_F(SweepBytes, ofTheColourDoNotDependOnThePlanesBesideIt) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sweep_walk_test

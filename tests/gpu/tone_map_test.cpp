@@ -16,7 +16,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::tone_map_test {
 namespace {
 
 using abi::vec3;
@@ -184,4 +184,4 @@ TEST_F(ToneMapTest, leavesPlanesOfSrgbAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::tone_map_test

@@ -7,7 +7,7 @@
 #include "oracle/scene_generator.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::trace_test {
 namespace {
 
 // Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
@@ -121,4 +121,4 @@ TEST_F(TraceTest, aSmoothSceneTakesFewVisits) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::trace_test

@@ -12,7 +12,7 @@
 #include "support/truth/scenes.h"
 #include "walk/offline_renderer.h"
 
-namespace viewloom {
+namespace viewloom::truth_views_test {
 namespace {
 
 constexpr SizePx kSource_px{640, 480};
@@ -200,4 +200,4 @@ TEST_F(TruthViewsTest, largeSmoothSurfacesAreWrongAtTheirEdgesAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::truth_views_test

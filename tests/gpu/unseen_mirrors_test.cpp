@@ -12,7 +12,7 @@
 #include "support/srgb_transfer.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::unseen_mirrors_test {
 namespace {
 
 constexpr SizePx kView_px{320, 240};
@@ -106,4 +106,4 @@ TEST_F(UnseenMirrors, fadeIntoTheEnvironmentByHowLongRaysWentUnseen) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::unseen_mirrors_test

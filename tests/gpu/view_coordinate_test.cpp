@@ -12,7 +12,7 @@
 #include "shaders/view_coordinates.h"
 #include "support/test_device.h"
 
-namespace viewloom {
+namespace viewloom::view_coordinate_test {
 namespace {
 
 struct CoordinatesPush {
@@ -82,4 +82,4 @@ TEST_F(ViewCoordinateTest, hasThemOnTheLargestPanels) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::view_coordinate_test

@@ -10,7 +10,7 @@
 #include "patterns/view_numbers.h"
 #include "support/read_view_number.h"
 
-namespace viewloom {
+namespace viewloom::view_numbers_test {
 namespace {
 
 using patterns::PatternKind;
@@ -110,4 +110,4 @@ TEST_F(ViewNumbers, cannotBeReadMirrored) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::view_numbers_test

@@ -12,7 +12,7 @@
 #include "support/test_frames.h"
 #include "walk/offline_renderer.h"
 
-namespace viewloom {
+namespace viewloom::views_outside_test {
 namespace {
 
 constexpr SizePx kSource_px{320, 200};
@@ -77,4 +77,4 @@ TEST_F(ViewsOutsideTest, areThoseWhoseRaysEndOutside) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::views_outside_test

@@ -7,7 +7,7 @@
 
 #include "load/load_report.h"
 
-namespace viewloom::load {
+namespace viewloom::load::load_facts_test {
 namespace {
 
 using testing::ElementsAre;
@@ -88,4 +88,4 @@ TEST(LoadFacts, catchMemoryThatGrowsOn) {
 }
 
 }  // namespace
-}  // namespace viewloom::load
+}  // namespace viewloom::load::load_facts_test

@@ -7,7 +7,7 @@
 
 #include "oracle/analytic_scenes.h"
 
-namespace viewloom::oracle {
+namespace viewloom::oracle::judge_test {
 namespace {
 
 constexpr double kTolerance_px = 0.25;
@@ -159,4 +159,4 @@ TEST(Judge, toleratesRoundingOnEveryKindOfScene) {
 }
 
 }  // namespace
-}  // namespace viewloom::oracle
+}  // namespace viewloom::oracle::judge_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace viewloom::oracle {
+namespace viewloom::oracle::oracle_source_test {
 namespace {
 
 OracleSource rowOf(std::vector<float> inv_z, ConnectionTolerance kappa = {0.01f, 0}) {
@@ -95,4 +95,4 @@ TEST(OracleSource, acrossLayersEachMustBeTheOthersNearest) {
 }
 
 }  // namespace
-}  // namespace viewloom::oracle
+}  // namespace viewloom::oracle::oracle_source_test

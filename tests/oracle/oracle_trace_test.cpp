@@ -9,7 +9,7 @@
 #include "oracle/brute_force.h"
 #include "oracle/view_generator.h"
 
-namespace viewloom::oracle {
+namespace viewloom::oracle::oracle_trace_test {
 namespace {
 
 // Double precision over at most a few hundred px and 1/m.
@@ -296,4 +296,4 @@ TEST(OracleTrace, itsWalkFindsWhatASearchOfAllFacetsFinds) {
 }
 
 }  // namespace
-}  // namespace viewloom::oracle
+}  // namespace viewloom::oracle::oracle_trace_test

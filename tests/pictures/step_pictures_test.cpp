@@ -9,7 +9,7 @@
 #include "pictures/svg.h"
 #include "support/test_device.h"
 
-namespace viewloom::pictures {
+namespace viewloom::pictures::step_pictures_test {
 namespace {
 
 // Px of a drawing, or cells visited: devices round apart.
@@ -49,4 +49,4 @@ TEST(Svg, showsTheSameOnlyWithTheSameShapesInTheSamePlaces) {
 }
 
 }  // namespace
-}  // namespace viewloom::pictures
+}  // namespace viewloom::pictures::step_pictures_test

@@ -14,7 +14,7 @@
 #include "bench/cpu/embree_mesh.h"
 #endif
 
-namespace viewloom::bench {
+namespace viewloom::bench::cpu_rivals_test {
 namespace {
 
 constexpr SizePx kSource{96, 64};
@@ -257,4 +257,4 @@ TEST(CpuRivals, keepALoneSample) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::cpu_rivals_test

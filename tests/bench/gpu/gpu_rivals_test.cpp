@@ -15,7 +15,7 @@
 #include "structure/structure_layout.h"
 #include "support/test_device.h"
 
-namespace viewloom::bench {
+namespace viewloom::bench::gpu_rivals_test {
 namespace {
 
 constexpr int kWidth = 72;
@@ -240,4 +240,4 @@ TEST_F(CopyTest, fillsItsOutputWithItsInput) {
 }
 
 }  // namespace
-}  // namespace viewloom::bench
+}  // namespace viewloom::bench::gpu_rivals_test

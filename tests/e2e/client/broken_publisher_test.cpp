@@ -10,7 +10,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
-namespace viewloom {
+namespace viewloom::broken_publisher_test {
 namespace {
 
 TEST(BrokenPublisher, comesBackAfterWhatAProxyDoesToACall) {
@@ -120,4 +120,4 @@ TEST(BrokenPublisher, callsAgainWhenAServerWithHeartbeatsFallsSilent) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::broken_publisher_test

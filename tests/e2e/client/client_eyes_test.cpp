@@ -11,7 +11,7 @@
 
 #include "e2e/client/with_viewloomd.h"
 
-namespace viewloom {
+namespace viewloom::client_eyes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ TEST_F(ClientEyes, refusesWhatIsNoEye) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::client_eyes_test

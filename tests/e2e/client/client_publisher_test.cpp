@@ -16,7 +16,7 @@
 #include "e2e/client/publish_scripts.h"
 #include "lib/channel.h"
 
-namespace viewloom {
+namespace viewloom::client_publisher_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -240,4 +240,4 @@ TEST(ClientPublisher, letsGoOfPlanesWhoseConnectionIsLost) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::client_publisher_test

@@ -13,7 +13,7 @@
 #include "recording/atlas_recording.h"
 #include "recording/frame_recording.h"
 
-namespace viewloom {
+namespace viewloom::client_uplink_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST_F(Uplink, saysWhatIsWrongWithRecordings) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::client_uplink_test

@@ -21,7 +21,7 @@
 #include "support/deep_exr_writer.h"
 #include "synthetic/synthetic_wire_frame.h"
 
-namespace viewloom {
+namespace viewloom::client_viewloomd_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -297,4 +297,4 @@ TEST_F(ClientWithViewloomd, thePythonExampleSavesAQuiltAndAView) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::client_viewloomd_test

@@ -15,7 +15,7 @@
 #include "lib/catalog.h"
 #include "lib/channel.h"
 
-namespace viewloom {
+namespace viewloom::client_watcher_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -284,4 +284,4 @@ TEST(ClientCatalog, saysWhenNobodyListens) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::client_watcher_test

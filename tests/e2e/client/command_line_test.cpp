@@ -11,7 +11,7 @@
 #include "e2e/client/command_answer.h"
 #include "e2e/client/with_viewloomd.h"
 
-namespace viewloom::test {
+namespace viewloom::test::command_line_test {
 namespace {
 
 using testing::AllOf;
@@ -147,4 +147,4 @@ TEST_F(CommandsWithServer, keepsWhatWasRecordedWhenTheDiskIsFull) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::command_line_test

@@ -13,7 +13,7 @@
 #include "e2e/client/with_viewloomd.h"
 #include "files/jpeg_image.h"
 
-namespace viewloom::test {
+namespace viewloom::test::full_disk_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ TEST_P(FullDiskTest, leavesWholePicturesAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::full_disk_test

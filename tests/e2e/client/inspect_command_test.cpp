@@ -17,7 +17,7 @@
 #include "unit/inputs/written_files.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::test {
+namespace viewloom::test::inspect_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -285,4 +285,4 @@ TEST_F(InspectCommand, judgesRealPictures) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::inspect_command_test

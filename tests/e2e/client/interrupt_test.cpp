@@ -11,7 +11,7 @@
 
 #include "e2e/client/command_answer.h"
 
-namespace viewloom::test {
+namespace viewloom::test::interrupt_test {
 namespace {
 
 // Connections wait in the queue of its socket.
@@ -63,4 +63,4 @@ TEST(Interrupt, endsEveryCommandWithinASecond) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::interrupt_test

@@ -12,7 +12,7 @@
 #include "support/read_view_number.h"
 #include "synthetic/synthetic_wire_frame.h"
 
-namespace viewloom {
+namespace viewloom::pattern_stream_test {
 namespace {
 
 constexpr uint32_t kColumns = 8, kRows = 3;
@@ -63,4 +63,4 @@ TEST_F(PatternStream, showsEachViewItsNumber) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::pattern_stream_test

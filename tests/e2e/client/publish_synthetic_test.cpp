@@ -9,7 +9,7 @@
 #include "e2e/client/with_viewloomd.h"
 #include "e2e/reflected_share.h"
 
-namespace viewloom {
+namespace viewloom::publish_synthetic_test {
 namespace {
 
 using test::reflectedShare;
@@ -75,4 +75,4 @@ TEST_F(PublishSynthetic, movesItsCameraWhereItIsToldTo) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::publish_synthetic_test

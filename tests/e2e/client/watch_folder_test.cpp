@@ -17,7 +17,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::watch_folder_test {
 namespace {
 
 constexpr int64_t kLong_ns = 120'000'000'000;  // only a failing test waits so long
@@ -112,4 +112,4 @@ TEST(WatchFolder, publishesEveryFrameThatARendererCompletes) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::watch_folder_test

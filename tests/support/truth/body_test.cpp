@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-namespace viewloom::truth {
+namespace viewloom::truth::body_test {
 namespace {
 
 // Relative to lengths around 1 m: some hundred roundings of binary64.
@@ -131,4 +131,4 @@ TEST(TruthBody, paintHasWavesOfItsContrastAroundTheMeanOfBothColors) {
 }
 
 }  // namespace
-}  // namespace viewloom::truth
+}  // namespace viewloom::truth::body_test

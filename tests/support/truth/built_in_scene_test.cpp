@@ -10,7 +10,7 @@
 #include "support/truth/picture.h"
 #include "synthetic/cast_row.h"
 
-namespace viewloom::truth {
+namespace viewloom::truth::built_in_scene_test {
 namespace {
 
 using synthetic::SurfaceKind;
@@ -77,4 +77,4 @@ TEST(TruthAndBuiltInScene, meetTheSameSurfacesAtTheSameDepths) {
 }
 
 }  // namespace
-}  // namespace viewloom::truth
+}  // namespace viewloom::truth::built_in_scene_test

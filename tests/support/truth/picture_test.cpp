@@ -14,7 +14,7 @@
 #include "support/truth/picture_frame.h"
 #include "support/truth/scenes.h"
 
-namespace viewloom::truth {
+namespace viewloom::truth::picture_test {
 namespace {
 
 constexpr SizePx kSize_px{96, 72};
@@ -205,4 +205,4 @@ TEST(TruthFrame, isOneThatTheServerAccepts) {
 }
 
 }  // namespace
-}  // namespace viewloom::truth
+}  // namespace viewloom::truth::picture_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::bounded_queue_test {
 namespace {
 
 TEST(BoundedQueue, handsOutInTheOrderOfArrival) {
@@ -56,4 +56,4 @@ TEST(BoundedQueue, neverHoldsMoreThanItsCapacity) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::bounded_queue_test

@@ -9,7 +9,7 @@
 
 #include "support/large_allocations.h"
 
-namespace viewloom {
+namespace viewloom::byte_pool_test {
 namespace {
 
 TEST(BytePool, lendsTheSameMemoryAgain) {
@@ -118,4 +118,4 @@ TEST(BytePool, neverLendsOneBufferTwice) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::byte_pool_test

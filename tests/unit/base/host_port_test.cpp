@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::test {
+namespace viewloom::test::host_port_test {
 namespace {
 
 TEST(HostPort, readsWhatPeopleWrite) {
@@ -48,4 +48,4 @@ TEST(HostPort, knowsTheLoopbackByAddressNotByLook) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::host_port_test

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-namespace viewloom {
+namespace viewloom::latest_mailbox_test {
 namespace {
 
 TEST(LatestMailbox, handsOutTheNewestItemOnce) {
@@ -58,4 +58,4 @@ TEST(LatestMailbox, losesAndRepeatsNothingAcrossThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::latest_mailbox_test

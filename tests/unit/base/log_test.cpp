@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace viewloom {
+namespace viewloom::log_test {
 namespace {
 
 TEST(Log, writesLinesFromItsLevelUpwards) {
@@ -35,4 +35,4 @@ TEST(Log, knowsItsLevelsByName) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::log_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::metrics_test {
 namespace {
 
 using ::testing::AnyOf;
@@ -66,4 +66,4 @@ TEST(Metrics, losesNoCountAmongThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::metrics_test

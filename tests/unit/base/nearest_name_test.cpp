@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::nearest_name_test {
 namespace {
 
 using testing::ElementsAre;
@@ -73,4 +73,4 @@ TEST(NearestName, isFastForALongWord) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::nearest_name_test

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <string>
 
-namespace viewloom {
+namespace viewloom::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST_F(OutputFileTest, saysThatItReachedTheLargestSizeAllowed) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::output_file_test

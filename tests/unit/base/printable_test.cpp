@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::printable_test {
 namespace {
 
 TEST(Printable, leavesTextAsItIs) {
@@ -31,4 +31,4 @@ TEST(Printable, keepsLinesWhereTheyAreWanted) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::printable_test

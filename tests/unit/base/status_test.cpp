@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::status_test {
 namespace {
 
 TEST(FieldError, namesTheFieldInTextAndByItself) {
@@ -38,4 +38,4 @@ TEST(FieldError, leavesOkAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::status_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::worker_pool_test {
 namespace {
 
 TEST(WorkerPool, givesEveryIndexOnce) {
@@ -100,4 +100,4 @@ TEST(WorkerPool, endsWithoutEverHavingWorked) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::worker_pool_test

@@ -8,7 +8,7 @@
 #include "calibration/calibration.h"
 #include "unit/calibration/device_files.h"
 
-namespace viewloom {
+namespace viewloom::calibration_round_trip_test {
 namespace {
 
 void expectComesBack(const Calibration& calibration) {
@@ -66,4 +66,4 @@ TEST(WrittenCalibration, wrapsNumbersAsDevicesDo) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::calibration_round_trip_test

@@ -6,7 +6,7 @@
 
 #include "unit/calibration/device_files.h"
 
-namespace viewloom {
+namespace viewloom::calibration_test {
 namespace {
 
 using testing::AllOf;
@@ -178,4 +178,4 @@ TEST(Calibration, quotesLongValuesInPart) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::calibration_test

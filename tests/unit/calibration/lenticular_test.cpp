@@ -10,7 +10,7 @@
 #include "calibration/make_lenticular.h"
 #include "unit/calibration/device_files.h"
 
-namespace viewloom {
+namespace viewloom::lenticular_test {
 namespace {
 
 // What makers of players agree on, in binary64 and term by term.
@@ -186,4 +186,4 @@ TEST(NearestView, sharesTheConeEvenlyAndNeverRunsOver) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lenticular_test

@@ -10,7 +10,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::atlas_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(AtlasFilesTest, writesNothingUnderANameThatLeadsElsewhere) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::atlas_files_test

@@ -8,7 +8,7 @@
 #include "unit/inputs/written_files.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::file_pairs_test {
 namespace {
 
 using test::WrittenChannel;
@@ -154,4 +154,4 @@ TEST_F(FilePairsTest, giveUpTheOldestOfTooManyHalves) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::file_pairs_test

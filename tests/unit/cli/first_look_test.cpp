@@ -11,7 +11,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::first_look_test {
 namespace {
 
 constexpr uint32_t kSide = 2048;
@@ -57,4 +57,4 @@ TEST(FirstLook, isBrokenOffByCtrlC) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::first_look_test

@@ -11,7 +11,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::folder_frames_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -147,4 +147,4 @@ TEST_F(FolderFramesTest, refusesWhatIsNoFolder) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::folder_frames_test

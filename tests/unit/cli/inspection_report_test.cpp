@@ -9,7 +9,7 @@
 
 #include "unit/cli/wrong_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::inspection_report_test {
 namespace {
 
 using cli::InspectedFile;
@@ -65,4 +65,4 @@ TEST_F(InspectionReportTest, speaksInTheWordsOfUsers) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::inspection_report_test

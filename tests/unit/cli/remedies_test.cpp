@@ -10,7 +10,7 @@
 #include "cli/file_frames.h"
 #include "unit/cli/wrong_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::remedies_test {
 namespace {
 
 using inspect::LayerInspection;
@@ -202,4 +202,4 @@ TEST_F(RemediesTest, needFilesToBeFor) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::remedies_test

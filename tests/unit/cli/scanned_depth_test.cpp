@@ -7,7 +7,7 @@
 
 #include "unit/cli/wrong_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::scanned_depth_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST_F(UpsideDownTest, isSaidInTheWordsOfAManifest) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::scanned_depth_test

@@ -12,7 +12,7 @@
 #include "lib/channel.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::user_words_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST(UserWords, sayInOneLineWhatIsWrongWithAFile) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::user_words_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::atlas_assembler_test {
 namespace {
 
 using Message = v1::StreamAtlasesResponse;
@@ -168,4 +168,4 @@ TEST_F(AtlasAssemblerTest, boundsTheMemoryOfAnAtlas) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_assembler_test

@@ -10,7 +10,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom {
+namespace viewloom::atlas_recording_test {
 namespace {
 
 using testing::HasSubstr;
@@ -182,4 +182,4 @@ TEST_F(AtlasRecordingTest, refusesMessagesOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_recording_test

@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-namespace viewloom {
+namespace viewloom::atlas_test {
 namespace {
 
 // 2 columns x 3 rows of 5x4 tiles, and padding: 1 px at the right, 2 px at the top.
@@ -143,4 +143,4 @@ TEST(Atlas, cutsViewsFromTheTopOfACameraGrid) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_test

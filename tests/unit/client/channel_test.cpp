@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::channel_test {
 namespace {
 
 TEST(StaysOnMachine, isTrueOfSocketsAndTheLoopbackAlone) {
@@ -18,4 +18,4 @@ TEST(StaysOnMachine, isTrueOfSocketsAndTheLoopbackAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::channel_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace viewloom {
+namespace viewloom::chunk_size_test {
 namespace {
 
 constexpr int64_t kFast_ns = 50'000'000, kMiddling_ns = 200'000'000, kSlow_ns = 500'000'000;
@@ -50,4 +50,4 @@ TEST(ChunkSize, settlesBelowASecondOnEveryLine) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::chunk_size_test

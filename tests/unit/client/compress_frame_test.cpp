@@ -10,7 +10,7 @@
 
 #include "unit/client/predicted_oracle.h"
 
-namespace viewloom {
+namespace viewloom::compress_frame_test {
 namespace {
 
 void addPlane(WireFrame& frame, v1::PlaneEncoding encoding, std::vector<uint8_t> bytes) {
@@ -127,4 +127,4 @@ TEST(CompressFrame, packsWhatIsTooWideForSixteenBitsAsItIs) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::compress_frame_test

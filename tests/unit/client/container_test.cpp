@@ -10,7 +10,7 @@
 #include "unit/client/test_files.h"
 #include "unit/client/written_pictures.h"
 
-namespace viewloom::files {
+namespace viewloom::files::container_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(Container, goesByTheNameInAnyCaseWhereThereIsNoFile) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::container_test

@@ -12,7 +12,7 @@
 #include "support/large_allocations.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::deep_exr_hostile_test {
 namespace {
 
 using Imath::Box2i;
@@ -227,4 +227,4 @@ TEST_F(HostileDeepExr, isReadOrRefusedHoweverItWasSpoilt) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::deep_exr_hostile_test

@@ -11,7 +11,7 @@
 #include "support/deep_exr_writer.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::deep_exr_test {
 namespace {
 
 using Imath::Box2i;
@@ -157,4 +157,4 @@ TEST_F(DeepExrTest, turnsItsUnitsIntoMetres) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::deep_exr_test

@@ -14,7 +14,7 @@
 #include "support/deep_exr_writer.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::deep_layers_test {
 namespace {
 
 using deep::DeepSample;
@@ -229,4 +229,4 @@ TEST_F(DeepLayersTest, refusesMoreThanAFrameMayHold) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::deep_layers_test

@@ -18,7 +18,7 @@
 #include "unit/client/exr_samples.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::exr_description_test {
 namespace {
 
 using Imath::Box2i;
@@ -123,4 +123,4 @@ TEST(ExrDescription, refusesNamesWithoutEndAndFilesCutShort) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::exr_description_test

@@ -21,7 +21,7 @@
 #include "unit/client/exr_samples.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::exr_image_test {
 namespace {
 
 using Imath::Box2i;
@@ -282,4 +282,4 @@ TEST(ExrImage, refusesTruncatedFilesAtEveryLength) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::exr_image_test

@@ -9,7 +9,7 @@
 #include <future>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::eye_feed_test {
 namespace {
 
 using testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(EyeFeed, stopsWhileALineIsNotDue) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::eye_feed_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::frame_latency_test {
 namespace {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
@@ -47,4 +47,4 @@ TEST(FrameLatency, isUnknownWhereClocksDiffer) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_latency_test

@@ -10,7 +10,7 @@
 #include "unit/client/test_files.h"
 #include "unit/client/written_pictures.h"
 
-namespace viewloom::files {
+namespace viewloom::files::frame_manifest_test {
 namespace {
 
 using ::testing::AllOf;
@@ -208,4 +208,4 @@ TEST_F(FrameManifestTest, refusesChannelsOfFilesThatHaveNoNamesForThem) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::frame_manifest_test

@@ -11,7 +11,7 @@
 
 #include "viewloom/v1/ingest_service.pb.h"
 
-namespace viewloom {
+namespace viewloom::frame_messages_test {
 namespace {
 
 constexpr size_t kChunk_bytes = 300;
@@ -102,4 +102,4 @@ TEST(FrameMessages, endWhenNoFurtherOneIsWanted) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_messages_test

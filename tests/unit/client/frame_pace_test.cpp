@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::cli {
+namespace viewloom::cli::frame_pace_test {
 namespace {
 
 TEST(FramePace, goesByTheRateAndLeavesLateFramesOut) {
@@ -30,4 +30,4 @@ TEST(FramePace, goesByTheFramesOwnTimes) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::frame_pace_test

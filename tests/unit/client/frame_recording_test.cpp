@@ -16,7 +16,7 @@
 #include "unit/client/test_files.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
-namespace viewloom {
+namespace viewloom::frame_recording_test {
 namespace {
 
 using testing::HasSubstr;
@@ -267,4 +267,4 @@ TEST_F(FrameRecordingTest, takesNoMemoryForWhatTheFileDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_recording_test

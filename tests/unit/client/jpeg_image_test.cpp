@@ -9,7 +9,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::jpeg_image_test {
 namespace {
 
 using ::testing::ElementsAreArray;
@@ -97,4 +97,4 @@ TEST(JpegImage, refusesSidesBeyondTheLimit) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::jpeg_image_test

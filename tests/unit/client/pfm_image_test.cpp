@@ -10,7 +10,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::pfm_image_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -121,4 +121,4 @@ TEST(PfmImage, readsCommentsAndEveryWhiteSpaceOfHeaders) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::pfm_image_test

@@ -15,7 +15,7 @@
 #include "unit/client/test_files.h"
 #include "unit/client/written_pictures.h"
 
-namespace viewloom::files {
+namespace viewloom::files::picture_file_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -274,4 +274,4 @@ TEST_F(PictureFileTest, tellsContainersByContentWhateverTheName) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::picture_file_test

@@ -11,7 +11,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom::files {
+namespace viewloom::files::png_image_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -149,4 +149,4 @@ TEST(PngWriter, writesWhatTheReaderReads) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::png_image_test

@@ -10,7 +10,7 @@
 
 #include "unit/client/predicted_oracle.h"
 
-namespace viewloom {
+namespace viewloom::predict_plane_test {
 namespace {
 
 std::vector<uint8_t> littleEndian(const std::vector<uint16_t>& samples) {
@@ -61,4 +61,4 @@ TEST(PredictPlane, leavesNothingOfASlantedPlane) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::predict_plane_test

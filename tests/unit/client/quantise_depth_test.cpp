@@ -14,7 +14,7 @@
 #include "frame/cube_map.h"
 #include "support/depth_reference.h"
 
-namespace viewloom {
+namespace viewloom::quantise_depth_test {
 namespace {
 
 using testing::HasSubstr;
@@ -278,4 +278,4 @@ TEST(QuantiseDepth, leavesOtherEncodingsAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::quantise_depth_test

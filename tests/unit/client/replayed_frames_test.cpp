@@ -9,7 +9,7 @@
 
 #include "unit/client/test_files.h"
 
-namespace viewloom::cli {
+namespace viewloom::cli::replayed_frames_test {
 namespace {
 
 using testing::DoubleNear;
@@ -147,4 +147,4 @@ TEST_F(ReplayedFramesTest, takesCaptureTimesOfAnyClock) {
 }
 
 }  // namespace
-}  // namespace viewloom::cli
+}  // namespace viewloom::cli::replayed_frames_test

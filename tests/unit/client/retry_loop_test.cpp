@@ -15,7 +15,7 @@
 #include "lib/broken_call.h"
 #include "lib/channel.h"
 
-namespace viewloom {
+namespace viewloom::retry_loop_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -211,4 +211,4 @@ TEST(ExplainBrokenCall, saysWhatToChangeInAProxy) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::retry_loop_test

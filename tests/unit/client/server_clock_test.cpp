@@ -9,7 +9,7 @@
 
 #include "lib/latency.h"
 
-namespace viewloom {
+namespace viewloom::server_clock_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -107,4 +107,4 @@ TEST(MotionLatency, hasPartsThatAddUp) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::server_clock_test

@@ -12,7 +12,7 @@
 #include "files/netpbm_image.h"
 #include "files/png_image.h"
 
-namespace viewloom::files {
+namespace viewloom::files::shared_data_test {
 namespace {
 
 class SharedData : public ::testing::Test {
@@ -114,4 +114,4 @@ TEST_F(SharedData, antinousMovesAsItsDisparitySays) {
 }
 
 }  // namespace
-}  // namespace viewloom::files
+}  // namespace viewloom::files::shared_data_test

@@ -7,7 +7,7 @@
 #include <future>
 #include <thread>
 
-namespace viewloom {
+namespace viewloom::silence_watch_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -67,4 +67,4 @@ TEST(SilenceWatch, saysForHowLongTheServerWasSilent) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::silence_watch_test

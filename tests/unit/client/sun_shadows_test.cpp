@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace viewloom::synthetic {
+namespace viewloom::synthetic::sun_shadows_test {
 namespace {
 
 // Penumbras are 4 cm wide or wider, and binary32 places a point within 1e-5 m; smoothstep rises by
@@ -74,4 +74,4 @@ TEST(SunShadows, areThoseOfEveryThingLookedAtForItself) {
 }
 
 }  // namespace
-}  // namespace viewloom::synthetic
+}  // namespace viewloom::synthetic::sun_shadows_test

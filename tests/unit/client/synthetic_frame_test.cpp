@@ -14,7 +14,7 @@
 
 #include "synthetic/scene.h"
 
-namespace viewloom {
+namespace viewloom::synthetic_frame_test {
 namespace {
 
 // The ground as the header states it: y = -0.85 - 0.06 z.
@@ -254,4 +254,4 @@ TEST(SyntheticFrame, coloursAPointTheSameFromEverySide) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::synthetic_frame_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::reachable_addresses_test {
 namespace {
 
 using testing::ElementsAre;
@@ -42,4 +42,4 @@ TEST(ReachableAddresses, ofThisMachineAreNeitherLoopbackNorLinkLocal) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::reachable_addresses_test

@@ -13,7 +13,7 @@
 #include "config/settings.h"
 #include "config/toml_file.h"
 
-namespace viewloom {
+namespace viewloom::example_file_test {
 namespace {
 
 std::string exampleText() {
@@ -70,4 +70,4 @@ TEST(ExampleFile, namesAVariableThatWorks) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::example_file_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace viewloom {
+namespace viewloom::read_config_test {
 namespace {
 
 using testing::HasSubstr;
@@ -138,4 +138,4 @@ TEST(ThreadCount, takesOnePerCoreForZero) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::read_config_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace viewloom {
+namespace viewloom::frame_assembly_test {
 namespace {
 
 // Planes of 6 and 4 bytes on the wire, depth first.
@@ -96,4 +96,4 @@ TEST_F(FrameAssemblyTest, tellsWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_assembly_test

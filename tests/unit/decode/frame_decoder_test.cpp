@@ -13,7 +13,7 @@
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/zstd_samples.h"
 
-namespace viewloom {
+namespace viewloom::frame_decoder_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -142,4 +142,4 @@ TEST_F(FrameDecoderTest, namesThePlaneThatIsBroken) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_decoder_test

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::frame_intake_test {
 namespace {
 
 // A frame of one pixel. Depth that claims to be zstd is refused when it is decoded.
@@ -218,4 +218,4 @@ TEST_F(FrameIntakeTest, reportsEveryFrameOnceAndKeepsTheOrderOfEachStream) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_intake_test

@@ -12,7 +12,7 @@
 #include "support/large_allocations.h"
 #include "unit/decode/jpeg_samples.h"
 
-namespace viewloom {
+namespace viewloom::jpeg_plane_test {
 namespace {
 
 using testing::HasSubstr;
@@ -116,4 +116,4 @@ TEST_F(JpegPlane, refusesWhatIsNoJpeg) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::jpeg_plane_test

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <memory>
 
-namespace viewloom {
+namespace viewloom::keep_motion_test {
 namespace {
 
 constexpr uint16_t kOne = 0x3c00;
@@ -53,4 +53,4 @@ TEST(KeepMotion, letsStandWhatIsNoFiniteNumberAndCountsIt) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::keep_motion_test

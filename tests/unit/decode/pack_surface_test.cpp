@@ -16,7 +16,7 @@
 #include "frame/limits.h"
 #include "shared/surface_abi.h"
 
-namespace viewloom {
+namespace viewloom::pack_surface_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -166,4 +166,4 @@ TEST(PackSurface, comesFromPlanesInAnyOrderAfterColorAndDepth) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::pack_surface_test

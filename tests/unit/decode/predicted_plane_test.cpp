@@ -12,7 +12,7 @@
 #include "unit/decode/predicted_samples.h"
 #include "unit/decode/zstd_samples.h"
 
-namespace viewloom {
+namespace viewloom::predicted_plane_test {
 namespace {
 
 using testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST_F(PredictedPlaneTest, isRefusedWhenItsFrameIsCutShortOrHoldsAnotherSize) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::predicted_plane_test

@@ -9,7 +9,7 @@
 
 #include "unit/decode/zstd_samples.h"
 
-namespace viewloom {
+namespace viewloom::zstd_plane_test {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(ZstdPlane, refusesEveryTruncationAndWhatFollowsTheFrame) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::zstd_plane_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace viewloom::deep {
+namespace viewloom::deep::partition_test {
 namespace {
 
 DeepPoint surface(double inv_z, double alpha) {
@@ -121,4 +121,4 @@ TEST(Partition, isTheBestOfAll) {
 }
 
 }  // namespace
-}  // namespace viewloom::deep
+}  // namespace viewloom::deep::partition_test

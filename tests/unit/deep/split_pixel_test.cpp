@@ -11,7 +11,7 @@
 #include "deep/tidy_pixel.h"
 #include "support/deep_composite.h"
 
-namespace viewloom::deep {
+namespace viewloom::deep::split_pixel_test {
 namespace {
 
 DeepPoint surface(double inv_z, double alpha) {
@@ -74,4 +74,4 @@ TEST(SplitPixel, showsWhatTheDeepPixelShows) {
 }
 
 }  // namespace
-}  // namespace viewloom::deep
+}  // namespace viewloom::deep::split_pixel_test

@@ -13,7 +13,7 @@
 
 #include "support/deep_composite.h"
 
-namespace viewloom::deep {
+namespace viewloom::deep::tidy_pixel_test {
 namespace {
 
 // Some hundred operations on numbers of size one, in binary64.
@@ -218,4 +218,4 @@ TEST(TidyPixel, flattensMessyPixelsAsOpenExrSays) {
 }
 
 }  // namespace
-}  // namespace viewloom::deep
+}  // namespace viewloom::deep::tidy_pixel_test

@@ -6,7 +6,7 @@
 
 #include "display/presets.h"
 
-namespace viewloom {
+namespace viewloom::atlas_layout_test {
 namespace {
 
 StreamDefaults someStream() {
@@ -143,4 +143,4 @@ TEST(BandRowCount, isEightMcuRows) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_layout_test

@@ -6,7 +6,7 @@
 
 #include "display/display_spec.h"
 
-namespace viewloom {
+namespace viewloom::camera_lists_test {
 namespace {
 
 using testing::HasSubstr;
@@ -47,4 +47,4 @@ TEST(CameraLists, ofAWrongLengthAreRefusedBeforeTheirCameras) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::camera_lists_test

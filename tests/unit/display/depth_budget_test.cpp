@@ -11,7 +11,7 @@
 
 #include "unit/display/axis_point.h"
 
-namespace viewloom {
+namespace viewloom::depth_budget_test {
 namespace {
 
 // Two thirds of the px on things about 2 m away, the others on a slope from 3 m to 40 m.
@@ -185,4 +185,4 @@ TEST(DepthBudget, isNoneWhereNoViewsAreNeighbours) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::depth_budget_test

@@ -10,7 +10,7 @@
 
 #include "display/presets.h"
 
-namespace viewloom {
+namespace viewloom::display_spec_test {
 namespace {
 
 using testing::HasSubstr;
@@ -283,4 +283,4 @@ TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::display_spec_test

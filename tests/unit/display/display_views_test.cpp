@@ -10,7 +10,7 @@
 
 #include "display/atlas_layout.h"
 
-namespace viewloom {
+namespace viewloom::display_views_test {
 namespace {
 
 // Textbook pinhole: where a point in front of the display falls in a view's tile, px.
@@ -268,4 +268,4 @@ TEST(CameraGrid, liesAsItIsArranged) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::display_views_test

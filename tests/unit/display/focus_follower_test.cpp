@@ -8,7 +8,7 @@
 
 #include "display/depth_budget.h"
 
-namespace viewloom {
+namespace viewloom::focus_follower_test {
 namespace {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
@@ -118,4 +118,4 @@ TEST(FocusFollowing, isForDisplaysWhoseViewsFrameAPlaneOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::focus_follower_test

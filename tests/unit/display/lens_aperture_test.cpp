@@ -8,7 +8,7 @@
 #include "display/depth_budget.h"
 #include "unit/display/axis_point.h"
 
-namespace viewloom {
+namespace viewloom::lens_aperture_test {
 namespace {
 
 constexpr double kFocus_m = 2;
@@ -173,4 +173,4 @@ TEST(AutomaticAperture, failsWhereThereIsNoDepthBudget) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_aperture_test

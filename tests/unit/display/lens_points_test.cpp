@@ -11,7 +11,7 @@
 
 #include "display/lens.h"
 
-namespace viewloom {
+namespace viewloom::lens_points_test {
 namespace {
 
 constexpr uint32_t kWalked = 8;
@@ -222,4 +222,4 @@ TEST(LensPattern, sendsRaysOfPxBesideEachOtherElsewhere) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_points_test

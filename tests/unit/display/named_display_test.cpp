@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::named_display_test {
 namespace {
 
 using testing::AllOf;
@@ -44,4 +44,4 @@ TEST(NamedDisplay, isOfTheKindOfItsDevice) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::named_display_test

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::rgbd_test {
 namespace {
 
 using testing::HasSubstr;
@@ -251,4 +251,4 @@ TEST(Rgbd, isAnotherPictureWithAnyOtherRange) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::rgbd_test

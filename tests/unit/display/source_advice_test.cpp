@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::source_advice_test {
 namespace {
 
 constexpr double kNear_m = 1.2;
@@ -249,4 +249,4 @@ TEST(SourceAdvice, refusesViewsThatNoPinholeSees) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::source_advice_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::taken_defaults_test {
 namespace {
 
 SourceStats range(double near_m, double far_m) {
@@ -113,4 +113,4 @@ TEST(DepthRangeText, saysBothEndsInMetres) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::taken_defaults_test

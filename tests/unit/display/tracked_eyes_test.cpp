@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::tracked_eyes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -168,4 +168,4 @@ TEST(TrackedEyes, areThoseOfAStereoDisplayWithoutOthers) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::tracked_eyes_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::views_outside_test {
 namespace {
 
 constexpr SizePx kSource_px{1000, 500};
@@ -150,4 +150,4 @@ TEST(SettledShares, followWhatTrulyChanges) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::views_outside_test

@@ -17,7 +17,7 @@
 #include "support/large_allocations.h"
 #include "unit/encode/picture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::band_encoder_test {
 namespace {
 
 std::vector<EncodedBand> encodeAll(BandEncoder& encoder, const Picture& picture,
@@ -230,4 +230,4 @@ TEST(BandEncoder, makesNoLargeAllocationOnceWarm) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::band_encoder_test

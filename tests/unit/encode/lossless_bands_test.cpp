@@ -8,7 +8,7 @@
 #include "encode/band_encoder.h"
 #include "unit/encode/picture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::lossless_bands_test {
 namespace {
 
 Bytes unpacked(const EncodedBand& band) {
@@ -92,4 +92,4 @@ TEST(BandEncoder, packsDepthCodesAsWholeNumbersOf16Bits) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::lossless_bands_test

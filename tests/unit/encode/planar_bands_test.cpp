@@ -6,7 +6,7 @@
 #include "support/ycbcr_planes.h"
 #include "unit/encode/picture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::planar_bands_test {
 namespace {
 
 // The planes of a picture, and bands of them.
@@ -62,4 +62,4 @@ TEST(BandEncoder, takesThePlanesOfItsOwnChromaAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::planar_bands_test

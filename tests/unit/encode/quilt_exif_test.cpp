@@ -11,7 +11,7 @@
 #include "encode/band_encoder.h"
 #include "unit/encode/picture.h"
 
-namespace viewloom::test {
+namespace viewloom::test::quilt_exif_test {
 namespace {
 
 AtlasLayout quiltOf(SizePx size_px) {
@@ -66,4 +66,4 @@ TEST(QuiltExif, isNotThereWhereThereIsNoQuilt) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::quilt_exif_test

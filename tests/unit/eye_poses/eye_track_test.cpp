@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::eye_track_test {
 namespace {
 
 TEST(EyeTrack, keepsTheNewestPosesAndHowFastTheyCome) {
@@ -39,4 +39,4 @@ TEST(EyeTrack, goesOnBeforeAnotherDisplayThatShowsNothingYet) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::eye_track_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace viewloom {
+namespace viewloom::sent_poses_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -47,4 +47,4 @@ TEST(SentPoses, takesNoDifferenceOfTwoClocksForALatency) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sent_poses_test

@@ -12,7 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
-namespace viewloom {
+namespace viewloom::camera_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -161,4 +161,4 @@ TEST(ValidateIntrinsics, refusesWhatIsNoPinhole) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::camera_test

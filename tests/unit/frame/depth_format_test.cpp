@@ -6,7 +6,7 @@
 
 #include "frame/depth.h"
 
-namespace viewloom {
+namespace viewloom::depth_format_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -81,4 +81,4 @@ TEST(ValidateDepthFormat, namesTheFieldAtFault) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::depth_format_test

@@ -13,7 +13,7 @@
 
 #include "support/depth_reference.h"
 
-namespace viewloom {
+namespace viewloom::depth_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -209,4 +209,4 @@ TEST(DepthCoefficients, giveAKernelWhatTheReferenceGives) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::depth_test

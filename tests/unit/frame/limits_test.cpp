@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::limits_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -276,4 +276,4 @@ TEST(ValidateFrame, acceptsPaddedRows) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::limits_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::test {
+namespace viewloom::test::same_content_test {
 namespace {
 
 constexpr SizePx kSizePx{4, 3};
@@ -134,4 +134,4 @@ TEST(SameContent, endsWithAnyDifference) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::same_content_test

@@ -8,7 +8,7 @@
 
 #include "unit/inputs/written_pair.h"
 
-namespace viewloom::test {
+namespace viewloom::test::chosen_depth_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -108,4 +108,4 @@ TEST_F(ChosenDepthTest, takesScatteredZerosOfDisparityForNoSurface) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::chosen_depth_test

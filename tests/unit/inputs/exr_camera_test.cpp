@@ -14,7 +14,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::exr_camera_test {
 namespace {
 
 using files::TestFolder;
@@ -183,4 +183,4 @@ TEST_F(ExrPrimariesTest, areRefusedWhenTheySpanNoColours) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::exr_camera_test

@@ -15,7 +15,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::exr_inputs_test {
 namespace {
 
 using files::TestFolder;
@@ -297,4 +297,4 @@ TEST_F(ExrInputs, turnPanoramasIntoCubeMaps) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::exr_inputs_test

@@ -6,7 +6,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::exr_names_test {
 namespace {
 
 using files::TestFolder;
@@ -35,4 +35,4 @@ TEST(ExrNames, areSuggestedByTheNearestLayersAndChannels) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::exr_names_test

@@ -10,7 +10,7 @@
 
 #include "unit/inputs/written_pair.h"
 
-namespace viewloom::test {
+namespace viewloom::test::picture_inputs_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -230,4 +230,4 @@ TEST_F(PictureInputsTest, refusesRelativeDepthThatIsOneNumber) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::picture_inputs_test

@@ -9,7 +9,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::renderer_inputs_test {
 namespace {
 
 using files::TestFolder;
@@ -179,4 +179,4 @@ TEST(RendererInputs, surviveWhateverTheHeaderSays) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::renderer_inputs_test

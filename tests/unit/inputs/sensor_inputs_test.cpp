@@ -10,7 +10,7 @@
 
 #include "unit/inputs/written_pair.h"
 
-namespace viewloom::test {
+namespace viewloom::test::sensor_inputs_test {
 namespace {
 
 using ::testing::Contains;
@@ -182,4 +182,4 @@ TEST_F(SensorInputsTest, takesTheCodeOfWhiteThatIsGiven) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::sensor_inputs_test

@@ -11,7 +11,7 @@
 #include "unit/client/test_files.h"
 #include "unit/inputs/written_files.h"
 
-namespace viewloom::test {
+namespace viewloom::test::tmiv_input_test {
 namespace {
 
 using files::TestFolder;
@@ -155,4 +155,4 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::tmiv_input_test

@@ -11,7 +11,7 @@
 #include "unit/inspect/depth_planes.h"
 #include "unit/inspect/found_kinds.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::clean_depth_test {
 namespace {
 
 using test::depthPlane;
@@ -121,4 +121,4 @@ TEST(CleanDepth, hasNoStepsInTheRowsOfALevelFloor) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::clean_depth_test

@@ -10,7 +10,7 @@
 
 #include "unit/inspect/depth_planes.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::measure_depth_test {
 namespace {
 
 using test::depthPlane;
@@ -101,4 +101,4 @@ TEST(MeasureDepth, hasNothingToSayWithoutSurface) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::measure_depth_test

@@ -11,7 +11,7 @@
 #include "sweep/measure_columns.h"
 #include "unit/inspect/depth_planes.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::server_measures_test {
 namespace {
 
 using test::depthPlane;
@@ -78,4 +78,4 @@ TEST(ServerMeasures, areThoseOfNoise) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::server_measures_test

@@ -15,7 +15,7 @@
 #include "messages/source_from_proto.h"
 #include "sweep/depth_columns.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::special_samples_test {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -198,4 +198,4 @@ TEST(SpecialSamples, areTheSameOfWholeNumbers) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::special_samples_test

@@ -8,7 +8,7 @@
 #include "inspect/suspicions.h"
 #include "unit/inspect/depth_planes.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::suspect_alpha_test {
 namespace {
 
 using test::depthPlane;
@@ -58,4 +58,4 @@ TEST(SuspectAlpha, seesAlphaThatHidesEverything) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::suspect_alpha_test

@@ -13,7 +13,7 @@
 #include "unit/inspect/depth_planes.h"
 #include "unit/inspect/found_kinds.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::suspicions_test {
 namespace {
 
 using test::depthPlane;
@@ -260,4 +260,4 @@ TEST(Suspicions, seeColourOfAnotherShape) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::suspicions_test

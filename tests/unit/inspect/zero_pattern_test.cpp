@@ -7,7 +7,7 @@
 
 #include "inspect/stored_numbers.h"
 
-namespace viewloom::inspect {
+namespace viewloom::inspect::zero_pattern_test {
 namespace {
 
 constexpr uint32_t kWidth = 160, kHeight = 120;
@@ -80,4 +80,4 @@ TEST(ZeroPattern, takesTinyImages) {
 }
 
 }  // namespace
-}  // namespace viewloom::inspect
+}  // namespace viewloom::inspect::zero_pattern_test

@@ -18,7 +18,7 @@
 
 #include "support/srgb_transfer.h"
 
-namespace viewloom {
+namespace viewloom::gather_kernels_test {
 namespace {
 
 constexpr SizePx kImage_px = {40, 24};
@@ -287,4 +287,4 @@ INSTANTIATE_TEST_SUITE_P(Targets, GatherKernels,
                          [](const auto& target) { return hwy::TargetName(target.param); });
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::gather_kernels_test

@@ -13,7 +13,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace viewloom {
+namespace viewloom::sheet_reach_test {
 namespace {
 
 // Of binary32 with some ten operations, and differences of places of up to 1000 px.
@@ -127,4 +127,4 @@ TEST(SheetReach, isThatInFocusForRaysThatGoAside) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sheet_reach_test

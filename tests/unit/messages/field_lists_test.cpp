@@ -12,7 +12,7 @@
 #include "display/display_spec.h"
 #include "messages/display_from_proto.h"
 
-namespace viewloom {
+namespace viewloom::field_lists_test {
 namespace {
 
 using google::protobuf::Descriptor;
@@ -139,4 +139,4 @@ TEST(FieldLists, makeAnotherKeyOfEveryNumberOfAQuilt) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::field_lists_test

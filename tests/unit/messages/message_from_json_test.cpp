@@ -7,7 +7,7 @@
 
 #include "viewloom/v1/display.pb.h"
 
-namespace viewloom {
+namespace viewloom::message_from_json_test {
 namespace {
 
 constexpr size_t kBytesMax = 4096;
@@ -116,4 +116,4 @@ TEST(MessageFromJson, quotesForeignTextSafelyAndShortly) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::message_from_json_test

@@ -8,7 +8,7 @@
 
 #include "support/srgb_transfer.h"
 
-namespace viewloom::patterns {
+namespace viewloom::patterns::canvas_test {
 namespace {
 
 constexpr Rgb kBlack = {0, 0, 0};
@@ -77,4 +77,4 @@ TEST(Canvas, turnsTextToTheLeft) {
 }
 
 }  // namespace
-}  // namespace viewloom::patterns
+}  // namespace viewloom::patterns::canvas_test

@@ -8,7 +8,7 @@
 #include "files/png_image.h"
 #include "unit/client/test_files.h"
 
-namespace viewloom::patterns {
+namespace viewloom::patterns::card_test {
 namespace {
 
 constexpr SizePx kSize_px{1280, 720};
@@ -107,4 +107,4 @@ TEST(Card, differsWhenMirroredOrUpsideDown) {
 }
 
 }  // namespace
-}  // namespace viewloom::patterns
+}  // namespace viewloom::patterns::card_test

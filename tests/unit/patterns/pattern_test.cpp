@@ -10,7 +10,7 @@
 #include "patterns/parallax_ruler.h"
 #include "patterns/view_numbers.h"
 
-namespace viewloom::patterns {
+namespace viewloom::patterns::pattern_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -150,4 +150,4 @@ TEST(ParallaxRuler, staysInSightOfTheSourceForAnyDisplay) {
 }
 
 }  // namespace
-}  // namespace viewloom::patterns
+}  // namespace viewloom::patterns::pattern_test

@@ -13,7 +13,7 @@
 #include "unit/inputs/written_files.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::test {
+namespace viewloom::test::jpeg_photo_test {
 namespace {
 
 using files::TestFolder;
@@ -129,4 +129,4 @@ TEST_F(JpegPhotoTest, leavesOtherJpegsAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::jpeg_photo_test

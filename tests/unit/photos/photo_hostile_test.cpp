@@ -10,7 +10,7 @@
 #include "unit/inputs/written_files.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::test {
+namespace viewloom::test::photo_hostile_test {
 namespace {
 
 using files::TestFolder;
@@ -106,4 +106,4 @@ TEST_F(PhotoHostileTest, tellsPhotosByTheirNames) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::photo_hostile_test

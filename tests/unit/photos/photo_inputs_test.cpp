@@ -11,7 +11,7 @@
 #include "unit/inputs/written_files.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::test {
+namespace viewloom::test::photo_inputs_test {
 namespace {
 
 using files::TestFolder;
@@ -264,4 +264,4 @@ TEST_F(PhotoInputsTest, readsPrimariesOfProfiles) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::photo_inputs_test

@@ -9,7 +9,7 @@
 #include "photos/heif_image.h"
 #include "unit/photos/written_photo.h"
 
-namespace viewloom::test {
+namespace viewloom::test::photo_metadata_test {
 namespace {
 
 using files::focal35mm;
@@ -90,4 +90,4 @@ TEST(IccPrimaries, endWithTheirBytes) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::photo_metadata_test

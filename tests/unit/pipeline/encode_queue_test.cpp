@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace viewloom {
+namespace viewloom::encode_queue_test {
 namespace {
 
 // An atlas of several strips.
@@ -128,4 +128,4 @@ TEST_F(EncodeQueueTest, whatHasBegunIsHandedOutAfterTheQueueIsClosed) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::encode_queue_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace viewloom {
+namespace viewloom::picture_cache_test {
 namespace {
 
 // Stands still in the world, so that a camera that moves sees it from elsewhere.
@@ -169,4 +169,4 @@ TEST_F(PictureCacheTest, forgetsWhatNobodyShows) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::picture_cache_test

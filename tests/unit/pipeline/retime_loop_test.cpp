@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::retime_loop_test {
 namespace {
 
 using testing::Contains;
@@ -214,4 +214,4 @@ TEST(RetimeLoop, servesManyStreamsFromManyThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::retime_loop_test

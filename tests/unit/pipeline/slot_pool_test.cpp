@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace viewloom {
+namespace viewloom::slot_pool_test {
 namespace {
 
 struct Slot {
@@ -87,4 +87,4 @@ TEST_F(SlotPoolTest, letsBorrowedSlotsOutliveIt) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::slot_pool_test

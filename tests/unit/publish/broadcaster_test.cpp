@@ -6,7 +6,7 @@
 
 #include "unit/publish/watcher.h"
 
-namespace viewloom::test {
+namespace viewloom::test::broadcaster_test {
 namespace {
 
 using testing::ElementsAre;
@@ -243,4 +243,4 @@ TEST(Broadcaster, letsAWatcherLeaveFromWithinAnOffer) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::broadcaster_test

@@ -10,7 +10,7 @@
 #include "publish/broadcaster.h"
 #include "unit/publish/watcher.h"
 
-namespace viewloom::test {
+namespace viewloom::test::broadcaster_threads_test {
 namespace {
 
 // Stands in an offer until it is let go.
@@ -102,4 +102,4 @@ TEST(Broadcaster, offersNothingAfterTheEndUnderThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::broadcaster_threads_test

@@ -7,7 +7,7 @@
 
 #include "unit/publish/watcher.h"
 
-namespace viewloom::test {
+namespace viewloom::test::growing_atlas_test {
 namespace {
 
 using State = GrowingAtlas::State;
@@ -108,4 +108,4 @@ TEST(GrowingAtlas, isReadWhileThreadsPackIt) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::growing_atlas_test

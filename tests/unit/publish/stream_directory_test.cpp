@@ -9,7 +9,7 @@
 
 #include "base/retry_delay.h"
 
-namespace viewloom {
+namespace viewloom::stream_directory_test {
 namespace {
 
 using testing::ElementsAre;
@@ -191,4 +191,4 @@ TEST_F(StreamDirectoryTest, givesAStreamToExactlyOneOfManyThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::stream_directory_test

@@ -12,7 +12,7 @@
 #include "frame/limits.h"
 #include "unit/retime/moved_frames.h"
 
-namespace viewloom::test {
+namespace viewloom::test::frame_retimer_test {
 namespace {
 
 // Whatever is further apart than that is two things.
@@ -289,4 +289,4 @@ TEST_F(FrameRetimerTest, sharesThePlanesOfSourcesThatStand) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::frame_retimer_test

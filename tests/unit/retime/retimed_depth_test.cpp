@@ -13,7 +13,7 @@
 #include "retime/frame_retimer.h"
 #include "unit/retime/moved_frames.h"
 
-namespace viewloom::test {
+namespace viewloom::test::retimed_depth_test {
 namespace {
 
 using glm::dvec3;
@@ -160,4 +160,4 @@ TEST(RetimedDepth, isThatOfTheFrameAlone) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::retimed_depth_test

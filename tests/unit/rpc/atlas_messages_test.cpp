@@ -14,7 +14,7 @@
 #include "messages/wire_message.h"
 #include "viewloom/v1/display_service.pb.h"
 
-namespace viewloom {
+namespace viewloom::atlas_messages_test {
 namespace {
 
 constexpr size_t kLargeBytes = (size_t{2} << 20) + 5;
@@ -274,4 +274,4 @@ TEST(AtlasMessages, shareTheBytesOfTheBandsAndHoldThem) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_messages_test

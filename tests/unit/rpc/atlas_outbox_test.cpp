@@ -13,7 +13,7 @@
 #include "messages/wire_message.h"
 #include "viewloom/v1/display_service.pb.h"
 
-namespace viewloom {
+namespace viewloom::atlas_outbox_test {
 namespace {
 
 SharedBytes someBytes() {
@@ -190,4 +190,4 @@ TEST_F(AtlasOutboxTest, writesWhatIsWholeWhenTheServerDrains) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_outbox_test

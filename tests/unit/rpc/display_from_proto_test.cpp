@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace viewloom {
+namespace viewloom::display_from_proto_test {
 namespace {
 
 DisplaySpec converted(const v1::Display& proto) {
@@ -110,4 +110,4 @@ TEST(EncodingFromProto, takesEveryChoiceOver) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::display_from_proto_test

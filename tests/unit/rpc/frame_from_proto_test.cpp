@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace viewloom {
+namespace viewloom::frame_from_proto_test {
 namespace {
 
 v1::FrameHeader header() {
@@ -138,4 +138,4 @@ TEST(FrameFromProto, makesOrientationsOfUnitLength) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_from_proto_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::peer_host_test {
 namespace {
 
 TEST(PeerHost, isTheAddressWithoutThePort) {
@@ -21,4 +21,4 @@ TEST(PeerHost, isOneForAllWaysToAMachine) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::peer_host_test

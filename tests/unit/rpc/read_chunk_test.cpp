@@ -10,7 +10,7 @@
 
 #include "viewloom/v1/ingest_service.pb.h"
 
-namespace viewloom {
+namespace viewloom::read_chunk_test {
 namespace {
 
 constexpr char kBytes[] = "0123456789";  // of the one plane of the frame
@@ -112,4 +112,4 @@ TEST_F(ReadChunk, leavesEveryBeginningOfAChunkToTheParser) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::read_chunk_test

@@ -10,7 +10,7 @@
 
 #include "rpc/source_wants.h"
 
-namespace viewloom {
+namespace viewloom::source_wants_test {
 namespace {
 
 // A view half a metre to the right of the source, 45 degrees to each side.
@@ -94,4 +94,4 @@ TEST(SourceWants, sizesTheFieldByTheDepthsInUse) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::source_wants_test

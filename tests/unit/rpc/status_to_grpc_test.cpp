@@ -10,7 +10,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
-namespace viewloom {
+namespace viewloom::status_to_grpc_test {
 namespace {
 
 TEST(StatusToGrpc, keepsEveryCode) {
@@ -84,4 +84,4 @@ TEST(StatusToGrpc, fitsIntoTheHeadersOfAnyPeer) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::status_to_grpc_test

@@ -13,7 +13,7 @@
 #include "rpc/source_wants.h"
 #include "rpc/stream_name.h"
 
-namespace viewloom {
+namespace viewloom::to_proto_test {
 namespace {
 
 TEST(CameraToProto, comesBackAsItWas) {
@@ -214,4 +214,4 @@ TEST(StreamName, isOfLettersDigitsAndThreeSigns) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::to_proto_test

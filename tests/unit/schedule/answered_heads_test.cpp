@@ -14,7 +14,7 @@
 #include "schedule/job_queue.h"
 #include "unit/schedule/head_jobs.h"
 
-namespace viewloom {
+namespace viewloom::answered_heads_test {
 namespace {
 
 // Poses of one client, at even times.
@@ -169,4 +169,4 @@ TEST(ServerOfMovingHeads, answersEverybodyWhateverTheirPhasesAndRates) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::answered_heads_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::atlas_job_test {
 namespace {
 
 using testing::ElementsAre;
@@ -92,4 +92,4 @@ TEST(JobsOfFrame, sayWhenTheEyesOfATrackedDisplayCame) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_job_test

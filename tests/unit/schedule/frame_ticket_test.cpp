@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::frame_ticket_test {
 namespace {
 
 using testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST_F(FrameTicketTest, saysThatNothingWasMadeOfAFrame) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::frame_ticket_test

@@ -9,7 +9,7 @@
 
 #include "unit/schedule/head_jobs.h"
 
-namespace viewloom {
+namespace viewloom::job_board_test {
 namespace {
 
 constexpr size_t kFirst = 0;
@@ -152,4 +152,4 @@ TEST_F(JobBoardTest, handsBackWhatHasNotBegunInAnyLane) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::job_board_test

@@ -5,7 +5,7 @@
 
 #include "schedule/resident_structure.h"
 
-namespace viewloom {
+namespace viewloom::job_queue_test {
 namespace {
 
 // Each newer than the one before.
@@ -125,4 +125,4 @@ TEST(JobQueue, handsBackWhatHasNotBegun) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::job_queue_test

@@ -5,7 +5,7 @@
 #include "schedule/job_queue.h"
 #include "unit/schedule/head_jobs.h"
 
-namespace viewloom {
+namespace viewloom::moving_heads_test {
 namespace {
 
 TEST(JobQueueOfMovingHeads, takesEyesThatHaveJustMovedBeforeThoseThatSoonWill) {
@@ -151,4 +151,4 @@ TEST(JobQueueOfMovingHeads, waitsForThePosesOfOneThatWasPassedOverForTooLong) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::moving_heads_test

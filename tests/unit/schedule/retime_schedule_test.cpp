@@ -11,6 +11,7 @@ namespace viewloom {
 // Only its presence counts.
 class StreamRetimer {};
 
+namespace retime_schedule_test {
 namespace {
 
 std::shared_ptr<ResidentStructure> moving(const std::string& stream = "scene") {
@@ -148,4 +149,5 @@ TEST_F(RetimeScheduleTest, leavesARefusedJobWhereItIs) {
 }
 
 }  // namespace
+}  // namespace retime_schedule_test
 }  // namespace viewloom

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::stream_frames_test {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST(ShowBetweenFrames, isSoOfDisplaysThatInterpolate) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::stream_frames_test

@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 
-namespace viewloom {
+namespace viewloom::tick_schedule_test {
 namespace {
 
 using testing::ElementsAre;
@@ -217,4 +217,4 @@ TEST_F(TickScheduleTest, forgetsPicturesThatNobodyWatches) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::tick_schedule_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace viewloom {
+namespace viewloom::turns_test {
 namespace {
 
 struct Work {
@@ -141,4 +141,4 @@ TEST_F(TurnsTest, countWhatAnAtlasHasHadUntilItIsLong) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::turns_test

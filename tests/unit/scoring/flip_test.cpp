@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::flip_test {
 namespace {
 
 constexpr SizePx kSize = {64, 48};
@@ -130,4 +130,4 @@ TEST(Flip, overlooksFromAfarWhatIsPlainNearby) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::flip_test

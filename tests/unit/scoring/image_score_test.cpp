@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::image_score_test {
 namespace {
 
 constexpr SizePx kSize = {40, 30};
@@ -139,4 +139,4 @@ TEST(ImageScore, ofUnrelatedNoiseIsFarFromPerfect) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::image_score_test

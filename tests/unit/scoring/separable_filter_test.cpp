@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::separable_filter_test {
 namespace {
 
 constexpr SizePx kSize = {5, 4};
@@ -41,4 +41,4 @@ TEST(SeparableFilter, mayBeWiderThanTheImage) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::separable_filter_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::find_calibration_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST(DevicePreset, isTheSerialNumbersElseThePanelSizes) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::find_calibration_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::monitors_test {
 namespace {
 
 using testing::HasSubstr;
@@ -54,4 +54,4 @@ TEST(Monitors, pxOfAWindowHaveToBePxOfThePanel) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::monitors_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::present_queue_test {
 namespace {
 
 TEST(DueTime, isTheAtlassInTheNearFutureAndNowOtherwise) {
@@ -55,4 +55,4 @@ TEST(PresentQueue, aFourthPictureTakesTheOldestOnesPlace) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::present_queue_test

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::show_settings_test {
 namespace {
 
 constexpr ShowAbilities kPanel = {.can_weave = true, .can_native = true};
@@ -130,4 +130,4 @@ TEST(ShowKeys, areThoseOfTheManual) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::show_settings_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::show_statistics_test {
 namespace {
 
 TEST(ShownRate, isOverHalfASecondOrMore) {
@@ -33,4 +33,4 @@ TEST(Statistics, sayWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::show_statistics_test

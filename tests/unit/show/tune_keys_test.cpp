@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace viewloom::show {
+namespace viewloom::show::tune_keys_test {
 namespace {
 
 Calibration portrait() {
@@ -53,4 +53,4 @@ TEST(TuneKeys, areDescribedBesideTheValues) {
 }
 
 }  // namespace
-}  // namespace viewloom::show
+}  // namespace viewloom::show::tune_keys_test

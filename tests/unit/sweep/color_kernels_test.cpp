@@ -10,7 +10,7 @@
 #include "sweep/packed_codes.h"
 #include "sweep/surface_row.h"
 
-namespace viewloom {
+namespace viewloom::color_kernels_test {
 namespace {
 
 constexpr uint32_t kBackground = 0xff102030;
@@ -51,4 +51,4 @@ TEST(ColorKernels, colorPlacesWhereverTheyLieInMemory) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::color_kernels_test

@@ -14,7 +14,7 @@
 #include "calibration/make_lenticular.h"
 #include "display/presets.h"
 
-namespace viewloom {
+namespace viewloom::lens_pieces_test {
 namespace {
 
 constexpr SizePx kSource_px{960, 540};
@@ -182,4 +182,4 @@ TEST(LensPieces, areNotThoseOfFilteredPanelsAndOtherDisplays) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::lens_pieces_test

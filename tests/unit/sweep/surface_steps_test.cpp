@@ -11,7 +11,7 @@
 
 #include "sweep/sweep_source.h"
 
-namespace viewloom {
+namespace viewloom::surface_steps_test {
 namespace {
 
 constexpr SizePx kSize_px{256, 192};
@@ -124,4 +124,4 @@ TEST(SurfaceSteps, withinASurfaceAreAsThePublisherSays) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::surface_steps_test

@@ -12,7 +12,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-namespace viewloom {
+namespace viewloom::sweep_plan_test {
 namespace {
 
 constexpr SizePx kSource_px{960, 540};
@@ -178,4 +178,4 @@ TEST(SweepPlan, tilesWithoutAViewHaveNoPart) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::sweep_plan_test

@@ -10,7 +10,7 @@
 #include "shared/ycbcr.h"
 #include "support/ycbcr_planes.h"
 
-namespace viewloom::test {
+namespace viewloom::test::ycbcr_kernels_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -124,4 +124,4 @@ TEST(Ycbcr, formulasAverageChromaAsLibjpegDoes) {
 }
 
 }  // namespace
-}  // namespace viewloom::test
+}  // namespace viewloom::test::ycbcr_kernels_test

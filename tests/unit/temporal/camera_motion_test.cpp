@@ -9,7 +9,7 @@
 
 #include "temporal/camera_track.h"
 
-namespace viewloom {
+namespace viewloom::camera_motion_test {
 namespace {
 
 constexpr int64_t kMs_ns = 1'000'000;
@@ -245,4 +245,4 @@ TEST(CameraTrack, takesALeapForACut) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::camera_motion_test

@@ -13,7 +13,7 @@
 #include "support/truth/scenes.h"
 #include "temporal/content_motion.h"
 
-namespace viewloom {
+namespace viewloom::content_motion_test {
 namespace {
 
 constexpr SizePx kSize_px{96, 72};
@@ -147,4 +147,4 @@ TEST(MovesByItself, isSoOfSourcesWithAPlaneOfMotion) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::content_motion_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::output_rate_test {
 namespace {
 
 constexpr int64_t kStart_ns = 12'345;
@@ -42,4 +42,4 @@ TEST(OutputClock, staysRightAfterAYear) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::output_rate_test

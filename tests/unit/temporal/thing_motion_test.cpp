@@ -9,7 +9,7 @@
 
 #include "temporal/camera_track.h"
 
-namespace viewloom {
+namespace viewloom::thing_motion_test {
 namespace {
 
 constexpr int64_t kMs_ns = 1'000'000;
@@ -94,4 +94,4 @@ TEST(ThingMotion, leavesAThingWhereItWasPut) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::thing_motion_test

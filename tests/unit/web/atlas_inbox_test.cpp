@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-namespace viewloom {
+namespace viewloom::atlas_inbox_test {
 namespace {
 
 AtlasPtr atlasOf(uint64_t sequence) {
@@ -75,4 +75,4 @@ TEST(AtlasInbox, losesNoAtlasBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_inbox_test

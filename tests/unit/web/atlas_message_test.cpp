@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace viewloom {
+namespace viewloom::atlas_message_test {
 namespace {
 
 EncodedBand bandOf(AtlasPlane plane, std::vector<uint8_t> bytes) {
@@ -99,4 +99,4 @@ TEST(AtlasMessage, holdsSharesOfNoRaysAsZero) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::atlas_message_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::host_policy_test {
 namespace {
 
 TEST(HostPolicy, answersOnLoopbackOnlyToNamesOfLoopback) {
@@ -37,4 +37,4 @@ TEST(HostPolicy, letsProgramsAndItsOwnPagesWatch) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::host_policy_test

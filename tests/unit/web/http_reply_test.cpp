@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::http_reply_test {
 namespace {
 
 TEST(ContentDisposition, namesAFileAsItIs) {
@@ -26,4 +26,4 @@ TEST(ContentDisposition, leavesNothingThatEndsTheHeaderOrThePathOrHidesTheFile) 
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::http_reply_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace viewloom {
+namespace viewloom::url_test {
 namespace {
 
 TEST(Url, takesPathAndParametersApart) {
@@ -34,4 +34,4 @@ TEST(Url, refusesWhatCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::url_test

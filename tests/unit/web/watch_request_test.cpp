@@ -5,7 +5,7 @@
 
 #include "web/asked_display.h"
 
-namespace viewloom {
+namespace viewloom::watch_request_test {
 namespace {
 
 class WatchRequests : public testing::Test {
@@ -140,4 +140,4 @@ TEST_F(WatchRequests, sayWhichStreamsExist) {
 }
 
 }  // namespace
-}  // namespace viewloom
+}  // namespace viewloom::watch_request_test
