@@ -66,8 +66,8 @@ class BareSending final : public MeasuredWay {
   BareSender sender_;
 };
 
-// Two frames are under way at most, so that none takes the place of another: one comes in while the
-// one before is decoded.
+// Two frames are under way at most: one comes in while the one before is decoded. Where the decoder
+// is late, a frame takes the place of another, and one more is sent: the same number is decoded.
 class Published final : public MeasuredWay {
  public:
   Published(const WireFrame& frame, const MeasuredProcess& there)
@@ -82,30 +82,41 @@ class Published final : public MeasuredWay {
                     .on_sent = {}}) {}
 
   void send(int frame_count) override {
-    for (int i = 0; i < frame_count; ++i) {
+    {
+      const std::lock_guard lock(mutex_);
+      missing_count_ = frame_count;
+    }
+    while (awaitMissing()) {
       while (publisher_.isWaiting()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       publisher_.offer(frame_);
     }
-    offered_count_ += frame_count;
-    std::unique_lock lock(mutex_);
-    reported_.wait(lock, [&] { return offered_count_ == reported_count_; });
-    if (!failure_.empty()) throw std::runtime_error(failure_);
   }
 
  private:
+  // Waits until a frame is to be offered, and counts it as under way. False: all are decoded.
+  bool awaitMissing() {
+    std::unique_lock lock(mutex_);
+    reported_.wait(lock, [&] { return missing_count_ > 0 || under_way_count_ == 0; });
+    if (!failure_.empty()) throw std::runtime_error(failure_);
+    if (missing_count_ == 0) return false;
+    --missing_count_;
+    ++under_way_count_;
+    return true;
+  }
+
   void note(const v1::FrameReport& report) {
     const std::lock_guard lock(mutex_);
-    ++reported_count_;
+    --under_way_count_;
     if (report.outcome() == v1::FRAME_OUTCOME_REFUSED) failure_ = report.reason();
-    if (report.outcome() == v1::FRAME_OUTCOME_REPLACED) failure_ = "a frame was replaced";
+    if (report.outcome() == v1::FRAME_OUTCOME_REPLACED) ++missing_count_;
     reported_.notify_all();
   }
 
   const WireFrame& frame_;
-  int offered_count_ = 0;
   std::mutex mutex_;
   std::condition_variable reported_;
-  int reported_count_ = 0;
+  int missing_count_ = 0;    // frames not offered yet, of those to be decoded
+  int under_way_count_ = 0;  // frames offered and not reported yet
   std::string failure_;
   Publisher publisher_;  // last: it calls back
 };
