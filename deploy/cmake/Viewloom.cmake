@@ -156,16 +156,19 @@ function(viewloom_add_library folder)
   target_link_libraries(${target} ${scope} ${ARG_LINK})
 endfunction()
 
-# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...] [TIMEOUT <seconds>] [WHOLE]): one
-# GoogleTest program. Each case is a test of ctest, called <name>.<suite>.<case>. WHOLE: all cases
-# together are one, called <name>, because they share what takes longer to make than they take
-# (compiled kernels of a device). The timeout is for hung tests; slow machines are busy with others,
-# too.
+# viewloom_add_test(<name> LABEL <unit|gpu|e2e|...> SOURCES ... [LINK ...] [TIMEOUT <seconds>] [COST <seconds>]
+#   [WHOLE]): one GoogleTest program. Each case is a test of ctest, called <name>.<suite>.<case>. WHOLE: all
+# cases together are one, called <name>, because they share what takes longer to make than they take
+# (compiled kernels of a device). The timeout is for hung tests; slow machines are busy with others, too.
+# COST: ctest begins with the longest, so that none is left alone at the end.
 include(GoogleTest)
 function(viewloom_add_test name)
-  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT;COST" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)
+  endif()
+  if(NOT ARG_COST)
+    set(ARG_COST 60)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   if(ARG_LABEL STREQUAL "unit")
@@ -180,7 +183,8 @@ function(viewloom_add_test name)
   viewloom_join_sources(${name})
   if(ARG_WHOLE)
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT}
+      COST ${ARG_COST})
   else()
     gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
       PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
