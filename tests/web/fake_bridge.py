@@ -23,8 +23,8 @@ class FakeBridge(http.server.ThreadingHTTPServer):
     """`answers` maps an endpoint to what is answered instead: bytes, (status, bytes), or None for
     silence. `calls` are (endpoint, arguments), `shown` the bytes of each entry played."""
 
-    def __init__(self, displays=(MONITOR, PORTRAIT)):
-        super().__init__(("127.0.0.1", 0), Handler)
+    def __init__(self, displays=(MONITOR, PORTRAIT), port=0):
+        super().__init__(("127.0.0.1", port), Handler)
         self.displays = displays
         self.answers = {}
         self.calls = []

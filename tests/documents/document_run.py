@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the blocks of one document, in order, and says what each command took."""
+
+import os
+import re
+import subprocess
+import time
+
+import snippets
+from blocks import code_spans, read_blocks, wrong_languages
+from endless import sign_of
+from expected_output import missing_line
+from known_names import Programs, missing_files, simple_commands, unknown_options
+from running import Failure, Running, cpu_seconds, file_names
+from served import Served
+from short_forms import BESIDE, SUITE, shortened
+from workplace import Workplace
+
+PATIENCE_S = 90
+ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTILINE)
+
+
+def needs_registry(block):
+    """Whether a block may fail because npm's registry is out of reach."""
+    return re.search(r"\bnpm ci\b", block.text) and os.environ.get("VIEWLOOM_REQUIRE_NODE") != "1"
+
+
+class DocumentRun:
+    """`used` are the short forms that were needed, `counts` how many blocks ran in which way.
+    `skipped` says what this machine lacks."""
+
+    def __init__(self, document, text, checkout, build, patience_s=PATIENCE_S):
+        self.document = document
+        self._text = text
+        self._blocks = read_blocks(document, text)
+        self._workplace = Workplace(checkout, build, "export PATH=" in text)
+        if ASKS_GIT.search(text):
+            self._workplace.make_history()
+        self._served = Served(self._workplace)
+        self._programs = Programs(self._workplace.viewloomd, self._workplace.viewloom)
+        self._patience_s = patience_s
+        self._kept = {}
+        self.used = []
+        self.skipped = ""
+        self.counts = {"run": 0, "shortened": 0, "not run": 0, "programs and data": 0}
+
+    def check_names(self):
+        """Sentences about options and files that do not exist, in blocks and in `code`."""
+        yield from wrong_languages(self._blocks)
+        for block in self._blocks:
+            if not block.holds_commands():
+                continue
+            yield from self._parsed(block)
+            for command in block.commands():
+                for words in simple_commands(command.text):
+                    for problem in (*unknown_options(words, self._programs, self._workplace.root),
+                                    *missing_files(words, self._workplace.root)):
+                        yield f"{self.document}:{command.line}: {problem}"
+        for line, span in code_spans(self._text):
+            if not re.match(r"viewloomd? [a-z-]", span):
+                continue
+            words = span.split()
+            for problem in unknown_options(words, self._programs, self._workplace.root):
+                yield f"{self.document}:{line}: {problem}"
+
+    def _parsed(self, block):
+        for command in block.commands():
+            done = subprocess.run(["bash", "-n", "-c", command.text], capture_output=True,
+                                  text=True, check=False)
+            if done.returncode != 0:
+                yield f"{self.document}:{command.line}: {done.stderr}"
+
+    def run(self):
+        """Sentences about blocks that failed. Nothing that was started is left."""
+        try:
+            for block in self._blocks:
+                try:
+                    self._run_block(block)
+                except Failure as failure:
+                    if needs_registry(block):
+                        self.skipped = str(failure)
+                    else:
+                        yield f"{self.document}:{block.line}: {failure}"
+                finally:
+                    self._kill_kept()
+            try:
+                self._served.stop()
+            except Failure as failure:
+                yield f"{self.document}: what ran beside the commands: {failure}"
+        finally:
+            self._served.kill()
+            self._workplace.close()
+
+    def _kill_kept(self):
+        for running in self._kept.values():
+            running.kill()
+        self._kept = {}
+
+    def _run_block(self, block):
+        self._workplace.forget_state()
+        if block.reason:
+            self._say(block.line, f"not run: {block.reason}")
+            self.counts["not run"] += 1
+        elif block.holds_commands():
+            self._run_commands(block)
+        elif block.language in snippets.CHECKS:
+            text = shortened(self.document, block.text, self.used)
+            self._served.prepare(text)
+            begun = time.monotonic()
+            snippets.CHECKS[block.language](self.document, text, self._workplace)
+            self._say(block.line, f"{time.monotonic() - begun:5.1f} s  {block.language}")
+            self.counts["programs and data"] += 1
+
+    def _run_commands(self, block):
+        used_before = len(self.used)
+        self._served.prepare(block.text)
+        for command in block.commands():
+            if SUITE.match(command.text):
+                self._say(command.line, f"recognised: {command.text.split()[0]}")
+                continue
+            text = shortened(self.document, command.text, self.used)
+            begun, cpu_begun = time.monotonic(), cpu_seconds()
+            self._run_command(command, text)
+            self._say(command.line, f"{time.monotonic() - begun:5.1f} s  {text}",
+                      cpu_seconds() - cpu_begun)
+        for running in reversed(list(self._kept.values())):
+            running.stop(self._patience_s)
+        self._kept = {}
+        self.counts["shortened" if len(self.used) > used_before else "run"] += 1
+
+    def _run_command(self, command, text):
+        calls = list(simple_commands(text))
+        sign = next(filter(None, (sign_of(self._programs.call_of(words), words)
+                                  for words in calls)), None)
+        if text.endswith("&"):
+            text = text[:-1]  # all commands without an end are in the background
+        beside = BESIDE.get((self.document, command.text))
+        viewer = self._start(beside, leaves_state=False) if beside else None
+        try:
+            if sign:
+                self._run_endless(text, sign, command.output)
+            else:
+                running = self._start(text, leaves_state=True)
+                try:
+                    running.wait(self._patience_s)
+                    self._expect(running, command.output)
+                finally:
+                    running.kill()
+        finally:
+            if viewer:
+                viewer.kill()
+
+    def _start(self, text, leaves_state):
+        return Running(text, self._workplace, leaves_state, **self._served.environment())
+
+    def _run_endless(self, text, sign, output):
+        if sign.role in self._kept:
+            self._kept.pop(sign.role).stop(self._patience_s)
+        is_there = self._condition(sign)
+        running = self._start(text, leaves_state=False)
+        self._kept[sign.role or text] = running
+        running.wait_for(lambda: is_there(running), f"its sign ({sign.kind} {sign.value})".strip(),
+                         self._patience_s)
+        if output:
+            running.wait_for(lambda: missing_line(output, running.said()) is None,
+                             f"all of {list(output)}", self._patience_s)
+        if not sign.role:
+            self._kept.pop(text).stop(self._patience_s)
+
+    def _condition(self, sign):
+        """Whether a sign has come since now, of a running command."""
+        if sign.kind == "files":
+            folder = self._workplace.root / sign.value
+            before = file_names(folder)
+            return lambda _: file_names(folder) - before
+        if sign.kind == "stream":
+            before = self._served.received_count(sign.value)
+            return lambda _: self._served.received_count(sign.value) > before
+        if sign.kind == "screen":
+            self._served.wait_for_black_screen()
+            return lambda _: self._served.has_picture()
+        if sign.kind == "bridge":
+            shown = len(self._served.bridge.shown)
+            return lambda _: len(self._served.bridge.shown) > shown
+        return lambda running: re.search(sign.value, running.said())
+
+    def _expect(self, running, output):
+        line = missing_line(output, running.said())
+        if line is not None:
+            running.fail(f"did not say: {line}")
+
+    def _say(self, line, text, cpu_s=None):
+        cpu = "" if cpu_s is None else f"  (CPU {cpu_s:.1f} s)"
+        print(f"{self.document}:{line}: {text}{cpu}", flush=True)

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plants a mistake in a small document and asks for exactly the sentence that tells it."""
+
+import contextlib
+import io
+import os
+import socket
+import tempfile
+import unittest
+
+import planted_programs
+import served
+import whole_tree
+from blocks import read_blocks
+from document_run import DocumentRun
+from expected_output import missing_line
+from planted_programs import PlantedPrograms
+from running import Failure
+from short_forms import Short
+
+REASON = "*The tests do not run this block: it needs Docker.*\n\n"
+
+
+def fenced(text, language=""):
+    return f"```{language}\n{text}\n```\n"
+
+
+class PlantedCase(unittest.TestCase):
+    """`problems` runs a document, and `named` is what was found before."""
+
+    def problems(self, text, serve=planted_programs.SERVES, patience_s=20):
+        planted = PlantedPrograms(serve)
+        self.addCleanup(planted.close)
+        served.PORTS = ()
+        run = DocumentRun("README.md", text, planted.checkout, planted.build, patience_s)
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.named = list(run.check_names())
+            return list(run.run())
+
+    def expect_one(self, problems, *words):
+        self.assertEqual(len(problems), 1, problems)
+        for word in words:
+            self.assertIn(word, problems[0])
+
+
+class Commands(PlantedCase):
+    def test_a_good_document_passes(self):
+        text = fenced("export NAME=x && mkdir sub && cd sub\n"
+                      "test $NAME = x && test ${PWD##*/} = sub\nviewloom watch --count 1")
+        self.assertEqual((self.problems(text), self.named), ([], []))
+
+    def test_a_new_block_keeps_exports_and_starts_in_the_first_folder(self):
+        text = fenced("export NAME=x; cd client") + fenced("test $NAME = x && test -d client")
+        self.assertEqual(self.problems(text), [])
+
+    def test_an_option_that_does_not_exist_is_found(self):
+        problems = self.problems(fenced("viewloom watch --cuont 1"))
+        self.expect_one(self.named, "README.md:2: viewloom watch has no option --cuont")
+        self.expect_one(problems, "exit code 2", "cannot do that")
+
+    def test_an_option_in_a_block_that_does_not_run_is_found(self):
+        text = REASON + fenced("docker run --rm viewloom watch --cuont 1")
+        self.assertEqual(self.problems(text), [])
+        self.expect_one(self.named, "viewloom watch has no option --cuont")
+
+    def test_an_option_in_prose_and_one_of_a_program_of_ours_are_found(self):
+        self.problems("`viewloom watch --cuont 1` watches.\n")
+        self.expect_one(self.named, "README.md:1:", "--cuont")
+        self.problems(REASON + fenced("/usr/bin/python3 client/tool.py --size 1 --sice 1"))
+        self.expect_one(self.named, "client/tool.py has no option --sice")
+
+    def test_a_subcommand_that_does_not_exist_is_found(self):
+        self.expect_one(self.problems(fenced("viewloom wacth --count 1")), "exit code 2")
+        self.expect_one(self.named, "viewloom has no subcommand \"wacth\"")
+
+    def test_a_command_that_fails_is_found_with_what_it_said(self):
+        self.expect_one(self.problems(fenced("true\necho some words; false")), "README.md:1",
+                        "exit code 1", "some words")
+
+    def test_a_missing_file_is_found(self):
+        problems = self.problems(fenced("cat client/gone.txt"))
+        self.expect_one(self.named, "there is no client/gone.txt")
+        self.expect_one(problems, "exit code 1")
+
+    def test_a_wrong_line_in_a_block_that_does_not_run_is_found(self):
+        self.assertEqual(self.problems(REASON + fenced("docker run 'viewloom")), [])
+        self.assertIn("README.md:4", self.named[0])
+
+    def test_a_command_that_does_not_end_is_found_and_ended(self):
+        with tempfile.NamedTemporaryFile("r") as file:
+            text = fenced(f"echo $$ >{file.name}; exec sleep 1000")
+            self.expect_one(self.problems(text, patience_s=1), "did not end within 1 s")
+            with self.assertRaises(ProcessLookupError):
+                os.kill(int(file.read()), 0)
+
+    def test_a_shown_line_that_is_not_said_is_found(self):
+        text = fenced("$ viewloom watch --count 1\natlas 9x9 of ... views", "console")
+        self.assertEqual(self.problems(text), [])
+        text = fenced("$ viewloom watch --count 1\natlas 9x9 of ... tiles", "console")
+        self.expect_one(self.problems(text), "did not say: atlas 9x9 of ... tiles")
+
+    def test_a_program_that_fails_and_broken_data_are_found(self):
+        self.expect_one(self.problems(fenced('{"a": [1}', "json")), "is no JSON")
+        self.expect_one(self.problems(fenced("const a = ;", "js")), "exit code 1", "SyntaxError")
+        self.expect_one(self.problems(fenced("float a = b;", "glsl")), "undeclared identifier")
+
+
+class Servers(PlantedCase):
+    """`viewloomd serve`, which has no end."""
+
+    SERVE = fenced("viewloomd serve\nsleep 0.1")
+
+    def test_a_server_serves_until_the_end_of_its_block(self):
+        self.assertEqual(self.problems(self.SERVE), [])
+
+    def test_a_server_that_never_gets_ready_is_found_and_ended(self):
+        problems = self.problems(self.SERVE, planted_programs.NEVER_READY, patience_s=1)
+        self.expect_one(problems, "waited 1 s for its sign (output viewloomd listening")
+
+    def test_a_server_that_ends_is_found(self):
+        self.expect_one(self.problems(self.SERVE, planted_programs.ENDS_AT_ONCE), "exit code 2",
+                        "address already in use")
+
+    def test_a_server_that_fails_after_ctrl_c_is_found(self):
+        self.expect_one(self.problems(self.SERVE, planted_programs.WRONG_EXIT),
+                        "exit code 3 after Ctrl-C")
+
+    def test_a_port_that_is_taken_is_named(self):
+        with socket.socket() as one:
+            one.bind(("127.0.0.1", 0))
+            one.listen()
+            port = one.getsockname()[1]
+            with self.assertRaisesRegex(Failure, f"port {port} is taken"):
+                served.wait_for_free_ports([port], patience_s=0)
+
+
+class Reading(unittest.TestCase):
+    def test_commands_continue_over_lines_and_have_their_output(self):
+        block, = read_blocks("a.md", fenced("$ one \\\n  two\nsaid\n$ three # a comment"))
+        self.assertEqual([(c.line, c.text, c.output) for c in block.commands()],
+                         [(2, "one \\\n  two", ("said",)), (5, "three # a comment", ())])
+
+    def test_a_reason_counts_only_right_before_its_block(self):
+        blocks = read_blocks("a.md", REASON + fenced("a") + fenced("b"))
+        self.assertEqual([block.reason for block in blocks], ["it needs Docker", ""])
+
+    def test_numbers_may_differ_and_words_may_not(self):
+        said = "range  1.5 .. 2 m\nwarning   past the source look views 0-3 by 12 %"
+        shown = ["  ...", "  range 7 .. 2.25 m", "warning ... by 3 %"]
+        self.assertIsNone(missing_line(shown, said))
+        self.assertEqual(missing_line(["range 7 .. 2.25 km"], said), "range 7 .. 2.25 km")
+        self.assertEqual(missing_line(["warning ...", "range 1 .. 2 m"], said), "range 1 .. 2 m")
+
+    def test_shown_json_has_the_names_that_came(self):
+        self.assertIsNone(missing_line(['{"a": [{"b": 1}],', '"c": 2}'],
+                                       '{"a":[{"b":5},{"b":6}],"c":0}'))
+        self.assertIsNotNone(missing_line(['{"a": 1}'], '{"b": 1}'))
+
+
+class WholeTree(unittest.TestCase):
+    def problems(self, documents, tested=("a.md",), forms=(), beside=()):
+        return list(whole_tree.problems_of(documents, tested, forms, beside))
+
+    def test_fifteen_blocks_may_not_run_and_sixteen_are_too_many(self):
+        block = REASON + fenced("docker build .")
+        self.assertEqual(self.problems({"a.md": 15 * block}), [])
+        self.assertEqual(self.problems({"a.md": 16 * block}),
+                         ["the tests do not run 16 blocks, accepted are 15: run some of them"])
+
+    def test_each_document_with_commands_has_a_test(self):
+        self.assertEqual(len(self.problems({"a.md": fenced("ls"), "b.md": fenced("ls")})), 1)
+        self.assertEqual(len(self.problems({"a.md": fenced("said", "text")})), 1)
+
+    def test_each_block_says_what_it_is(self):
+        self.assertEqual(len(self.problems({"a.md": fenced("ls") + fenced("ls", "fish")})), 1)
+        for hidden in ("$ ls", "viewloom watch demo", "sudo ls", "tests/run.sh -L unit"):
+            self.assertEqual(len(self.problems({"a.md": fenced("a") + fenced(hidden, "text")})), 1)
+        self.assertEqual(self.problems({"a.md": fenced("a") + fenced("viewloomd can run", "text")}),
+                         [])
+
+    def test_a_short_form_that_nothing_needs_is_found(self):
+        form = Short(("a.md",), "ls -R", "ls", "it is slow")
+        self.assertEqual(self.problems({"a.md": fenced("ls -R")}, forms=[form]), [])
+        self.assertEqual(len(self.problems({"a.md": fenced("ls")}, forms=[form])), 1)
+        self.assertEqual(len(self.problems({"a.md": fenced("ls")}, beside=[("a.md", "cat")])), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
