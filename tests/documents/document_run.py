@@ -17,6 +17,8 @@ from short_forms import BESIDE, SUITE, shortened
 from workplace import Workplace
 
 PATIENCE_S = 90
+# After so many failures the rest of a document waits for the next run, so that no test takes long.
+FAILURES_MAX = 3
 ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTILINE)
 
 
@@ -72,6 +74,7 @@ class DocumentRun:
 
     def run(self):
         """Sentences about blocks that failed. Nothing that was started is left."""
+        failed_count = 0
         try:
             for block in self._blocks:
                 try:
@@ -79,10 +82,14 @@ class DocumentRun:
                 except Failure as failure:
                     if needs_registry(block):
                         self.skipped = str(failure)
-                    else:
-                        yield f"{self.document}:{block.line}: {failure}"
+                        continue
+                    yield f"{self.document}:{block.line}: {failure}"
+                    failed_count += 1
                 finally:
                     self._kill_kept()
+                if failed_count == FAILURES_MAX:
+                    yield f"{self.document}: the blocks after line {block.line} did not run"
+                    break
             try:
                 self._served.stop()
             except Failure as failure:

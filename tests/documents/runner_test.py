@@ -99,6 +99,11 @@ class Commands(PlantedCase):
         text = fenced("$ viewloom watch --count 1\natlas 9x9 of ... tiles", "console")
         self.expect_one(self.problems(text), "did not say: atlas 9x9 of ... tiles")
 
+    def test_after_three_failures_the_rest_does_not_run(self):
+        problems = self.problems(5 * fenced("false"))
+        self.assertEqual(len(problems), 4)
+        self.assertEqual(problems[-1], "README.md: the blocks after line 7 did not run")
+
     def test_a_program_that_fails_and_broken_data_are_found(self):
         self.expect_one(self.problems(fenced('{"a": [1}', "json")), "is no JSON")
         self.expect_one(self.problems(fenced("const a = ;", "js")), "exit code 1", "SyntaxError")
@@ -177,6 +182,12 @@ class WholeTree(unittest.TestCase):
             self.assertEqual(len(self.problems({"a.md": fenced("a") + fenced(hidden, "text")})), 1)
         self.assertEqual(self.problems({"a.md": fenced("a") + fenced("viewloomd can run", "text")}),
                          [])
+
+    def test_a_file_that_prose_names_and_that_is_not_there_is_found(self):
+        found = whole_tree.missing_files(
+            {"a.md": "`tests/documents/blocks`, `tests/NAME.py`, `a/b`\n\n`tests/gone.py`\n"},
+            whole_tree.ROOT)
+        self.assertEqual(list(found), ["a.md:3: there is no tests/gone.py"])
 
     def test_a_short_form_that_nothing_needs_is_found(self):
         form = Short(("a.md",), "ls -R", "ls", "it is slow")

@@ -2,7 +2,7 @@
 """What holds over all documents: whole_tree.py DOCUMENT... with the documents that have a test.
 
 Each document with commands or programs has one. At most NOT_RUN_MAX blocks of the tree say that the
-tests do not run them. No short form is left over.
+tests do not run them. No short form is left over. Files that prose names are there.
 """
 
 import pathlib
@@ -10,11 +10,13 @@ import re
 import subprocess
 import sys
 
-from blocks import SNIPPETS, read_blocks, wrong_languages
+from blocks import SNIPPETS, code_spans, read_blocks, wrong_languages
 from short_forms import BESIDE, FORMS
 
 ROOT = pathlib.Path(__file__).parents[2]
 NOT_RUN_MAX = 15
+FILE = re.compile(r"(client|deploy|proto|server|shaders|tests)/[\w./-]+")
+PLACEHOLDER = re.compile(r"\bNAME\b")
 
 
 def documents_of(root):
@@ -62,6 +64,17 @@ def left_over(documents, forms, beside):
             yield f"{name}: there is no command \"{text}\" to run something beside"
 
 
+def missing_files(documents, root):
+    """Sentences about `code` that is the path of no file, with or without its ending."""
+    for name, text in documents.items():
+        for line, span in code_spans(text):
+            if not FILE.fullmatch(span) or PLACEHOLDER.search(span):
+                continue
+            path = root / span
+            if not path.exists() and not list(path.parent.glob(path.name + ".*")):
+                yield f"{name}:{line}: there is no {span}"
+
+
 def problems_of(documents, tested, forms=FORMS, beside=tuple(BESIDE)):
     for blocks in blocks_of(documents).values():
         yield from wrong_languages(blocks)
@@ -76,7 +89,7 @@ def main(tested):
     documents = documents_of(ROOT)
     for block in not_run(documents):
         print(f"{block.document}:{block.line}: not run: {block.reason}")
-    problems = list(problems_of(documents, tested))
+    problems = [*problems_of(documents, tested), *missing_files(documents, ROOT)]
     for problem in problems:
         print(f"FAILED {problem}")
     print(f"{len(documents)} documents read, {len(not_run(documents))} blocks not run")
