@@ -12,7 +12,7 @@ import re
 from typing import NamedTuple
 
 COMMANDS = ("", "sh", "bash", "console")
-SNIPPETS = ("cpp", "glsl", "js", "json", "python")
+SNIPPETS = ("cpp", "glsl", "http", "js", "json", "python")
 TEXTS = ("nginx", "text")
 FENCE = re.compile(r"^( *)(```+|~~~+) *(\w*)$")
 REASON = re.compile(r"^\*The tests do not run this block: (\S.*)\.\*$")

@@ -8,7 +8,7 @@ import time
 
 import snippets
 from blocks import code_spans, read_blocks, wrong_languages
-from endless import sign_of
+from endless import sign_of, written
 from expected_output import missing_line
 from known_names import Programs, missing_files, simple_commands, unknown_options
 from running import Failure, Running, cpu_seconds, file_names
@@ -147,15 +147,26 @@ class DocumentRun:
             if sign:
                 self._run_endless(text, sign, command.output)
             else:
-                running = self._start(text, leaves_state=True)
-                try:
-                    running.wait(self._patience_s)
-                    self._expect(running, command.output)
-                finally:
-                    running.kill()
+                self._run_to_its_end(text, command.output, [
+                    self._workplace.root / name for words in calls
+                    for name in written(self._programs.call_of(words))])
         finally:
             if viewer:
                 viewer.kill()
+
+    def _run_to_its_end(self, text, output, files):
+        before = {file: file_names(file) for file in files}
+        running = self._start(text, leaves_state=True)
+        try:
+            running.wait(self._patience_s)
+            line = missing_line(output, running.said())
+            if line is not None:
+                running.fail(f"did not say: {line}")
+            for file in files:
+                if not file.is_file() and file_names(file) == before[file]:
+                    running.fail(f"wrote nothing to {file.name}")
+        finally:
+            running.kill()
 
     def _start(self, text, leaves_state):
         return Running(text, self._workplace, leaves_state, **self._served.environment())
@@ -183,6 +194,10 @@ class DocumentRun:
         if sign.kind == "stream":
             before = self._served.received_count(sign.value)
             return lambda _: self._served.received_count(sign.value) > before
+        if sign.kind == "atlases":
+            counts = self._served.atlas_counts()
+            return lambda _: any(count > counts.get(display, 0) for display, count in
+                                 self._served.atlas_counts().items())
         if sign.kind == "screen":
             self._served.wait_for_black_screen()
             return lambda _: self._served.has_picture()
@@ -190,11 +205,6 @@ class DocumentRun:
             shown = len(self._served.bridge.shown)
             return lambda _: len(self._served.bridge.shown) > shown
         return lambda running: re.search(sign.value, running.said())
-
-    def _expect(self, running, output):
-        line = missing_line(output, running.said())
-        if line is not None:
-            running.fail(f"did not say: {line}")
 
     def _say(self, line, text, cpu_s=None):
         cpu = "" if cpu_s is None else f"  (CPU {cpu_s:.1f} s)"

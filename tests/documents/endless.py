@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands that run until Ctrl-C, and the sign by which each shows that it works."""
+"""Commands that run until Ctrl-C with the sign by which each shows that it works, and the files
+that others leave."""
 
 from typing import NamedTuple
 
 
 class Sign(NamedTuple):
-    """`kind` is "output" (a pattern), "stream" (a name: it has frames), "files" (a folder gets
-    some), "screen" (a picture is on it) or "bridge" (it was told to show something).
+    """`kind` is "output" (a pattern), "stream" (a name: it has frames), "atlases" (a display gets
+    some), "files" (a folder gets some), "screen" (a picture is on it) or "bridge" (it was told to
+    show something).
 
     `role` is what only one command at a time can be. A command with a role runs until another one
     takes it, or until the end of its block: later commands need it. Others end at once."""
@@ -38,8 +40,15 @@ def _watching(words):
     if {"--count", "--from"} & set(words):
         return None
     folder = value_of(words, "--out")
-    # Without a folder the line of the layout comes first, and the status line at the end.
-    return Sign("files", folder) if folder else Sign("output", r"(?m)^atlas \d+x\d+")
+    return Sign("files", folder) if folder else Sign("atlases", "")
+
+
+def written(call):
+    """What a command of viewloom leaves when it has ended: names of files and folders."""
+    if not call or call[0] != "viewloom":
+        return []
+    named = [value_of(call[2], option) for option in ("--out", "--picture", "--record")]
+    return [name for name in named if name]
 
 
 def sign_of(call, words):
@@ -59,7 +68,7 @@ def sign_of(call, words):
     if subcommand == "show":
         return Sign("screen", "")
     if subcommand == "record" and not {"--count", "--seconds"} & set(rest):
-        return Sign("output", r"(?m)^atlas \d+x\d+")
+        return Sign("atlases", "")
     if subcommand == "cast" and {"--every", "--motion"} & set(rest):
         return Sign("bridge", "")
     return None

@@ -93,6 +93,11 @@ class Commands(PlantedCase):
             with self.assertRaises(ProcessLookupError):
                 os.kill(int(file.read()), 0)
 
+    def test_a_file_that_is_not_written_is_found(self):
+        self.assertEqual(self.problems(fenced("viewloom watch --count 1 --out here")), [])
+        self.expect_one(self.problems(fenced("viewloom watch --count 1 --out nowhere")),
+                        "wrote nothing to nowhere")
+
     def test_a_shown_line_that_is_not_said_is_found(self):
         text = fenced("$ viewloom watch --count 1\natlas 9x9 of ... views", "console")
         self.assertEqual(self.problems(text), [])

@@ -20,7 +20,7 @@ from screen import Screen  # noqa: E402
 import samples  # noqa: E402
 
 PORTS = (50051, 8080)
-STREAMS = "http://127.0.0.1:8080/api/streams"
+API = "http://127.0.0.1:8080/api/"
 BRIDGE_PORT = 33334
 PORT_PATIENCE_S = 60
 PATIENCE_S = 60
@@ -28,7 +28,7 @@ DEMO = "viewloom publish --synthetic --size 320x180 --rate 5 --quiet"
 STARTS_A_SERVER = re.compile(r"\bviewloomd (serve|doctor)\b|^(\$ )?deploy/demo\.sh", re.MULTILINE)
 CALLS_A_SERVER = re.compile(r"\bviewloom (publish|watch (?!--from)|show|record|cast|list|advise)\b"
                             r"|//127\.0\.0\.1:8080|viewloom\.(aio\.)?connect\(|examples/\w+\.py"
-                            r"|watch_quilt\.js")
+                            r"|watch_quilt\.js|^/(still|stream|ws)\b", re.MULTILINE)
 PUBLISHES_DEMO = re.compile(r"\bviewloom publish (?!.*--stream)|publish\(\"demo\"\)")
 
 
@@ -90,15 +90,21 @@ class Served:
                 raise Failure("the screen still shows a picture of the command before")
             time.sleep(0.1)
 
-    def streams(self):
+    @staticmethod
+    def _listed(what):
         try:
-            with urllib.request.urlopen(STREAMS, timeout=5) as answer:
-                return {stream["name"]: stream for stream in json.load(answer)["streams"]}
+            with urllib.request.urlopen(API + what, timeout=5) as answer:
+                return json.load(answer)[what]
         except OSError:
-            return {}
+            return []
 
     def received_count(self, stream):
-        return self.streams().get(stream, {}).get("received_count", 0)
+        return next((entry["received_count"] for entry in self._listed("streams")
+                     if entry["name"] == stream), 0)
+
+    def atlas_counts(self):
+        """How many atlases each watched display has had."""
+        return {entry["id"]: entry["atlas_count"] for entry in self._listed("displays")}
 
     def wait_for_stream(self, command, stream):
         before = self.received_count(stream)

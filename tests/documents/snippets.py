@@ -36,6 +36,10 @@ void main() {{
 {text}
 }}
 """
+SERVER = "http://127.0.0.1:8080"
+WEBSOCKET = ("Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",
+             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==")
+CURL_TIMEOUT = 28
 # Commands of the build that compile the client's own users of the library.
 COMPILED_LIKE = "client/cli/CMakeFiles/viewloom_cli.dir/"
 KEPT_FLAGS = re.compile(r"^-(I|D|std=)")
@@ -111,5 +115,18 @@ def read_json(document, text, workplace):
         _run(f"{workplace.viewloom} inspect --manifest snippet.json", workplace)
 
 
-CHECKS = {"cpp": compile_cpp, "glsl": compile_glsl, "js": parse_javascript, "json": read_json,
-          "python": run_python}
+def fetch_addresses(_, text, workplace):
+    """Each line is an address of the server: a picture, or a WebSocket that sends until curl
+    leaves."""
+    for address in text.splitlines():
+        url = shlex.quote(SERVER + address)
+        if address.startswith("/ws"):
+            headers = " ".join(f"-H {shlex.quote(header)}" for header in WEBSOCKET)
+            _run(f"curl -gsS -N --max-time 1 {headers} -o answer {url} "
+                 f"|| test $? = {CURL_TIMEOUT}\ntest -s answer", workplace)
+        else:
+            _run(f"curl -gsSL -o answer {url}\ntest -s answer", workplace)
+
+
+CHECKS = {"cpp": compile_cpp, "glsl": compile_glsl, "http": fetch_addresses,
+          "js": parse_javascript, "json": read_json, "python": run_python}

@@ -91,6 +91,8 @@ class Workplace:
         kept = {name: value for name, value in os.environ.items() if not FORGOTTEN.match(name)}
         home = pathlib.Path(self._folder.name) / "home"
         home.mkdir()
+        # Without it, curl is content with a page that tells an error.
+        (home / ".curlrc").write_text("fail\n", encoding="ascii")
         cache = self.build / "tests" / "documents" / "cache"
         cache.mkdir(parents=True, exist_ok=True)
         npm_cache = os.environ.get("npm_config_cache", os.path.expanduser("~/.npm"))
