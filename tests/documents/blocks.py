@@ -17,7 +17,7 @@ TEXTS = ("nginx", "text")
 FENCE = re.compile(r"^( *)(```+|~~~+) *(\w*)$")
 REASON = re.compile(r"^\*The tests do not run this block: (\S.*)\.\*$")
 PROMPT = "$ "
-# What a command begins with. Output that begins so has a word after it that is no subcommand.
+# Beginnings of commands. Output such as "viewloomd can run" has no subcommand after the program.
 LOOKS_LIKE_A_COMMAND = re.compile(
     r"^(?:\$ |(?:cd|cmake|ctest|curl|docker|export|journalctl|ninja|node|npm|sudo) \S"
     r"|(?:deploy|tests|client|build)/[\w./-]+\.(?:sh|py)\b|/usr/bin/\w+ |[A-Z_]+=\S+ \S"

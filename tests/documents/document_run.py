@@ -22,9 +22,12 @@ FAILURES_MAX = 3
 ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTILINE)
 
 
-def needs_registry(block):
-    """Whether a block may fail because npm's registry is out of reach."""
-    return re.search(r"\bnpm ci\b", block.text) and os.environ.get("VIEWLOOM_REQUIRE_NODE") != "1"
+def is_without_registry(failure):
+    """True if a command failed only because npm or its registry is out of reach."""
+    return (os.environ.get("VIEWLOOM_REQUIRE_NODE") != "1"
+            and re.search(r"\bnpm ci\b", failure.command)
+            and re.search(r"npm: command not found|ENOTFOUND|EAI_AGAIN|ECONN|ETIMEDOUT|network",
+                          failure.said))
 
 
 class DocumentRun:
@@ -80,7 +83,7 @@ class DocumentRun:
                 try:
                     self._run_block(block)
                 except Failure as failure:
-                    if needs_registry(block):
+                    if is_without_registry(failure):
                         self.skipped = str(failure)
                         continue
                     yield f"{self.document}:{block.line}: {failure}"
@@ -186,7 +189,7 @@ class DocumentRun:
             self._kept.pop(text).stop(self._patience_s)
 
     def _condition(self, sign):
-        """Whether a sign has come since now, of a running command."""
+        """A function of a running command: true once its sign has come."""
         if sign.kind == "files":
             folder = self._workplace.root / sign.value
             before = file_names(folder)

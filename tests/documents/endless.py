@@ -44,7 +44,7 @@ def _watching(words):
 
 
 def written(call):
-    """What a command of viewloom leaves when it has ended: names of files and folders."""
+    """Names of the files and folders that a command of viewloom leaves when it has ended."""
     if not call or call[0] != "viewloom":
         return []
     named = [value_of(call[2], option) for option in ("--out", "--picture", "--record")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a command says what its document shows, whatever the numbers are."""
+"""Compares the output of a command with the lines that its document shows. Numbers may differ."""
 
 import json
 import re

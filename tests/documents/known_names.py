@@ -40,7 +40,7 @@ def simple_commands(text):
 
 
 class Programs:
-    """What `viewloom --help` and `viewloomd --help` list."""
+    """The subcommands and options that `viewloom --help` and `viewloomd --help` list."""
 
     def __init__(self, viewloomd, viewloom):
         self._paths = {"viewloomd": str(viewloomd), "viewloom": str(viewloom)}

@@ -7,6 +7,7 @@ import os
 import socket
 import tempfile
 import unittest
+from unittest import mock
 
 import planted_programs
 import served
@@ -26,7 +27,7 @@ def fenced(text, language=""):
 
 
 class PlantedCase(unittest.TestCase):
-    """`problems` runs a document, and `named` is what was found before."""
+    """`problems` runs a document. `named` is what was found before, `skipped` why it ended."""
 
     def problems(self, text, serve=planted_programs.SERVES, patience_s=20):
         planted = PlantedPrograms(serve)
@@ -35,7 +36,9 @@ class PlantedCase(unittest.TestCase):
         run = DocumentRun("README.md", text, planted.checkout, planted.build, patience_s)
         with contextlib.redirect_stdout(io.StringIO()):
             self.named = list(run.check_names())
-            return list(run.run())
+            problems = list(run.run())
+        self.skipped = run.skipped
+        return problems
 
     def expect_one(self, problems, *words):
         self.assertEqual(len(problems), 1, problems)
@@ -103,6 +106,16 @@ class Commands(PlantedCase):
         self.assertEqual(self.problems(text), [])
         text = fenced("$ viewloom watch --count 1\natlas 9x9 of ... tiles", "console")
         self.expect_one(self.problems(text), "did not say: atlas 9x9 of ... tiles")
+
+    def test_only_npm_without_its_registry_is_skipped(self):
+        offline = "npm() { echo ENOTFOUND; return 1; }; npm ci"
+        with mock.patch.dict(os.environ, {"VIEWLOOM_REQUIRE_NODE": "0"}):
+            self.assertEqual(self.problems(fenced(offline) + fenced("true")), [])
+            self.assertIn("ENOTFOUND", self.skipped)
+            self.assertEqual(len(self.problems(fenced(offline) + fenced("false"))), 1)
+            self.assertEqual(len(self.problems(fenced(offline.replace("ENOT", "")))), 1)
+        with mock.patch.dict(os.environ, {"VIEWLOOM_REQUIRE_NODE": "1"}):
+            self.assertEqual(len(self.problems(fenced(offline))), 1)
 
     def test_after_three_failures_the_rest_does_not_run(self):
         problems = self.problems(5 * fenced("false"))

@@ -23,7 +23,12 @@ trap 'export -p | grep -vE " (DISPLAY|OLDPWD|SHLVL)=" >"$__state/exports"
 
 
 class Failure(Exception):
-    """A command that did not do what its document says."""
+    """A command that did not do what its document says. `command` and `said` are empty where the
+    fault is not that of a command."""
+
+    def __init__(self, what, command="", said=""):
+        super().__init__(what)
+        self.command, self.said = command, said
 
 
 def tail(text):
@@ -52,7 +57,8 @@ class Running:
         return self._said.read()
 
     def fail(self, what):
-        raise Failure(f"{what}\n  $ {self.text}\n{tail(self.said())}")
+        said = self.said()
+        raise Failure(f"{what}\n  $ {self.text}\n{tail(said)}", self.text, said)
 
     def wait(self, patience_s):
         """For a command that ends by itself, with 0."""
@@ -102,7 +108,7 @@ class Running:
 
 
 def cpu_seconds():
-    """Of all commands that have ended."""
+    """CPU time of all commands that have ended."""
     times = os.times()
     return times.children_user + times.children_system
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a document expects to run beside its commands: the server with the stream demo, a screen,
+"""Things that a document expects beside its commands: the server with the stream demo, a screen,
 Looking Glass Bridge. Each starts when a block needs it."""
 
 import json
@@ -55,7 +55,7 @@ class Served:
         self._server = self._demo = self._screen = self.bridge = None
 
     def prepare(self, text):
-        """What the commands or the program of a block need, and nothing that is in their way."""
+        """Starts the things that a block needs, and stops those that are in its way."""
         if STARTS_A_SERVER.search(text):
             self._stop_server()
             wait_for_free_ports(PORTS)
@@ -79,7 +79,7 @@ class Served:
                 if name in ("DISPLAY", "SDL_VIDEODRIVER", "LIBGL_ALWAYS_SOFTWARE")}
 
     def has_picture(self):
-        """Whether something other than a black desktop is on the screen."""
+        """True if the screen shows something other than a black desktop."""
         return self._screen.picture().any()
 
     def wait_for_black_screen(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What holds over all documents: whole_tree.py DOCUMENT... with the documents that have a test.
+"""Rules over all documents: whole_tree.py DOCUMENT... with the documents that have a test.
 
 Each document with commands or programs has one. At most NOT_RUN_MAX blocks of the tree say that the
 tests do not run them. No short form is left over. Files that prose names are there.

@@ -11,6 +11,9 @@ import samples
 
 # State of a build that its programs do not need, and that no document may change.
 KEPT_OUT = ("Testing", ".ninja_deps", ".ninja_log")
+# npm says soon that its registry is out of reach.
+NPM = {"npm_config_fetch_retries": "1", "npm_config_fetch_retry_mintimeout": "2000",
+       "npm_config_fetch_timeout": "20000"}
 # Settings of a developer that no document counts on.
 FORGOTTEN = re.compile(r"DISPLAY$|PYTHONPATH$|WAYLAND_|XDG_|VIEWLOOM_")
 HEAD_TRACKER = """#!/bin/sh
@@ -96,7 +99,7 @@ class Workplace:
         cache = self.build / "tests" / "documents" / "cache"
         cache.mkdir(parents=True, exist_ok=True)
         npm_cache = os.environ.get("npm_config_cache", os.path.expanduser("~/.npm"))
-        return {**kept, "PATH": f"{self._bin}:{kept['PATH']}", "HOME": str(home),
+        return {**kept, **NPM, "PATH": f"{self._bin}:{kept['PATH']}", "HOME": str(home),
                 "LC_ALL": "C.UTF-8", "XDG_CACHE_HOME": str(cache), "npm_config_cache": npm_cache,
                 "PYTHONDONTWRITEBYTECODE": "1", "VIEWLOOM_PIPELINE_WARM_UP": "false"}
 
@@ -104,7 +107,7 @@ class Workplace:
         return {**self._environment, **more}
 
     def forget_state(self):
-        """As a new terminal: `cd` of the commands before counts no longer, `export` does."""
+        """Opens a new terminal: `cd` of the commands before counts no longer, `export` does."""
         (self.state / "folder").write_text(str(self.root), encoding="utf-8")
         (self.state / "exports").touch()
 
