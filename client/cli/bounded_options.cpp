@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "display/display_spec.h"
 
@@ -28,8 +29,9 @@ usage::Option addSizeOption(const usage::Command& app, const std::string& name, 
     const std::optional<SizePx> parsed = parseSize(text);
     const auto in_range = [&](uint32_t side) { return side >= 1 && side <= side_max_px; };
     if (!parsed || !in_range(parsed->width) || !in_range(parsed->height)) {
-      throw usage::BadValue(
-          strCat("is ", text, "; accepted is WIDTHxHEIGHT, 1..", side_max_px, " px a side"));
+      throw usage::BadValue(strCat("got \"", printable(text),
+                                   "\"; accepted is WIDTHxHEIGHT, such as 960x540, 1..",
+                                   side_max_px, " px per side"));
     }
     size_px = *parsed;
   };

@@ -9,16 +9,23 @@ std::vector<NamedCommand> addCommands(const usage::Command& app) {
     const usage::Command command = app.addCommand(name, description);
     commands.push_back({command, add_command(command)});
   };
-  add("publish",
-      "Send the synthetic scene, a test pattern, image files, manifests or a recording as a stream",
+  add("publish", "Publish files, a folder, a recording or a built-in scene as a stream",
       addPublishCommand);
-  add("inspect", "Say what files hold, how they are read, what is wrong", addInspectCommand);
-  add("watch", "Receive atlases of a stream, write them, see how fast they come", addWatchCommand);
-  add("show", "Show a stream on a light-field panel, or in a window", addShowCommand);
-  add("record", "Keep the atlases of a stream in a file", addRecordCommand);
-  add("advise", "Say which source would serve a display of a scene", addAdviseCommand);
-  add("list", "Show the streams, displays and presets of a server", addListCommand);
-  add("cast", "Have Looking Glass Bridge show a stream", addCastCommand);
+  add("inspect", "Report what files contain, how viewloom reads them, and what looks wrong",
+      addInspectCommand);
+  add("watch", "Receive the views of a stream, save them, and report rate and latency",
+      addWatchCommand);
+  add("show", "Show a stream on a light-field panel or in a window", addShowCommand);
+  add("record", "Record the views of a stream in a file", addRecordCommand);
+  add("advise", "Compute which camera a scene needs, so that a display shows all of it",
+      addAdviseCommand);
+  add("list", "List the streams, displays and presets of a server", addListCommand);
+  add("cast", "Show a stream on a Looking Glass through Looking Glass Bridge", addCastCommand);
+  app.footer(
+      "Examples:\n"
+      "  viewloom publish --synthetic                     publish the built-in scene as \"demo\"\n"
+      "  viewloom watch --count 1 --out .                 save one quilt of it\n"
+      "  viewloom watch --help                            options of one command");
   return commands;
 }
 

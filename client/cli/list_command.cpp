@@ -21,6 +21,12 @@ namespace {
 
 const std::vector<std::string> kLists{"streams", "displays", "presets", "server", "all"};
 
+std::string joined(const auto& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 // Most slips are addresses: "127.0.0.1:50051", "[::1]:50051", "unix:/run/viewloom".
 bool isAddress(const std::string& word) {
   return word.find(':') != std::string::npos;
@@ -28,7 +34,7 @@ bool isAddress(const std::string& word) {
 
 std::string unknownList(const std::string& word) {
   std::string text =
-      strCat("unknown list \"", printable(word), "\". Known lists: streams, displays, presets.");
+      strCat("unknown list \"", printable(word), "\". Known lists: ", joined(kLists), ".");
   if (isAddress(word)) {
     return strCat(text, " Did you mean \"viewloom list --server ", printable(word), "\"?");
   }
@@ -53,7 +59,7 @@ void print(const v1::ListStreamsResponse& response) {
       "WATCHERS\n");
   for (const v1::StreamEntry& stream : response.streams()) {
     std::printf("%-20s %-8s %-10llu %-10s %-7u %-7.1f %-9llu %-8llu %u\n",
-                printable(stream.name()).c_str(), stream.live() ? "live" : "left",
+                printable(stream.name()).c_str(), stream.live() ? "live" : "ended",
                 static_cast<unsigned long long>(stream.frame_number()),
                 sizeText(stream.size()).c_str(), stream.layer_count(), stream.rate_hz(),
                 static_cast<unsigned long long>(stream.replaced_count()),
@@ -69,12 +75,6 @@ void print(const v1::ListDisplaysResponse& response) {
                 sizeText(display.layout().size()).c_str(), display.layout().view_count(),
                 display.subscriber_count(), static_cast<unsigned long long>(display.atlas_count()));
   }
-}
-
-std::string joined(const google::protobuf::RepeatedPtrField<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 void print(const v1::ListPresetsResponse& response) {
@@ -96,8 +96,8 @@ void print(const v1::ListPresetsResponse& response) {
 void print(const v1::GetServerInfoResponse& info) {
   std::printf("viewloomd %s on %s (%s)%s\n", printable(info.version()).c_str(),
               printable(info.device()).c_str(), printable(info.driver()).c_str(),
-              info.traces_on_cpu() ? ", a CPU" : "");
-  std::printf("frames: up to %.0f MB, %u px a side, %u layers; atlases: up to %u px a side\n",
+              info.traces_on_cpu() ? ", renders on the CPU" : "");
+  std::printf("limits: frames of %.0f MB, %u px per side, %u layers; atlases of %u px per side\n",
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),
               info.atlas_side_px_max());
@@ -134,16 +134,20 @@ RunCommand addListCommand(const usage::Command& app) {
   const auto options = std::make_shared<ListOptions>();
   app.footer(
       "Examples:\n"
-      "  viewloom list                                    all there is on this machine's server\n"
+      "  viewloom list                                    everything on the server of this "
+      "machine\n"
+      "  viewloom list presets                            names of devices for --preset\n"
       "  viewloom list streams --server 192.168.1.20:50051");
-  app.add("what", options->what, "streams, displays, presets, server or all").showDefault();
+  app.add("what", options->what, "List to print: streams, displays, presets, server or all")
+      .showDefault();
   for (const char* what : {"streams", "displays", "presets"}) {
     app.addAction(
-           strCat("--", what), [options, what] { options->what = what; }, strCat("As ", what))
+           strCat("--", what), [options, what] { options->what = what; },
+           strCat("The same as ", what))
         .excludes("what")
         .group("");
   }
-  app.addFlag("--json", options->as_json, "The server's answers as JSON");
+  app.addFlag("--json", options->as_json, "Print the answers of the server as JSON");
   return [options](const CommonOptions& common) -> int {
     leaveInterrupts();  // a server that hangs keeps nobody waiting
     if (std::ranges::find(kLists, options->what) == kLists.end()) {

@@ -20,12 +20,13 @@ namespace {
 
 int run(int argc, char** argv) {
   const usage::CommandLine app(
-      "Publishes colour and depth to a viewloom server, and watches light fields.", "viewloom");
+      "Publishes pictures with depth to a viewloom server, and shows the light fields it returns.",
+      "viewloom");
   app.version(VIEWLOOM_VERSION);
   app.requireCommand();
-  app.footer("See \"viewloom COMMAND --help\" for the options of a command.");
   CommonOptions common{.server = kDefaultAddress};
   app.add("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
+      .valueName("ADDRESS")
       .environment("VIEWLOOM_SERVER_ADDRESS")
       .showDefault();
 

@@ -141,7 +141,7 @@ class RgbdRoundTrip(unittest.TestCase):
     def test_refuses_what_does_not_fit_together(self):
         for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "depth_placement"),
                           (["--preset", "portrait"], 'there is no "portrait"; there are wowvx'),
-                          (["--cone", "30"], "excludes"),
+                          (["--cone", "30"], "cannot be combined"),
                           (["--depth-near", "3", "--depth-far", "2"], "rgbd.far_m")):
             run = subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene",
                                   "--rgbd", "8x8", "--count", "1", "--no-retry", *bad],

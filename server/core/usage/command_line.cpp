@@ -3,38 +3,46 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
-#include "base/nearest_name.h"
-#include "base/printable.h"
 #include "base/str_cat.h"
+#include "usage/help_text.h"
 #include "usage/usage_error.h"
+#include "usage/value_checks.h"
 
 namespace viewloom::usage {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
-
-// Accepts these words only, and suggests the nearest of them to another.
-CLI::Validator oneOf(std::vector<std::string> words) {
-  const std::string description = strCat("{", joined(words, ","), "}");
-  const auto refuse = [words = std::move(words)](const std::string& given) {
-    if (std::ranges::find(words, given) != words.end()) return std::string();
-    const std::string meant = didYouMean(given, words);
-    return strCat("got \"", printable(given), "\"; accepted are ", joined(words, ", "),
-                  meant.empty() ? "" : "; ", meant);
-  };
-  return CLI::Validator([refuse](std::string& given) { return refuse(given); }, description);
-}
+// The number that an option's text stands for; void where the text is taken as it is.
+template <typename Value>
+struct NumberIn {
+  using Type = void;
+};
+template <>
+struct NumberIn<int> {
+  using Type = int;
+};
+template <>
+struct NumberIn<uint32_t> {
+  using Type = uint32_t;
+};
+template <>
+struct NumberIn<uint64_t> {
+  using Type = uint64_t;
+};
+template <>
+struct NumberIn<double> {
+  using Type = double;
+};
+template <typename Value>
+struct NumberIn<std::optional<Value>> : NumberIn<Value> {};
+template <typename Value>
+struct NumberIn<std::vector<Value>> : NumberIn<Value> {};
 
 }  // namespace
 
@@ -49,6 +57,11 @@ Option Option::group(const std::string& heading) const {
 
 Option Option::showDefault() const {
   option_->capture_default_str();
+  return *this;
+}
+
+Option Option::defaultText(const std::string& text) const {
+  option_->default_str(text);
   return *this;
 }
 
@@ -88,41 +101,43 @@ Option Option::environment(const std::string& variable) const {
 }
 
 Option Option::between(int min, int max) const {
-  option_->check(CLI::Range(min, max));
+  option_->check(inRange(min, max, strCat(min, "..", max)));
   return *this;
 }
 
 Option Option::between(uint32_t min, uint32_t max) const {
-  option_->check(CLI::Range(min, max));
+  option_->check(inRange(min, max, strCat(min, "..", max)));
   return *this;
 }
 
 Option Option::between(double min, double max) const {
-  option_->check(CLI::Range(min, max));
+  option_->check(inRange(min, max, strCat(min, "..", max)));
   return *this;
 }
 
 Option Option::positive() const {
-  option_->check(CLI::PositiveNumber);
+  using Limits = std::numeric_limits<double>;
+  option_->check(inRange(Limits::min(), Limits::max(), "more than 0"));
   return *this;
 }
 
 Option Option::notNegative() const {
-  option_->check(CLI::NonNegativeNumber);
+  option_->check(inRange(0.0, std::numeric_limits<double>::max(), "0 or more"));
   return *this;
 }
 
 Option Option::existingFile() const {
-  option_->check(CLI::ExistingFile);
+  option_->check(CLI::ExistingFile.description(""));
   return *this;
 }
 
 Option Option::existingFolder() const {
-  option_->check(CLI::ExistingDirectory);
+  option_->check(CLI::ExistingDirectory.description(""));
   return *this;
 }
 
 Option Option::oneOf(std::vector<std::string> words) const {
+  option_->type_name(joined(words, "|"));
   option_->check(usage::oneOf(std::move(words)));
   return *this;
 }
@@ -134,6 +149,19 @@ Option Option::count(int value_count) const {
 
 void Option::onGiven(std::function<void()> act) const {
   option_->each([act = std::move(act)](const std::string&) { act(); });
+}
+
+bool Option::isShown() const {
+  return !option_->get_group().empty();
+}
+
+std::string Option::help() const {
+  return option_->get_description();
+}
+
+std::string Option::valueName() const {
+  const bool has_value = option_->nonpositional() && option_->get_type_size() > 0;
+  return has_value ? option_->get_type_name() : "";
 }
 
 std::string Command::name() const {
@@ -150,7 +178,13 @@ void Command::footer(const std::string& text) const {
 
 template <typename Value>
 Option Command::add(const std::string& names, Value& value, const std::string& help) const {
-  return Option(*app_->add_option(names, value, help));
+  CLI::Option* const option = app_->add_option(names, value, help);
+  using Number = typename NumberIn<Value>::Type;
+  if constexpr (!std::is_void_v<Number>) {
+    option->type_name(std::is_floating_point_v<Number> ? "NUMBER" : "N");
+    option->check(anyNumber<Number>());
+  }
+  return Option(*option);
 }
 
 Option Command::addTaken(const std::string& names, std::function<void(const std::string&)> take,
@@ -175,7 +209,7 @@ Option Command::addAction(const std::string& names, std::function<void()> act,
 }
 
 Command Command::addCommand(const std::string& name, const std::string& help) const {
-  CLI::App* const command = app_->add_subcommand(name, help);
+  CLI::App* const command = app_->add_subcommand(name, help)->group("Commands");
   command->fallthrough();
   return Command(*command);
 }
@@ -210,12 +244,14 @@ CommandLine::CommandLine(const std::string& description, const std::string& prog
 
 CommandLine::CommandLine(std::unique_ptr<CLI::App> app) : Command(*app), owned_(std::move(app)) {
   app_->require_subcommand(0, 1);
+  app_->formatter(std::make_shared<HelpText>());
+  app_->set_help_flag("-h,--help", "Print this help and exit");
 }
 
 CommandLine::~CommandLine() = default;
 
 void CommandLine::version(const std::string& text) const {
-  app_->set_version_flag("--version", text);
+  app_->set_version_flag("--version", text, "Print the version and exit");
 }
 
 void CommandLine::requireCommand() const {

@@ -36,10 +36,15 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   std::string name() const;
+  bool isShown() const;           // in the help
+  std::string help() const;       // its description
+  std::string valueName() const;  // "" for an option without a value
 
-  // In the help: the heading above it, "" to hide it, its default, the name of its value.
+  // In the help: the heading above it, "" to hide it, its default, the same in words, the name of
+  // its value.
   Option group(const std::string& heading) const;
   Option showDefault() const;
+  Option defaultText(const std::string& text) const;
   Option valueName(const std::string& name) const;
 
   Option required() const;
@@ -58,7 +63,8 @@ class Option {
   Option notNegative() const;
   Option existingFile() const;
   Option existingFolder() const;
-  Option oneOf(std::vector<std::string> words) const;  // suggests the nearest of them to another
+  // The words also name the value. Suggests the nearest of them to another.
+  Option oneOf(std::vector<std::string> words) const;
   // So many values.
   Option count(int value_count) const;
 

@@ -2,11 +2,15 @@
 #include "usage/usage_error.h"
 
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
+#include "usage/help_text.h"
+#include "usage/value_checks.h"
 
 namespace viewloom::usage {
 namespace {
@@ -35,12 +39,6 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string sentence(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] -= 'a' - 'A';
   return text.empty() ? "" : " " + text;
@@ -66,18 +64,27 @@ std::string unknownOption(const CLI::App& app, const CLI::App& command, const st
   std::string text = strCat("unknown option \"", printable(option), "\".", sentence(meant));
   const std::vector<std::string> owners = ownersOf(app, option);
   if (!owners.empty()) {
-    text += strCat(" It is an option of ", joined(owners), ".");
+    text += strCat(" It is an option of ", joined(owners, ", "), ".");
   }
   return text;
 }
 
 std::string unknownCommand(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> known = commandNames(app);
-  return strCat("unknown command \"", printable(word), "\". Known commands: ", joined(known), ".",
-                sentence(didYouMean(word, known)));
+  return strCat("unknown command \"", printable(word), "\". Known commands: ", joined(known, ", "),
+                ".", sentence(didYouMean(word, known)));
 }
 
-// What does not belong to any option; options first, as their values are left over with them.
+std::string knownArguments(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_positional()) names.push_back(option->get_name());
+  }
+  return names.empty() ? "Only options are accepted here."
+                       : strCat("Arguments without an option: ", joined(names, ", "), ".");
+}
+
+// Words that belong to no option; options first, as their values are left over with them.
 std::string unknownWord(const CLI::App& app, const CLI::App& command) {
   const std::vector<std::string> words = app.remaining(true);
   const bool is_command = &command == &app && !words.empty() && !words.front().starts_with('-');
@@ -86,40 +93,84 @@ std::string unknownWord(const CLI::App& app, const CLI::App& command) {
     if (word.size() > 1 && word[0] == '-') return unknownOption(app, command, word);
   }
   if (words.empty()) return "";
-  return strCat("unexpected argument \"", printable(words.front()), "\".");
+  return strCat("unexpected argument \"", printable(words.front()), "\". ",
+                knownArguments(command));
 }
 
-// "UINT" and the like, as the option's value is named in the help.
-std::string wordsOfType(const std::string& type) {
-  if (type.starts_with("UINT")) return "a whole number, 0 or more";
-  if (type.starts_with("INT")) return "a whole number";
-  if (type.starts_with("FLOAT")) return "a number";
-  return "a value";
+const CLI::Option* optionNamed(const CLI::App& app, const CLI::App& command,
+                               const std::string& name) {
+  const CLI::Option* const found = command.get_option_no_throw(name);
+  return found == nullptr ? app.get_option_no_throw(name) : found;
+}
+
+// "--out FILE", where there is such an option.
+std::string howToWrite(const CLI::App& app, const CLI::App& command, const std::string& name) {
+  const CLI::Option* const option = optionNamed(app, command, name);
+  return option == nullptr ? name : withValueName(*option);
 }
 
 // "Could not convert: --count = abc".
-std::string notConverted(const CLI::App& app, const CLI::App& command, std::string_view text) {
+std::string notConverted(const std::string& text) {
   const size_t colon = text.find(": ");
   const size_t equals = text.find(" = ");
-  if (colon == std::string_view::npos || equals == std::string_view::npos || equals < colon) {
-    return printable(text);
+  if (colon == std::string::npos || equals == std::string::npos || equals < colon) return text;
+  return strCat(text.substr(colon + 2, equals - colon - 2), ": ",
+                refusal(text.substr(equals + 3), "a number"));
+}
+
+// "--fps excludes --speed", "--speed requires --replay".
+std::pair<std::string, std::string> bothSides(const std::string& text, std::string_view verb) {
+  const size_t at = text.find(verb);
+  if (at == std::string::npos) return {text, ""};
+  return {text.substr(0, at), text.substr(at + verb.size())};
+}
+
+// "--out is required", "Exactly 1 option from [--display,--preset] is required and 2 were given".
+std::string missing(const CLI::App& app, const CLI::App& command, const std::string& text) {
+  const size_t open = text.find('[');
+  const size_t close = text.find(']');
+  if (open != std::string::npos && close != std::string::npos) {
+    const std::string names =
+        CLI::detail::find_and_replace(text.substr(open + 1, close - open - 1), ",", ", ");
+    return strCat(text.ends_with("given") ? "more than one of these was given: "
+                                          : "one of these is missing: ",
+                  names, ". Give exactly one");
   }
-  const std::string option(text.substr(colon + 2, equals - colon - 2));
-  const CLI::Option* found = command.get_option_no_throw(option);
-  if (found == nullptr) found = app.get_option_no_throw(option);
-  return strCat(option, ": got \"", printable(text.substr(equals + 3)), "\"; accepted is ",
-                found == nullptr ? "a value" : wordsOfType(found->get_type_name()));
+  const std::string name = text.substr(0, text.find(" is required"));
+  return strCat(name, " is missing. Give ", howToWrite(app, command, name));
+}
+
+// "--out: 1 required TEXT missing", "--count: At Most 1 required but received 2".
+std::string wrongCount(const CLI::App& app, const CLI::App& command, const std::string& text) {
+  const std::string name = text.substr(0, text.find(": "));
+  if (optionNamed(app, command, name) == nullptr) return text;
+  const bool is_many = text.find("At Most") != std::string::npos;
+  return strCat(name,
+                is_many ? ": came with too many values. Give " : ": the value is missing. Give ",
+                howToWrite(app, command, name), is_many ? " once" : "");
 }
 
 std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
   if (std::string unknown = unknownWord(app, command); !unknown.empty()) return unknown;
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
-    return notConverted(app, command, error.what());
+  const std::string text = printable(error.what());
+  const auto is = [&]<typename Kind>(std::type_identity<Kind>) {
+    return dynamic_cast<const Kind*>(&error) != nullptr;
+  };
+  if (is(std::type_identity<CLI::ConversionError>())) return notConverted(text);
+  if (is(std::type_identity<CLI::ArgumentMismatch>())) return wrongCount(app, command, text);
+  if (is(std::type_identity<CLI::ExcludesError>())) {
+    const auto [one, other] = bothSides(text, " excludes ");
+    return strCat(one, " and ", other, " cannot be combined. Leave out one of them");
   }
-  if (&command == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-    return strCat("no command is given. Known commands: ", joined(commandNames(app)), ".");
+  if (is(std::type_identity<CLI::RequiresError>())) {
+    const auto [one, other] = bothSides(text, " requires ");
+    return strCat(one, " works only with ", other, ". Add ", howToWrite(app, command, other),
+                  ", or leave out ", one);
   }
-  return printable(error.what());
+  if (!is(std::type_identity<CLI::RequiredError>())) return text;
+  const bool needs_command = &command == &app && !commandNames(app).empty();
+  if (!needs_command) return missing(app, command, text);
+  return strCat("no command is given. Known commands: ", joined(commandNames(app), ", "), ".");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ std::string refusal(const std::string& arguments) {
 TEST(CommandLine, isHelpedWhenItIsEmpty) {
   const Answer answer = runViewloom("");
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_THAT(answer.text, AllOf(HasSubstr("Subcommands:"), HasSubstr("publish")));
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("Commands:"), HasSubstr("publish")));
 }
 
 TEST(CommandLine, namesTheNearestCommand) {
@@ -60,7 +60,7 @@ TEST(CommandLine, namesTheNearestValueOfAnOption) {
 TEST(CommandLine, takesAnAddressForTheServerOfAList) {
   EXPECT_EQ(refusal("list 127.0.0.1:50180"),
             "viewloom list: unknown list \"127.0.0.1:50180\". Known lists: streams, displays, "
-            "presets. Did you mean \"viewloom list --server 127.0.0.1:50180\"?\n");
+            "presets, server, all. Did you mean \"viewloom list --server 127.0.0.1:50180\"?\n");
   EXPECT_THAT(refusal("list strems"), HasSubstr("Did you mean \"viewloom list streams\"?"));
 }
 
