@@ -41,8 +41,8 @@ struct ShowOptions {
 };
 
 constexpr char kNoPanel[] =
-    " is for a calibrated panel, and none is plugged in: plug in its USB storage, or name its "
-    "visual.json with --calibration";
+    " needs a calibrated panel, and no calibration was found. Plug in the panel's USB storage, or "
+    "name its visual.json with --calibration";
 
 absl::Status checkMode(show::ShowMode mode, bool is_calibrated) {
   const bool is_for_panel = mode == show::ShowMode::kNative || mode == show::ShowMode::kWeave;
@@ -53,14 +53,14 @@ absl::Status checkMode(show::ShowMode mode, bool is_calibrated) {
 // Eyes move the views of a stereo display; a panel has all of them at once.
 absl::Status checkEyes(show::ShowMode mode, const v1::Display& display) {
   if (mode == show::ShowMode::kNative || mode == show::ShowMode::kWeave) {
-    return absl::InvalidArgumentError(
-        strCat("--mode ", show::nameOf(mode),
-               " is for a panel that shows all views at once; accepted beside --eyes-from are "
-               "pair, view and quilt"));
+    return absl::InvalidArgumentError(strCat(
+        "--mode ", show::nameOf(mode),
+        " is for a panel that shows all views at once. With --eyes-from, --mode accepts pair, "
+        "view and quilt"));
   }
   if (display.stereo().tracked()) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--eyes-from is for a display that is tracked; accepted is a --display whose stereo says "
+      "--eyes-from needs a display that tracks a head. Name one with --display: its stereo has "
       "\"tracked\": true");
 }
 
@@ -161,43 +161,57 @@ int run(const ShowOptions& options, const CommonOptions& common) {
 RunCommand addShowCommand(const usage::Command& app) {
   const auto options = std::make_shared<ShowOptions>();
   app.footer(
-      "Keys: left/right view, up/down focus, [ ] cone, m mode, b blend, i statistics,\n"
-      "      f full screen, escape or q end\n"
+      "Keys: left/right view, up/down focal plane, [ ] cone, m mode, b blend, i statistics,\n"
+      "      f full screen, escape or q ends\n"
       "Examples:\n"
-      "  viewloom show                          on the panel whose USB storage is plugged in\n"
+      "  viewloom show                          show on the panel whose USB storage is plugged in\n"
       "  viewloom show --monitor 1 --calibration visual.json --mode weave\n"
-      "  viewloom show --windowed --mode pair   two views side by side, in a window\n"
+      "  viewloom show --windowed --mode pair   show two views side by side in a window\n"
       "  head-tracker | viewloom show --display tracked.json --eyes-from -\n"
       "  viewloom show --tune --out visual.json adjust the calibration by eye");
   app.add("stream", options->stream, "Name of the stream").showDefault();
   app.add("--mode", options->mode,
-          "native: interlaced by the server; weave: quilts woven here; view: one view; pair: "
-          "two side by side; quilt [on a calibrated panel weave where the server renders on a CPU, "
-          "else native; without one pair of a stereo display, else view]")
-      .oneOf({"native", "weave", "view", "pair", "quilt"});
-  const usage::Option calibration = app.add("--calibration", options->calibration_file,
-                                            "The panel's visual.json [the one on its USB storage]");
+          "How the stream is shown\n"
+          "native  the server interlaces the views for a calibrated panel\n"
+          "weave   this program interlaces the views of a quilt for the panel\n"
+          "view    one view\n"
+          "pair    two views side by side\n"
+          "quilt   the whole quilt\n"
+          "Calibrated panels default to weave if the server renders on a CPU,\n"
+          "else to native. Stereo displays default to pair, others to view")
+      .oneOf({"native", "weave", "view", "pair", "quilt"})
+      .valueName("MODE");
+  const usage::Option calibration =
+      app.add("--calibration", options->calibration_file, "The panel's visual.json")
+          .valueName("FILE")
+          .defaultText("the one on its USB storage");
   const usage::Option eyes =
       app.add("--eyes-from", options->eye_file,
-              "Where the eyes before a tracked --display are, as `viewloom watch "
-              "--eyes` takes them; - reads them from a pipe")
+              "Eye positions for a tracked --display, in the format of `viewloom watch --eyes`; "
+              "- reads a pipe")
+          .valueName("FILE")
           .excludes(calibration);
-  app.add("--monitor", options->monitor, "Number of the monitor [the one of the panel's size]");
-  app.addFlag("--windowed", options->is_windowed, "A window instead of the full screen");
-  app.add("--view", options->view, "View to show first, from 0 [the middle one]");
+  app.add("--monitor", options->monitor, "Number of the monitor")
+      .defaultText("the monitor of the panel's size");
+  app.addFlag("--windowed", options->is_windowed, "Show a window instead of the full screen");
+  app.add("--view", options->view, "View to show first, counted from 0")
+      .defaultText("the middle view");
   app.add("--pair-distance", options->pair_distance,
-          "Views between the two of a pair [an eighth of all]");
+          "Distance between the two views of a pair, in views")
+      .defaultText("an eighth of all views");
   app.add("--between-views", options->views_between,
-          "Of a woven quilt: blend neighbouring views, or show the nearest")
+          "Blend neighbouring views of a woven quilt, or show the nearest")
       .oneOf({"blend", "nearest"})
       .showDefault();
-  app.addFlag("--statistics", options->has_statistics, "Rate, drops and latency on the screen");
+  app.addFlag("--statistics", options->has_statistics,
+              "Print rate, dropped atlases and latency on the screen");
   const usage::Option tune =
       app.addFlag("--tune", options->is_tuning,
-                  "Adjust pitch, slope and centre by eye; its keys stand on the screen")
+                  "Adjust pitch, slope and centre by eye; the screen lists the keys")
           .excludes(eyes)
           .group("Calibration");
-  app.add("--out", options->out_file, "The calibration that --tune writes")
+  app.add("--out", options->out_file, "Calibration that --tune writes")
+      .valueName("FILE")
       .needs(tune)
       .showDefault()
       .group("Calibration");

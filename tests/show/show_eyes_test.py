@@ -96,7 +96,7 @@ class Eyes(ShowTest):
         eyes = self.write("eyes.jsonl", line(1, 2))
         fixed = {"stereo": {"eyeSize": {"width": 160, "height": 200}}}
         for arguments, options, sentence in (
-                ((eyes,), {"display": fixed}, '--eyes-from is for a display that is tracked'),
+                ((eyes,), {"display": fixed}, '--eyes-from needs a display that tracks a head'),
                 ((eyes, "--mode", "native"), {}, "--mode native is for a panel"),
                 ((self.folder / "gone",), {}, "gone: cannot be read: No such file")):
             with self.subTest(sentence=sentence):
@@ -105,7 +105,7 @@ class Eyes(ShowTest):
                 self.assertIn(sentence, show.said())
         show = self.show_eyes(eyes, "--calibration", self.calibration_file(SMALL))
         self.assertNotEqual(show.exit_code(), 0)
-        self.assertIn("excludes", show.said())
+        self.assertIn("cannot be combined", show.said())
 
 
 if __name__ == "__main__":
