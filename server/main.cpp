@@ -14,13 +14,20 @@ namespace {
 
 int run(int argc, char** argv) {
   const viewloom::usage::CommandLine app(
-      "Computes the views of light-field displays from pictures with depth.", "viewloomd");
+      "Renders the views of light-field displays from pictures with depth.", "viewloomd");
   app.version(VIEWLOOM_VERSION);
   app.footer(
-      "viewloomd --help lists all settings; they stand before or after serve and doctor. A file "
-      "and the environment\nset the same: VIEWLOOM_GRPC_ADDRESS for --grpc.address. Options beat "
-      "the environment, the environment beats the file.\n"
-      "To render files or to time this machine: viewloom render, viewloom bench.");
+      "Examples:\n"
+      "  viewloomd                                        serve on this machine\n"
+      "  viewloomd doctor                                 check this machine first\n"
+      "  viewloomd serve --grpc.address 0.0.0.0:50051 --http.address 0.0.0.0:8080\n"
+      "\n"
+      "`viewloomd --help` lists all settings. Give them before or after the command, in the file "
+      "of\n"
+      "--config, or in the environment (VIEWLOOM_GRPC_ADDRESS for --grpc.address). Options "
+      "override\n"
+      "the environment, and the environment overrides the file.\n"
+      "To render files or to measure this machine, use `viewloom render` and `viewloom bench`.");
   viewloom::ConfigSources sources{.file = {}, .environment = viewloom::processEnvironment()};
   viewloom::addSettingOptions(app, sources);
   viewloom::RunCommand run_command = viewloom::serve;

@@ -73,14 +73,14 @@ std::vector<Finding> checkPort(const std::string& address, const std::string& se
   } else {
     findings.push_back(
         {Verdict::kProblem, "port", strCat(setting, " ", address, " cannot be taken: ", refusal),
-         strCat("stop what listens there, or choose another address with --", setting)});
+         strCat("stop the program that uses it, or choose another address with --", setting)});
   }
   if (!isForThisMachine(address)) {
     findings.push_back({Verdict::kAdvice, "port",
                         strCat(setting, " ", address,
                                " is open to the network, without encryption "
                                "or passwords"),
-                        "use it in a lab you trust, or listen on 127.0.0.1"});
+                        "use it in a trusted network only, or listen on 127.0.0.1"});
   }
   return findings;
 }
@@ -109,8 +109,8 @@ std::vector<Finding> checkHost() {
   getrlimit(RLIMIT_NOFILE, &files);
   if (files.rlim_cur < kComfortableFileCount) {
     findings.push_back({Verdict::kAdvice, "host",
-                        strCat("a process may hold ", files.rlim_cur, " files and connections"),
-                        strCat("for hundreds of viewers raise it: ulimit -n ",
+                        strCat("a process may open ", files.rlim_cur, " files and connections"),
+                        strCat("for hundreds of viewers, raise the limit: ulimit -n ",
                                kComfortableFileCount, ", or LimitNOFILE of the service")});
   }
   return findings;

@@ -46,7 +46,7 @@ int doctor(const Config& config) {
 
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen) {
   const usage::Command command = app.addCommand(
-      "doctor", "Checks the device, the ports and the host, and says how to fix each problem");
+      "doctor", "Check the device, the ports and the host, and tell how to fix each problem");
   command.onChosen([&chosen] { chosen = doctor; });
 }
 

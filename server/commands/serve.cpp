@@ -51,11 +51,10 @@ void sayReach(const std::string& grpc_address, const std::string& http_url) {
   if (!grpc.empty()) std::printf("Other machines: --server %s\n", joined(grpc, "").c_str());
   if (!http.empty()) std::printf("Page for other machines: %s\n", joined(http, "http://").c_str());
   if (!grpc.empty()) {
-    std::printf(
-        "Anybody who reaches %s can publish streams and watch them: there is no password.\n",
-        grpc.front().c_str());
+    std::printf("There is no password: anybody who reaches %s can publish and watch streams.\n",
+                grpc.front().c_str());
   } else if (!http.empty()) {
-    std::printf("Anybody who reaches %s can watch all streams: there is no password.\n",
+    std::printf("There is no password: anybody who reaches %s can watch all streams.\n",
                 http.front().c_str());
   }
 }
@@ -88,7 +87,7 @@ int serve(const Config& config) {
 
 void addServeCommand(const usage::Command& app, RunCommand& chosen) {
   const usage::Command command =
-      app.addCommand("serve", "Runs the server until Ctrl-C or SIGTERM (default)");
+      app.addCommand("serve", "Run the server until Ctrl-C or SIGTERM (default)");
   command.onChosen([&chosen] { chosen = serve; });
 }
 

@@ -91,7 +91,7 @@ class ConfigReader {
                              const std::vector<std::string>& known) {
     const std::string meant = didYouMean(name, known);
     return ConfigError(strCat(place, ": ", name, " is no setting; ",
-                              meant.empty() ? "viewloomd.example.toml lists them all" : meant));
+                              meant.empty() ? "viewloomd.example.toml lists all settings" : meant));
   }
 
   static void set(const Setting& setting, const SettingValue& value, bool from_text,
@@ -108,9 +108,12 @@ class ConfigReader {
 
 void addSettingOptions(const usage::Command& command, ConfigSources& sources,
                        const std::vector<std::string>& beginnings) {
-  command.addTaken(
-      "--config", [&sources](const std::string& file) { sources.file = file; },
-      "Settings file (TOML); deploy/viewloomd.example.toml explains every setting");
+  command
+      .addTaken(
+          "--config", [&sources](const std::string& file) { sources.file = file; },
+          "Settings file in TOML; deploy/viewloomd.example.toml explains each setting")
+      .valueName("FILE")
+      .defaultText("no file");
   Config defaults;
   for (const Setting& setting : settingsOf(defaults)) {
     const std::string key(setting.key);
@@ -120,8 +123,9 @@ void addSettingOptions(const usage::Command& command, ConfigSources& sources,
     command
         .addTaken(
             "--" + key, [&sources, key](const std::string& text) { sources.flags[key] = text; },
-            strCat(setting.help, ". Accepted: ", acceptedText(setting),
-                   "; default: ", valueText(setting)))
+            helpText(setting))
+        .valueName(valueName(setting))
+        .defaultText(valueText(setting))
         .group("Settings");
   }
 }

@@ -100,14 +100,14 @@ struct Assign {
 std::vector<Setting> machineSettings(Config& config) {
   return {
       {"device", "",
-       "Vulkan device: part of its name, or its index in `viewloomd doctor`; empty = a GPU, else "
-       "the CPU renderer",
+       "Vulkan device: part of its name, or its index in `viewloomd doctor`; empty takes a GPU, "
+       "else the CPU",
        TextSetting{&config.device}},
       {"kernel_folder", "",
-       "Folder that keeps GPU kernels compiled between starts; auto = the user's cache, empty = "
+       "Folder that keeps compiled GPU kernels between starts; auto is the user's cache, empty is "
        "none",
        TextSetting{&config.kernel_folder}},
-      {"validation", "", "Load the Vulkan validation layers and log what they say; slow",
+      {"validation", "", "Load the Vulkan validation layers and log their messages; slow",
        BoolSetting{&config.validation}},
   };
 }
@@ -116,39 +116,41 @@ std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
   using Form = TextSetting::Form;
   return {
       {"grpc.address", "",
-       "Address for publishers and displays; port 0 = a free port. No password: keep it on "
-       "loopback "
-       "or in a network that you trust",
+       "Address for publishers and viewers, without a password: use loopback or a trusted network. "
+       "Port 0 takes a free port",
        TextSetting{&grpc.address, Form::kGrpcAddress}},
       {"grpc.keepalive_s", "s",
-       "Silence before a connection is pinged; after half as long without an answer it is closed",
+       "Silence after which a connection is tested; it is closed if no answer comes in half that "
+       "time",
        CountSetting{&grpc.keepalive_s, 1, 3600}},
-      {"http.enabled", "", "Serve the viewer page, stills, motion JPEG and /metrics",
+      {"http.enabled", "", "Serve the viewer page, stills, motion JPEG and /metrics over HTTP",
        BoolSetting{&http.enabled}},
       {"http.address", "",
-       "Address of the viewer page; port 0 = a free port. No password, as grpc.address",
+       "Address of the viewer page, without a password, as for grpc.address. Port 0 takes a free "
+       "port",
        TextSetting{&http.address, Form::kHostPort}},
       {"http.allowed_hosts", "",
-       "Host names that a page on loopback answers to beside localhost, such as a proxy's",
+       "Further host names that a page on loopback accepts, such as the name of a proxy",
        TextSetting{&http.allowed_hosts, Form::kHostNames}},
   };
 }
 
 std::vector<Setting> limitSettings(LimitsConfig& limits) {
   return {
-      {"limits.frame_bytes_max", "bytes", "Largest frame: all its planes, unpacked",
+      {"limits.frame_bytes_max", "bytes", "Largest frame, with all its planes uncompressed",
        CountSetting{&limits.frame_bytes_max, kMiB, 16 * kGiB}},
       {"limits.plane_side_px_max", "px", "Largest side of a colour or depth plane",
        CountSetting{&limits.plane_side_px_max, 1, 8192}},
-      {"limits.streams_max", "", "Streams at once; each keeps its newest frame in memory",
+      {"limits.streams_max", "", "Most streams at once; each keeps its newest frame in memory",
        CountSetting{&limits.streams_max, 1, 1024}},
       {"limits.displays_max", "",
-       "Displays at once that differ in stream, picture or encoding; each costs its own rendering",
+       "Most displays at once that differ in stream, picture or encoding; each is rendered by "
+       "itself",
        CountSetting{&limits.displays_max, 1, 4096}},
-      {"limits.subscribers_max", "", "Watching clients at once, of all displays together",
+      {"limits.subscribers_max", "", "Most viewers at once, all displays together",
        CountSetting{&limits.subscribers_max, 1, 65536}},
       {"limits.atlas_side_px_max", "px",
-       "Largest side of an atlas (quilt, stereo pair, ...); the device may allow less",
+       "Largest side of an atlas (a quilt, a stereo pair); the device may allow less",
        CountSetting{&limits.atlas_side_px_max, 1, 16384}},
       {"limits.views_max", "", "Most views of one display",
        CountSetting{&limits.views_max, 1, 2500}},
@@ -157,20 +159,19 @@ std::vector<Setting> limitSettings(LimitsConfig& limits) {
 
 std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
   return {
-      {"pipeline.decode_threads", "", "Threads that unpack frames; 0 = one per core, 8 at most",
+      {"pipeline.decode_threads", "", "Threads that decode frames; 0 is one per core, up to 8",
        CountSetting{&pipeline.decode_threads, 0, 64}},
       {"pipeline.encode_threads", "",
-       "Threads that encode atlases and render on the CPU; 0 = one per core, 8 at most",
+       "Threads that encode atlases and render on the CPU; 0 is one per core, up to 8",
        CountSetting{&pipeline.encode_threads, 0, 64}},
       {"pipeline.structure_slots", "",
-       "Frames of one stream held at once: one is rendered while the next is prepared; more costs "
-       "memory",
+       "Frames of one stream in memory at once: one is rendered while the next is prepared",
        CountSetting{&pipeline.structure_slots, 2, 16}},
       {"pipeline.trace_slots", "",
-       "Strips of atlases (on the CPU: whole atlases) in the making at once; more costs memory",
+       "Strips of atlases (on the CPU, whole atlases) in work at once; more takes more memory",
        CountSetting{&pipeline.trace_slots, 2, 16}},
       {"pipeline.warm_up", "",
-       "Compile the kernels of most displays right after the start, before a viewer needs them",
+       "Compile the kernels of common displays after the start, before a viewer needs them",
        BoolSetting{&pipeline.warm_up}},
   };
 }
@@ -184,7 +185,7 @@ std::vector<Setting> settingsOf(Config& config) {
         pipelineSettings(config.pipeline)}) {
     settings.insert(settings.end(), part.begin(), part.end());
   }
-  settings.push_back({"log.level", "", "Least severity of what is logged to standard error",
+  settings.push_back({"log.level", "", "Lowest level of messages to log to standard error",
                       TextSetting{&config.log.level, TextSetting::Form::kLogLevel}});
   return settings;
 }
@@ -207,6 +208,37 @@ std::string acceptedText(const Setting& setting) {
       return "trace, debug, info, warn, error or off";
   }
   return "";
+}
+
+std::string valueName(const Setting& setting) {
+  if (std::holds_alternative<BoolSetting>(setting.target)) return "true|false";
+  if (std::holds_alternative<CountSetting>(setting.target)) {
+    if (setting.unit == "s") return "SECONDS";
+    if (setting.unit == "px") return "PIXELS";
+    return setting.unit == "bytes" ? "BYTES" : "N";
+  }
+  switch (std::get<TextSetting>(setting.target).form) {
+    case TextSetting::Form::kAny:
+      return "NAME";
+    case TextSetting::Form::kHostPort:
+      return "HOST:PORT";
+    case TextSetting::Form::kGrpcAddress:
+      return "HOST:PORT|unix:PATH";
+    case TextSetting::Form::kHostNames:
+      return "HOST,HOST";
+    case TextSetting::Form::kLogLevel:
+      return "LEVEL";
+  }
+  return "";
+}
+
+std::string helpText(const Setting& setting) {
+  if (const auto* count = std::get_if<CountSetting>(&setting.target)) {
+    return strCat(setting.help, "; ", count->min, " to ", count->max);
+  }
+  const auto* text = std::get_if<TextSetting>(&setting.target);
+  const bool is_level = text != nullptr && text->form == TextSetting::Form::kLogLevel;
+  return is_level ? strCat(setting.help, ": ", acceptedText(setting)) : std::string(setting.help);
 }
 
 std::string valueText(const Setting& setting) {

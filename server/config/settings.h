@@ -44,6 +44,9 @@ std::vector<Setting> settingsOf(Config& config);
 
 // What is accepted, in words: "1..8192 px", "true or false".
 std::string acceptedText(const Setting& setting);
+// Its description in --help, and the name of its value there: "PIXELS".
+std::string helpText(const Setting& setting);
+std::string valueName(const Setting& setting);
 // The current value as TOML writes it.
 std::string valueText(const Setting& setting);
 

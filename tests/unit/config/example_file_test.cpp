@@ -59,7 +59,8 @@ TEST(Settings, areExplainedInTheHelp) {
   Config config;
   for (const Setting& setting : settingsOf(config)) {
     EXPECT_FALSE(setting.help.empty()) << setting.key;
-    EXPECT_FALSE(setting.help.ends_with('.')) << setting.key;  // "Accepted: ..." follows it
+    EXPECT_FALSE(setting.help.ends_with('.')) << setting.key;  // the accepted values follow it
+    EXPECT_FALSE(valueName(setting).empty()) << setting.key;
   }
 }
 

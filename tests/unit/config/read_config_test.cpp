@@ -64,7 +64,8 @@ TEST_F(ReadConfig, refusesAKeyThatDoesNotExistAndGuessesTheRightOne) {
   const std::string error = errorOf(file("[grpc]\naddress = \"[::1]:0\"\nadress = \"x\"\n"));
   EXPECT_THAT(error, HasSubstr(path_ + ":3: grpc.adress is no setting"));
   EXPECT_THAT(error, HasSubstr("did you mean \"grpc.address\"?"));
-  EXPECT_THAT(errorOf(file("colour = 1\n")), HasSubstr("viewloomd.example.toml lists them all"));
+  EXPECT_THAT(errorOf(file("colour = 1\n")),
+              HasSubstr("viewloomd.example.toml lists all settings"));
   EXPECT_THAT(errorOf({.flags = {{"log.leve", "info"}}}), HasSubstr("did you mean \"log.level\"?"));
   EXPECT_THAT(errorOf({.environment = {{"VIEWLOOM_GRPC_ADRESS", "x"}}}),
               HasSubstr("did you mean \"VIEWLOOM_GRPC_ADDRESS\"?"));
