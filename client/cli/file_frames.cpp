@@ -23,7 +23,7 @@ absl::Status validateColors(const FileFeedOptions& options) {
   if (!options.depths.empty() && options.depths.size() != options.colors.size()) {
     return absl::InvalidArgumentError(strCat("--depth has ", options.depths.size(), " files for ",
                                              options.colors.size(),
-                                             " of colour; accepted is one each"));
+                                             " colour files. Give one depth file for each"));
   }
   const InputKind kind = options.loader.input.kind;
   if (kind == InputKind::kRgbd || kind == InputKind::k2dPlusZ) return absl::OkStatus();
@@ -32,8 +32,9 @@ absl::Status validateColors(const FileFeedOptions& options) {
     if (options.depths.empty() && !files::isExr(file) && !photos::isPhoto(file)) {
       return absl::InvalidArgumentError(strCat(
           file,
-          ": holds no depth; accepted is an EXR file with Z, a portrait photo (.heic), --depth "
-          "FILE beside it, or a picture that is half depth with --input rgbd or 2d+z"));
+          ": contains no depth. Accepted are an EXR file with Z, a portrait photo (.heic), a depth "
+          "file with --depth FILE, or a picture half colour, half depth with --input rgbd or "
+          "2d+z"));
     }
   }
   return absl::OkStatus();
@@ -61,14 +62,14 @@ absl::Status addInputs(const FileFeedOptions& options, std::vector<FrameFiles>& 
 }  // namespace
 
 std::string noteOf(const files::DeepReport& deep) {
-  std::string note =
-      strCat(deep.file, ": up to ", deep.samples_per_px_max, " samples a px, split into ",
-             deep.layer_count, deep.layer_count == 1 ? " layer" : " layers", "; ",
-             formatNumber(100 * deep.mergedShare(), 2), " % of px merged, occlusion error mean ",
-             deep.error_mean_per_m, ", max ", deep.error_max_per_m, " (1/m)");
+  std::string note = strCat(
+      deep.file, ": up to ", deep.samples_per_px_max, " samples per pixel, split into ",
+      deep.layer_count, deep.layer_count == 1 ? " layer" : " layers", "; ",
+      formatNumber(100 * deep.mergedShare(), 2), " % of pixels merged, occlusion error mean ",
+      deep.error_mean_per_m, ", max ", deep.error_max_per_m, " (1/m)");
   if (deep.dropped_sample_count == 0) return note;
   return strCat(note, "; ", deep.dropped_sample_count,
-                " samples without a place in front of the camera dropped");
+                " samples dropped, because they are not in front of the camera");
 }
 
 absl::Status refuseFileOptions(const FileFeedOptions& options, const std::string& what) {
@@ -79,7 +80,8 @@ absl::Status refuseFileOptions(const FileFeedOptions& options, const std::string
   if (options.loader.has_black_sky) first = "--black-sky";
   if (first.empty()) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      strCat(first, " is given with ", what, "; it belongs to files of colour and depth"));
+      strCat(first, " describes files of colour and depth, and cannot be combined with ", what,
+             ". Leave out ", first));
 }
 
 namespace {
@@ -110,7 +112,7 @@ absl::Status validateView(const FileFeedOptions& options) {
     }
   }
   return absl::InvalidArgumentError(
-      strCat("--view is given, and no file is an EXR file, which may have several views"));
+      "--view chooses a view of an EXR file, but no EXR file is given. Leave out --view");
 }
 
 }  // namespace
@@ -118,25 +120,28 @@ absl::Status validateView(const FileFeedOptions& options) {
 absl::Status validateDeep(const FileFeedOptions& options) {
   if (options.deeps.empty()) {
     if (!options.loader.has_black_sky) return absl::OkStatus();
-    return absl::InvalidArgumentError("--black-sky is for files given with --deep");
+    return absl::InvalidArgumentError(
+        "--black-sky needs deep files. Give them with --deep, or leave out --black-sky");
   }
   if (!options.depths.empty() || !options.view.empty()) {
     return absl::InvalidArgumentError(
-        "--depth and --view are given with --deep; a deep file has all there is to its frame");
+        "--depth and --view cannot be combined with --deep, because a deep file contains the whole "
+        "frame. Leave them out");
   }
   const inputs::InputSettings& input = options.loader.input;
   if (input.transfer != v1::COLOR_TRANSFER_UNSPECIFIED ||
       input.alpha != v1::ALPHA_MODE_UNSPECIFIED) {
     return absl::InvalidArgumentError(
-        "--transfer and --alpha are given with --deep; deep files are linear and premultiplied");
+        "--transfer and --alpha cannot be combined with --deep, because deep files are linear and "
+        "premultiplied. Leave them out");
   }
   // Beside other files the options are for those.
   for (const char* option : kNotOfDeep) {
     if (!options.colors.empty() || !input.given.contains(option)) continue;
-    return absl::InvalidArgumentError(
-        strCat(option,
-               " is given with --deep; a deep file has its own channels of colour and depth "
-               "along the view axis"));
+    return absl::InvalidArgumentError(strCat(
+        option,
+        " cannot be combined with --deep, because a deep file has its own channels of colour "
+        "and planar depth. Leave it out"));
   }
   return absl::OkStatus();
 }
@@ -210,24 +215,27 @@ std::string FileFrames::description() const {
 void addFileOptions(const usage::Command& app, FileFeedOptions& options) {
   const char* const group = "What";
   app.add("colour", options.colors,
-          "Colour files, one a frame: EXR (with depth in Z or alike), HEIC (portrait photos), PNG, "
-          "JPEG, TIFF, WebP, PFM, PGM, PPM, BMP, NPY, .yuv; told by content, not by name")
+          "Colour files, one per frame: EXR (with depth as Z), HEIC (portrait photos), PNG, JPEG, "
+          "TIFF, WebP, PFM, PGM, PPM, BMP, NPY or .yuv")
       .group(group);
-  app.add("--depth", options.depths, "Depth files, one a frame: as colour, and DPT").group(group);
+  app.add("--depth", options.depths, "Depth files, one per frame, in the formats of colour or DPT")
+      .valueName("FILE")
+      .group(group);
   app.add("--deep", options.deeps,
-          "Deep EXR files, one a frame: R, G, B, A, Z and perhaps ZBack; split into layers "
-          "with the least occlusion error, which is told")
+          "Deep EXR files, one per frame, with R, G, B, A, Z and optionally ZBack; each is split "
+          "into layers")
+      .valueName("FILE")
       .group(group);
-  app.addFlag(
-         "--black-sky", options.loader.has_black_sky,
-         "Light that all samples of a deep px let through comes from a black sky, not from what "
-         "lies beside the px")
+  app.addFlag("--black-sky", options.loader.has_black_sky,
+              "Put a black sky behind the transparent pixels of deep files, not their neighbours")
       .group(group);
-  app.add("--view", options.view,
-          "View of multi-view EXR files, as right or left [the file's default]")
+  app.add("--view", options.view, "View of multi-view EXR files, such as left or right")
+      .valueName("NAME")
+      .defaultText("the file's default")
       .group(group);
   app.add("--manifest", options.manifests,
-          "Manifests (JSON), one a frame: layers, cameras, everything")
+          "Manifests in JSON, one per frame, which describe layers and cameras")
+      .valueName("FILE")
       .group(group);
 }
 

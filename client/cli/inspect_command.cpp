@@ -137,7 +137,9 @@ int inspect(const InspectOptions& options, const CommonOptions& common) {
   sortFiles(sorted.files);
   absl::StatusOr<std::vector<FrameFiles>> frames = framesOf(sorted.files);
   if (frames.ok() && frames->empty()) {
-    frames = absl::InvalidArgumentError("what to inspect? Accepted are image files and manifests");
+    frames = absl::InvalidArgumentError(
+        "no file is given. Name image files or manifests, for example `viewloom inspect "
+        "frame.exr`");
   }
   if (!frames.ok()) {
     reportError(frames.status(), common);
@@ -158,13 +160,14 @@ RunCommand addInspectCommand(const usage::Command& app) {
       "--depth-far 12\n"
       "  viewloom inspect holiday_rgbd.png --input rgbd --depth-near 1 --depth-far inf --json");
   addFileOptions(app, options->files);
-  app.add("--layers", options->layer_count, "At most of deep files, 1..4 [4]")
+  app.add("--layers", options->layer_count, "Most layers of a deep file, 1 to 4")
       .between(1, 4)
+      .defaultText("4")
       .group("What");
   app.add("--picture", options->picture,
-          "PNG to write: colour of the first frame beside its depth, white near, magenta "
-          "without surface");
-  app.addFlag("--json", options->as_json, "Print JSON, a list with an entry for each frame");
+          "Save colour and depth of the first frame as a PNG; white is near, magenta is no surface")
+      .valueName("FILE");
+  app.addFlag("--json", options->as_json, "Print the report as JSON, one entry per frame");
   addPlaneOptions(app, options->files.loader.input);
   addDisplayShape(app, options->display);
   addPanelOptions(app, options->display);

@@ -70,7 +70,7 @@ absl::StatusOr<DisplayNeed> displayNeed(const v1::Display& display, const v1::So
 }
 
 std::string needText(const DisplayNeed& need) {
-  if (need.outside.empty()) return "no view looks past the source";
+  if (need.outside.empty()) return "no view sees past the edge of the source";
   google::protobuf::RepeatedPtrField<v1::ViewsOutside> views;
   for (const ViewsOutside& run : need.outside) {
     v1::ViewsOutside& entry = *views.Add();
@@ -78,9 +78,10 @@ std::string needText(const DisplayNeed& need) {
     entry.set_last_view(run.last_view);
     entry.set_share(run.share);
   }
-  return strCat("past the source look ", outsideText(views), "; a field of view of ",
+  return strCat("past the edge of the source see ", outsideText(views),
+                ". They need a field of view of ",
                 degrees(need.wanted_fov.left_rad, need.wanted_fov.right_rad), " x ",
-                degrees(need.wanted_fov.down_rad, need.wanted_fov.up_rad), " degrees would do");
+                degrees(need.wanted_fov.down_rad, need.wanted_fov.up_rad), " degrees");
 }
 
 nlohmann::json needJson(const DisplayNeed& need) {

@@ -23,7 +23,7 @@ struct DisplayNeed {
 absl::StatusOr<DisplayNeed> displayNeed(const v1::Display& display, const v1::Source& source,
                                         const inspect::SourceInspection& inspected);
 
-// "views 0-6 by 4 %; a field of view of 52 x 30 degrees would do", or that there are none.
+// "past the edge of the source see views 0-6 by 4 %. They need ...", or that no view does.
 std::string needText(const DisplayNeed& need);
 nlohmann::json needJson(const DisplayNeed& need);
 

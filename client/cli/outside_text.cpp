@@ -41,9 +41,9 @@ std::vector<std::string> OutsideWarnings::note(const v1::Wanted& wanted) {
   told_height_deg_ = std::max(told_height_deg_, height_deg);
   std::vector<std::string> lines;
   for (const v1::DisplayOutside& display : wanted.outside()) {
-    lines.push_back(strCat(
-        "display ", display.display_id(), " looks past the source: ", outsideText(display.views()),
-        "; a field of view of ", width_deg, " x ", height_deg, " degrees is wanted"));
+    lines.push_back(strCat("display ", display.display_id(), " sees past the edge of the source: ",
+                           outsideText(display.views()), ". It needs a field of view of ",
+                           width_deg, " x ", height_deg, " degrees"));
   }
   return lines;
 }

@@ -22,21 +22,26 @@ constexpr double kConeMin_deg = 1, kConeMax_deg = 120;
 void addPatternOptions(const usage::Command& app, PatternFeedOptions& options) {
   const char* const group = "What";
   const usage::Option pattern = app.add("--pattern", options.name,
-                                        "Publish a test pattern, which stands still: view-numbers, "
+                                        "Publish a still test pattern: view-numbers, "
                                         "parallax-ruler, focal-grid or card")
                                     .oneOf({"view-numbers", "parallax-ruler", "focal-grid", "card"})
+                                    .valueName("PATTERN")
                                     .group(group);
   app.add("--views", options.pattern.views.count,
-          "Views of the display that the pattern is for, 2..512 [48]")
+          "Views of the display that the pattern tests, 2 to 512")
       .between(2U, patterns::kPatternViewsMax)
+      .defaultText("48")
       .needs(pattern)
       .group(group);
-  app.add("--cone", options.cone_deg, "Their cone, 1..120 degrees [40]")
+  app.add("--cone", options.cone_deg, "Angle between the outermost of these views, 1 to 120")
+      .valueName("DEGREES")
+      .defaultText("40")
       .between(kConeMin_deg, kConeMax_deg)
       .needs(pattern)
       .group(group);
   addSizeOption(app, "--view-size", options.pattern.views.size_px, 8192,
-                "Size of one of them [420x560]")
+                "Size of one of these views, in pixels")
+      .defaultText("420x560")
       .needs(pattern)
       .group(group);
 }
@@ -65,8 +70,8 @@ PatternFrames::PatternFrames(WireFrame frame, std::string description, double du
     : frame_(std::move(frame)),
       description_(std::move(description)),
       duration_s_(duration_s),
-      notes_{strCat("focal plane ", 1 / patterns::kFocalPlane_inv_m,
-                    " m away: where displays have it by default")} {}
+      notes_{strCat("the focal plane of the pattern is ", 1 / patterns::kFocalPlane_inv_m,
+                    " m away, the default of displays")} {}
 
 absl::StatusOr<std::optional<WireFrame>> PatternFrames::next(double /*elapsed_s*/) {
   if (!frame_) return std::optional<WireFrame>();

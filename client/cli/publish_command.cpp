@@ -39,73 +39,106 @@ void addSourceOptions(const usage::Command& app, PublishOptions& options) {
   app.addFlag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
       .group("What");
   addSizeOption(app, "--size", options.size_px, 8192,
-                "Of the synthetic frames [960x540], of the pattern [1920x1080]")
+                "Size of the synthetic frames or of the test pattern, in pixels")
+      .defaultText("960x540, pattern 1920x1080")
       .group("What");
   app.add("--layers", options.layer_count,
-          "Layers, 1..4: of the synthetic frames [2], at most of deep files [4]")
+          "Layers of the synthetic frames, or most layers of a deep file, 1 to 4")
       .between(1, 4)
+      .defaultText("2, deep files 4")
       .group("What");
   app.add("--sources", options.synthetic.source_count,
-          "Cameras side by side that see the synthetic scene, 1..8 [1]")
+          "Cameras that see the synthetic scene side by side, 1 to 8")
       .between(1, 8)
+      .defaultText("1")
       .group("What");
   app.addFlag("--cube", options.synthetic.is_cube_map,
-              "The synthetic scene as a cube map: six square faces as high as --size")
+              "Publish the synthetic scene as a cube map: six square faces, as high as --size")
       .excludes("--sources")
       .group("What");
   app.addFlag("--moving-camera", options.synthetic.has_moving_camera,
-              "The synthetic scene from a camera that sways")
+              "Let the camera of the synthetic scene sway")
       .group("What");
   app.addFlag("--mirrors", options.synthetic.has_mirrors,
-              "The synthetic scene with a lake and things of metal, for displays with reflections")
+              "Add a lake and metal objects to the synthetic scene, for displays with reflections")
       .excludes("--sources")
       .excludes("--cube")
       .group("What");
   app.addFlag("--motion", options.synthetic.has_motion,
-              "With how the things of the synthetic scene move, for displays with an output rate")
+              "Publish how the synthetic objects move, for displays with an output rate")
       .excludes("--cube")
       .group("What");
   app.add("--seconds", options.synthetic.duration_s,
-          "Length of the synthetic scene, or how long the pattern stands; 0 = without end")
+          "Length of the synthetic scene or of the test pattern; 0 never ends")
+      .valueName("SECONDS")
       .notNegative()
+      .defaultText("0")
       .group("What");
   app.add("--replay", options.replay.file,
-          "A recording of frames (--record), at its own times or at --rate")
+          "Replay a recording of frames (--record), with its own timing or at --rate")
+      .valueName("FILE")
       .group("What");
 }
 
 void addStreamOptions(const usage::Command& app, PublishOptions& options) {
+  const char* const group = "Stream";
   PublishRunOptions& run = options.run;
-  app.add("--stream", run.stream, "Name of the stream").showDefault();
+  app.add("--stream", run.stream, "Name of the stream")
+      .valueName("NAME")
+      .showDefault()
+      .group(group);
   app.add("--session", run.session_id,
-          "Secret with which this publisher may take its stream over again [random]");
+          "Secret with which a restarted publisher takes over its own stream")
+      .valueName("SECRET")
+      .defaultText("random")
+      .group(group);
   const usage::Option rate =
-      app.add("--fps,--rate", run.rate_hz, "Frames a second [15; of a recording: as recorded]")
-          .between(0.001, 1000.0);
-  app.add("--speed", options.replay.speed, "Replay so many times as fast as recorded [1]")
+      app.add("--fps,--rate", run.rate_hz, "Frames per second, 0.001 to 1000")
+          .valueName("HZ")
+          .between(0.001, 1000.0)
+          .defaultText("15, replay as recorded")
+          .group(group);
+  app.add("--speed", options.replay.speed,
+          "Replay this many times as fast as recorded, 0.001 to 1000")
+      .valueName("FACTOR")
       .between(0.001, 1000.0)
+      .defaultText("1")
+      .group(group)
       .needs("--replay")
       .excludes(rate);
-  app.addFlag("--loop", options.is_looping, "Start again after the last file or recorded frame");
-  app.addFlag("--hold", run.is_holding, "Keep the stream after the last frame, until Ctrl-C");
-  app.add("--zstd", run.zstd_level, "Compress planes, level 1..19; for slow links; 0 = do not")
+  app.addFlag("--loop", options.is_looping, "Start again after the last file or recorded frame")
+      .group(group);
+  app.addFlag("--hold", run.is_holding, "Keep the stream open after the last frame, until Ctrl-C")
+      .group(group);
+  app.add("--zstd", run.zstd_level,
+          "Level of zstd compression, 1 to 19, for slow networks; 0 is off")
+      .valueName("LEVEL")
       .between(0, 19)
-      .showDefault();
+      .showDefault()
+      .group(group);
   app.add("--depth-encoding", run.depth_encoding,
-          "plain (as it is), predicted (16-bit inverse depth, a tenth of the bytes, where its "
-          "steps do not show), or auto: plain on this machine, else predicted")
+          "How depth is sent\n"
+          "plain      unchanged\n"
+          "predicted  as 16-bit inverse depth (1/Z), in about a tenth of the bytes;\n"
+          "           unchanged if its steps would show\n"
+          "auto       plain to a server on this machine, else predicted")
       .oneOf({"auto", "plain", "predicted"})
-      .showDefault();
-  app.add("--record", run.record_file, "Keep the frames that are sent in this file");
-  app.addFlag("--no-retry", run.has_no_retry, "End when the server cannot be reached");
-  app.addFlag("-q,--quiet", run.is_quiet, "No status line");
+      .showDefault()
+      .group(group);
+  app.add("--record", run.record_file, "Record the sent frames in this file")
+      .valueName("FILE")
+      .group(group);
+  app.addFlag("--no-retry", run.has_no_retry,
+              "End if the server cannot be reached, instead of trying again")
+      .group(group);
+  app.addFlag("-q,--quiet", run.is_quiet, "Print no status line").group(group);
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeReplay(const PublishOptions& options) {
   std::error_code ignored;
   if (std::filesystem::equivalent(options.replay.file, options.run.record_file, ignored)) {
-    return absl::InvalidArgumentError(
-        strCat("--record ", options.run.record_file, ": is what is replayed; name another file"));
+    return absl::InvalidArgumentError(strCat("--record ", options.run.record_file,
+                                             ": this file is being replayed. Name another file"));
   }
   ReplayOptions replay = options.replay;
   replay.rate_hz = options.run.rate_hz;
@@ -118,7 +151,7 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions&
   if (options.layer_count || synthetic.source_count != 1 || synthetic.is_cube_map ||
       synthetic.has_moving_camera || synthetic.has_mirrors || synthetic.has_motion) {
     return absl::InvalidArgumentError(
-        "--pattern has layers and a source of its own; leave out --layers, --sources, --cube, "
+        "--pattern has its own layers and camera. Leave out --layers, --sources, --cube, "
         "--moving-camera, --mirrors and --motion");
   }
   patterns::PatternOptions pattern = patternOptions(options.pattern);
@@ -134,9 +167,10 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
                     int{!options.files.manifests.empty()} + int{!options.watched_folder.empty()} +
                     int{!options.replay.file.empty()};
   if (kinds != 1) {
-    return absl::InvalidArgumentError(
-        "what to publish? Accepted is one of --synthetic, --pattern, colour files, --deep, "
-        "--manifest, --watch-folder, --replay");
+    return absl::InvalidArgumentError(strCat(
+        kinds == 0 ? "nothing to publish is named" : "more than one thing to publish is named",
+        ". Name exactly one: --synthetic, --pattern, colour files, --deep, --manifest, "
+        "--watch-folder or --replay"));
   }
   const std::string made = options.is_synthetic            ? "--synthetic"
                            : !options.pattern.name.empty() ? "--pattern"
@@ -171,20 +205,21 @@ RunCommand addPublishCommand(const usage::Command& app) {
   app.footer(
       "Examples:\n"
       "  viewloom publish --synthetic --size 1280x720 --layers 3\n"
-      "  viewloom publish --pattern view-numbers --views 45 --cone 40\n"
       "  viewloom publish frame.exr --focal-px 1200 --hold\n"
-      "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
-      "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
       "  viewloom publish photo.png --depth photo_mm.png --input sensor --fov 50 --hold\n"
       "  viewloom publish --watch-folder renders/ --fps 24\n"
+      "  viewloom publish --deep comp.*.exr --layers 3 --fov 35 --loop\n"
+      "  viewloom publish stereo.*.exr --view right --depth-far-zero --fps 24 --loop\n"
+      "  viewloom publish --pattern view-numbers --views 45 --cone 40\n"
       "  viewloom publish --synthetic --seconds 10 --zstd 1 --record scene.vlr\n"
       "  viewloom publish --replay scene.vlr --speed 0.5 --loop");
   addSourceOptions(app, *options);
   addPatternOptions(app, options->pattern);
   addFileOptions(app, options->files);
   app.add("--watch-folder", options->watched_folder,
-          "Publish every complete file that is in this folder or comes into it; colour and "
-          "depth in two files pair up by name, as x.png and x_depth.png")
+          "Publish each complete picture in this folder, now and later; x.png pairs with "
+          "x_depth.png")
+      .valueName("FOLDER")
       .group("What");
   addStreamOptions(app, *options);
   addPlaneOptions(app, options->files.loader.input);

@@ -180,7 +180,7 @@ TEST_F(Uplink, saysWhatIsWrongWithRecordings) {
       {"publish --replay " + std::string(VIEWLOOM), "is no recording"},
       {"publish --synthetic --speed 2", "--speed"},
       {"publish --replay " + recording.string() + " --record " + recording.string(),
-       "is what is replayed"},
+       "this file is being replayed"},
       {"publish --synthetic --record " + file("no/where.vlr").string(), "cannot be written"},
       {"record s --out " + file("no/where.vlr").string(), "cannot be written"},
       {"watch --from " + file("none.vlr").string(), "none.vlr: no such file"}};

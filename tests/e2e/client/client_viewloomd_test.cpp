@@ -270,11 +270,10 @@ TEST_F(ClientWithViewloomd, theCommandSplitsADeepFileAndSaysWhatItCost) {
   const std::string command = std::string(VIEWLOOM) + " --server " + address_ + " publish -q " +
                               "--stream deep --deep " + (folder_ / "deep.exr").string();
   EXPECT_EQ(runCommand(command + " --layers 1 2> " + errors), 0);
-  std::stringstream said;
-  said << std::ifstream(errors).rdbuf();
-  EXPECT_THAT(said.str(), testing::HasSubstr("deep.exr: up to 2 samples a px, split into 1 layer; "
-                                             "25.00 % of px merged, occlusion error mean 0.0625, "
-                                             "max 0.25 (1/m)\n"));
+  const std::string said = (std::stringstream() << std::ifstream(errors).rdbuf()).str();
+  EXPECT_THAT(said, testing::HasSubstr("deep.exr: up to 2 samples per pixel, split into 1 layer; "
+                                       "25.00 % of pixels merged, occlusion error mean 0.0625, "
+                                       "max 0.25 (1/m)\n"));
   const auto streams = Catalog(makeChannel(address_)).listStreams();
   ASSERT_TRUE(streams.ok()) << streams.status();
   ASSERT_EQ(streams->streams_size(), 1);

@@ -99,7 +99,7 @@ TEST_F(InspectCommand, saysWhichViewsOfADisplayLookPastTheFile) {
   const std::string file_and_display =
       file("render.exr") + " --focal-px 4 --columns 4 --rows 1 --size 40x10 --focal-distance 2";
   EXPECT_THAT(inspect(file_and_display + " --cone 20").output,
-              HasSubstr("display   no view looks past the source"));
+              HasSubstr("display   no view sees past the edge of the source"));
   // Eyes at 2 tan(0.75 * 50 degrees) = 1.535 m: the sky at a slope of (1 + 1.535) / 2 = 1.267, past
   // the image's edge at 1 of 2. The inner two stand at 0.443 m.
   const Finished run = inspect(file_and_display + " --cone 100 --json");
@@ -111,8 +111,8 @@ TEST_F(InspectCommand, saysWhichViewsOfADisplayLookPastTheFile) {
   EXPECT_NEAR(outside[0].at("share"), (0.5 + std::tan(37.5 * M_PI / 180) - 1) / 2, 1e-9);
   EXPECT_EQ(outside[1].at("first_view"), 3);
   EXPECT_THAT(inspect(file_and_display + " --cone 100").output,
-              HasSubstr("warning   past the source look view 0 by 14 %, view 3 by 14 %; a field of "
-                        "view of 104 x 54 degrees would do"));
+              HasSubstr("warning   past the edge of the source see view 0 by 14 %, view 3 by 14 %. "
+                        "They need a field of view of 104 x 54 degrees"));
   const Finished refused = inspect(file("render.exr") + " --preset none");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("--preset: there is no \"none\""));

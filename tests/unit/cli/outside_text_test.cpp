@@ -38,9 +38,10 @@ TEST(OutsideText, namesRunsAndRoundsUp) {
 TEST(OutsideWarnings, areSaidAgainOnlyWhenMoreIsWanted) {
   OutsideWarnings warnings;
   EXPECT_THAT(warnings.note({}), IsEmpty());
-  EXPECT_THAT(warnings.note(wantedOf(0.04)),
-              ElementsAre("display 2 looks past the source: views 0-6 by 4 %, view 47 by 7 %; a "
-                          "field of view of 52 x 23 degrees is wanted"));
+  EXPECT_THAT(
+      warnings.note(wantedOf(0.04)),
+      ElementsAre("display 2 sees past the edge of the source: views 0-6 by 4 %, view 47 by 7 %. "
+                  "It needs a field of view of 52 x 23 degrees"));
   EXPECT_THAT(warnings.note(wantedOf(0.04)), IsEmpty());
   // As the page asks for other views of its display whenever the pointer moves.
   v1::Wanted moved = wantedOf(0.02);
@@ -51,9 +52,10 @@ TEST(OutsideWarnings, areSaidAgainOnlyWhenMoreIsWanted) {
   EXPECT_THAT(warnings.note(wantedOf(0.04)), IsEmpty());
   v1::Wanted wider = wantedOf(0.05);
   wider.mutable_fov()->set_angle_left_rad(-0.5);
-  EXPECT_THAT(warnings.note(wider),
-              ElementsAre("display 2 looks past the source: views 0-6 by 5 %, view 47 by 7 %; a "
-                          "field of view of 55 x 23 degrees is wanted"));
+  EXPECT_THAT(
+      warnings.note(wider),
+      ElementsAre("display 2 sees past the edge of the source: views 0-6 by 5 %, view 47 by 7 %. "
+                  "It needs a field of view of 55 x 23 degrees"));
 }
 
 }  // namespace

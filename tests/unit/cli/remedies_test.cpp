@@ -191,7 +191,7 @@ TEST_F(RemediesTest, needFilesToBeFor) {
   FileFeedOptions options{.manifests = {"frame.json"}};
   options.loader = withOptions("--depth-scale 2");
   EXPECT_THAT(std::string(framesOf(options).status().message()),
-              HasSubstr("--depth-scale is given with a manifest"));
+              HasSubstr("--depth-scale describes files of colour and depth"));
   options.loader = withOptions("--tone-map agx");
   EXPECT_TRUE(framesOf(options).ok());
   FileFeedOptions deep{.deeps = {"deep.exr"}};
