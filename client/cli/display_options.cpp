@@ -35,69 +35,106 @@ absl::StatusOr<v1::Display> readDisplay(const std::string& given) {
 }  // namespace
 
 usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options) {
+  const char* const group = "Display";
   const usage::Option file =
       app.add("--display", options.file,
-              "A display of any kind: proto Display as JSON, or a file that holds it");
-  app.add("--preset", options.preset, "A named device, see `viewloom list presets` [portrait]")
-      .excludes(file);
-  within(app.add("--columns", options.columns, "Of the quilt"), "quilt.columns").excludes(file);
-  within(app.add("--rows", options.rows, "Of the quilt"), "quilt.rows").excludes(file);
-  addSizeOption(app, "--size", options.size_px, sideMax("quilt.size.width"), "Of the whole quilt")
-      .excludes(file);
-  app.add("--cone", options.view_cone_deg, "Angle between the outermost views, degrees")
-      .excludes(file);
+              "Display of any kind, as a JSON file or as JSON itself; replaces the other options "
+              "of the display")
+          .valueName("FILE|JSON")
+          .group(group);
+  app.add("--preset", options.preset, "Name of a known device; `viewloom list presets` lists them")
+      .valueName("NAME")
+      .defaultText("portrait")
+      .excludes(file)
+      .group(group);
+  within(app.add("--columns", options.columns, "Columns of the quilt, 1 to 50"), "quilt.columns")
+      .defaultText("the preset's")
+      .excludes(file)
+      .group(group);
+  within(app.add("--rows", options.rows, "Rows of the quilt, 1 to 50"), "quilt.rows")
+      .defaultText("the preset's")
+      .excludes(file)
+      .group(group);
+  addSizeOption(app, "--size", options.size_px, sideMax("quilt.size.width"),
+                "Size of the whole quilt in pixels, up to 16384 per side")
+      .defaultText("the preset's")
+      .excludes(file)
+      .group(group);
+  app.add("--cone", options.view_cone_deg, "Angle between the outermost views, up to 148")
+      .valueName("DEGREES")
+      .defaultText("the preset's, else 40")
+      .excludes(file)
+      .group(group);
   app.add("--focal-distance", options.focal_distance_m,
-          "Metres to the plane without parallax [by the content]")
-      .excludes(file);
+          "Distance of the focal plane, which has no parallax")
+      .valueName("METRES")
+      .defaultText("from the content")
+      .excludes(file)
+      .group(group);
   return file;
 }
 
 void addDisplayOptions(const usage::Command& app, DisplayOptions& options) {
+  const char* const group = "Display";
   const usage::Option file = addDisplayShape(app, options);
   within(app.add("--focus-follow", options.focus_following_s,
-                 "Seconds in which the focal plane goes 63 % of its way to what suits new frames"),
+                 "Let the focal plane follow the content: time for 63 % of the way, 0.01 to 60"),
          "focus_following_s")
-      .excludes(file);
-  app.add("--fov", options.fov_y_deg, "Vertical field of view, degrees [the source's]")
-      .excludes(file);
+      .valueName("SECONDS")
+      .defaultText("it stays")
+      .excludes(file)
+      .group(group);
+  app.add("--fov", options.fov_y_deg, "Vertical field of view of each view, up to 148")
+      .valueName("DEGREES")
+      .defaultText("the source's")
+      .excludes(file)
+      .group(group);
   within(app.add("--samples", options.sample_count,
-                 "Rays of each px, spread over it and the eyes up to half way to the next view"),
+                 "Rays per pixel against aliasing and crosstalk, 1 to 16"),
          "filter.sample_count")
       .showDefault()
-      .excludes(file);
+      .excludes(file)
+      .group(group);
   addLensOptions(app, options.lens, file);
   addTemporalOptions(app, options.temporal, file);
   within(app.add("--reflections", options.bounce_count,
-                 "Show what surfaces with SPECULAR planes mirror, over so many bounces"),
+                 "Show reflections, with up to this many bounces per ray, 1 to 4"),
          "effects.reflection.bounces")
-      .excludes(file);
+      .defaultText("no reflections")
+      .excludes(file)
+      .group(group);
   const usage::Option encoding =
-      app.add("--encoding", options.encoding, "How atlases are packed: proto AtlasEncoding as JSON")
+      app.add("--encoding", options.encoding,
+              "Encoding of atlases: AtlasEncoding of the protocol, as JSON")
+          .valueName("JSON")
           .group("Encoding");
-  app.add("--quality", options.jpeg_quality, "JPEG quality")
+  app.add("--quality", options.jpeg_quality, "JPEG quality, 1 to 100")
       .between(1, 100)
       .showDefault()
       .excludes(encoding)
       .group("Encoding");
-  app.addFlag("--444", options.is_444, "JPEG colour at full resolution")
+  app.addFlag("--444", options.is_444, "Keep the full resolution of colour in JPEG")
       .excludes(encoding)
       .group("Encoding");
-  app.addFlag("--lossless", options.is_lossless, "Colour by zstd instead of JPEG")
+  app.addFlag("--lossless", options.is_lossless, "Send colour without loss (zstd) instead of JPEG")
       .excludes(encoding)
       .group("Encoding");
 }
 
 void addMaskOption(const usage::Command& app, DisplayOptions& options) {
   app.addFlag("--mask", options.has_mask,
-              "Also get the mask of ray classes: 1 hit .. 3 hidden, 4 outside, 5 empty")
+              "Receive the class of each pixel too: 1 or 2 hit, 3 hidden, 4 outside, 5 empty")
       .group("Encoding");
 }
 
 void addPanelOptions(const usage::Command& app, DisplayOptions& options) {
   app.addFlag("--native", options.is_native,
-              "The px of the preset's panel instead of a quilt: interlaced by the server");
+              "Receive the pixels of the preset's panel, interlaced by the server")
+      .group("Display");
   app.add("--calibration", options.calibration_file,
-          "The device's own visual.json: the px of that panel");
+          "Receive the pixels of the panel of this visual.json")
+      .valueName("FILE")
+      .group("Display");
 }
 
 void addDepthDisplayOptions(const usage::Command& app, DisplayOptions& options) {
@@ -163,9 +200,9 @@ absl::Status refuseShapeOptions(const DisplayOptions& options) {
       {"--calibration", !options.calibration_file.empty()}};
   for (const auto& [name, is_given] : shape_options) {
     if (!is_given) continue;
-    return absl::InvalidArgumentError(strCat(
-        name, " is for quilts and lenticular panels; --preset ", options.preset,
-        " is neither. Leave out ", name, ", or name a preset of a quilt: `viewloom list presets`"));
+    return absl::InvalidArgumentError(
+        strCat(name, " works with quilts and lenticular panels, and --preset ", options.preset,
+               " is neither. Leave out ", name, ", or name a quilt from `viewloom list presets`"));
   }
   return absl::OkStatus();
 }
@@ -181,7 +218,7 @@ absl::Status setDevice(const DisplayKind& kind, const DisplayOptions& options,
   display.set_preset(options.preset);
   if (options.fov_y_deg == 0) return absl::OkStatus();
   return absl::InvalidArgumentError(strCat("--fov: the lenses of --preset ", options.preset,
-                                           " give the field of view. Leave out --fov"));
+                                           " set the field of view. Leave out --fov"));
 }
 
 bool isNative(const DisplayOptions& options) {

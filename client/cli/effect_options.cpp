@@ -20,43 +20,54 @@ void addLensOptions(const usage::Command& app, LensOptions& options, usage::Opti
   const char* const group = "Lens";
   const usage::Option radius =
       within(app.add("--aperture", options.aperture_radius_m,
-                     "Radius of the opening of a lens before every view, m: blurs what is not in "
+                     "Radius of a lens in front of each view, up to 10; blurs what is out of "
                      "focus"),
              "effects.lens.aperture_radius_m")
           .positive()
+          .valueName("METRES")
+          .defaultText("no lens")
           .excludes(file)
           .group(group);
   app.addFlag("--auto-aperture", options.has_automatic_aperture,
-              "As wide as surfaces beyond the ghosting limit need it")
+              "Use the smallest lens that hides ghosting far from the focal plane")
       .excludes(file)
       .excludes(radius)
       .group(group);
   within(app.add("--lens-focus", options.focus_distance_m,
-                 "Distance at which it is sharp, m [the focal plane]"),
+                 "Distance that is sharp through the lens, 1e-6 to 1e9"),
          "effects.lens.focus_distance_m")
+      .valueName("METRES")
+      .defaultText("the focal plane")
       .excludes(file)
       .group(group);
-  upTo(app.add("--blades", options.blades, "Straight sides of the opening; 0 = round"),
+  upTo(app.add("--blades", options.blades,
+               "Straight sides of the lens opening, 3 to 16; 0 is round"),
        "effects.lens.blades")
+      .showDefault()
       .excludes(file)
       .group(group);
-  within(app.add("--lens-samples", options.walked_count, "Walked rays a px [by --effort]"),
+  within(app.add("--lens-samples", options.walked_count,
+                 "Lens rays per pixel that look for surfaces, 1 to 64"),
          "effects.lens.samples")
+      .defaultText("by --effort: 4, 8 or 16")
       .excludes(file)
       .group(group);
   within(app.add("--lens-gathered", options.gathered_count,
-                 "Further rays a px, compared with what the walked ones met [by --effort]"),
+                 "Extra lens rays per pixel, tested against the surfaces found so, 0 to 256"),
          "effects.lens.gathered_samples")
+      .defaultText("by --effort: 16, 32 or 64")
       .excludes(file)
       .group(group);
   const auto walk_doubtful = [&options] { options.mode = v1::GATHER_MODE_EXACT; };
   app.addAction("--lens-exact", walk_doubtful,
-                "Walk those that something else may stand in the way of")
+                "Test each extra ray that another surface may block against all surfaces")
       .excludes(file)
       .group(group);
   app.addWord("--effort", options.quality, kQualities,
-              "draft, balanced or best: what is spent on what is left open [balanced]")
-      .excludes(file);
+              "Quality of everything that no other option sets: draft, balanced or best")
+      .excludes(file)
+      .defaultText("balanced")
+      .group("Display");
 }
 
 void setLens(const LensOptions& options, v1::Display& display) {
@@ -76,19 +87,25 @@ void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usa
   const char* const group = "Between frames";
   const usage::Option rate =
       within(app.add("--output-rate", options.output_rate_hz,
-                     "Atlases a second, whatever the stream's rate is: in between, its camera is "
-                     "carried on"),
+                     "Atlases per second whatever the stream's frame rate, 1 to 240; the camera "
+                     "moves on between frames"),
              "effects.temporal.output_rate_hz")
+          .valueName("HZ")
+          .defaultText("one atlas per frame")
           .excludes(file)
           .group(group);
   app.addWord("--between", options.mode, kModes,
-              "predict: from the newest frame; interpolate: one frame late, from two [predict]")
+              "Pictures between frames: predict from the newest frame, or interpolate two, one "
+              "frame late")
+      .defaultText("predict")
       .needs(rate)
       .group(group);
   within(app.add("--bridge", options.bridge_s,
-                 "Seconds for which a late frame is bridged before the picture is held [0.25]"),
+                 "Longest time to predict if a frame is late, up to 10; then the picture stops"),
          "effects.temporal.bridge_s")
       .positive()
+      .valueName("SECONDS")
+      .defaultText("0.25")
       .needs(rate)
       .group(group);
 }

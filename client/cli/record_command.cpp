@@ -125,7 +125,7 @@ class RecordRun {
     if (counts.atlases.whole == 0) return strCat("waiting for stream ", options_.stream);
     return strCat(counts.atlases.whole, " atlases, ",
                   formatBytes(static_cast<double>(counts.received_bytes)), "; ",
-                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off");
+                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " incomplete");
   }
 
   int end() {
@@ -165,15 +165,22 @@ RunCommand addRecordCommand(const usage::Command& app) {
       "Examples:\n"
       "  viewloom record --out demo.vlr                   until Ctrl-C\n"
       "  viewloom record demo --seconds 10 --preset portrait --out portrait.vlr\n"
-      "  viewloom watch --from portrait.vlr --out quilts  as files for the device\n"
-      "Frames are recorded where they are sent: `viewloom publish --record`.");
+      "  viewloom watch --from portrait.vlr --out quilts  save its views as pictures\n"
+      "This records views. To record the frames of a publisher, use `viewloom publish --record`.");
   app.add("stream", options->stream, "Name of the stream").showDefault();
-  app.add("--out", options->file, "The file; it is there once it is complete").required();
-  app.add("--count", options->count, "Atlases to record; 0 = until Ctrl-C");
-  app.add("--seconds", options->duration_s, "How long to record; 0 = until Ctrl-C").notNegative();
-  app.addFlag("--no-wait", options->fails_without_stream, "End when there is no such stream");
-  app.addFlag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
-  app.addFlag("-q,--quiet", options->is_quiet, "No status line");
+  app.add("--out", options->file, "Recording to write; the file appears when it is complete")
+      .valueName("FILE")
+      .required();
+  app.add("--count", options->count, "Atlases to record; 0 records until Ctrl-C").showDefault();
+  app.add("--seconds", options->duration_s, "Length of the recording; 0 records until Ctrl-C")
+      .valueName("SECONDS")
+      .notNegative()
+      .showDefault();
+  app.addFlag("--no-wait", options->fails_without_stream,
+              "End if the server has no such stream, instead of waiting for it");
+  app.addFlag("--no-retry", options->has_no_retry,
+              "End if the server cannot be reached, instead of trying again");
+  app.addFlag("-q,--quiet", options->is_quiet, "Print no status line");
   addDisplayOptions(app, options->display);
   addDepthDisplayOptions(app, options->display);
   return

@@ -23,34 +23,41 @@ void addRgbdOptions(const usage::Command& app, RgbdOptions& options,
   const char* const group = "Colour and depth";
   const usage::Option size =
       addSizeOption(app, "--rgbd", options.view_size_px, sideMax("rgbd.view_size.width"),
-                    "One view of this size, and its depth as grey, for displays that make their "
-                    "own views")
+                    "Send one view of this size with its depth as grey, instead of many views")
           .group(group);
   for (usage::Option other : others) size.excludes(other);
   app.addWord("--rgbd-form", options.form, kForms,
-              "color-depth, or two-layers: below both what lies behind [color-depth]")
+              "Colour beside depth, or two layers: hidden surfaces below both")
+      .defaultText("color-depth")
       .group(group)
       .needs(size);
-  app.addWord("--depth-side", options.placement, kPlacements,
-              "Where depth lies, seen from colour: right, left, top, bottom [right]")
+  app.addWord("--depth-side", options.placement, kPlacements, "Side of colour on which depth lies")
+      .defaultText("right")
       .group(group)
       .needs(size);
-  app.add("--depth-bits", options.depth_bits, "Of depth: 8, or 16 in PNG files of 16 bits")
+  app.add("--depth-bits", options.depth_bits,
+          "Bits of a depth sample; 16 saves PNG files of 16 bits")
       .oneOf({"8", "16"})
       .showDefault()
       .group(group)
       .needs(size);
-  app.addFlag("--black-near", options.is_black_near, "Black is near, not white")
+  app.addFlag("--black-near", options.is_black_near, "Make black near, not white")
       .group(group)
       .needs(size);
-  const auto addDistance = [&](const char* name, double& value_m, const char* text) {
-    app.add(name, value_m, text).group(group).needs(size);
+  const auto addDistance = [&](const char* name, double& value_m, const char* text,
+                               const char* default_text) {
+    app.add(name, value_m, text)
+        .valueName("METRES")
+        .defaultText(default_text)
+        .group(group)
+        .needs(size);
   };
-  addDistance("--depth-near", options.near_m, "Metres to the nearest code [by the content]");
-  addDistance("--depth-far", options.far_m,
-              "The same of the farthest; may be inf [by the content]");
+  addDistance("--depth-near", options.near_m, "Distance of the nearest code", "from the content");
+  addDistance("--depth-far", options.far_m, "Distance of the farthest code; may be inf",
+              "from the content");
   addDistance("--screen", options.screen_m,
-              "Metres to the screen: it gets the middle code, as 2D+Z displays expect");
+              "Distance of the screen, which gets the middle code, as 2D+Z displays expect",
+              "the preset's, else none");
 }
 
 v1::RgbdDisplay makeRgbd(const RgbdOptions& options, double fov_y_rad) {

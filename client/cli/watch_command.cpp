@@ -109,7 +109,7 @@ class WatchRun {
     if (options_.eye_file.empty()) return absl::OkStatus();
     if (!display.stereo().tracked()) {
       return absl::InvalidArgumentError(
-          "--eyes is for a display that is tracked; accepted is a --display whose stereo says "
+          "--eyes needs a display that tracks a head. Name one with --display: its stereo has "
           "\"tracked\": true");
     }
     auto eyes = EyeFeed::open(options_.eye_file);
@@ -163,7 +163,7 @@ class WatchRun {
   // A display with a rate of its own waits for the publisher.
   void sayHeld(const v1::AtlasHeader& header) {
     if (header.timing() != v1::TIMING_HELD) return;
-    line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture is held"));
+    line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture stands still"));
   }
 
   // The picture is here, and counts as shown: by the clock of the poses, which may be another's.
@@ -202,12 +202,12 @@ class WatchRun {
     return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
                   formatBytes(bytes_rate), "/s, ", latencyText(), " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
-                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " broken off",
+                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " incomplete",
                   motion_ ? "; " + motionText(*motion_) : "",
                   server ? "; " + clockText(*server) : "",
                   newest_.views_outside().empty()
                       ? ""
-                      : "; past the source look " + outsideText(newest_.views_outside()));
+                      : "; past the edge of the source: " + outsideText(newest_.views_outside()));
   }
 
   std::string latencyText() const {
@@ -262,30 +262,34 @@ RunCommand addWatchCommand(const usage::Command& app) {
   const auto options = std::make_shared<WatchOptions>();
   app.footer(
       "Examples:\n"
-      "  viewloom watch                                   look how fast the demo comes\n"
-      "  viewloom watch --count 1 --out .                 one quilt, as a file for the device\n"
+      "  viewloom watch                                   print rate and latency of \"demo\"\n"
+      "  viewloom watch --count 1 --out .                 save one quilt for the device\n"
       "  viewloom watch --preset portrait --views --out v --count 1\n"
       "  viewloom watch --columns 4 --rows 2 --size 1600x1200 --cone 20 --out quilts\n"
-      "  viewloom watch --rgbd 960x540 --screen 2 --count 1 --out .   2D+Z, one picture\n"
+      "  viewloom watch --rgbd 960x540 --screen 2 --count 1 --out .   a 2D+Z picture\n"
       "  viewloom watch --output-rate 60 --between interpolate   60 atlases/s of any stream\n"
-      "  viewloom watch --from portrait.vlr --out quilts  from a recording\n"
+      "  viewloom watch --from portrait.vlr --out quilts  save the quilts of a recording\n"
       "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
   app.add("stream", options->stream, "Name of the stream").showDefault();
   const usage::Option from = app.add("--from", options->recording,
-                                     "Watch a recording (`viewloom record`) instead of a stream");
+                                     "Read a recording of `viewloom record` instead of a stream")
+                                 .valueName("FILE");
   app.add("--eyes", options->eye_file,
-          "Where the eyes before a tracked --display are: lines {\"time_ns\": 8, \"left\": "
-          "[x, y, z], \"right\": [x, y, z]}, metres; - reads them from a pipe")
+          "Eye positions for a tracked --display; - reads a pipe\n"
+          "One line per time, positions in metres:\n"
+          "{\"time_ns\": 8, \"left\": [x, y, z], \"right\": [x, y, z]}")
+      .valueName("FILE")
       .excludes(from);
-  app.add("--count", options->count, "Atlases to receive; 0 = until Ctrl-C");
-  const usage::Option out = app.add("--out", options->folder, "Write every atlas into this folder");
-  app.addFlag("--views", options->writes_views, "Write single views instead of atlases").needs(out);
-  app.add("--format", options->format, "Of the files: jpg or png")
-      .oneOf({"jpg", "png"})
-      .showDefault();
-  app.addFlag("--no-wait", options->fails_without_stream, "End when there is no such stream");
-  app.addFlag("--no-retry", options->has_no_retry, "End when the server cannot be reached");
-  app.addFlag("-q,--quiet", options->is_quiet, "No status line");
+  app.add("--count", options->count, "Atlases to receive; 0 receives until Ctrl-C").showDefault();
+  const usage::Option out =
+      app.add("--out", options->folder, "Save each atlas in this folder").valueName("FOLDER");
+  app.addFlag("--views", options->writes_views, "Save single views instead of atlases").needs(out);
+  app.add("--format", options->format, "Format of the files").oneOf({"jpg", "png"}).showDefault();
+  app.addFlag("--no-wait", options->fails_without_stream,
+              "End if the server has no such stream, instead of waiting for it");
+  app.addFlag("--no-retry", options->has_no_retry,
+              "End if the server cannot be reached, instead of trying again");
+  app.addFlag("-q,--quiet", options->is_quiet, "Print no status line");
   addDisplayOptions(app, options->display);
   addPanelOptions(app, options->display);
   addDepthDisplayOptions(app, options->display);
