@@ -86,8 +86,8 @@ void print(const v1::AdviseSourceResponse& advice) {
 absl::StatusOr<v1::AdviseSourceRequest> makeRequest(const AdviseOptions& options) {
   if (!hasOwnFov(options.display)) {
     return absl::InvalidArgumentError(
-        "--fov is missing: without a stream there is none that the display could take over; give "
-        "the height of its views in degrees, as --fov 14");
+        "--fov is missing: without a stream, the display has no field of view to copy. Give the "
+        "vertical field of view of its views in degrees, for example --fov 14");
   }
   absl::StatusOr<v1::Display> display = makeDisplay(options.display);
   if (!display.ok()) return display.status();
@@ -124,11 +124,18 @@ RunCommand addAdviseCommand(const usage::Command& app) {
       "  viewloom advise --preset portrait --fov 14 --near 0.5 --far 3\n"
       "  viewloom advise --display panel.json --near 1 --far 1000 --json");
   const usage::Option file = addDisplayShape(app, options->display);
-  app.add("--fov", options->display.fov_y_deg, "Vertical field of view, degrees").excludes(file);
+  app.add("--fov", options->display.fov_y_deg, "Vertical field of view of each view")
+      .valueName("DEGREES")
+      .excludes(file)
+      .group("Display");
   addPanelOptions(app, options->display);
-  app.add("--near", options->near_m, "Depth of the nearest part of the scene, metres").required();
-  app.add("--far", options->far_m, "Depth of the farthest, metres, up to 1e9").required();
-  app.addFlag("--json", options->as_json, "The server's answer as JSON");
+  app.add("--near", options->near_m, "Depth of the nearest surface of the scene, more than 0")
+      .valueName("METRES")
+      .required();
+  app.add("--far", options->far_m, "Depth of the farthest surface of the scene, up to 1e9")
+      .valueName("METRES")
+      .required();
+  app.addFlag("--json", options->as_json, "Print the answer of the server as JSON");
   return [options](const CommonOptions& common) { return advise(*options, common); };
 }
 

@@ -65,7 +65,7 @@ absl::StatusOr<BridgeDisplay> pick(const std::vector<BridgeDisplay>& displays, i
     there += strCat(there.empty() ? "" : ", ", display.index, " (", display.name, ")");
   }
   return absl::InvalidArgumentError(
-      strCat("--head ", index, ": Bridge has no such display; there are ", there));
+      strCat("--head ", index, ": Bridge has no such display. It has ", there));
 }
 
 absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDisplay& device) {
@@ -85,10 +85,10 @@ absl::StatusOr<QuiltQuery> makeQuery(const CastOptions& options, const BridgeDis
     quilt.mutable_size()->set_width(shape.width_px);
     quilt.mutable_size()->set_height(shape.height_px);
   } else {
-    return absl::FailedPreconditionError(
-        strCat(device.name,
-               " does not say which quilt it wants; name one with --preset, see "
-               "`viewloom list presets`"));
+    return absl::FailedPreconditionError(strCat(
+        device.name,
+        " does not tell which quilt it needs. Name one with --preset: `viewloom list presets` "
+        "lists them"));
   }
   return QuiltQuery{.stream = options.stream,
                     .display = compactJson(display),
@@ -102,7 +102,7 @@ absl::Status checkShape(const CastOptions& options) {
   if (!named.ok() || std::holds_alternative<QuiltSpec>(*named)) return absl::OkStatus();
   return absl::InvalidArgumentError(
       strCat("--preset ", options.preset,
-             " is no quilt, and Bridge shows only quilts. `viewloom list presets` names quilts; "
+             " is not a quilt, and Bridge shows only quilts. `viewloom list presets` lists quilts. "
              "`viewloom watch ",
              options.stream, " --preset ", options.preset, " --out FOLDER` saves this display"));
 }
@@ -142,8 +142,8 @@ int run(const CastOptions& options) {
   if (page->isLoopback() && !bridge_address->isLoopback()) {
     return fail(absl::InvalidArgumentError(
         strCat("--address ", page->url(), ": Bridge at ", bridge_address->url(),
-               " cannot reach it there; let viewloomd listen on the network (--http.address) and "
-               "give the address that the display's machine sees")));
+               " runs on another machine and cannot reach this address. Start viewloomd on an "
+               "address of the network (--http.address), and give that address with --address")));
   }
   Bridge to(*bridge_address, milliseconds(options.timeout_s));
   const absl::Status status = cast(options, *page, to);
@@ -156,31 +156,47 @@ RunCommand addCastCommand(const usage::Command& app) {
   const auto options = std::make_shared<CastOptions>();
   app.footer(
       "Examples:\n"
-      "  viewloom cast                                    the demo, as the display wants it\n"
+      "  viewloom cast                                    stream \"demo\", as the display needs "
+      "it\n"
       "  viewloom cast scan --preset portrait --every 2\n"
       "  viewloom cast --bridge http://10.0.0.7 --address http://10.0.0.5:8080");
   app.add("stream", options->stream, "Name of the stream").showDefault();
-  app.add("--bridge", options->bridge, "Looking Glass Bridge").showDefault();
-  app.add("--address", options->address, "The page of viewloomd, as Bridge reaches it")
+  app.add("--bridge", options->bridge, "Address of Looking Glass Bridge")
+      .valueName("URL")
+      .showDefault();
+  app.add("--address", options->address, "Address of viewloomd's page, as Bridge reaches it")
+      .valueName("URL")
       .showDefault();
   app.add("--preset", options->preset,
-          "A named device, see `viewloom list presets` [the quilt that the display wants]");
-  app.add("--cone", options->view_cone_deg, "Angle between the outermost views, degrees")
-      .positive();
+          "Quilt of a known device; `viewloom list presets` lists them")
+      .valueName("NAME")
+      .defaultText("the quilt that the display asks for");
+  app.add("--cone", options->view_cone_deg, "Angle between the outermost views, more than 0")
+      .valueName("DEGREES")
+      .positive()
+      .defaultText("the preset's, else 40");
   app.add("--focal-distance", options->focal_distance_m,
-          "Metres to the plane without parallax [by the content]")
-      .positive();
-  app.add("--quality", options->jpeg_quality, "JPEG quality").between(1, 100).showDefault();
-  app.add("--head", options->display_index, "Bridge's index of the display [the first]")
-      .between(0, 255);
+          "Distance of the focal plane, which has no parallax")
+      .valueName("METRES")
+      .positive()
+      .defaultText("from the content");
+  app.add("--quality", options->jpeg_quality, "JPEG quality, 1 to 100")
+      .between(1, 100)
+      .showDefault();
+  app.add("--head", options->display_index, "Index that Bridge gives the display, 0 to 255")
+      .between(0, 255)
+      .defaultText("the first display");
   const usage::Option every =
       app.add("--every", options->every_s,
-              "Hand the still over again after so many seconds, until Ctrl-C")
-          .between(0.1, 86400.0);
+              "Send a new still at this interval until Ctrl-C, 0.1 to 86400")
+          .valueName("SECONDS")
+          .between(0.1, 86400.0)
+          .defaultText("one still");
   app.addFlag("--motion", options->is_motion,
-              "Hand over the motion JPEG stream instead of stills; not tried on a display yet")
+              "Send the motion JPEG stream instead of stills (not tested on a display)")
       .excludes(every);
-  app.add("--timeout", options->timeout_s, "Seconds for any answer")
+  app.add("--timeout", options->timeout_s, "Longest wait for each answer, 0.1 to 600")
+      .valueName("SECONDS")
       .between(0.1, 600.0)
       .showDefault();
   return [options](const CommonOptions&) -> int { return run(*options); };
