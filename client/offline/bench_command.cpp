@@ -117,7 +117,7 @@ Json loopbackJson(const LoopbackReport& report) {
 
 int bench(const BenchArguments& arguments, const Config& config) {
   setLogLevel(LogLevel::kWarning);
-  std::cerr << "making the scene\n";
+  std::cerr << "preparing the scene\n";
   const std::vector<WireFrame> frames = syntheticFrames();
   const FramePtr frame = makeSyntheticFrame(sceneAt(0));
   v1::Display display;
@@ -129,7 +129,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
   Json json;
   StageReport stages;
   {
-    std::cerr << "timing the stages, one after the other\n";
+    std::cerr << "measuring each stage by itself\n";
     const Device device({.select = config.device});
     stages = measureStages(device, frame, *spec, EncodingSpec{}, arguments.repetition_count);
     json["device"] = device.info().name;
@@ -146,8 +146,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
                          {"bytes_per_px_and_layer", stages.structure_bytes_per_px}};
     json["visits_per_ray"] = visitsJson(device, *frame, *spec);
   }
-  std::cerr << "running the server with a publisher and a watcher for " << arguments.seconds
-            << " s\n";
+  std::cerr << "running server, publisher and viewer together for " << arguments.seconds << " s\n";
   const auto loopback = measureLoopback(config, display, frames, arguments.seconds);
   if (!loopback.ok()) throw std::runtime_error(std::string(loopback.status().message()));
   json["loopback"] = loopbackJson(*loopback);
@@ -162,14 +161,30 @@ namespace cli {
 
 RunCommand addBenchCommand(const usage::Command& command) {
   const auto arguments = std::make_shared<BenchArguments>();
-  command.add("--repeat", arguments->repetition_count, "Repetitions of each stage")
-      .between(1, 1000);
-  command.add("--seconds", arguments->seconds, "Length of the run through gRPC")
-      .between(0.1, 3600.0);
+  command.footer(
+      "The scene has 1920x1080 pixels in two layers, and is rendered as a quilt for the preset "
+      "portrait.\n"
+      "The report is JSON on standard output.\n"
+      "Examples:\n"
+      "  viewloom bench\n"
+      "  viewloom bench --repeat 3 --seconds 5 --cone 20");
+  command
+      .add("--repeat", arguments->repetition_count,
+           "Measurements of each stage, 1 to 1000; the report has the median")
+      .between(1, 1000)
+      .showDefault();
+  command
+      .add("--seconds", arguments->seconds,
+           "Length of the run of server, publisher and viewer, 0.1 to 3600")
+      .valueName("SECONDS")
+      .between(0.1, 3600.0)
+      .showDefault();
   command
       .add("--cone", arguments->cone_deg,
-           "Angle between the outermost views, degrees: how far rays travel sets the cost")
-      .between(0.01, 140.0);
+           "Angle between the outermost views, 0.01 to 140; a larger angle costs more")
+      .valueName("DEGREES")
+      .between(0.01, 140.0)
+      .showDefault();
   return withEngineSettings(
       command, {"device", "validation", "log.", "limits.", "pipeline."},
       [arguments](const Config& config) { return bench(*arguments, config); });

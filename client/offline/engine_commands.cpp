@@ -36,11 +36,10 @@ RunCommand withEngineSettings(const usage::Command& command,
 }
 
 std::vector<NamedCommand> addOfflineCommands(const usage::Command& app) {
-  const usage::Command render = app.addCommand(
-      "render", "Render a frame from files to picture files, without a server; print a report");
-  const usage::Command bench = app.addCommand(
-      "bench",
-      "Time this machine on the built-in scene, 1920x1080 in two layers, as a Portrait quilt");
+  const usage::Command render =
+      app.addCommand("render", "Render a frame from files to pictures, without a server");
+  const usage::Command bench =
+      app.addCommand("bench", "Measure how fast this machine renders the built-in scene");
   return {{render, addRenderCommand(render)}, {bench, addBenchCommand(bench)}};
 }
 

@@ -216,30 +216,53 @@ namespace cli {
 RunCommand addRenderCommand(const usage::Command& command) {
   const auto arguments = std::make_shared<RenderArguments>();
   CompareOptions& compare = arguments->compare;
-  command.add("--frame", arguments->frame, "Manifest of the frame, JSON").required();
+  command.footer(
+      "The report is JSON on standard output.\n"
+      "Examples:\n"
+      "  viewloom render --frame frame.json --preset portrait --out views\n"
+      "  viewloom render --frame frame.json --display two.json --out views --compare truth.json");
+  command.add("--frame", arguments->frame, "Manifest of the frame, in JSON")
+      .valueName("FILE")
+      .required();
   const usage::Option later =
-      command.add("--later", arguments->later_s,
-                  "Seconds from --frame to what a display with effects.temporal is shown: "
-                  "0 or more to predict, 0 or less to interpolate");
+      command
+          .add("--later", arguments->later_s,
+               "Render this time after the frame, for a display with effects.temporal; "
+               "negative times interpolate")
+          .valueName("SECONDS")
+          .defaultText("the frame's own time");
   command
       .add("--before", arguments->before,
-           "Manifest of the frame before, JSON, which tells how the camera moves")
+           "Manifest of the previous frame, in JSON, from which the camera moves")
+      .valueName("FILE")
       .needs(later);
   const usage::Command display = command.addAlternatives("Display");
-  display.add("--display", arguments->display, "Description of the display, JSON");
-  display.add("--preset", arguments->preset, "A named device, see `viewloom list presets`");
-  command.add("--out", arguments->out, "Folder for the pictures, made if need be").required();
-  const usage::Option truth = command.add("--compare", compare.truth,
-                                          "Manifest of true views, JSON: scores views against it");
+  display.add("--display", arguments->display, "Display of any kind, as a JSON file")
+      .valueName("FILE");
+  display
+      .add("--preset", arguments->preset,
+           "Name of a known device; `viewloom list presets` lists them")
+      .valueName("NAME");
+  command.add("--out", arguments->out, "Folder for the pictures; it is created if missing")
+      .valueName("FOLDER")
+      .required();
+  const usage::Option truth =
+      command
+          .add("--compare", compare.truth,
+               "Manifest of true views, in JSON, with which the views are compared")
+          .valueName("FILE");
   command
       .addWord("--transfer", compare.transfer, kTransfers,
-               "How light becomes the numbers that are compared: srgb (default) or gamma2.2")
+               "Transfer function of the compared numbers")
+      .defaultText("srgb")
       .needs(truth);
-  command.add("--border", compare.border_px, "px left out on every side of a scored view")
+  command.add("--border", compare.border_px, "Pixels to leave out on each side of a compared view")
+      .showDefault()
       .needs(truth);
   command
       .add("--covered-mask", compare.covered_masks,
-           "8-bit grey PNG per true view: 255 covered, 0 hidden, between outside")
+           "One 8-bit grey PNG per true view: 255 is covered, 0 hidden, others outside")
+      .valueName("FILE")
       .needs(truth);
   return withEngineSettings(
       command, {"device", "validation", "log."},
