@@ -176,7 +176,7 @@ std::filesystem::path AtlasFiles::stemOf(const v1::AtlasHeader& header) const {
 absl::StatusOr<AtlasFiles::Written> AtlasFiles::write(const Atlas& atlas) {
   if (!isFileNamePart(atlas.layout->suffix())) {
     return absl::FailedPreconditionError(
-        "the server names its pictures by what is no part of a file name; nothing is written");
+        "the server sent a name that cannot be part of a file name; nothing is saved");
   }
   // A server that was started again counts from the beginning.
   if (atlas.header.sequence() <= last_sequence_) ++run_;
@@ -203,12 +203,14 @@ absl::Status makeAtlasFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    return absl::InvalidArgumentError(strCat("--out ", folder.string(), ": cannot be made (",
-                                             error.message(), "); accepted is a folder"));
+    return absl::InvalidArgumentError(strCat("--out ", folder.string(),
+                                             ": the folder cannot be created (", error.message(),
+                                             "); accepted is a folder"));
   }
   if (access(folder.c_str(), W_OK | X_OK) == 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      strCat("--out ", folder.string(), ": takes no new files (", std::strerror(errno), ")"));
+  return absl::InvalidArgumentError(strCat("--out ", folder.string(),
+                                           ": no file can be written in this folder (",
+                                           std::strerror(errno), ")"));
 }
 
 std::string describe(const AtlasFiles::Written& written) {

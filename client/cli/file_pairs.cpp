@@ -98,8 +98,8 @@ std::optional<FrameFiles> FilePairs::pairUp(const std::string& file_name,
     const auto earlier = mine.find(own.key);
     if (earlier != mine.end() && earlier->second.file != file_name) {
       notes_.push_back(strCat(earlier->second.file, " and ", file_name, " are both the ",
-                              own.is_depth ? "depth" : "colour", " of one frame; ", file_name,
-                              ", which came last, is used"));
+                              own.is_depth ? "depth" : "colour", " of one frame; the newest, ",
+                              file_name, ", is used"));
     }
     mine[own.key] = {.file = file_name, .since = now};
     waiting_.push_back(file_name);
@@ -121,15 +121,15 @@ std::string FilePairs::describe(const std::string& key, const Half& half, bool i
                                 const Halves& others) {
   const std::filesystem::path name(half.file);
   std::string text =
-      strCat(half.file, ": waits for its ", is_depth ? "colour" : "depth", ", named ");
-  text += is_depth ? "as frame.png for frame_depth.png"
-                   : strCat("as ", name.stem().string(), "_depth", name.extension().string());
+      strCat(half.file, ": waiting for its ", is_depth ? "colour" : "depth", ", named ");
+  text += is_depth ? "like frame.png for frame_depth.png"
+                   : strCat("like ", name.stem().string(), "_depth", name.extension().string());
   std::vector<std::string> keys;
   for (const auto& [other_key, other] : others) keys.push_back(other_key);
   const std::string nearest = nearestName(key, keys);
   if (nearest.empty()) return text;
   return strCat(text, "; ", others.at(nearest).file,
-                " waits too, but its name differs: rename one of the two");
+                " is waiting too, but its name differs. Rename one of the two");
 }
 
 std::vector<std::string> FilePairs::takeNotes(std::chrono::steady_clock::time_point now) {

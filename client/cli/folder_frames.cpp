@@ -44,13 +44,14 @@ absl::Status FolderFrames::lookForFiles() {
     if (!files.ok()) {
       skip(name_ + "/" + name, std::string(files.status().message()));
     } else if (*files && ready_.size() == kReadyMax) {
-      skip((*files)->name(), strCat(kReadyMax, " frames wait already"));
+      skip((*files)->name(), strCat("already ", kReadyMax, " frames are waiting"));
     } else if (*files) {
       ready_.push_back(**std::move(files));
     }
   }
   for (const std::string& name : pairs_.takeGivenUp()) {
-    skip(name_ + "/" + name, "no other half came; pairs are named as x.png and x_depth.png");
+    skip(name_ + "/" + name,
+         "the other file of the pair did not come. Name pairs like x.png and x_depth.png");
   }
   for (const std::string& note : pairs_.takeNotes(std::chrono::steady_clock::now())) {
     notes_.push_back(strCat(name_, "/", note));

@@ -42,9 +42,9 @@ absl::StatusOr<std::unique_ptr<FolderWatch>> FolderWatch::open(
   if (!is_watched) {
     const std::string reason = std::strerror(errno);
     if (inotify >= 0) ::close(inotify);
-    return absl::InvalidArgumentError(
-        strCat("--watch-folder ", folder.string(), " cannot be watched (", reason,
-               "); accepted is a folder on this machine that may be read"));
+    return absl::InvalidArgumentError(strCat("--watch-folder ", folder.string(),
+                                             " cannot be watched (", reason,
+                                             "). Accepted is a readable folder on this machine"));
   }
   return std::unique_ptr<FolderWatch>(new FolderWatch(folder, inotify));
 }
@@ -89,7 +89,8 @@ absl::StatusOr<std::vector<std::string>> FolderWatch::takeCompleted() {
   read_at_ = now;
   if (is_gone_ && completed_.empty()) {
     return absl::NotFoundError(
-        strCat("--watch-folder ", folder_.string(), " is gone: it was moved or deleted"));
+        strCat("--watch-folder ", folder_.string(),
+               " was moved or deleted. Start again with an existing folder"));
   }
   return std::exchange(completed_, {});
 }

@@ -55,10 +55,10 @@ absl::StatusOr<LoadedFiles> FrameLoader::load(const FrameFiles& files) {
   if (!loaded.ok() || options_.input.tone_map == v1::TONE_MAP_UNSPECIFIED) return loaded;
   v1::FrameHeader& header = loaded->frame.wire.header;
   if (!hasLinearColor(header)) {
-    return absl::InvalidArgumentError(files.name() +
-                                      ": --tone-map is given, and its colour is sRGB, which is "
-                                      "shown as it is; accepted is linear "
-                                      "colour, as of EXR files or with --transfer linear");
+    return absl::InvalidArgumentError(
+        files.name() +
+        ": --tone-map needs linear colour, and this colour is sRGB. "
+        "Leave it out, or give --transfer linear if the file is linear");
   }
   header.set_tone_map(options_.input.tone_map);
   return loaded;

@@ -152,9 +152,9 @@ class PublishRun {
     const double rate = sent_rate_.perSecond(counts.sent);
     const double bytes_rate = bytes_rate_.perSecond(counts.sent_bytes);
     return strCat(feed_->description(), " to ", options_.stream, ": ", formatNumber(rate, 1),
-                  " frames/s, ", formatBytes(bytes_rate), "/s; ", counts.sent,
-                  " sent, replaced by newer ones ", counts.replaced_here, " here, ",
-                  counts.replaced_there, " there, ", counts.refused, " refused; ", depthStatus(),
+                  " frames/s, ", formatBytes(bytes_rate), "/s; ", counts.sent, " sent, ",
+                  counts.replaced_here, " dropped here, ", counts.replaced_there,
+                  " dropped by the server, ", counts.refused, " refused; ", depthStatus(),
                   displays_.load(), " displays");
   }
 

@@ -54,13 +54,15 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
     line.print(describe(*written));
   }
   if (found.atlas_count == 0 && !isInterrupted()) {
-    return fail(absl::InvalidArgumentError(strCat(options.file, ": holds no whole atlas")),
-                kExitUsage);
+    return fail(
+        absl::InvalidArgumentError(strCat(
+            options.file, ": contains no complete atlas. Record it again with `viewloom record`")),
+        kExitUsage);
   }
   line.say(strCat(options.file, ": ", description));
   if ((*reader)->isCutShort()) {
-    line.say(strCat(options.file, ": is cut short; what it holds whole is ",
-                    options.output.folder.empty() ? "counted" : "written"));
+    line.say(strCat(options.file, ": ends before it is complete; the complete atlases were ",
+                    options.output.folder.empty() ? "counted" : "saved"));
   }
   return kExitDone;
 }

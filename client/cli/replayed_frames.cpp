@@ -31,7 +31,9 @@ absl::StatusOr<std::unique_ptr<ReplayedFrames>> ReplayedFrames::open(
       new ReplayedFrames(std::move(options), std::move(now_ns), *std::move(reader)));
   if (!frames->ahead_.ok()) return frames->ahead_.status();
   if (!frames->ahead_->has_value()) {
-    return absl::InvalidArgumentError(strCat(frames->options_.file, ": holds no whole frame"));
+    return absl::InvalidArgumentError(
+        strCat(frames->options_.file,
+               ": contains no complete frame. Record it again with `viewloom publish --record`"));
   }
   return frames;
 }
@@ -83,8 +85,8 @@ absl::StatusOr<std::optional<WireFrame>> ReplayedFrames::next(double /*elapsed_s
   readAhead();
   const bool is_at_end = ahead_.ok() && !ahead_->has_value();
   if (is_at_end && reader_->isCutShort() && !is_repeating_) {
-    notes_.push_back(strCat(options_.file, ": is cut short; played are the ", frame_count_,
-                            frame_count_ == 1 ? " whole frame" : " whole frames", " it holds"));
+    notes_.push_back(strCat(options_.file, ": ends before it is complete; replayed ", frame_count_,
+                            frame_count_ == 1 ? " complete frame" : " complete frames"));
   }
   if (is_at_end && options_.is_looping) startAgain();
   return std::optional<WireFrame>(std::move(frame.frame));

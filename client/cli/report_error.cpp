@@ -87,13 +87,14 @@ std::string explain(const absl::Status& status, const CommonOptions& common) {
     case absl::StatusCode::kUnavailable:
       if (!isFromTransport(status)) return strCat("the server at ", common.server, ": ", message);
       return strCat("no server at ", common.server, " (", connectionProblem(status),
-                    "); start one with `viewloomd serve` or name another with --server HOST:PORT");
+                    "); start one with `viewloomd serve`, or name another with --server HOST:PORT");
     case absl::StatusCode::kAlreadyExists:
       return strCat(happening(message),
-                    retryDelayNs(status) ? "; waiting until it ends (another name: --stream NAME)"
-                                         : "; choose another name with --stream, or end it");
+                    retryDelayNs(status)
+                        ? "; waiting until it ends. To use another name, give --stream NAME"
+                        : "; end that stream, or choose another name with --stream");
     case absl::StatusCode::kAborted:
-      return "another publisher with this --session took the stream over";
+      return "another publisher with the same --session has taken over the stream";
     case absl::StatusCode::kDeadlineExceeded:
       return strCat("the server at ", common.server, " did not answer in time (", message, ")");
     default:
@@ -130,11 +131,13 @@ OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has
 namespace {
 
 // Fields by the end of their path.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kOptions{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 33> kOptions{{
     {"preset", "--preset"},
     {"columns", "--columns"},
     {"rows", "--rows"},
     {"quilt.size", "--size"},
+    {"quilt.size.width", "--size"},
+    {"quilt.size.height", "--size"},
     {"view_cone_rad", "--cone (radians)"},
     {"focal_distance_m", "--focal-distance"},
     {"fov_y_rad", "--fov (radians)"},
@@ -144,9 +147,23 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kOptions
     {"jpeg_quality", "--quality"},
     {"calibration_json", "--calibration"},
     {"rgbd.view_size", "--rgbd"},
+    {"rgbd.view_size.width", "--rgbd"},
+    {"rgbd.view_size.height", "--rgbd"},
+    {"rgbd.depth_placement", "--depth-side"},
+    {"rgbd.depth_bits", "--depth-bits"},
+    {"rgbd.near_m", "--depth-near"},
+    {"rgbd.far_m", "--depth-far"},
+    {"rgbd.screen_m", "--screen"},
+    {"near_m", "--near"},
+    {"far_m", "--far"},
     {"output_rate_hz", "--output-rate"},
-    {"lens.aperture_m", "--aperture"},
+    {"temporal.bridge_s", "--bridge"},
+    {"lens.aperture_radius_m", "--aperture"},
+    {"lens.automatic_aperture", "--auto-aperture"},
     {"lens.focus_distance_m", "--lens-focus"},
+    {"lens.blades", "--blades"},
+    {"lens.samples", "--lens-samples"},
+    {"lens.gathered_samples", "--lens-gathered"},
 }};
 
 bool isPath(std::string_view text) {

@@ -38,13 +38,13 @@ void SentFrames::tellDepth(const std::vector<QuantisedDepth>& sources) {
   }
   if (!coarsest.kept_because.empty()) {
     if (std::exchange(told_, Told::kKept) == Told::kKept) return;
-    line_.say(strCat("depth is sent as it is, packed without loss: ", coarsest.kept_because));
+    line_.say(strCat("depth is sent unchanged, compressed without loss: ", coarsest.kept_because));
   } else if (coarsest.step > 0) {
     if (std::exchange(told_, Told::kQuantised) == Told::kQuantised) return;
-    line_.say(strCat("depth goes as 16-bit inverse depth in steps of ", coarsest.step,
-                     " 1/m; up to ", coarsest.step_max,
-                     " stay unseen (--depth-encoding plain "
-                     "sends it as it is)"));
+    line_.say(strCat("depth is sent as 16-bit inverse depth in steps of ", coarsest.step,
+                     " 1/m; steps up to ", coarsest.step_max,
+                     " do not show (--depth-encoding plain "
+                     "sends it unchanged)"));
   }
 }
 

@@ -23,7 +23,7 @@ std::string waitingText(const std::string& stream, const std::vector<std::string
   const std::string waiting = strCat("waiting for stream \"", stream, "\": ");
   if (names.empty()) {
     return strCat(waiting,
-                  "the server has no streams yet; start one with `viewloom publish "
+                  "the server has no stream yet; start one with `viewloom publish "
                   "--synthetic --stream ",
                   stream, "`");
   }

@@ -163,7 +163,7 @@ class WatchRun {
   // A display with a rate of its own waits for the publisher.
   void sayHeld(const v1::AtlasHeader& header) {
     if (header.timing() != v1::TIMING_HELD) return;
-    line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture stands still"));
+    line_.say(strCat("no frame after ", header.frame_number(), " yet: the picture is held"));
   }
 
   // The picture is here, and counts as shown: by the clock of the poses, which may be another's.

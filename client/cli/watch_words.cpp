@@ -9,15 +9,15 @@
 namespace viewloom::cli {
 
 std::string clockText(const ClockOffset& server) {
-  return strCat("server's clock ", formatNumber(double(server.ahead_ns) * 1e-9, 6), " s ahead, to ",
-                formatNumber(double(server.error_ns) * 1e-6, 2), " ms");
+  return strCat("server clock ", formatNumber(double(server.ahead_ns) * 1e-9, 6),
+                " s ahead, within ", formatNumber(double(server.error_ns) * 1e-6, 2), " ms");
 }
 
 std::string motionText(const MotionLatency& latency) {
   const auto ms = [](double seconds) { return formatNumber(1e3 * seconds, 1); };
-  return strCat("motion to picture ", ms(latency.total_s), " ms (there ", ms(latency.to_server_s),
-                ", waited ", ms(latency.waited_s), ", made ", ms(latency.made_s), ", back ",
-                ms(latency.back_s), ")");
+  return strCat("motion to picture ", ms(latency.total_s), " ms (to server ",
+                ms(latency.to_server_s), ", waiting ", ms(latency.waited_s), ", rendering ",
+                ms(latency.made_s), ", back ", ms(latency.back_s), ")");
 }
 
 std::optional<std::string> DefaultsNews::note(const v1::AtlasHeader& header,
@@ -26,7 +26,7 @@ std::optional<std::string> DefaultsNews::note(const v1::AtlasHeader& header,
   const bool is_other = std::exchange(taken_, taken) != taken;
   if (before == 0 || count_ <= before || !is_other) return std::nullopt;
   const bool has_moved = header.defaults_reason() == v1::DEFAULTS_REASON_DEPTH_MOVED;
-  return strCat(has_moved ? "the stream's depth has moved by more than a factor of four: "
+  return strCat(has_moved ? "the depth of the stream has changed by more than a factor of four: "
                           : "the stream has a new publisher: ",
                 taken);
 }

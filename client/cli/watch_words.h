@@ -11,9 +11,9 @@
 
 namespace viewloom::cli {
 
-// "server's clock 0.001204 s ahead, to 0.05 ms"
+// "server clock 0.001204 s ahead, within 0.05 ms"
 std::string clockText(const ClockOffset& server);
-// "motion to picture 23.1 ms (there 0.4, waited 3.0, made 18.2, back 1.5)"
+// "motion to picture 23.1 ms (to server 0.4, waiting 3.0, rendering 18.2, back 1.5)"
 std::string motionText(const MotionLatency& latency);
 
 // Says when a stream's defaults, and with them a display, have changed.

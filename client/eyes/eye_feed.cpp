@@ -30,7 +30,7 @@ constexpr double kPauseMax_s = 3600;
 absl::Status readTime(const nlohmann::json& line, const char* key, int64_t& time_ns) {
   const auto found = line.find(key);
   if (found == line.end() || !found->is_number_integer()) {
-    return invalidField(key, "missing or no whole number; accepted is a time in nanoseconds");
+    return invalidField(key, "missing or not a whole number; accepted is a time in nanoseconds");
   }
   time_ns = found->get<int64_t>();
   return absl::OkStatus();
@@ -48,7 +48,7 @@ absl::Status addEye(const nlohmann::json& line, const char* key, v1::EyePoses& p
   for (size_t i = 0; is_place && i < 3; ++i) is_place = (*found)[i].is_number();
   if (!is_place)
     return invalidField(key,
-                        "missing or no place; accepted is [x, y, z] in metres, "
+                        "missing or not a position; accepted is [x, y, z] in metres, "
                         "or a Camera");
   v1::Vector3& position = *poses.add_eyes()->mutable_pose()->mutable_position();
   position.set_x((*found)[0].get<double>());
@@ -76,7 +76,7 @@ absl::StatusOr<v1::EyePoses> parseEyePoses(const std::string& line) {
   const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) {
     return absl::InvalidArgumentError(
-        "is no object in JSON; accepted is {\"time_ns\": 8, \"left\": [x, y, z], \"right\": [x, y, "
+        "is not a JSON object; accepted is {\"time_ns\": 8, \"left\": [x, y, z], \"right\": [x, y, "
         "z]}");
   }
   v1::EyePoses poses;
@@ -152,7 +152,7 @@ absl::StatusOr<std::optional<std::string>> EyeFeed::nextLine(const std::stop_tok
     if (unread_.size() > kLineBytesMax) {
       ++line_number_;
       return absl::InvalidArgumentError(
-          strCat("is longer than ", kLineBytesMax, " bytes; accepted is one pose a line"));
+          strCat("is longer than ", kLineBytesMax, " bytes; accepted is one pose per line"));
     }
     pollfd ready{.fd = descriptor_, .events = POLLIN, .revents = 0};
     if (poll(&ready, 1, kTick_ms) <= 0) continue;

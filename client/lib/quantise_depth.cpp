@@ -138,7 +138,7 @@ QuantisedDepth quantiseDepth(v1::Source& source, std::span<SharedBytes> planes) 
     auto inv_z = intrinsics
                      ? inverseDepth(*depth.declared, **depth.bytes, *intrinsics, source.cube_map())
                      : std::nullopt;
-    if (!inv_z) return {.kept_because = "its declaration says too little or what no server takes"};
+    if (!inv_z) return {.kept_because = "its format is incomplete, or no server accepts it"};
     depth.inv_z = *std::move(inv_z);
   }
   const Grid grid = gridOf(depths);
@@ -148,8 +148,8 @@ QuantisedDepth quantiseDepth(v1::Source& source, std::span<SharedBytes> planes) 
   if (grid.step > step_max) {
     return {.step_max = step_max,
             .kept_because = strCat("16 bits from ", grid.inv_z_min, " to ", grid.invZMax(),
-                                   " 1/m are steps of ", grid.step, " 1/m; no more than ", step_max,
-                                   " stay unseen")};
+                                   " 1/m are steps of ", grid.step, " 1/m; steps above ", step_max,
+                                   " would show")};
   }
   for (DepthPlane& depth : depths) replace(depth, grid, codesOf(depth, grid));
   return {.step = grid.step, .step_max = step_max, .kept_because = {}};

@@ -21,7 +21,7 @@ SuitedMode suitedMode(const absl::StatusOr<v1::GetServerInfoResponse>& info) {
   if (info->traces_on_cpu()) {
     return {ShowMode::kWeave,
             strCat("mode weave: the server renders on a CPU (", info->device(),
-                   "), where quilts cost less, and they are woven here; --mode native has it "
+                   "), where quilts cost less. They are woven here; --mode native lets the server "
                    "interlace instead")};
   }
   return {ShowMode::kNative, strCat("mode native: the server interlaces, on ", info->device())};

@@ -49,7 +49,7 @@ absl::StatusOr<Monitor> chooseMonitor(std::span<const Monitor> monitors,
     return absl::InvalidArgumentError(
         strCat("no monitor has the ", describeSize(*choice.panel_px),
                " px of the calibrated panel; there are ", describeMonitors(monitors),
-               ". Switch the panel on at its own resolution, or look without it: --windowed"));
+               ". Switch the panel on at its own resolution, or show a window with --windowed"));
   }
   return absl::InvalidArgumentError(strCat("--monitor ", choice.number.value_or(0),
                                            ": there is no such monitor; there are ",
@@ -58,11 +58,11 @@ absl::StatusOr<Monitor> chooseMonitor(std::span<const Monitor> monitors,
 
 absl::Status checkNativePixels(SizePx window_px, SizePx panel_px) {
   if (window_px == panel_px) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      strCat("the window has ", describeSize(window_px), " px and the calibrated panel ",
-             describeSize(panel_px),
-             ": lenses need them one to one. Set the panel to its own resolution and a scale of "
-             "100 %, or choose another with --monitor"));
+  return absl::InvalidArgumentError(strCat(
+      "the window has ", describeSize(window_px), " px and the calibrated panel ",
+      describeSize(panel_px),
+      ": they must be equal. Set the panel to its own resolution and a scale of 100 %, or choose "
+      "another monitor with --monitor"));
 }
 
 }  // namespace viewloom::show

@@ -53,15 +53,15 @@ std::string describe(const ShowStatistics& statistics, const ShowSettings& setti
              statistics.latency_s ? fixed(1e3 * *statistics.latency_s, 0) + " ms" : "unknown", "\n",
              describeMode(settings, layout));
   if (layout.focal_distance_m() > 0) {
-    text += strCat("\nfocus ", fixed(layout.focal_distance_m(), 3), " m");
+    text += strCat("\nfocal plane ", fixed(layout.focal_distance_m(), 3), " m");
   }
   if (layout.view_cone_rad() > 0) {
     text += strCat(", cone ", fixed(layout.view_cone_rad() * kDegPerRad, 1), " deg");
   }
   if (statistics.server_clock) {
-    text +=
-        strCat("\nserver's clock ", fixed(double(statistics.server_clock->ahead_ns) * 1e-9, 6),
-               " s ahead, to ", fixed(double(statistics.server_clock->error_ns) * 1e-6, 2), " ms");
+    text += strCat("\nserver clock ", fixed(double(statistics.server_clock->ahead_ns) * 1e-9, 6),
+                   " s ahead, within ", fixed(double(statistics.server_clock->error_ns) * 1e-6, 2),
+                   " ms");
   }
   return text;
 }

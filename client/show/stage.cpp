@@ -35,7 +35,7 @@ absl::StatusOr<std::unique_ptr<SdlVideo>> SdlVideo::start() {
   std::unique_ptr<SdlVideo> video(new SdlVideo);
   if (is_started && !drawsNowhere(SDL_GetCurrentVideoDriver())) return video;
   return absl::FailedPreconditionError(
-      "there is no screen to show on; start it within a desktop, or set DISPLAY");
+      "there is no screen to show on; start viewloom in a desktop session, or set DISPLAY");
 }
 
 SdlVideo::~SdlVideo() {

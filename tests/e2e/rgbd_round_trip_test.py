@@ -139,10 +139,10 @@ class RgbdRoundTrip(unittest.TestCase):
             self.assertEqual(picture.size, (2 * WIDTH, HEIGHT))
 
     def test_refuses_what_does_not_fit_together(self):
-        for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "depth_placement"),
+        for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "--depth-side: got one"),
                           (["--preset", "portrait"], 'there is no "portrait"; there are wowvx'),
                           (["--cone", "30"], "cannot be combined"),
-                          (["--depth-near", "3", "--depth-far", "2"], "rgbd.far_m")):
+                          (["--depth-near", "3", "--depth-far", "2"], "--depth-far: got 2")):
             run = subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene",
                                   "--rgbd", "8x8", "--count", "1", "--no-retry", *bad],
                                  timeout=viewloomd.PATIENCE_S, capture_output=True, text=True)

@@ -194,7 +194,7 @@ class Refusals(CastTest):
                 self.check_refusal(self.cast(), FAILED, "LKG-P02283", "--preset")
 
     def test_a_display_that_is_not_there(self):
-        self.check_refusal(self.cast("--head", 7), USAGE, "--head 7", "there are 1 (LKG-P02283)")
+        self.check_refusal(self.cast("--head", 7), USAGE, "--head 7", "It has 1 (LKG-P02283)")
 
     def test_a_token_or_a_list_of_another_kind(self):
         envelope = {"name": "x", "status": {"value": "Completion"}}

@@ -84,7 +84,7 @@ TEST_F(Uplink, hasItsStepMeasuredByTheServer) {
 TEST_F(Uplink, isChosenByTheCommandAndSaysItsStep) {
   const std::string publish = "publish --synthetic --size 64x36 --seconds 0.2 -q";
   EXPECT_EQ(run(publish + " --depth-encoding predicted"), 0);
-  EXPECT_THAT(said(), HasSubstr("depth goes as 16-bit inverse depth in steps of "));
+  EXPECT_THAT(said(), HasSubstr("depth is sent as 16-bit inverse depth in steps of "));
   EXPECT_EQ(run(publish), 0) << "auto: a socket stays on this machine";
   EXPECT_THAT(said(), Not(HasSubstr("16-bit")));
   EXPECT_EQ(run(publish + " --depth-encoding finest"), 2);

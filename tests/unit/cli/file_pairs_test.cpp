@@ -119,7 +119,7 @@ TEST_F(FilePairsTest, saysWhichHalfWaitsAndWhatItsOtherHalfIsNamed) {
   ASSERT_TRUE(halves.add("b_2_depth.png", start).ok());
   EXPECT_THAT(halves.takeNotes(start + std::chrono::seconds(4)), IsEmpty());
   EXPECT_THAT(halves.takeNotes(start + FilePairs::kPatience),
-              ElementsAre("a_1.png: waits for its depth, named as a_1_depth.png"));
+              ElementsAre("a_1.png: waiting for its depth, named like a_1_depth.png"));
   EXPECT_THAT(halves.takeNotes(start + std::chrono::hours(1)), IsEmpty()) << "said once";
 }
 
@@ -129,16 +129,17 @@ TEST_F(FilePairsTest, namesTheFileThatIsNearlyTheOtherHalf) {
   ASSERT_TRUE(halves.add("frame_0001.png", start).ok());
   ASSERT_TRUE(halves.add("fram_0001_depth.png", start).ok());
   EXPECT_THAT(halves.takeNotes(start + FilePairs::kPatience),
-              ElementsAre(HasSubstr("fram_0001_depth.png waits too, but its name differs"),
-                          HasSubstr("frame_0001.png waits too, but its name differs")));
+              ElementsAre(HasSubstr("fram_0001_depth.png is waiting too, but its name differs"),
+                          HasSubstr("frame_0001.png is waiting too, but its name differs")));
 }
 
 TEST_F(FilePairsTest, saysWhichOfTwoFilesOfOneHalfIsUsed) {
   FilePairs halves = pairs();
   EXPECT_EQ(add(halves, "a.png"), "-");
   EXPECT_EQ(add(halves, "a_color.png"), "-");
-  EXPECT_THAT(halves.takeNotes({}), ElementsAre(HasSubstr("a.png and a_color.png are both the "
-                                                          "colour of one frame; a_color.png")));
+  EXPECT_THAT(halves.takeNotes({}),
+              ElementsAre(HasSubstr("a.png and a_color.png are both the colour of one frame; the "
+                                    "newest, a_color.png, is used")));
   EXPECT_EQ(add(halves, "a_depth.png"), "a_color.png + a_depth.png");
 }
 

@@ -38,9 +38,9 @@ TEST(EyeFeed, saysWhatALineLacks) {
     const char* problem;
   };
   const BadLine cases[] = {
-      {"", "is no object in JSON"},
-      {"[1, 2]", "is no object in JSON"},
-      {R"({"time_ns": 1, )", "is no object in JSON"},
+      {"", "is not a JSON object"},
+      {"[1, 2]", "is not a JSON object"},
+      {R"({"time_ns": 1, )", "is not a JSON object"},
       {R"({"left": [0, 0, 0], "right": [0, 0, 0]})", "time_ns: missing"},
       {R"({"time_ns": 1.5, "left": [0, 0, 0], "right": [0, 0, 0]})", "time_ns: "},
       {R"({"time_ns": 1, "predicted_display_time_ns": "2", "left": [0, 0, 0]})",
@@ -75,7 +75,7 @@ TEST(EyeFeed, givesTheLinesOfAFileInOrderAndSaysWhichIsBad) {
                         },
                     .on_failure = [&](const absl::Status& status) { failed.set_value(status); }});
     EXPECT_THAT(std::string(failed.get_future().get().message()),
-                HasSubstr(file + ", line 4: is no object in JSON"));
+                HasSubstr(file + ", line 4: is not a JSON object"));
   }
   EXPECT_THAT(places, testing::ElementsAre(1, 3));
   std::filesystem::remove(file);

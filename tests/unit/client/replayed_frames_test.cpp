@@ -123,14 +123,14 @@ TEST_F(ReplayedFramesTest, saysOnceThatARecordingIsCutShort) {
   EXPECT_THAT(play(*frames, 4).planes, ElementsAre(5, 6, 5, 6));
   EXPECT_THAT(
       frames->takeNotes(),
-      ElementsAre(part.string() + ": is cut short; played are the 2 whole frames it holds"));
+      ElementsAre(part.string() + ": ends before it is complete; replayed 2 complete frames"));
   EXPECT_THAT(frames->takeNotes(), ElementsAre());
 }
 
 TEST_F(ReplayedFramesTest, refusesWhatHoldsNoFrame) {
   const fs::path part = folder_.truncated(file_, 30);
   const auto frames = ReplayedFrames::open({.file = part});
-  EXPECT_THAT(std::string(frames.status().message()), HasSubstr("holds no whole frame"));
+  EXPECT_THAT(std::string(frames.status().message()), HasSubstr("contains no complete frame"));
 }
 
 TEST_F(ReplayedFramesTest, takesCaptureTimesOfAnyClock) {

@@ -26,7 +26,7 @@ TEST(Statistics, sayWhatIsKnown) {
                                   .frame_number = 17,
                                   .is_connected = true};
   EXPECT_EQ(describe(statistics, {.mode = ShowMode::kView, .view = 12}, layout),
-            "frame 17\n30.0 /s, 3 dropped, latency 41 ms\nview 12 of 48\nfocus 1.250 m");
+            "frame 17\n30.0 /s, 3 dropped, latency 41 ms\nview 12 of 48\nfocal plane 1.250 m");
   EXPECT_THAT(describe({}, {.mode = ShowMode::kWeave}, layout),
               testing::AllOf(testing::HasSubstr("no server"), testing::HasSubstr("unknown"),
                              testing::HasSubstr("weave, 48 views, blended")));
