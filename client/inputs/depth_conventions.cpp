@@ -84,7 +84,7 @@ void settleRendererDepth(const InputSettings& settings, v1::Plane& plane, Shared
   bytes = std::move(settled);
   const double percent = std::round(1000.0 * double(huge_count) / double(count)) / 10;
   notes.push_back(strCat(percent, " % of the depth is ", huge,
-                         " or the like, where nothing was hit: infinitely far"));
+                         " or similar, where the renderer hit nothing: read as infinitely far"));
 }
 
 namespace {

@@ -44,14 +44,14 @@ void settleWindow(const ExrFrameWindows& windows, v1::ExrWindow& window, Interpr
   const std::string between =
       strCat("data window ", textOf(data), ", display window ", textOf(display));
   if (isInside(data, display)) {
-    result.notes.push_back(between + ": no surface where there is no data");
+    result.notes.push_back(between + ": pixels without data are no surface");
     return;
   }
   if (all.width() > files::kSideMax_px || all.height() > files::kSideMax_px) {
     result.notes.push_back(strCat(between,
-                                  ": what is beyond the display window is left out, "
-                                  "since planes have at most ",
-                                  files::kSideMax_px, " px a side"));
+                                  ": pixels outside the display window are left out, "
+                                  "because planes have at most ",
+                                  files::kSideMax_px, " px per side"));
     return;
   }
   window.set_min_x(all.min_x);
@@ -102,7 +102,7 @@ void notePrimaries(const InputSettings& settings, const files::ExrDescription& d
     result.notes.push_back(strCat("chromaticities of the header (red ", red.x, ", ", red.y,
                                   ", white ", white.x, ", ", white.y, "): converted to BT.2020"));
   } else if (*known != v1::COLOR_PRIMARIES_BT709) {
-    result.notes.push_back("chromaticities of the header: sent as they are");
+    result.notes.push_back("chromaticities of the header: sent unchanged");
   }
 }
 
@@ -164,9 +164,10 @@ absl::StatusOr<Interpretation> interpretDeep(const InputSettings& settings, v1::
   if (settings.pixel_aspect) result.pixel_aspect = *settings.pixel_aspect;
   readHeaderFacts(settings, *description, result);
   if (result.projection != Projection::kFlat) {
-    return files::refuseFile(deep.file(),
-                             "is a deep panorama; accepted are panoramas of flat files, and "
-                             "--projection flat to read it as a flat picture");
+    return files::refuseFile(
+        deep.file(),
+        "is a deep panorama; accepted are panoramas in flat files. To read it as a flat "
+        "picture, give --projection flat");
   }
   for (const files::ExrDescribedPart& part : description->parts) {
     if (!part.isDeep()) continue;

@@ -36,7 +36,7 @@ SampleRange rangeOfFloats(const v1::Plane& plane, const std::vector<uint8_t>& by
 
 std::string distancesNote(const InputSettings& settings) {
   const NearAndFar distances = nearAndFar(settings);
-  return strCat("depth of unknown scale is laid between ", distances.near_m, " and ",
+  return strCat("depth of unknown scale is placed between ", distances.near_m, " and ",
                 distances.far_m, " m, which suits displays (--depth-near, --depth-far)");
 }
 
@@ -62,8 +62,8 @@ absl::Status InputReader::settleFormat(Interpretation& how, files::LoadedFrame& 
     range = *float_range_;
     if (!(range.white > range.black)) {
       return files::refuseFile(how.source.layers(0).depth().file(),
-                               "has the same value everywhere, which is no depth; accepted are at "
-                               "least two different ones");
+                               "has the same value everywhere; accepted is depth with at least "
+                               "two different values");
     }
   }
   const bool is_2d_plus_z = how.range == DepthRange::k2dPlusZ;
@@ -92,10 +92,10 @@ absl::Status InputReader::settlePixels(const Interpretation& how, files::LoadedF
       how.range != DepthRange::kStated) {
     return absl::InvalidArgumentError(strCat(
         "--baseline ", *settings_.baseline_m,
-        has_camera ? " is given for depth that is no disparity in px; it goes with --input kitti "
-                     "or --depth-meaning disparity"
+        has_camera ? " needs disparity in pixels: give --input kitti or --depth-meaning disparity, "
+                     "or leave it out"
                    : " needs the focal length of the cameras: give --focal-px, in pixels of the "
-                     "depth"));
+                     "depth picture"));
   }
   settleBaseline(source.camera().intrinsics().focal_x_px(), *settings_.baseline_m,
                  *plane.mutable_depth());
@@ -118,7 +118,7 @@ void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
       how.notes.push_back(strCat(
           std::round(1000 * share) / 10,
           " % of the depth is 0, scattered over the picture: 0 is read as no surface, not as "
-          "infinitely far (--depth-far-zero makes it a sky, --depth-invalid 0 no surface always)"));
+          "infinitely far (--depth-far-zero makes it sky, --depth-invalid 0 always no surface)"));
     }
   }
   if (*has_scattered_zeros_) plane.mutable_depth()->set_invalid_value(0);

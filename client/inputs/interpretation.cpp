@@ -57,8 +57,7 @@ v1::ImagePart oppositeOf(v1::ImagePart part) {
 absl::Status readHalves(const InputSettings& settings, Interpretation& result) {
   v1::LayerFiles& layer = *result.source.mutable_layers(0);
   if (layer.color().file() != layer.depth().file()) {
-    return refuseInput(result.kind,
-                       "has its depth beside the colour, in one file; --depth is given");
+    return refuseInput(result.kind, "reads colour and depth from one file. Leave out --depth");
   }
   layer.mutable_depth()->set_part(settings.depth_side);
   layer.mutable_color()->set_part(oppositeOf(settings.depth_side));
@@ -68,7 +67,7 @@ absl::Status readHalves(const InputSettings& settings, Interpretation& result) {
 absl::Status requireDepthFile(InputKind kind, const Interpretation& result) {
   const v1::LayerFiles& layer = result.source.layers(0);
   if (layer.color().file() != layer.depth().file()) return absl::OkStatus();
-  return refuseInput(kind, "takes colour files and, with --depth, as many of depth");
+  return refuseInput(kind, "needs depth files. Give one with --depth for each colour file");
 }
 
 absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
@@ -128,8 +127,8 @@ absl::Status readPacking(const InputSettings& settings, Interpretation& result) 
       return absl::OkStatus();
     }
     return absl::InvalidArgumentError(
-        "--depth-packing hue needs --depth-near and --depth-far, the metres between which depth "
-        "was coloured (--depth-meaning disparity where it was coloured by disparity)");
+        "--depth-packing hue needs --depth-near and --depth-far, the metres at the ends of the "
+        "colours. Add --depth-meaning disparity if disparity was coloured");
   }
   const bool has_far = packing == v1::DEPTH_PACKING_RGB24 || packing == v1::DEPTH_PACKING_BGR24;
   if (!has_far || is_window || settings.depth_scale ||
@@ -138,7 +137,7 @@ absl::Status readPacking(const InputSettings& settings, Interpretation& result) 
   }
   format.set_scale(kCarlaFar_m);
   result.notes.push_back(
-      strCat("depth: packed, white is ", kCarlaFar_m, " m as CARLA has it (--depth-scale)"));
+      strCat("depth: packed, white is ", kCarlaFar_m, " m, as in CARLA (--depth-scale)"));
   return absl::OkStatus();
 }
 
@@ -148,9 +147,10 @@ absl::Status readBetween(const InputSettings& settings, v1::DepthFormat& format,
   if (!settings.near_m && !settings.far_m) return absl::OkStatus();
   const double near_m = settings.near_m.value_or(0), far_m = settings.far_m.value_or(0);
   if (settings.depth_scale || !std::isfinite(far_m) || near_m == far_m) {
-    return refuseInput(result.kind,
-                       "takes --depth-near and --depth-far, the metres that 0 and 1 stand for, as "
-                       "two different finite numbers and without --depth-scale");
+    return refuseInput(
+        result.kind,
+        "needs two different finite numbers of metres as --depth-near and --depth-far, for "
+        "depth 0 and 1, without --depth-scale");
   }
   format.set_scale(far_m - near_m);
   format.set_offset(near_m);
@@ -182,8 +182,8 @@ absl::Status readDepthMeaning(const InputSettings& settings, Interpretation& res
       if (settings.near_m && settings.far_m) return absl::OkStatus();
       return refuseInput(
           result.kind,
-          "needs --depth-near and --depth-far, nearZ and farZ in metres: far inf for "
-          "an infinite far plane, near above far for reversed depth");
+          "needs --depth-near and --depth-far, nearZ and farZ in metres. Far may be inf, and near "
+          "is larger than far if depth is reversed");
     case InputKind::kIphone:
     case InputKind::kRelative:
       VIEWLOOM_RETURN_IF_ERROR(requireDepthFile(result.kind, result));
@@ -237,7 +237,9 @@ absl::StatusOr<Interpretation> interpret(const InputSettings& settings, const In
   if (!files::isExr(files.color) && !files::isExr(files.depth) &&
       !(settings.color_channels.empty() && settings.depth_channel.empty())) {
     return absl::InvalidArgumentError(
-        "--color-channels and --depth-channel choose channels of EXR files; none is given");
+        "--color-channels and --depth-channel choose channels of EXR files, but no EXR file is "
+        "given. "
+        "Leave them out");
   }
   result.projection = settings.projection.value_or(Projection::kFlat);
   result.kind = settings.kind;

@@ -54,7 +54,7 @@ void readFocalLength(const PhotoDescription& photo, Interpretation& result) {
 absl::StatusOr<v1::DepthFormat> formatBetween(InputSettings settings, const PhotoDepth& depth) {
   if (settings.depth_scale) {
     return absl::InvalidArgumentError(
-        "--depth-near and --depth-far are given, and --depth-scale, too; accepted is either");
+        "--depth-scale cannot be combined with --depth-near and --depth-far; accepted is either");
   }
   // Codes of distances grow away from the camera.
   if (depth.quantity == CodeQuantity::kDistance &&
@@ -73,9 +73,11 @@ absl::StatusOr<v1::DepthFormat> statedFormat(const std::string& file, const Inpu
   if (settings.depth_scale) return format;
   if (!depth.ends) {
     return files::refuseFile(
-        file, strCat("has ", depth.type,
-                     " without the numbers that its codes stand for; give --depth-near and "
-                     "--depth-far, the metres of the nearest and of the farthest"));
+        file,
+        strCat(
+            "has ", depth.type,
+            " without the distances of its codes; give --depth-near and --depth-far, the metres of "
+            "the nearest and the farthest code"));
   }
   photos::CodeEnds ends = *depth.ends;
   if (settings.is_black_near) std::swap(ends.at_zero, ends.at_most);
@@ -121,8 +123,8 @@ absl::Status interpretPhoto(const InputSettings& settings, const InputFiles& fil
   if (!files.depth.empty()) return absl::OkStatus();
   if (settings.kind != InputKind::kAuto && settings.kind != InputKind::kIphone) {
     return files::refuseFile(files.color,
-                             strCat("is read without --depth by --input iphone, or none; --input ",
-                                    nameOf(settings.kind), " is given"));
+                             strCat("is a photo, which --input ", nameOf(settings.kind),
+                                    " cannot read alone. Leave out --input, or add --depth FILE"));
   }
   VIEWLOOM_RETURN_IF_ERROR(photo->requireDepth());
   return readDepth(settings, files.color, *description.depth, result);

@@ -10,6 +10,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "absl/strings/str_join.h"
+#include "base/nearest_name.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "files/file_bytes.h"
 #include "files/plane_image.h"
@@ -129,7 +132,7 @@ absl::StatusOr<TmivCamera> cameraOf(const std::string& file, const Json& json) {
   TmivCamera camera;
   camera.name = reader.textOr("Name", "");
   if (reader.textOr("Projection", "Perspective") != "Perspective") {
-    reader.refuse("Projection", "\"Perspective\": project other views before");
+    reader.refuse("Projection", "\"Perspective\"; convert other projections first");
   }
   const double width = reader.number("Resolution", 0), height = reader.number("Resolution", 1);
   if (!(width >= 1 && height >= 1 && width <= files::kSideMax_px && height <= files::kSideMax_px)) {
@@ -191,20 +194,23 @@ absl::StatusOr<TmivCamera> readTmivCamera(const std::filesystem::path& path,
   if (!bytes.ok()) return bytes.status();
   const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
   if (json.is_discarded()) {
-    return files::refuseFile(path.string(), "is no JSON; accepted are TMIV's camera parameters");
+    return files::refuseFile(path.string(),
+                             "is not JSON; accepted are the camera parameters of TMIV");
   }
   const std::vector<const Json*> cameras = camerasIn(json);
   const std::string depth_stem = std::filesystem::path(depth_file).stem().string();
-  std::string names;
+  std::vector<std::string> known;
   for (const Json* camera : cameras) {
     const std::string its_name = nameIn(*camera);
     if (isMeant(its_name, name, depth_stem)) return cameraOf(path.string(), *camera);
-    names += strCat(names.empty() ? "" : ", ", its_name);
+    known.push_back(printable(its_name));
   }
   if (cameras.size() == 1 && name.empty()) return cameraOf(path.string(), *cameras.front());
-  return files::refuseFile(path.string(),
-                           strCat("has no camera ", name.empty() ? "of " + depth_file : name,
-                                  "; its cameras are ", names, ": pick one with --camera-name"));
+  const std::string meant = name.empty() ? "" : didYouMean(name, known);
+  return files::refuseFile(
+      path.string(), strCat("has no camera ", name.empty() ? "for " + depth_file : name,
+                            "; it has ", absl::StrJoin(known, ", "),
+                            ". Choose one with --camera-name", meant.empty() ? "" : "; ", meant));
 }
 
 }  // namespace viewloom::inputs

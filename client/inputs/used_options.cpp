@@ -81,7 +81,7 @@ constexpr std::array<OptionUse, 15> kUses{{
 
 absl::Status refuseOption(const std::string& option, InputKind kind, const std::string& rest) {
   return absl::InvalidArgumentError(
-      strCat(option, " is given, which --input ", nameOf(kind), " does not take", rest));
+      strCat(option, " has no effect with --input ", nameOf(kind), rest));
 }
 
 // The options that have a value of their own whether they were given by name or not.
@@ -104,18 +104,18 @@ absl::Status refuseContradictions(const InputSettings& settings, const InputFile
                           settings.depth_meaning == v1::DEPTH_MEANING_RAY_DISTANCE;
   if (uses.is_between && is_strange) {
     return absl::InvalidArgumentError(
-        strCat("--depth-meaning is window or ray, which --input ", nameOf(uses.kind),
-               " does not take; accepted is disparity (linear in 1/Z) or planar (linear in "
-               "Z)"));
+        strCat("--depth-meaning window and ray do not fit --input ", nameOf(uses.kind),
+               ". Accepted are disparity (linear in 1/Z) and planar (linear in Z)"));
   }
   if (settings.depth_invalid_is_far && !settings.depth_invalid) {
     return absl::InvalidArgumentError(
-        "--depth-invalid-is-far is given without --depth-invalid N, the number that is far");
+        "--depth-invalid-is-far works only with --depth-invalid. Give the value that is infinitely "
+        "far");
   }
   if (settings.given.contains("--camera-forward") && !uses.has_exr_camera) {
     return absl::InvalidArgumentError(
-        strCat("--camera-forward is given, which says how an EXR file's worldToCamera looks; ",
-               files.color, " is read without one"));
+        strCat("--camera-forward has no effect, because ", files.color,
+               " is read without the worldToCamera matrix of an EXR file. Leave it out"));
   }
   return absl::OkStatus();
 }
@@ -135,7 +135,8 @@ absl::Status refuseUnusedOptions(const InputSettings& settings, const InputFiles
   const std::set<std::string> given = givenOptions(settings);
   for (const OptionUse& use : kUses) {
     if (!given.contains(use.option) || use.is_used(uses)) continue;
-    return refuseOption(use.option, how.kind, strCat(" here; it belongs to ", use.belongs_to));
+    return refuseOption(use.option, how.kind,
+                        strCat(" here. It belongs to ", use.belongs_to, ". Leave it out"));
   }
   return refuseContradictions(settings, files, uses);
 }

@@ -165,18 +165,19 @@ TEST_F(RemediesTest, comeWithNoOptionInVain) {
   const FrameFiles files = pair(16, [](int x, int y) { return 1000 * double{roomAt(x, y)}; });
   const std::vector<std::pair<std::string, std::string>> refused{
       {"--input sensor --factor 30",
-       "--factor is given, which --input sensor does not take here; "
-       "it belongs to --input 2d+z"},
-      {"--depth-side left", "--depth-side is given, which --input plain does not take"},
-      {"--input sensor --black-near", "--black-near is given"},
-      {"--input relative --depth-scale 0.1 --black-near", "--black-near is given"},
-      {"--input relative --depth-offset 2", "--depth-offset is given"},
-      {"--input relative --depth-meaning ray", "--depth-meaning is window or ray"},
-      {"--input openxr --depth-near 1 --depth-far 2 --depth-scale 3", "--depth-scale is given"},
-      {"--input plain --camera-name v0", "--camera-name is given"},
-      {"--camera-forward=-z", "--camera-forward is given"},
-      {"--depth-invalid-is-far", "without --depth-invalid N"},
-      {"--tone-map agx", "--tone-map is given, and its colour is sRGB"},
+       "--factor has no effect with --input sensor here. It belongs to --input 2d+z"},
+      {"--depth-side left", "--depth-side has no effect with --input plain"},
+      {"--input sensor --black-near", "--black-near has no effect"},
+      {"--input relative --depth-scale 0.1 --black-near", "--black-near has no effect"},
+      {"--input relative --depth-offset 2", "--depth-offset has no effect"},
+      {"--input relative --depth-meaning ray",
+       "--depth-meaning window and ray do not fit --input relative"},
+      {"--input openxr --depth-near 1 --depth-far 2 --depth-scale 3",
+       "--depth-scale has no effect"},
+      {"--input plain --camera-name v0", "--camera-name has no effect"},
+      {"--camera-forward=-z", "--camera-forward has no effect"},
+      {"--depth-invalid-is-far", "works only with --depth-invalid"},
+      {"--tone-map agx", "--tone-map needs linear colour"},
   };
   for (const auto& [options, message] : refused) {
     const auto loaded = FrameLoader(withOptions(options)).load(files);
@@ -196,9 +197,11 @@ TEST_F(RemediesTest, needFilesToBeFor) {
   EXPECT_TRUE(framesOf(options).ok());
   FileFeedOptions deep{.deeps = {"deep.exr"}};
   deep.loader = withOptions("--input sensor");
-  EXPECT_THAT(std::string(framesOf(deep).status().message()), HasSubstr("--input is given"));
+  EXPECT_THAT(std::string(framesOf(deep).status().message()),
+              HasSubstr("--input cannot be combined with --deep"));
   FileFeedOptions pictures{.colors = {"a.png"}, .depths = {"b.png"}, .view = "left"};
-  EXPECT_THAT(std::string(framesOf(pictures).status().message()), HasSubstr("--view is given"));
+  EXPECT_THAT(std::string(framesOf(pictures).status().message()),
+              HasSubstr("--view chooses a view of an EXR file"));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(ChosenDepthTest, takesTheCodeOfWhite) {
   EXPECT_NEAR(depthAt(read, 2, 0), 1, 1e-5);
   EXPECT_THAT(refusalOf({.kind = InputKind::kSensor, .white_code = 4095},
                         {.color = file("color.png"), .depth = file("depth.png")}),
-              HasSubstr("--depth-white is given, which --input sensor does not take"));
+              HasSubstr("--depth-white has no effect with --input sensor"));
 }
 
 TEST_F(ChosenDepthTest, cutsWhatIsTooFar) {

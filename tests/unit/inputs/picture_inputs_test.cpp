@@ -101,7 +101,7 @@ TEST_F(PictureInputsTest, saysWhatIsWrongWithHalves) {
               HasSubstr("--depth-near is 1 and --depth-far 0.5; accepted are"));
   writePng(file("rgbd2.png"), 4, 2, 1, 8, std::vector<uint16_t>(8, 7));
   EXPECT_THAT(refusalOf(settings, {.color = file("rgbd.png"), .depth = file("rgbd2.png")}),
-              HasSubstr("has its depth beside the colour"));
+              HasSubstr("reads colour and depth from one file"));
   writePng(file("odd.png"), 5, 2, 1, 8, std::vector<uint16_t>(10, 7));
   EXPECT_THAT(refusalOf(settings, {.color = file("odd.png")}), HasSubstr("need an even width"));
 }
@@ -139,7 +139,7 @@ TEST_F(PictureInputsTest, readsSensorsInMillimetresAtTheirOwnResolution) {
   EXPECT_NEAR(depthAt(readPair({.kind = InputKind::kSensor, .depth_scale = 1e-4}), 1, 0), 0.15,
               1e-7);
   EXPECT_THAT(refusalOf({.kind = InputKind::kSensor}, {.color = file("color.png")}),
-              HasSubstr("takes colour files and, with --depth, as many of depth"));
+              HasSubstr("needs depth files. Give one with --depth"));
 }
 
 TEST_F(PictureInputsTest, readsOpenXrDepthForwardReversedAndInfinite) {
@@ -211,12 +211,12 @@ TEST_F(PictureInputsTest, refusesDistancesThatWouldNotCount) {
   writeGrey(16, {1, 2, 3});
   const inputs::InputFiles files{.color = file("color.png"), .depth = file("depth.png")};
   EXPECT_THAT(refusalOf({.near_m = 1}, files),
-              HasSubstr("--depth-near is given, which --input plain does not take"));
+              HasSubstr("--depth-near has no effect with --input plain"));
   EXPECT_THAT(refusalOf({.kind = InputKind::kSensor, .far_m = 9}, files),
-              HasSubstr("--input sensor does not take"));
+              HasSubstr("has no effect with --input sensor"));
   EXPECT_THAT(
       refusalOf({.kind = InputKind::kRelative, .near_m = 1, .far_m = 2, .max_depth = 1}, files),
-      HasSubstr("--depth-max is given"));
+      HasSubstr("--depth-max has no effect"));
   EXPECT_EQ(refusalOf({.depth_meaning = v1::DEPTH_MEANING_WINDOW, .near_m = 1, .far_m = 2}, files),
             "OK");
 }

@@ -74,7 +74,7 @@ TEST_F(SensorInputsTest, turnsDisparityInPxIntoDepthByBaselineAndFocalLength) {
   blind.focal_px.reset();
   EXPECT_THAT(refusalOf(blind, pair("depth.png")), HasSubstr("needs the focal length"));
   EXPECT_THAT(refusalOf({.baseline_m = 0.5, .focal_px = 700}, pair("depth.png")),
-              HasSubstr("it goes with --input kitti or --depth-meaning disparity"));
+              HasSubstr("give --input kitti or --depth-meaning disparity"));
 }
 
 TEST_F(SensorInputsTest, takesScatteredZerosOfDisparityForNothingAndSaysSo) {

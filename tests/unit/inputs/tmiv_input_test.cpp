@@ -151,7 +151,7 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
               HasSubstr("is no JSON"));
   write(R"([{"Name": "a"}, {"Name": "b"}])");
   EXPECT_THAT(refusalOf(settings_, {.color = file("a.png"), .depth = file("c.png")}),
-              HasSubstr("c.png; its cameras are a, b"));
+              HasSubstr("c.png; it has a, b"));
 }
 
 }  // namespace

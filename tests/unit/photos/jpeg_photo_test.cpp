@@ -125,7 +125,7 @@ TEST_F(JpegPhotoTest, leavesOtherJpegsAlone) {
   EXPECT_FALSE(photos::isPhoto(applePhoto("<x:xmpmeta/>"))) << "a second picture that is no depth";
   EXPECT_TRUE(photos::isPhoto(googlePhoto("RangeInverse", "")));
   EXPECT_THAT(refusalOf({}, {.color = googlePhoto("RangeInverse", "")}),
-              HasSubstr("without the numbers that its codes stand for; give --depth-near"));
+              HasSubstr("without the distances of its codes; give --depth-near"));
 }
 
 }  // namespace

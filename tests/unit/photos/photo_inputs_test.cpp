@@ -152,9 +152,9 @@ TEST_F(PhotoInputsTest, letsTheCommandLineOverride) {
   EXPECT_THAT(refusal(portrait(), {.depth_scale = 1, .near_m = 0.5, .far_m = 4}),
               HasSubstr("accepted is either"));
   EXPECT_THAT(refusal(portrait(), {.min_depth = 0.5}),
-              HasSubstr("--depth-min is given, which --input iphone does not take"));
+              HasSubstr("--depth-min has no effect with --input iphone"));
   EXPECT_THAT(refusal(portrait(), {.kind = InputKind::kSensor}),
-              HasSubstr("is read without --depth by --input iphone, or none; --input sensor is"));
+              HasSubstr("is a photo, which --input sensor cannot read alone"));
 }
 
 TEST_F(PhotoInputsTest, readsDistancesInMetres) {
@@ -188,8 +188,8 @@ TEST_F(PhotoInputsTest, wantsTheNumbersOfCodesWithoutAny) {
                                  appleXmp("disparity", "0.5", "0.5"), std::string("<x:xmpmeta")}) {
     photo.xmp = xmp;
     EXPECT_THAT(refusal(photo),
-                HasSubstr("IMG_0001.HEIC: has urn:mpeg:hevc:2015:auxid:2 without the numbers that "
-                          "its codes stand for; give --depth-near and --depth-far"))
+                HasSubstr("IMG_0001.HEIC: has urn:mpeg:hevc:2015:auxid:2 without the distances of "
+                          "its codes; give --depth-near and --depth-far"))
         << xmp;
     EXPECT_NEAR(depthAt(read(photo, {.near_m = 0.5, .far_m = 4}), 0, 0), 4, 1e-5);
   }
