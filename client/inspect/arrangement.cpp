@@ -204,14 +204,15 @@ std::string insideOutSign(const DepthSamples& samples, const DepthMeasures& meas
   if (measures.inv_z_max > measures.inv_z_median * 1.01F &&
       shareAtNearest(samples, measures, 0, 0.25) > 0.2 &&
       shareAtNearest(samples, measures, 0.75, 1) < 0.05) {
-    return "the top of the picture is where depth is nearest, as if a sky lay before everything";
+    return "the top of the picture is nearest, as if the sky were in front";
   }
   if (hasNearRim(samples)) {
-    return "the top is nearer than the bottom and the sides nearer than the middle";
+    return "the top is nearer than the bottom, and the sides are nearer than the middle";
   }
   const Grid grid(samples);
-  if (isStraightInZ(grid)) return "floors and walls are straight in Z, as they are in 1/Z only";
-  if (hasFarIslands(grid)) return "things lie behind what is around them, as behind holes";
+  if (isStraightInZ(grid))
+    return "floors and walls are straight in Z, but they should be straight in 1/Z";
+  if (hasFarIslands(grid)) return "objects lie behind their surroundings, as if seen through holes";
   return "";
 }
 

@@ -118,10 +118,9 @@ std::vector<Suspicion> suspectOrientation(const EdgeAgreement& agreement) {
   if (!is_flipped) return {};
   const auto percent = [](double share) { return std::round(100 * share); };
   return {{.kind = "upside-down",
-           .sentence = strCat(
-               "depth seems to lie upside down on the colour picture: ", percent(agreement.flipped),
-               " % of its edges fall on edges of colour when it is flipped, and ",
-               percent(agreement.as_is), " % as it is"),
+           .sentence = strCat("depth seems to be upside down: ", percent(agreement.flipped),
+                              " % of its edges match edges of colour if it is flipped, but ",
+                              percent(agreement.as_is), " % as it is"),
            .remedy = {}}};
 }
 

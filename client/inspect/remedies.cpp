@@ -22,7 +22,7 @@ constexpr double kStreetFar_m = 100;  // what scanners on cars see
 
 struct Candidate {
   std::string options;
-  std::string meaning;         // "if the numbers are millimetres"; "" = the sign says it
+  std::string meaning;         // "if the values are millimetres"; "" = the sign says it
   std::string instead;         // said in place of the options: what to leave out
   double far_m = kUsualFar_m;  // nearer than this lies half of the surfaces, as a rule
 };
@@ -71,7 +71,7 @@ Candidates mirrored(const LayerInspection& layer) {
                           .instead = {}});
   }
   candidates.push_back({.options = scaleOption(-scale) + " --depth-meaning disparity",
-                        .meaning = "if they are 1/Z along -z",
+                        .meaning = "if they are inverse depth (1/Z) along -z",
                         .instead = {}});
   return candidates;
 }
@@ -89,10 +89,11 @@ Candidates swapped(const LayerInspection& layer) {
   candidates.push_back({.options = "--black-near=false",
                         .meaning = "if white is near",
                         .instead = "without --black-near"});
+  candidates.push_back({.options = "--depth-meaning disparity",
+                        .meaning = "if the values are inverse depth (1/Z)",
+                        .instead = {}});
   candidates.push_back(
-      {.options = "--depth-meaning disparity", .meaning = "if the numbers are 1/Z", .instead = {}});
-  candidates.push_back(
-      {.options = "--depth-meaning planar", .meaning = "if the numbers are metres", .instead = {}});
+      {.options = "--depth-meaning planar", .meaning = "if the values are metres", .instead = {}});
   candidates.push_back(
       {.options = "--input relative", .meaning = "if white is near", .instead = {}});
   candidates.push_back(
@@ -103,7 +104,7 @@ Candidates swapped(const LayerInspection& layer) {
 // Distances as the KITTI benchmark stores them, also where they were taken for 1/Z.
 Candidate ofScanner(const std::string& more = "") {
   return {.options = "--input kitti" + more,
-          .meaning = "if the numbers are 256ths of a metre and 0 is nothing",
+          .meaning = "if the values are 1/256 m and 0 is no surface",
           .instead = {},
           .far_m = kStreetFar_m};
 }
@@ -113,14 +114,14 @@ Candidates smaller(const LayerInspection& layer) {
   Candidates candidates;
   const auto add = [&](double unit, const char* name) {
     candidates.push_back({.options = scaleOption(unit * scale),
-                          .meaning = strCat("if the numbers are ", name),
+                          .meaning = strCat("if the values are ", name),
                           .instead = {}});
   };
   const bool is_whole = layer.depth.encoding() == v1::PLANE_ENCODING_DEPTH_U16;
   if (is_whole && scale == 1) {
     if (layer.samples.has_points_alone) candidates.push_back(ofScanner());
     candidates.push_back({.options = "--input sensor",
-                          .meaning = "if the numbers are millimetres and 0 is nothing",
+                          .meaning = "if the values are millimetres and 0 is no surface",
                           .instead = {}});
     if (!layer.samples.has_points_alone && layer.samples.has_scattered_zeros) {
       candidates.push_back(ofScanner());
@@ -140,7 +141,7 @@ Candidates larger(const LayerInspection& layer) {
   for (const auto& [unit, name] :
        {std::pair{1000.0, "kilometres"}, std::pair{100.0, "units of 100 m"}}) {
     candidates.push_back({.options = scaleOption(unit * scale),
-                          .meaning = strCat("if the numbers are ", name),
+                          .meaning = strCat("if the values are ", name),
                           .instead = {}});
   }
   return candidates;
@@ -156,10 +157,10 @@ Candidates otherUnits(const LayerInspection& layer) {
     candidates.push_back(ofScanner(" --depth-meaning planar"));
   }
   candidates.push_back({.options = "--input relative",
-                        .meaning = "if they have no unit and white is near",
+                        .meaning = "if the values have no unit and white is near",
                         .instead = {}});
   candidates.push_back({.options = "--input relative --black-near",
-                        .meaning = "if they have no unit and black is near",
+                        .meaning = "if the values have no unit and black is near",
                         .instead = {}});
   return candidates;
 }
@@ -168,7 +169,7 @@ Candidates otherUnits(const LayerInspection& layer) {
 Candidates invalid(float number) {
   return {
       {.options = strCat(number < 0 ? "--depth-invalid=" : "--depth-invalid ", numberText(number)),
-       .meaning = "with --depth-invalid-is-far too, if a sky is there",
+       .meaning = "add --depth-invalid-is-far if a sky is there",
        .instead = {}}};
 }
 
@@ -198,8 +199,9 @@ Candidates candidatesFor(const std::string& kind, const LayerInspection& layer) 
     return invalid(is_at_max ? samples.stored_max : samples.stored_min);
   }
   if (kind == "upside-down") {
-    return {{.options = "--flip", .meaning = "if depth is stored from below", .instead = {}},
-            {.options = "--flip=false", .meaning = "", .instead = {}}};
+    return {
+        {.options = "--flip", .meaning = "if depth is stored from bottom to top", .instead = {}},
+        {.options = "--flip=false", .meaning = "", .instead = {}}};
   }
   if (kind == "alpha") return {{.options = "--alpha opaque", .meaning = "", .instead = {}}};
   if (kind != "empty" && kind != "bad") return {};
@@ -243,14 +245,14 @@ bool isWhole(const Suspicion& suspicion, const LayerInspection& after, double fa
 }
 
 std::string resultOf(const Suspicion& suspicion, const LayerInspection& after) {
-  if (suspicion.kind == "alpha") return "views then show them";
-  if (suspicion.kind == "upside-down") return "its edges then fall on edges of colour";
+  if (suspicion.kind == "alpha") return "views then show these surfaces";
+  if (suspicion.kind == "upside-down") return "edges of depth then match edges of colour";
   const uint64_t all = after.samples.sampleCount();
   const double none = double(after.samples.invalid_count + after.samples.bad_count);
   const double none_percent = std::round(1000 * none / double(all)) / 10;
   return strCat("surfaces then lie at ", 1 / after.measures.inv_z_max, " .. ",
                 1 / after.measures.inv_z_min, " m",
-                none > 0 ? strCat(", with none on ", none_percent, " % of samples") : "");
+                none > 0 ? strCat(", and ", none_percent, " % of samples are no surface") : "");
 }
 
 // The layer as it is with the options; nothing where the files cannot be read so.

@@ -58,7 +58,7 @@ class Rules {
                     " % are negative");
     }
     return strCat("no sample is a surface: ", percent(samples_.invalid_count, all),
-                  " % have the number of no surface, ", percent(samples_.bad_count, all),
+                  " % have the value of no surface, ", percent(samples_.bad_count, all),
                   " % are NaN, negative or infinitely near");
   }
 
@@ -71,8 +71,9 @@ class Rules {
   void suspectFlat() {
     if (samples_.sky_count > 0) return;
     if (measures_.inv_z_near - measures_.inv_z_far > 0.01F * measures_.inv_z_near) return;
-    say("flat", strCat("all surfaces lie within a hundredth of ", 1 / measures_.inv_z_median,
-                       " m: is this the depth, with its own unit and range?"));
+    say("flat",
+        strCat("all surfaces lie within a hundredth of ", 1 / measures_.inv_z_median,
+               " m: check that this is the depth file, and that its unit and range are right"));
   }
 
   void suspectClipped() {
@@ -99,24 +100,24 @@ class Rules {
     if (limit == Limit::kNone || share <= (limit == Limit::kHard ? 0.01 : 0.05)) return;
     if (value >= kHuge) return;  // "nothing"
     say("clipped", strCat(percent(count, samples_.surface_count), " % of surfaces have the ", which,
-                          " number, ", value, ": depth seems to be cut off there"));
+                          " value, ", value, ": depth seems to be cut off there"));
   }
 
   void suspectBits() {
     if (facts_.code_max != kU16Max) return;
     if (samples_.is_stretched) {
       say("bits",
-          "all 16-bit numbers are 8-bit codes stretched: the file has no more than 256 depths, so "
-          "write it with 16 bits from the beginning");
+          "the 16-bit values are stretched 8-bit codes, so the file has 256 depths at most: write "
+          "it with 16 bits from the start");
       return;
     }
     // Distances may end anywhere, unless their unit is unlikely.
     if (isMetric() && 1 / double{measures_.inv_z_median} <= kFarMedian_m) return;
     const std::optional<FewerBits> fewer = fewerBits(double{samples_.largest_stored});
     if (!fewer) return;
-    say("bits", strCat("the largest number is ", samples_.largest_stored, ": codes seem to end at ",
-                       fewer->last_code, ", as those of ", fewer->what,
-                       " do, not at the last of the file's 16"));
+    say("bits",
+        strCat("the largest value is ", samples_.largest_stored, ": codes seem to end at ",
+               fewer->last_code, ", as in ", fewer->what, ", and not at the last code of 16 bits"));
   }
 
   void suspectStepsAndNoise() {
@@ -132,8 +133,8 @@ class Rules {
           strCat("depth has about ", std::round(range / step),
                  " steps from far to near; on a wide display one is ",
                  std::round(10 * abi::kWideSpan_px * step / range) / 10,
-                 " px, which shows as terraces where smoothing does not reach: write depth of 16 "
-                 "bits or floats, in inverse depth, with near and far close about the scene"));
+                 " px, which shows as terraces: write inverse depth (1/Z) with 16 bits or floats, "
+                 "with near and far close to the scene"));
     }
     const bool is_noisy = measures_.noise_sigma > abi::kStepsOfNoise * measures_.step &&
                           abi::isNoiseShown(measures_.noise_sigma, range, samples_.width_px);
@@ -168,23 +169,24 @@ class Rules {
           strCat(percent(samples_.huge.count, all), " % of samples are ",
                  samples_.huge.most_frequent_count == samples_.huge.count
                      ? ""
-                     : "1e9 and more, most of them ",
-                 samples_.huge.most_frequent, ", as renderers write where they hit nothing"));
+                     : "1e9 or more, most of them ",
+                 samples_.huge.most_frequent, ", which renderers write where they hit nothing"));
     }
     const bool is_inverse = format.meaning() == v1::DEPTH_MEANING_DISPARITY;
     if (is_inverse && samples_.has_scattered_zeros && !format.has_invalid_value() &&
         samples_.sky_count > 0) {
       say("scattered", strCat(percent(samples_.sky_count, all),
-                              " % of samples are 0, which is infinitely far, but they lie "
-                              "scattered over the picture, as where nothing was measured"));
+                              " % of samples are 0, which is infinitely far, but they are "
+                              "scattered over the picture like failed measurements"));
     }
     const uint64_t none = samples_.invalid_count + samples_.bad_count;
     if (2 * none > all) {
-      say("empty", strCat(percent(none, all), " % of samples are no surface",
-                          samples_.has_points_alone
-                              ? ", scattered over the picture, as where a scanner measured "
-                                "nothing: views have holes there; fill depth in before publishing"
-                              : ""));
+      say("empty",
+          strCat(percent(none, all), " % of samples are no surface",
+                 samples_.has_points_alone
+                     ? ", scattered over the picture like failed measurements of "
+                       "a scanner: views have holes there; fill the depth before publishing"
+                     : ""));
     }
     if (100 * samples_.bad_count > all) {
       say("bad",
@@ -202,7 +204,7 @@ class Rules {
     add(samples_.bad_negative_count, "negative");
     add(samples_.bad_count - samples_.bad_nan_count - samples_.bad_minus_infinity_count -
             samples_.bad_negative_count,
-        "behind infinity or nearer than 1 nm by the format");
+        "beyond infinity or nearer than 1 nm");
     return kinds;
   }
 

@@ -108,7 +108,7 @@ TEST(Suspicions, seeClippedDepth) {
   const auto found = suspicionsOf(made, 65535);
   ASSERT_FALSE(found.empty());
   EXPECT_THAT(found, Contains(::testing::Field(&Suspicion::sentence,
-                                               HasSubstr("have the largest number, 65535"))));
+                                               HasSubstr("have the largest value, 65535"))));
 }
 
 TEST(Suspicions, seeCoarseCodes) {
