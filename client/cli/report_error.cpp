@@ -131,7 +131,7 @@ OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has
 namespace {
 
 // Fields by the end of their path.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 33> kOptions{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kOptions{{
     {"preset", "--preset"},
     {"columns", "--columns"},
     {"rows", "--rows"},

@@ -21,6 +21,9 @@ using ::testing::StartsWith;
 TEST(UserWords, nameTheOptionOfAField) {
   EXPECT_EQ(inUserWords("display.quilt.preset: there is no \"x\""), "--preset: there is no \"x\"");
   EXPECT_EQ(inUserWords("quilt.columns: got 0"), "--columns: got 0");
+  EXPECT_EQ(inUserWords("quilt.size.width: got 0"), "--size: got 0");
+  EXPECT_EQ(inUserWords("display.effects.lens.aperture_radius_m: got 11"), "--aperture: got 11");
+  EXPECT_EQ(inUserWords("rgbd.far_m: got 1"), "--depth-far: got 1");
 }
 
 TEST(UserWords, nameTheLayerOfAFrame) {
