@@ -124,7 +124,8 @@ RunCommand addAdviseCommand(const usage::Command& app) {
       "  viewloom advise --preset portrait --fov 14 --near 0.5 --far 3\n"
       "  viewloom advise --display panel.json --near 1 --far 1000 --json");
   const usage::Option file = addDisplayShape(app, options->display);
-  app.add("--fov", options->display.fov_y_deg, "Vertical field of view of each view")
+  app.add("--fov", options->display.fov_y_deg,
+          "Vertical field of view of each view; required unless the display sets it")
       .valueName("DEGREES")
       .excludes(file)
       .group("Display");

@@ -52,9 +52,11 @@ void addLensOptions(const usage::Command& app, LensOptions& options, usage::Opti
       .defaultText("by --effort: 4, 8 or 16")
       .excludes(file)
       .group(group);
-  within(app.add("--lens-gathered", options.gathered_count,
-                 "Extra lens rays per pixel, tested against the surfaces found so, 0 to 256"),
-         "effects.lens.gathered_samples")
+  within(
+      app.add(
+          "--lens-gathered", options.gathered_count,
+          "Extra lens rays per pixel, tested against surfaces that --lens-samples found, 0 to 256"),
+      "effects.lens.gathered_samples")
       .defaultText("by --effort: 16, 32 or 64")
       .excludes(file)
       .group(group);
@@ -101,7 +103,7 @@ void addTemporalOptions(const usage::Command& app, TemporalOptions& options, usa
       .needs(rate)
       .group(group);
   within(app.add("--bridge", options.bridge_s,
-                 "Longest time to predict if a frame is late, up to 10; then the picture stops"),
+                 "Longest time to predict if a frame is late, up to 10; then the picture is held"),
          "effects.temporal.bridge_s")
       .positive()
       .valueName("SECONDS")

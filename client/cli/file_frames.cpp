@@ -213,7 +213,7 @@ std::string FileFrames::description() const {
 }
 
 void addFileOptions(const usage::Command& app, FileFeedOptions& options) {
-  const char* const group = "What";
+  const char* const group = "Content";
   app.add("colour", options.colors,
           "Colour files, one per frame: EXR (with depth as Z), HEIC (portrait photos), PNG, JPEG, "
           "TIFF, WebP, PFM, PGM, PPM, BMP, NPY or .yuv")
@@ -227,7 +227,8 @@ void addFileOptions(const usage::Command& app, FileFeedOptions& options) {
       .valueName("FILE")
       .group(group);
   app.addFlag("--black-sky", options.loader.has_black_sky,
-              "Put a black sky behind the transparent pixels of deep files, not their neighbours")
+              "Put a black sky behind transparent pixels of deep files, instead of the surfaces "
+              "beside them")
       .group(group);
   app.add("--view", options.view, "View of multi-view EXR files, such as left or right")
       .valueName("NAME")

@@ -163,7 +163,7 @@ RunCommand addInspectCommand(const usage::Command& app) {
   app.add("--layers", options->layer_count, "Most layers of a deep file, 1 to 4")
       .between(1, 4)
       .defaultText("4")
-      .group("What");
+      .group("Content");
   app.add("--picture", options->picture,
           "Save colour and depth of the first frame as a PNG; white is near, magenta is no surface")
       .valueName("FILE");

@@ -20,7 +20,7 @@ constexpr double kConeMin_deg = 1, kConeMax_deg = 120;
 }  // namespace
 
 void addPatternOptions(const usage::Command& app, PatternFeedOptions& options) {
-  const char* const group = "What";
+  const char* const group = "Content";
   const usage::Option pattern = app.add("--pattern", options.name,
                                         "Publish a still test pattern: view-numbers, "
                                         "parallax-ruler, focal-grid or card")

@@ -119,7 +119,7 @@ void addKindOptions(const usage::Command& app, InputSettings& settings) {
           "1 to 65535")
       .valueName("CODE")
       .between(1, 65535)
-      .defaultText("255, 16 bits 65535")
+      .defaultText("255, or 65535 with 16 bits")
       .group(group);
   app.add("--screen", settings.screen_m, "Input 2d+z: distance of the screen")
       .valueName("METRES")
@@ -184,7 +184,7 @@ void addDepthOptions(const usage::Command& app, InputSettings& settings) {
       .valueName("PACKING")
       .group(group);
   app.addFlag("--flip", settings.flips_depth,
-              "Turn depth upside down, if its rows are stored from bottom to top")
+              "Turn depth upside down, for files with rows from bottom to top")
       .group(group);
   app.add("--connection-tolerance", settings.connection_tolerance,
           "Largest step of inverse depth (1/Z, 1/m) within one surface; 0 measures it")
@@ -201,7 +201,9 @@ void addCameraOptions(const usage::Command& app, InputSettings& settings) {
       .between(0.1, 170.0)
       .group(group);
   app.add("--focal-px", settings.focal_px,
-          "Focal length in pixels of the depth picture, instead of --fov")
+          "Focal length in pixels of the depth picture, instead of --fov; counts the shorter side "
+          "of "
+          "pixels that are not square")
       .valueName("PIXELS")
       .positive()
       .excludes("--fov")
@@ -246,7 +248,7 @@ void addPlaneOptions(const usage::Command& app, InputSettings& settings) {
       .defaultText("the file's")
       .group("Colour");
   app.addFlag("--flip-color", settings.flips_color,
-              "Turn colour upside down, if its rows are stored from bottom to top")
+              "Turn colour upside down, for files with rows from bottom to top")
       .group("Colour");
   app.addWord("--tone-map", settings.tone_map, kToneMaps,
               "Curve for linear light brighter than white\n"

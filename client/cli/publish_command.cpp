@@ -37,47 +37,47 @@ struct PublishOptions {
 
 void addSourceOptions(const usage::Command& app, PublishOptions& options) {
   app.addFlag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
-      .group("What");
+      .group("Content");
   addSizeOption(app, "--size", options.size_px, 8192,
                 "Size of the synthetic frames or of the test pattern, in pixels")
       .defaultText("960x540, pattern 1920x1080")
-      .group("What");
+      .group("Content");
   app.add("--layers", options.layer_count,
           "Layers of the synthetic frames, or most layers of a deep file, 1 to 4")
       .between(1, 4)
       .defaultText("2, deep files 4")
-      .group("What");
+      .group("Content");
   app.add("--sources", options.synthetic.source_count,
           "Cameras that see the synthetic scene side by side, 1 to 8")
       .between(1, 8)
       .defaultText("1")
-      .group("What");
+      .group("Content");
   app.addFlag("--cube", options.synthetic.is_cube_map,
               "Publish the synthetic scene as a cube map: six square faces, as high as --size")
       .excludes("--sources")
-      .group("What");
+      .group("Content");
   app.addFlag("--moving-camera", options.synthetic.has_moving_camera,
               "Let the camera of the synthetic scene sway")
-      .group("What");
+      .group("Content");
   app.addFlag("--mirrors", options.synthetic.has_mirrors,
               "Add a lake and metal objects to the synthetic scene, for displays with reflections")
       .excludes("--sources")
       .excludes("--cube")
-      .group("What");
+      .group("Content");
   app.addFlag("--motion", options.synthetic.has_motion,
               "Publish how the synthetic objects move, for displays with an output rate")
       .excludes("--cube")
-      .group("What");
+      .group("Content");
   app.add("--seconds", options.synthetic.duration_s,
           "Length of the synthetic scene or of the test pattern; 0 never ends")
       .valueName("SECONDS")
       .notNegative()
       .defaultText("0")
-      .group("What");
+      .group("Content");
   app.add("--replay", options.replay.file,
           "Replay a recording of frames (--record), with its own timing or at --rate")
       .valueName("FILE")
-      .group("What");
+      .group("Content");
 }
 
 void addStreamOptions(const usage::Command& app, PublishOptions& options) {
@@ -220,7 +220,7 @@ RunCommand addPublishCommand(const usage::Command& app) {
           "Publish each complete picture in this folder, now and later; x.png pairs with "
           "x_depth.png")
       .valueName("FOLDER")
-      .group("What");
+      .group("Content");
   addStreamOptions(app, *options);
   addPlaneOptions(app, options->files.loader.input);
   return [options](const CommonOptions& common) -> int {
