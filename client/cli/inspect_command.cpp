@@ -156,7 +156,7 @@ RunCommand addInspectCommand(const usage::Command& app) {
       "Examples:\n"
       "  viewloom inspect render.0001.exr --picture look.png\n"
       "  viewloom inspect render.0001.exr --preset portrait --cone 50\n"
-      "  viewloom inspect photo.png --depth photo_depth.png --input relative --depth-near 0.8 "
+      "  viewloom inspect photo.png --depth depth.png --input relative --depth-near 0.8 "
       "--depth-far 12\n"
       "  viewloom inspect holiday_rgbd.png --input rgbd --depth-near 1 --depth-far inf --json");
   addFileOptions(app, options->files);
