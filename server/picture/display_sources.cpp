@@ -15,8 +15,9 @@ absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSour
       sources.size() == 1 ? "a cube map" : strCat(sources.size(), " sources");
   if (hasLayerBehind(spec) && !is_one) {
     return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.form",
-                      strCat("got TWO_LAYERS for a stream of ", stream,
-                             ", accepted is one source that is no cube map"));
+                      strCat("TWO_LAYERS needs a stream of one source that is not a cube map, and "
+                             "this stream has ",
+                             stream, "; use COLOR_DEPTH"));
   }
   if (!spec.reflection || !haveMirrors(sources)) return absl::OkStatus();
   if (std::none_of(sources.begin(), sources.end(),
@@ -25,7 +26,8 @@ absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSour
   }
   return fieldError(
       absl::StatusCode::kFailedPrecondition, "effects.reflection",
-      "came for a stream with mirrors of colour that is seen through, accepted is opaque colour");
+      "reflections need opaque colour, and this stream has mirrors and transparent colour; leave "
+      "reflections out, or publish opaque colour");
 }
 
 bool canMerge(const DisplaySpec& spec, size_t source_count) {

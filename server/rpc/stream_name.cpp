@@ -22,8 +22,10 @@ bool isNameCharacter(char c) {
 absl::Status validateStreamName(const std::string& name, std::string_view field) {
   const bool fits = !name.empty() && name.size() <= kNameLengthMax;
   if (fits && std::all_of(name.begin(), name.end(), isNameCharacter)) return absl::OkStatus();
-  return invalidField(field, strCat("got \"", absl::CEscape(name.substr(0, kNameLengthMax)),
-                                    "\"; accepted: 1..", kNameLengthMax, " of A-Z a-z 0-9 . _ -"));
+  return invalidField(
+      field, strCat("the name of the stream is \"", absl::CEscape(name.substr(0, kNameLengthMax)),
+                    "\"; accepted is a name of 1 to ", kNameLengthMax,
+                    " characters from A-Z a-z 0-9 . _ -"));
 }
 
 absl::Status noSuchStream(const std::string& name, std::string_view field,
@@ -31,7 +33,9 @@ absl::Status noSuchStream(const std::string& name, std::string_view field,
   const std::vector<StreamEntry> entries = directory.list();
   std::vector<std::string> names;
   for (const StreamEntry& entry : entries) names.push_back(entry.name);
-  return fieldError(absl::StatusCode::kNotFound, field, noSuchName(name, names));
+  return fieldError(
+      absl::StatusCode::kNotFound, field,
+      strCat(noSuchName("stream", name, names), names.empty() ? "; start a publisher first" : ""));
 }
 
 }  // namespace viewloom

@@ -33,9 +33,9 @@ absl::Status checkKnown(const QueryParameters& parameters) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     const std::string nearest = didYouMean(name, names);
     return invalidField(
-        name, strCat("there is no such parameter; accepted are ", absl::StrJoin(names, ", "),
+        name, strCat("there is no such parameter; known parameters: ", absl::StrJoin(names, ", "),
                      nearest.empty() ? "" : strCat("; ", nearest),
-                     ". Fields of a display stand in display, as JSON: "
+                     ". Write the fields of a display as JSON: "
                      "display={\"quilt\":{\"preset\":\"portrait\"}}"));
   }
   return absl::OkStatus();
@@ -56,7 +56,7 @@ absl::StatusOr<uint32_t> readSide(const QueryParameters& parameters, const char*
   uint32_t side_px = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side_px);
   if (error == std::errc() && end == text.data() + text.size()) return side_px;
-  return invalidField(name, strCat("got \"", text, "\", accepted is a whole number of pixels"));
+  return invalidField(name, strCat("got \"", text, "\"; accepted is a whole number of pixels"));
 }
 
 // The field of a kind that says how large it is.
@@ -110,7 +110,7 @@ absl::StatusOr<AskedDisplay> askedDisplay(const QueryParameters& parameters) {
   }
   for (const char* name : kByHand) {
     if (!parameters.contains(name)) continue;
-    return invalidField(name, "came beside display; accepted is one of the two");
+    return invalidField(name, strCat(name, " and display are given; accepted is one of the two"));
   }
   VIEWLOOM_RETURN_IF_ERROR(readMessage(parameters, "display", asked.display));
   return asked;

@@ -14,14 +14,20 @@
 namespace viewloom {
 namespace {
 
-constexpr const char* kElsewhere = "; `viewloom watch` and the gRPC clients get the others";
+constexpr const char* kElsewhere = "; use `viewloom watch` or a gRPC client for the others";
 
 absl::Status checkStream(const std::string& name, const StreamDirectory& streams) {
-  if (name.empty()) return invalidField("stream", "missing: the name of a stream");
+  if (name.empty())
+    return invalidField("stream",
+                        "the name of the stream is missing; list the streams with /api/streams");
   if (streams.exists(name)) return absl::OkStatus();
   std::vector<std::string> names;
   for (const StreamEntry& entry : streams.list()) names.push_back(entry.name);
-  return fieldError(absl::StatusCode::kNotFound, "stream", noSuchName(name, names));
+  return fieldError(
+      absl::StatusCode::kNotFound, "stream",
+      strCat(noSuchName("stream", name, names),
+             names.empty() ? "; start a publisher first, for example `viewloom publish --synthetic`"
+                           : ""));
 }
 
 // What browsers, players and files hold is one image.
@@ -29,13 +35,13 @@ absl::Status checkDisplay(const DisplaySpec& display) {
   if (isTracked(display)) {
     return invalidField(
         "display.stereo.tracked",
-        strCat("got true; accepted here is false: no eyes come in over HTTP", kElsewhere));
+        strCat("tracked eyes are not served over HTTP; accepted here is false", kElsewhere));
   }
   const TileGrid grid = tileGridOf(display);
   if (grid.image_count == 1) return absl::OkStatus();
   return invalidField(strCat("display.", grid.size_field),
-                      strCat("its views come as ", grid.image_count,
-                             " images; accepted here are displays of one image", kElsewhere));
+                      strCat("the display has ", grid.image_count,
+                             " images; accepted here is a display of one image", kElsewhere));
 }
 
 // Browsers read neither zstd nor planes of 16 bits.
@@ -44,17 +50,22 @@ absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked) {
   if (encoding.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.set_color(v1::BAND_ENCODING_JPEG);
   if (encoding.color() != v1::BAND_ENCODING_JPEG) {
     return invalidField("encoding.color",
-                        strCat("accepted here is BAND_ENCODING_JPEG", kElsewhere));
+                        strCat("the web serves color as JPEG only; accepted here is "
+                               "BAND_ENCODING_JPEG",
+                               kElsewhere));
   }
   if (encoding.with_mask()) {
-    return invalidField("encoding.with_mask", strCat("accepted here is false", kElsewhere));
+    return invalidField("encoding.with_mask",
+                        strCat("the web serves no masks; accepted here is false", kElsewhere));
   }
   if (!encoding.with_depth()) return encoding;
   if (encoding.planes() == v1::BAND_ENCODING_UNSPECIFIED) {
     encoding.set_planes(v1::BAND_ENCODING_RAW);
   }
   if (encoding.planes() == v1::BAND_ENCODING_RAW) return encoding;
-  return invalidField("encoding.planes", strCat("accepted here is BAND_ENCODING_RAW", kElsewhere));
+  return invalidField(
+      "encoding.planes",
+      strCat("the web serves depth unpacked only; accepted here is BAND_ENCODING_RAW", kElsewhere));
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked,
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(encoding.status(), "encoding"));
   if (encoding->with_depth_codes) {
     return invalidField("display.rgbd.depth_bits",
-                        strCat("got 16, accepted here is 8", kElsewhere));
+                        strCat("the web serves no 16-bit depth; accepted here is 8", kElsewhere));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkStream(asked.stream, streams));
   return WatchRequest{asked.stream, *std::move(display), *encoding};

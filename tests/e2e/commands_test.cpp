@@ -127,7 +127,7 @@ TEST_F(RenderTest, opensADisplayByTheNameOfItsDevice) {
   const FinishedRun mistyped = runViewloom(files + " --preset near_eye_2031");
   EXPECT_EQ(mistyped.exit_code, 1);
   EXPECT_THAT(mistyped.errors,
-              AllOf(HasSubstr("viewloom render: --preset: there is no \"near_eye_2031\""),
+              AllOf(HasSubstr("viewloom render: --preset: there is no preset \"near_eye_2031\""),
                     HasSubstr("did you mean \"near_eye_2013\"?")));
   EXPECT_EQ(runViewloom(files).exit_code, 2) << "no display at all";
 }

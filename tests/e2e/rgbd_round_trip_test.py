@@ -140,7 +140,8 @@ class RgbdRoundTrip(unittest.TestCase):
 
     def test_refuses_what_does_not_fit_together(self):
         for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "--depth-side: got one"),
-                          (["--preset", "portrait"], 'there is no "portrait"; there are wowvx'),
+                          (["--preset", "portrait"],
+                           'there is no preset "portrait"; known presets: wowvx'),
                           (["--cone", "30"], "cannot be combined"),
                           (["--depth-near", "3", "--depth-far", "2"], "--depth-far: got 2")):
             run = subprocess.run([CLIENT, "--server", self.server.address, "watch", "scene",

@@ -67,7 +67,7 @@ class Viewers(unittest.TestCase):
         refused = WebSocket(self.server.port, wrong).reply.json()["error"]
         self.assertEqual(
             (refused["field"], refused["message"]),
-            ("encoding.with_depth", "encoding.with_depth: got 2, accepted is true or false"))
+            ("encoding.with_depth", "encoding.with_depth: got 2; accepted is true or false"))
 
     def test_a_joiner_on_a_still_stream_gets_the_newest_atlas(self):
         first = self.watch().receive_atlas()

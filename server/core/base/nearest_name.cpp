@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kNamesMax = 3;
 constexpr size_t kShownMax = 128;    // bytes of a wrong name
+constexpr size_t kListedMax = 32;    // names of a list
 constexpr size_t kBeginningMin = 3;  // letters that say enough about the rest of a name
 
 // Damerau's and Levenshtein's distance (optimal string alignment), by three rows of its table.
@@ -87,13 +88,19 @@ std::string didYouMean(std::string_view word, std::span<const std::string> names
   return text.empty() ? "" : strCat("did you mean ", text, "?");
 }
 
-std::string noSuchName(std::string_view word, std::span<const std::string> names) {
+std::string noSuchName(std::string_view noun, std::string_view word,
+                       std::span<const std::string> names) {
+  const std::string nouns = std::string(noun) + "s";
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  for (const std::string& name : names.first(std::min(names.size(), kListedMax))) {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  if (names.size() > kListedMax) list += strCat(" and ", names.size() - kListedMax, " more");
   const std::string meant = didYouMean(word, names);
-  return strCat("there is no \"", printable(word.substr(0, kShownMax)), "\"; ",
-                names.empty() ? "there are none yet" : "there are " + list,
-                meant.empty() ? "" : "; ", meant);
+  return strCat(
+      "there is no ", std::string(noun), " \"", printable(word.substr(0, kShownMax)), "\"; ",
+      names.empty() ? strCat("there are no ", nouns, " yet") : strCat("known ", nouns, ": ", list),
+      meant.empty() ? "" : "; ", meant);
 }
 
 }  // namespace viewloom

@@ -110,8 +110,10 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
   VIEWLOOM_RETURN_IF_ERROR(addSamples(spec, defaults, layout));
   for (const View& view : layout.views) {
     if (isUsable(view.camera.intrinsics)) continue;
-    return fieldError(absl::StatusCode::kFailedPrecondition, grid.size_field,
-                      "the stream's camera and this display give no finite view");
+    return fieldError(
+        absl::StatusCode::kFailedPrecondition, grid.size_field,
+        "the camera of the stream and this display give no finite view; give the display "
+        "a field of view, or a focal distance");
   }
   return layout;
 }
@@ -134,14 +136,14 @@ absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& lim
   };
   if (std::max(grid.width_px, grid.height_px) > limits.side_px_max) {
     return refuse(strCat("the atlas has ", grid.width_px, "x", grid.height_px,
-                         " px, accepted is a side of up to ", limits.side_px_max));
+                         " px; accepted is up to ", limits.side_px_max, " px a side"));
   }
   if (grid.width_px * grid.height_px > limits.area_px_max) {
     return refuse(strCat("the atlas has ", grid.width_px * grid.height_px,
-                         " px, accepted is up to ", limits.area_px_max));
+                         " px; accepted is up to ", limits.area_px_max, " px"));
   }
   if (grid.view_count > limits.view_count_max) {
-    return refuse(strCat("the atlas has ", grid.view_count, " views, accepted is up to ",
+    return refuse(strCat("the atlas has ", grid.view_count, " views; accepted is up to ",
                          limits.view_count_max));
   }
   return absl::OkStatus();

@@ -34,12 +34,13 @@ absl::Status completeArrangement(CamerasSpec& cameras) {
   const uint32_t columns = usualColumns(cameras);
   if (cameras.arrangement != TileArrangement::kGrid && cameras.columns != 0 &&
       cameras.columns != columns) {
-    return invalidField("cameras.columns",
-                        strCat("got ", cameras.columns, ", the arrangement has ", columns));
+    return invalidField("cameras.columns", strCat("got ", cameras.columns,
+                                                  " columns; accepted for this arrangement is ",
+                                                  columns, ", or leave columns out"));
   }
   if (cameras.arrangement == TileArrangement::kQuad && viewCount(cameras) != 4) {
-    return invalidField("cameras.arrangement", strCat("got QUAD_2X2 for ", viewCount(cameras),
-                                                      " views, accepted are four"));
+    return invalidField("cameras.arrangement", strCat("QUAD_2X2 is given for ", viewCount(cameras),
+                                                      " views; accepted is exactly 4 views"));
   }
   if (cameras.columns == 0) cameras.columns = columns;
   return absl::OkStatus();
@@ -53,13 +54,14 @@ absl::Status takePreset(CamerasSpec&) {
 
 absl::Status settle(CamerasSpec& cameras) {
   if (cameras.grid && !cameras.cameras.empty()) {
-    return invalidField("cameras.grid", "got one beside cameras, accepted is one of the two");
+    return invalidField("cameras.grid",
+                        "a grid and a list of cameras are given; accepted is one of the two");
   }
   const uint64_t count =
       cameras.grid ? uint64_t{cameras.grid->columns} * cameras.grid->rows : cameras.cameras.size();
   if (count < 1 || count > kCameraCountMax) {
     return invalidField(cameras.grid ? "cameras.grid" : "cameras.cameras",
-                        strCat("got ", count, ", accepted is 1..", kCameraCountMax));
+                        strCat("got ", count, " cameras; accepted is 1..", kCameraCountMax));
   }
   return completeArrangement(cameras);
 }

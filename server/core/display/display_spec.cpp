@@ -19,8 +19,8 @@ absl::Status checkFocusFollowing(const DisplaySpec& spec) {
   if (withFocalDistance(spec, 1)) return absl::OkStatus();
   return invalidField(
       "focus_following_s",
-      "came for a display without a focal plane to move; accepted for quilts, stereo "
-      "without given or tracked eyes, grids of cameras and lenticular panels");
+      "this display has no focal plane that could follow the content; accepted is a quilt, stereo "
+      "without given or tracked eyes, a grid of cameras or a lenticular panel");
 }
 
 // A visitor that notes the range of every number.
@@ -118,7 +118,7 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
 absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.jpeg_quality, {1, 100}, "jpeg_quality"));
   if (encoding.planes == BandEncoding::kJpeg || encoding.planes == BandEncoding::kJpegPlanes) {
-    return invalidField("planes", "got JPEG, which loses depth and mask; accepted is ZSTD or RAW");
+    return invalidField("planes", "JPEG would change depth and mask; accepted is ZSTD or RAW");
   }
   return absl::OkStatus();
 }
@@ -128,8 +128,8 @@ absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& enc
       encoding.color == BandEncoding::kJpeg && encoding.chroma == Chroma::k420;
   if (!shares_chroma || tileGridOf(spec).rays_per_px == 1) return absl::OkStatus();
   return invalidField("chroma",
-                      "got 420 for a lenticular panel, whose subpixels each show another view: "
-                      "shared chroma mixes them; accepted are 444, JPEG_PLANES, ZSTD and RAW");
+                      "420 would mix neighbouring subpixels, which show different views on a "
+                      "lenticular panel; accepted is 444, or color as JPEG_PLANES, ZSTD or RAW");
 }
 
 }  // namespace viewloom

@@ -24,11 +24,12 @@ constexpr std::array<ReflectedRays, 3> kReflectionCounts = {{{1, 2}, {2, 4}, {4,
 
 absl::Status settle(LensSpec& lens, Quality quality) {
   if (lens.has_automatic_aperture && lens.aperture_radius_m != 0) {
-    return invalidField("aperture_radius_m", "came with automatic_aperture; accepted is one");
+    return invalidField("aperture_radius_m",
+                        "a radius and automatic_aperture are given; accepted is one of the two");
   }
   if (!lens.has_automatic_aperture && lens.aperture_radius_m == 0) {
     return invalidField("aperture_radius_m",
-                        "got 0, accepted is more than 0, up to 10 m, or automatic_aperture");
+                        "got 0; accepted is more than 0, up to 10 m, or automatic_aperture");
   }
   const LensCounts& counts = kLensCounts[size_t(quality)];
   if (lens.walked_count == 0) lens.walked_count = counts.walked;

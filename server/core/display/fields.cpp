@@ -26,7 +26,7 @@ bool accepts(const Range& range, double value) {
 
 absl::Status checkRange(double value, const Range& range, const std::string& field) {
   if (accepts(range, value)) return absl::OkStatus();
-  return invalidField(field, strCat("got ", value, ", accepted is ", acceptedText(range)));
+  return invalidField(field, strCat("got ", value, "; accepted is ", acceptedText(range)));
 }
 
 absl::Status checkCount(size_t count, const Range& counts, const std::string& field) {
@@ -34,8 +34,8 @@ absl::Status checkCount(size_t count, const Range& counts, const std::string& fi
   const std::string some =
       counts.min == counts.max ? strCat(counts.min) : strCat(counts.min, "..", counts.max);
   const bool is_none_apart = counts.accepts_zero && counts.min > 1;
-  return invalidField(
-      field, strCat("got ", count, ", accepted is ", is_none_apart ? "none or " : "", some));
+  return invalidField(field, strCat("got ", count, " entries; accepted is ",
+                                    is_none_apart ? "none or " : "", some));
 }
 
 void FieldChecks::operator()(const char* name, SizePx value, const Range& range) {
@@ -45,7 +45,7 @@ void FieldChecks::operator()(const char* name, SizePx value, const Range& range)
 
 void FieldChecks::color(const char* name, uint32_t value) {
   if (value <= kColorMax) return;
-  take(invalidField(prefix_ + name, strCat("got 0x", absl::Hex(value), ", accepted is 0..0x",
+  take(invalidField(prefix_ + name, strCat("got 0x", absl::Hex(value), "; accepted is 0..0x",
                                            absl::Hex(kColorMax))));
 }
 

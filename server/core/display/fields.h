@@ -70,9 +70,9 @@ struct ViewCamera {
   std::variant<Fov, Intrinsics> projection;
 };
 
-// NaN fails. "got 51, accepted is 1..50"
+// Refuses a number out of range, and NaN: "got 51; accepted is 1..50".
 absl::Status checkRange(double value, const Range& range, const std::string& field);
-// Length of a list. "got 3, accepted is none or 2"
+// Refuses the length of a list: "got 3 entries; accepted is none or 2".
 absl::Status checkCount(size_t count, const Range& counts, const std::string& field);
 
 // A visitor that checks every field. It keeps the first refusal.

@@ -63,7 +63,8 @@ absl::Status settle(IntegralSpec& integral) {
   if (lens_px < kLensPxMin || lens_px > kLensPxMax) {
     return invalidField(
         "integral.lens_pitch_m",
-        strCat("a lens covers ", lens_px, " px, accepted is ", kLensPxMin, "..", kLensPxMax));
+        strCat("a lens covers ", lens_px, " px of the panel; accepted is ", kLensPxMin, "..",
+               kLensPxMax, " px: change lens_pitch_m or pixel_pitch_m"));
   }
   if (integral.scale == 0) integral.scale = 1;
   VIEWLOOM_RETURN_IF_ERROR(completeLensCount(integral.lens_columns, integral.panel_px.width,

@@ -96,15 +96,17 @@ absl::StatusOr<std::optional<LensRays>> lensRays(const LensSpec& lens, const Atl
                                                  const StreamDefaults& defaults) {
   const double focus_m = lens.focus_distance_m.value_or(layout.eye_focus_m);
   if (focus_m == kNoFocus_m) {
-    return fieldError(absl::StatusCode::kFailedPrecondition, "effects.lens.focus_distance_m",
-                      "was not given, and this display has no focal plane");
+    return fieldError(
+        absl::StatusCode::kFailedPrecondition, "effects.lens.focus_distance_m",
+        "the distance in focus is not given, and this display has no focal plane to take "
+        "it from; give the distance in metres");
   }
   double radius_m = lens.aperture_radius_m;
   if (lens.has_automatic_aperture) {
     if (!(disparityPerInvZ(layout) > 0) || layout.eye_focus_m == kNoFocus_m) {
       return fieldError(absl::StatusCode::kFailedPrecondition, "effects.lens.automatic_aperture",
-                        "came for a display without neighbouring views; accepted for those with a "
-                        "depth budget");
+                        "the automatic aperture needs neighbouring views on one focal plane, and "
+                        "this display has none; give aperture_radius_m instead");
     }
     radius_m = automaticRadius_m(layout, defaults, focus_m);
     if (radius_m == 0) return std::nullopt;

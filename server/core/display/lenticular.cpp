@@ -16,7 +16,8 @@ namespace {
 absl::Status takePanel(LenticularSpec& lenticular) {
   if (lenticular.preset.empty()) {
     return invalidField("lenticular.calibration_json",
-                        "missing: the text of the device's own visual.json, or a preset");
+                        "no calibration is given; accepted is the text of the device's own "
+                        "visual.json, or a preset");
   }
   VIEWLOOM_RETURN_IF_ERROR(checkPreset(lenticular.preset, "lenticular.preset"));
   lenticular.calibration = panelOfPreset(lenticular.preset);
@@ -24,7 +25,7 @@ absl::Status takePanel(LenticularSpec& lenticular) {
   return fieldError(
       absl::StatusCode::kFailedPrecondition, "lenticular.preset",
       strCat("no calibration of \"", lenticular.preset,
-             "\" is published; give the device's own visual.json in calibration_json"));
+             "\" is published; give the text of the device's own visual.json as calibration_json"));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ absl::StatusOr<DisplayKind> namedDisplay(std::string_view name) {
 absl::Status unknownPreset(std::string_view name, std::string_view field,
                            const std::vector<std::string>& names) {
   return fieldError(absl::StatusCode::kNotFound, field,
-                    strCat(noSuchName(name, names), otherKind(name, names)));
+                    strCat(noSuchName("preset", name, names), otherKind(name, names)));
 }
 
 }  // namespace viewloom

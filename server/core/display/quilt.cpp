@@ -27,8 +27,9 @@ absl::Status completeDepthiness(QuiltSpec& quilt) {
       takes_half ? quilt.depthiness * quilt.view_cone_rad : 2 * quilt.view_cone_rad;
   if (widest_rad <= kViewAngleMax_rad) return absl::OkStatus();
   return invalidField("quilt.depthiness",
-                      strCat("it widens the cone of ", quilt.view_cone_rad, " rad to ", widest_rad,
-                             ", accepted is up to ", kViewAngleMax_rad));
+                      strCat("depthiness widens the cone of ", quilt.view_cone_rad, " rad to ",
+                             widest_rad, " rad; accepted is up to ", kViewAngleMax_rad,
+                             " rad: give a smaller depthiness or cone"));
 }
 
 // On the line of eyes, m; `place` is 0 at the cone's left end and 1 at its right end.
@@ -59,13 +60,13 @@ absl::Status takePreset(QuiltSpec& quilt) {
 absl::Status settle(QuiltSpec& quilt) {
   if (quilt.size_px.width < quilt.columns) {
     return invalidField("quilt.size.width",
-                        strCat("got ", quilt.size_px.width, " px for ", quilt.columns,
-                               " columns, accepted is 1 px a tile or more"));
+                        strCat("the quilt is ", quilt.size_px.width, " px wide and has ",
+                               quilt.columns, " columns; accepted is at least 1 px a column"));
   }
   if (quilt.size_px.height < quilt.rows) {
     return invalidField("quilt.size.height",
-                        strCat("got ", quilt.size_px.height, " px for ", quilt.rows,
-                               " rows, accepted is 1 px a tile or more"));
+                        strCat("the quilt is ", quilt.size_px.height, " px high and has ",
+                               quilt.rows, " rows; accepted is at least 1 px a row"));
   }
   if (quilt.view_cone_rad == 0) quilt.view_cone_rad = kDefaultViewCone_rad;
   const double tile_count = quilt.columns * quilt.rows;

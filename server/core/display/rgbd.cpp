@@ -62,8 +62,10 @@ absl::Status completePlacement(RgbdSpec& rgbd) {
   if (!has_place && rgbd.depth_placement) {
     return invalidField("rgbd.depth_placement",
                         rgbd.form == RgbdForm::kTwoLayers
-                            ? "got one for TWO_LAYERS, whose quadrants have their places"
-                            : "got one for depth_bits 16, which come beside the atlas's color");
+                            ? "the four quadrants of TWO_LAYERS have fixed places; leave the "
+                              "placement out"
+                            : "depth of 16 bits comes beside the color, not in it; leave the "
+                              "placement out, or use 8 bits");
   }
   if (has_place && !rgbd.depth_placement) rgbd.depth_placement = DepthPlacement::kRight;
   return absl::OkStatus();
@@ -116,11 +118,12 @@ absl::Status settle(RgbdSpec& rgbd) {
   if (rgbd.depth_bits == 0) rgbd.depth_bits = kDefaultDepthBits;
   if (rgbd.depth_bits != 8 && rgbd.depth_bits != 16) {
     return invalidField("rgbd.depth_bits",
-                        strCat("got ", rgbd.depth_bits, ", accepted are 8 and 16"));
+                        strCat("got ", rgbd.depth_bits, "; accepted is 8 or 16"));
   }
   if (rgbd.near_m > 0 && rgbd.far_m > 0 && rgbd.far_m <= rgbd.near_m) {
-    return invalidField("rgbd.far_m", strCat("got ", rgbd.far_m, ", accepted is more than ",
-                                             "near_m, which is ", rgbd.near_m));
+    return invalidField(
+        "rgbd.far_m",
+        strCat("got ", rgbd.far_m, " m; accepted is more than near_m (", rgbd.near_m, " m)"));
   }
   return completePlacement(rgbd);
 }
@@ -176,11 +179,11 @@ void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout&
 
 absl::Status validateDepthCodes(const DepthCodes& codes) {
   if (codes.inv_z_near > codes.inv_z_far) return absl::OkStatus();
-  return fieldError(absl::StatusCode::kFailedPrecondition, "rgbd.near_m",
-                    strCat("the nearest code is ", 1 / codes.inv_z_near,
-                           " m away and the farthest ", 1 / codes.inv_z_far,
-                           " m: one of them is the stream's; accepted is a nearest one that "
-                           "is nearer, say both near_m and far_m"));
+  return fieldError(
+      absl::StatusCode::kFailedPrecondition, "rgbd.near_m",
+      strCat("the range of depth is empty: its near end is at ", 1 / codes.inv_z_near,
+             " m and its far end at ", 1 / codes.inv_z_far,
+             " m, and one of them comes from the stream; give both near_m and far_m"));
 }
 
 bool showsDepth(const DisplaySpec& spec) {

@@ -17,7 +17,10 @@ constexpr uint32_t kLayersForWideGaps = 3;
 absl::Status requireOwnFov(const DisplaySpec& spec) {
   const auto fov = std::visit([](const auto& kind) { return openFov(kind); }, spec.kind);
   if (!fov || fov->fov_y_rad > 0) return absl::OkStatus();
-  return invalidField(fov->field, "missing: there is no stream whose field of view it could be");
+  return invalidField(
+      fov->field,
+      "missing: without a stream, there is no field of view to copy; accepted is the "
+      "field of view in radians, up to 2.6");
 }
 
 absl::Status checkRequest(const DisplaySpec& spec, double near_m, double far_m) {
@@ -81,8 +84,8 @@ absl::StatusOr<SourceAdvice> adviseSource(const DisplaySpec& spec, double near_m
   const SourceDemand demand = demandAt(views, middle, range);
   if (!demand.isServable()) {
     return fieldError(absl::StatusCode::kFailedPrecondition, "display",
-                      "its views look more than 1.3 rad past the middle one's axis, accepted are "
-                      "some that look less");
+                      "its views look more than 1.3 rad aside from the middle one, further than a "
+                      "pinhole camera sees; give it a narrower view cone or field of view");
   }
   const double gap = besideMiddle(outermost) * (range.near - range.far);
   const bool is_wide = gap > kWideGapShare * demand.tangentWidth();

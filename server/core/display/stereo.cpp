@@ -22,7 +22,8 @@ absl::Status takePreset(StereoSpec&) {
 absl::Status settle(StereoSpec& stereo) {
   if (stereo.eye_distance_m == 0) stereo.eye_distance_m = kDefaultEyeDistance_m;
   if (stereo.is_tracked && !stereo.eyes.empty()) {
-    return invalidField("stereo.eyes", "got two beside tracked, accepted is one of the two");
+    return invalidField("stereo.eyes",
+                        "eyes are given although tracked is set; accepted is one of the two");
   }
   return absl::OkStatus();
 }

@@ -33,10 +33,9 @@ absl::Status validateInFront(const EyePoses& poses, double focal_distance_m) {
     const TrackedEye& eye = poses.eyes[i];
     if (eye.projection || eye.pose.position_m.z > -focal_distance_m) continue;
     return invalidField(fieldOfEye(i) + ".pose.position.z",
-                        strCat("is ", eye.pose.position_m.z,
-                               ", on or behind the focal plane; accepted is "
-                               "more than ",
-                               -focal_distance_m, ", or an eye with a projection"));
+                        strCat("the eye is at z = ", eye.pose.position_m.z,
+                               " m, on or behind the focal plane; accepted is more than ",
+                               -focal_distance_m, " m, or an eye with fov or intrinsics"));
   }
   return absl::OkStatus();
 }
@@ -51,8 +50,8 @@ absl::Status placeEyes(const EyePoses& poses, const StereoSpec& stereo,
     const Camera camera = cameraOf(poses.eyes[i], window, stereo.eye_size_px);
     if (!validateIntrinsics(camera.intrinsics, "").ok()) {
       return invalidField(fieldOfEye(i) + ".pose.position",
-                          "gives no finite view of the display; accepted is an eye further from "
-                          "the focal plane, or less far aside");
+                          "the eye has no finite view of the display; accepted is an eye further "
+                          "from the focal plane, or less far aside");
     }
     layout.views.push_back({camera});
   }

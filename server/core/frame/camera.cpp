@@ -29,26 +29,31 @@ bool isFinite(const glm::dvec3& v) {
 
 absl::Status validateAngle(double angle_rad, std::string_view field, std::string_view name) {
   if (std::abs(angle_rad) <= std::numbers::pi / 2 - kAngleMarginRad) return absl::OkStatus();
-  return invalidField(strCat(field, ".", name),
-                      strCat("is ", angle_rad, ", must lie in (-pi/2, pi/2)"));
+  return invalidField(
+      strCat(field, ".", name),
+      strCat("the angle is ", angle_rad, " rad; accepted is more than -pi/2 and less than pi/2"));
 }
 
 absl::Status validateOpening(double low_rad, double high_rad, std::string_view field,
                              std::string_view low_name, std::string_view high_name) {
   if (high_rad - low_rad >= kOpeningMinRad) return absl::OkStatus();
   return invalidField(strCat(field, ".", high_name),
-                      strCat("is ", high_rad, ", must be greater than ", low_name, " = ", low_rad));
+                      strCat("the angle is ", high_rad, " rad; accepted is more than ", low_name,
+                             ", which is ", low_rad));
 }
 
 absl::Status validateFocal(double focal_px, std::string_view field, std::string_view name) {
   if (focal_px >= kFocalMinPx && focal_px <= kFocalMaxPx) return absl::OkStatus();
   return invalidField(strCat(field, ".", name),
-                      strCat("is ", focal_px, ", must be finite and greater than 0"));
+                      strCat("the focal length is ", focal_px, " px; accepted is ", kFocalMinPx,
+                             "..", kFocalMaxPx));
 }
 
 absl::Status validatePrincipal(double principal_px, std::string_view field, std::string_view name) {
   if (std::abs(principal_px) <= kPrincipalMaxPx) return absl::OkStatus();
-  return invalidField(strCat(field, ".", name), strCat("is ", principal_px, ", must be finite"));
+  return invalidField(strCat(field, ".", name),
+                      strCat("the principal point is at ", principal_px,
+                             " px; accepted is a number up to ", kPrincipalMaxPx, " in size"));
 }
 
 }  // namespace
@@ -84,14 +89,16 @@ Fov fovFromIntrinsics(const Intrinsics& intrinsics, SizePx size_px) {
 absl::Status validatePose(const Pose& pose, std::string_view field) {
   const glm::dvec3& p = pose.position_m;
   if (!isFinite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kPositionMaxM) {
-    return invalidField(strCat(field, ".position"),
-                        strCat("is (", p.x, ", ", p.y, ", ", p.z, "), must be finite and within ",
-                               kPositionMaxM, " m"));
+    return invalidField(
+        strCat(field, ".position"),
+        strCat("the position is (", p.x, ", ", p.y, ", ", p.z, ") m; accepted is up to ",
+               kPositionMaxM, " m from 0 along each axis"));
   }
   const double length = glm::length(pose.orientation);
   if (!(std::abs(length - 1) <= kUnitLengthTolerance)) {
     return invalidField(strCat(field, ".orientation"),
-                        strCat("has length ", length, ", must be 1 within ", kUnitLengthTolerance));
+                        strCat("the quaternion has length ", length, "; accepted is 1, to within ",
+                               kUnitLengthTolerance));
   }
   return absl::OkStatus();
 }

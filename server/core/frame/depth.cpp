@@ -49,23 +49,24 @@ absl::Status validateWindow(const DepthFormat& format, std::string_view field) {
   const auto outside = [](double depth) { return !(depth >= 0 && depth <= 1); };
   if (outside(format.min_depth)) {
     return invalidField(strCat(field, ".min_depth"),
-                        strCat("is ", format.min_depth, ", must lie in [0, 1]"));
+                        strCat("got ", format.min_depth, "; accepted is 0..1"));
   }
   if (outside(format.max_depth) || asBinary32(format.max_depth) <= asBinary32(format.min_depth)) {
-    return invalidField(
-        strCat(field, ".max_depth"),
-        strCat("is ", format.max_depth, ", must lie in (min_depth = ", format.min_depth, ", 1]"));
+    return invalidField(strCat(field, ".max_depth"),
+                        strCat("got ", format.max_depth, "; accepted is more than min_depth (",
+                               format.min_depth, "), up to 1"));
   }
   const auto too_near = [](double z_m) { return !(z_m * double{kInvZMax} >= 1); };
   if (too_near(format.near_z_m)) {
     return invalidField(strCat(field, ".near_z_m"),
-                        strCat("is ", format.near_z_m, ", must lie in (0, +inf]"));
+                        strCat("the near plane is at ", format.near_z_m,
+                               " m; accepted is more than 0, up to infinity"));
   }
   if (too_near(format.far_z_m) || format.far_z_m == format.near_z_m) {
-    return invalidField(
-        strCat(field, ".far_z_m"),
-        strCat("is ", format.far_z_m,
-               ", must lie in (0, +inf] and differ from near_z_m = ", format.near_z_m));
+    return invalidField(strCat(field, ".far_z_m"),
+                        strCat("the far plane is at ", format.far_z_m,
+                               " m; accepted is more than 0, up to infinity, and not near_z_m (",
+                               format.near_z_m, " m)"));
   }
   return absl::OkStatus();
 }
@@ -74,12 +75,13 @@ absl::Status validateScale(const DepthFormat& format, std::string_view field) {
   const double magnitude = std::abs(format.scale);
   if (!(magnitude >= kScaleMin && magnitude <= kScaleMax)) {
     return invalidField(strCat(field, ".scale"),
-                        strCat("is ", format.scale, ", must be finite and not 0 (", kScaleMin, "..",
-                               kScaleMax, " in magnitude)"));
+                        strCat("the scale of the depth is ", format.scale, "; accepted is ",
+                               kScaleMin, "..", kScaleMax, " in size, of either sign"));
   }
   if (!(std::abs(format.offset) <= kScaleMax)) {
     return invalidField(strCat(field, ".offset"),
-                        strCat("is ", format.offset, ", must be finite and within ", kScaleMax));
+                        strCat("the offset of the depth is ", format.offset, "; accepted is up to ",
+                               kScaleMax, " in size"));
   }
   return absl::OkStatus();
 }
@@ -88,16 +90,17 @@ absl::Status validateInvalidValue(const DepthFormat& format, PlaneEncoding encod
                                   std::string_view field) {
   if (!format.invalid_value.has_value()) {
     if (!format.invalid_is_far) return absl::OkStatus();
-    return invalidField(strCat(field, ".invalid_is_far"),
-                        "is set without an invalid_value that could be far");
+    return invalidField(
+        strCat(field, ".invalid_is_far"),
+        "invalid_is_far is set without invalid_value; give the value that means invalid");
   }
   const double value = *format.invalid_value;
   const bool storable_u16 = value >= 0 && value <= kU16Max && std::trunc(value) == value;
   if (encoding == PlaneEncoding::kDepthU16 ? !storable_u16 : std::isnan(value)) {
     return invalidField(
         strCat(field, ".invalid_value"),
-        strCat("is ", value, ", must be a value that a sample can have (",
-               encoding == PlaneEncoding::kDepthU16 ? "a whole number 0..65535)" : "not NaN)"));
+        strCat("the invalid value is ", value, ", which no sample can have; accepted is ",
+               encoding == PlaneEncoding::kDepthU16 ? "a whole number 0..65535" : "any number"));
   }
   return absl::OkStatus();
 }

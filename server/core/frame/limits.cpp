@@ -32,23 +32,25 @@ std::string sizeText(SizePx size_px) {
 // Six square faces, one below the other: only the side of one is limited.
 absl::Status validateCubeSize(SizePx size_px, uint32_t side_px_max) {
   if (size_px.width == 0 || size_px.height != uint64_t{kCubeFaceCount} * size_px.width) {
-    return invalidField("size", strCat("is ", sizeText(size_px), ", must be N x ", kCubeFaceCount,
-                                       " N: the faces of a cube map, one below the other"));
+    return invalidField(
+        "size", strCat("a plane of a cube map has ", sizeText(size_px), " px; accepted is N x ",
+                       kCubeFaceCount, " N: the faces, one below the other"));
   }
   if (size_px.width > side_px_max) {
-    return overLimit("size", strCat("has faces of ", size_px.width, " px, at most ", side_px_max,
-                                    " px a side are accepted"));
+    return overLimit("size", strCat("a face of the cube map has ", size_px.width,
+                                    " px a side; accepted is up to ", side_px_max));
   }
   return absl::OkStatus();
 }
 
 absl::Status validateSize(SizePx size_px, uint32_t side_px_max) {
   if (size_px.width == 0 || size_px.height == 0) {
-    return invalidField("size", strCat("is ", sizeText(size_px), ", must be at least 1x1"));
+    return invalidField(
+        "size", strCat("the plane has ", sizeText(size_px), " px; accepted is at least 1x1"));
   }
   if (std::max(size_px.width, size_px.height) > side_px_max) {
-    return overLimit("size", strCat("is ", sizeText(size_px), ", at most ", side_px_max,
-                                    " px a side are accepted"));
+    return overLimit("size", strCat("the plane has ", sizeText(size_px), " px; accepted is up to ",
+                                    side_px_max, " px a side"));
   }
   return absl::OkStatus();
 }
@@ -56,12 +58,14 @@ absl::Status validateSize(SizePx size_px, uint32_t side_px_max) {
 absl::Status validateStride(const PlaneFormat& plane) {
   if (plane.stride_bytes == 0) return absl::OkStatus();
   if (plane.encoding == PlaneEncoding::kJpeg) {
-    return invalidField("stride_bytes", strCat("is ", plane.stride_bytes, ", must be 0 for JPEG"));
+    return invalidField("stride_bytes", strCat("the stride of a JPEG is ", plane.stride_bytes,
+                                               " bytes; accepted is 0"));
   }
   const uint64_t packed = uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
   if (plane.stride_bytes < packed || plane.stride_bytes > packed + kRowPaddingBytesMax) {
-    return invalidField("stride_bytes", strCat("is ", plane.stride_bytes, ", must be 0 or ", packed,
-                                               "..", packed + kRowPaddingBytesMax));
+    return invalidField("stride_bytes", strCat("the stride is ", plane.stride_bytes,
+                                               " bytes; accepted is 0 (packed) or ", packed, "..",
+                                               packed + kRowPaddingBytesMax));
   }
   return absl::OkStatus();
 }
@@ -71,11 +75,12 @@ absl::Status validateCompression(const PlaneFormat& plane) {
   if (plane.compression != PlaneCompression::kPredictedZstd) return absl::OkStatus();
   if (plane.encoding != PlaneEncoding::kDepthU16 && plane.encoding != PlaneEncoding::kDepthF16) {
     return invalidField("compression",
-                        "is PREDICTED_ZSTD, which is for DEPTH_U16 and DEPTH_F16 alone");
+                        "PREDICTED_ZSTD is given for another encoding than DEPTH_U16 and "
+                        "DEPTH_F16; accepted here is NONE or ZSTD");
   }
   if (plane.stride_bytes == 0) return absl::OkStatus();
-  return invalidField("stride_bytes",
-                      strCat("is ", plane.stride_bytes, ", must be 0 with PREDICTED_ZSTD"));
+  return invalidField("stride_bytes", strCat("the stride is ", plane.stride_bytes,
+                                             " bytes; accepted with PREDICTED_ZSTD is 0"));
 }
 
 absl::Status validateWireBytes(const PlaneFormat& plane) {
@@ -83,14 +88,16 @@ absl::Status validateWireBytes(const PlaneFormat& plane) {
   const uint64_t content = uncompressedBytes(plane);
   const bool jpeg = plane.encoding == PlaneEncoding::kJpeg;
   if (plane.compression == PlaneCompression::kNone && !jpeg && got != content) {
-    return invalidField("bytes_count", strCat("is ", got, ", must be ", content, " for ",
-                                              sizeText(plane.size_px), " and this encoding"));
+    return invalidField("bytes_count",
+                        strCat("the plane declares ", got, " bytes; accepted is ", content,
+                               ", which ", sizeText(plane.size_px), " px take in this encoding"));
   }
   uint64_t most = jpeg ? jpegBytesMax(plane.size_px.area()) : content;
   if (plane.compression != PlaneCompression::kNone) most = zstdBytesMax(most);
   most = std::min(most, kPlaneWireBytesMax);
   if (got == 0 || got > most) {
-    return invalidField("bytes_count", strCat("is ", got, ", must lie in 1..", most));
+    return invalidField("bytes_count",
+                        strCat("the plane declares ", got, " bytes; accepted is 1..", most));
   }
   return absl::OkStatus();
 }
@@ -98,7 +105,9 @@ absl::Status validateWireBytes(const PlaneFormat& plane) {
 absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cube_map,
                            const FrameLimits& limits) {
   if (plane.kind != kind || !isEncodingOf(kind, plane.encoding)) {
-    return invalidField("encoding", strCat("is not one of ", encodingsOf(kind)));
+    return invalidField(
+        "encoding",
+        strCat("the encoding does not fit the kind of the plane; accepted is ", encodingsOf(kind)));
   }
   VIEWLOOM_RETURN_IF_ERROR(is_cube_map ? validateCubeSize(plane.size_px, limits.plane_side_px_max)
                                        : validateSize(plane.size_px, limits.plane_side_px_max));
@@ -108,7 +117,7 @@ absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cub
   if (kind == PlaneKind::kColor) {
     if (!is_cube_map || plane.alpha == AlphaMode::kOpaque) return absl::OkStatus();
     return fieldError(absl::StatusCode::kUnimplemented, "alpha",
-                      "is not OPAQUE, which is not served yet for cube maps");
+                      "transparent colour of cube maps is not served yet; accepted is OPAQUE");
   }
   if (kind != PlaneKind::kDepth) return absl::OkStatus();
   return validateDepthFormat(plane.depth, plane.encoding, "depth");
@@ -137,9 +146,10 @@ absl::Status validateMotion(const SourceFormat& source, size_t layer) {
   return fieldError(
       absl::StatusCode::kUnimplemented,
       strCat("layers[", layer, "].planes[", 2 + (motion - format.others.begin()), "].kind"),
-      source.is_cube_map ? "is MOTION, which is not served yet for cube maps"
-                         : "is MOTION, which is not served yet for colour of another size than "
-                           "depth, or of several transfers, primaries or alphas in one source");
+      source.is_cube_map ? "MOTION of cube maps is not served yet; leave the plane out"
+                         : "MOTION is not served yet where colour has another size than depth, or "
+                           "where layers differ in transfer, primaries or alpha; make them alike, "
+                           "or leave the plane out");
 }
 
 // Beside colour and depth; they lie on the facets, too.
@@ -150,9 +160,9 @@ absl::Status validateOthers(const LayerFormat& layer, bool is_cube_map, const Fr
     VIEWLOOM_RETURN_IF_ERROR(
         withFieldPrefix(validatePlane(plane, plane.kind, is_cube_map, limits), path));
     if (plane.size_px != layer.depth.size_px) {
-      return invalidField(path + ".size",
-                          strCat("is ", sizeText(plane.size_px), ", must be that of the depth, ",
-                                 sizeText(layer.depth.size_px)));
+      return invalidField(path + ".size", strCat("the plane has ", sizeText(plane.size_px),
+                                                 " px; accepted is the size of the depth plane, ",
+                                                 sizeText(layer.depth.size_px)));
     }
   }
   return absl::OkStatus();
@@ -163,22 +173,24 @@ absl::Status validateAgreement(const SourceFormat& source, size_t layer) {
   const LayerFormat& first = source.layers.front();
   const LayerFormat& format = source.layers[layer];
   if (format.depth.size_px != first.depth.size_px) {
-    return invalidField(strCat(planePath(layer, format, PlaneKind::kDepth), ".size"),
-                        strCat("is ", sizeText(format.depth.size_px), ", must be that of layer 0, ",
-                               sizeText(first.depth.size_px)));
+    return invalidField(
+        strCat(planePath(layer, format, PlaneKind::kDepth), ".size"),
+        strCat("the depth plane has ", sizeText(format.depth.size_px),
+               " px; accepted is the size in the first layer, ", sizeText(first.depth.size_px)));
   }
   const auto is_half = [](const LayerFormat& l) {
     return l.color.encoding == PlaneEncoding::kRgba16f;
   };
   if (is_half(format) != is_half(first)) {
     return invalidField(strCat(planePath(layer, format, PlaneKind::kColor), ".encoding"),
-                        "mixes RGBA16F with 8-bit colour within one source");
+                        "the layers mix RGBA16F and 8-bit colour; accepted is one of the two for "
+                        "all layers of a source");
   }
   if (source.is_cube_map && format.color.size_px != first.depth.size_px) {
     return invalidField(
         strCat(planePath(layer, format, PlaneKind::kColor), ".size"),
-        strCat("is ", sizeText(format.color.size_px), ", must be that of the cube map's depth, ",
-               sizeText(first.depth.size_px)));
+        strCat("the colour plane of a cube map has ", sizeText(format.color.size_px),
+               " px; accepted is the size of its depth plane, ", sizeText(first.depth.size_px)));
   }
   return absl::OkStatus();
 }
@@ -187,8 +199,8 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
   VIEWLOOM_RETURN_IF_ERROR(validatePose(source.camera.pose, "camera.pose"));
   VIEWLOOM_RETURN_IF_ERROR(validateIntrinsics(source.camera.intrinsics, "camera.intrinsics"));
   if (source.layers.empty() || source.layers.size() > limits.layer_count_max) {
-    return invalidField("layers", strCat("has ", source.layers.size(), " entries, must have 1..",
-                                         limits.layer_count_max));
+    return invalidField("layers", strCat("the source has ", source.layers.size(),
+                                         " layers; accepted is 1..", limits.layer_count_max));
   }
   for (size_t layer = 0; layer < source.layers.size(); ++layer) {
     const LayerFormat& format = source.layers[layer];
@@ -204,8 +216,8 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
   }
   const double tolerance = source.connection_tolerance;
   if (!(tolerance >= 0 && tolerance <= double{kInvZMax})) {
-    return invalidField("connection_tolerance",
-                        strCat("is ", tolerance, ", must be finite and not negative"));
+    return invalidField("connection_tolerance", strCat("the tolerance is ", tolerance,
+                                                       " 1/m; accepted is 0..", double{kInvZMax}));
   }
   return absl::OkStatus();
 }
@@ -245,15 +257,17 @@ uint64_t decodedBytes(const PlaneFormat& plane) {
 }
 
 absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits) {
-  if (format.number == 0) return invalidField("header.number", "is 0, must be at least 1");
+  if (format.number == 0)
+    return invalidField("header.number", "the number of the frame is 0; accepted is 1 or more");
   if (!(std::abs(format.exposure_ev) <= kExposureMaxEv)) {
-    return invalidField("header.exposure_ev",
-                        strCat("is ", format.exposure_ev, ", must lie in -32..32"));
+    return invalidField("header.exposure_ev", strCat("the exposure is ", format.exposure_ev,
+                                                     " stops; accepted is -32..32"));
   }
   const size_t source_count = format.sources.size();
   if (source_count == 0 || source_count > limits.source_count_max) {
-    return invalidField("header.sources", strCat("has ", source_count, " entries, must have 1..",
-                                                 limits.source_count_max));
+    return invalidField("header.sources",
+                        strCat("the frame has ", source_count, " sources; accepted is 1..",
+                               limits.source_count_max));
   }
   uint64_t held_bytes = 0;
   for (size_t i = 0; i < source_count; ++i) {
@@ -264,8 +278,11 @@ absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits)
     }
   }
   if (held_bytes > limits.frame_bytes_max) {
-    return overLimit("header", strCat("declares ", held_bytes, " bytes of planes, at most ",
-                                      limits.frame_bytes_max, " are accepted"));
+    return overLimit(
+        "header", strCat("the planes of the frame take ", held_bytes, " bytes; accepted is up to ",
+                         limits.frame_bytes_max,
+                         ". Send smaller planes or fewer layers, or raise the server's "
+                         "limits.frame_bytes_max"));
   }
   return absl::OkStatus();
 }

@@ -134,7 +134,8 @@ class ProtoReader {
     const auto& kinds = *message_->GetDescriptor()->FindOneofByName("kind");
     const FieldDescriptor* const given = reflection().GetOneofFieldDescriptor(*message_, &kinds);
     if (given == nullptr) {
-      take(invalidField("kind", strCat("got none; accepted: ", namesOf(kinds))));
+      take(invalidField("kind",
+                        strCat("the display has no kind; accepted is one of ", namesOf(kinds))));
     } else if (given->type() == FieldDescriptor::TYPE_STRING) {
       absl::StatusOr<DisplayKind> named = namedDisplay(reflection().GetString(*message_, given));
       take(named.status());

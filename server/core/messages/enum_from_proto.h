@@ -26,11 +26,12 @@ inline absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int
                                const std::string& accepted, std::string_view field) {
   const auto* known = type.FindValueByNumber(number);
   if (known != nullptr && number != 0) {
-    return fieldError(absl::StatusCode::kUnimplemented, field,
-                      strCat("got ", known->name(), ", not served yet; accepted: ", accepted));
+    return fieldError(
+        absl::StatusCode::kUnimplemented, field,
+        strCat("got ", known->name(), ", which is not served yet; accepted is ", accepted));
   }
   const std::string got = known != nullptr ? known->name() : strCat("number ", number);
-  return invalidField(field, strCat("got ", got, "; accepted: ", accepted));
+  return invalidField(field, strCat("got ", got, "; accepted is ", accepted));
 }
 
 // A table that lists the _UNSPECIFIED value has a default; one that does not refuses it.

@@ -62,7 +62,7 @@ std::vector<std::string> namesOf(const EnumDescriptor& type) {
 }
 
 std::string acceptedBy(const FieldDescriptor& field) {
-  if (isUnsigned(field)) return "a whole number from 0 on";
+  if (isUnsigned(field)) return "a whole number, 0 or more";
   if (isWhole(field)) return "a whole number";
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
@@ -156,10 +156,10 @@ class FieldWalk final : public nlohmann::json_sax<json> {
     frame.index = kNoArray;
     if (frame.field == nullptr) return refuseName(name);
     if (frame.seen.insert(frame.field).second) return true;
-    return refuse(frame.path + frame.field->name(), "came twice; accepted is once");
+    return refuse(frame.path + frame.field->name(), "is given twice; accepted is once");
   }
   bool start_array(size_t) override {
-    if (frames_.empty() && ignored_ == 0) return refuse("", "got a list, accepted is an object");
+    if (frames_.empty() && ignored_ == 0) return refuse("", "got a list; accepted is an object");
     if (ignored_ > 0) return ++ignored_ > 0;
     Frame& frame = frames_.back();
     if (!frame.field->is_repeated() || frame.index != kNoArray) return refuseValue("a list");
@@ -175,8 +175,8 @@ class FieldWalk final : public nlohmann::json_sax<json> {
   }
   bool parse_error(size_t position, const std::string& token,
                    const nlohmann::detail::exception&) override {
-    return refuse("", strCat("the JSON breaks off or goes wrong at byte ", position,
-                             token.empty() ? "" : strCat(", at ", inQuotes(token))));
+    return refuse("", strCat("the text is not valid JSON at byte ", position,
+                             token.empty() ? "" : strCat(", near ", inQuotes(token))));
   }
 
  private:
@@ -218,7 +218,7 @@ class FieldWalk final : public nlohmann::json_sax<json> {
   template <typename Accepts>
   bool fits(const std::string& value, const Accepts& accepts) {
     if (ignored_ > 0) return true;
-    if (frames_.empty()) return refuse("", strCat("got ", value, ", accepted is an object"));
+    if (frames_.empty()) return refuse("", strCat("got ", value, "; accepted is an object"));
     const FieldDescriptor& field = *frames_.back().field;
     const bool is_own =
         field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !isPlain(*field.message_type());
@@ -228,8 +228,8 @@ class FieldWalk final : public nlohmann::json_sax<json> {
   }
   bool refuseValue(const std::string& value) {
     const FieldDescriptor& field = *frames_.back().field;
-    std::string problem = strCat("got ", value, ", accepted is ", acceptedBy(field));
-    if (isMissingArray()) problem = strCat("got ", value, ", accepted is a list in brackets");
+    std::string problem = strCat("got ", value, "; accepted is ", acceptedBy(field));
+    if (isMissingArray()) problem = strCat("got ", value, "; accepted is a list in brackets");
     if (isEnum(field) && !isMissingArray()) {
       const std::string word = value.size() > 1 ? value.substr(1, value.size() - 2) : value;
       const std::string nearest = didYouMean(word, namesOf(*field.enum_type()));
@@ -245,7 +245,7 @@ class FieldWalk final : public nlohmann::json_sax<json> {
     }
     const std::string nearest = didYouMean(name, names);
     return refuse(frame.path + printable(name.substr(0, kQuotedBytesMax)),
-                  strCat("there is no such field; accepted are ", absl::StrJoin(names, ", "),
+                  strCat("there is no such field; known fields: ", absl::StrJoin(names, ", "),
                          nearest.empty() ? "" : strCat("; ", nearest)));
   }
   bool refuse(const std::string& field, const std::string& problem) {

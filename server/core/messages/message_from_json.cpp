@@ -26,7 +26,7 @@ absl::Status messageFromJson(std::string_view text, size_t bytes_max,
                              google::protobuf::Message& message) {
   if (text.size() > bytes_max) {
     return absl::InvalidArgumentError(
-        strCat("has ", text.size(), " bytes, accepted are up to ", bytes_max));
+        strCat("the text has ", text.size(), " bytes; accepted is up to ", bytes_max));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkJsonFields(text, *message.GetDescriptor()));
   const auto parsed = google::protobuf::util::JsonStringToMessage(

@@ -51,7 +51,7 @@ absl::StatusOr<std::variant<Fov, Intrinsics>> projectionFromProto(const v1::Came
     case v1::Camera::PROJECTION_NOT_SET:
       break;
   }
-  return invalidField("projection", "got none; accepted: fov or intrinsics");
+  return invalidField("projection", "the camera has no projection; accepted is fov or intrinsics");
 }
 
 absl::StatusOr<DepthFormat> depthFormatFromProto(const v1::DepthFormat& proto) {

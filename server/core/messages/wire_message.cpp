@@ -39,7 +39,8 @@ absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
-      strCat("got ", byte_count, " bytes that are no ", message.GetTypeName()));
+      strCat("a message of ", byte_count, " bytes is not a ", message.GetTypeName(),
+             "; compare your .proto files with those of this server"));
 }
 
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count) {

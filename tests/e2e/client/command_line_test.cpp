@@ -101,7 +101,7 @@ TEST_F(CommandsWithServer, namesTheNearestStreamAndPreset) {
   EXPECT_THAT(answerTo("watch s --preset potrait --count 1").text,
               HasSubstr("did you mean \"portrait\""));
   EXPECT_THAT(answerTo("watch s --preset wovwx --count 1").text,
-              HasSubstr("--preset: there is no \"wovwx\"; "));
+              HasSubstr("--preset: there is no preset \"wovwx\"; "));
   EXPECT_THAT(answerTo("watch s --preset wovwx --count 1").text,
               HasSubstr("did you mean \"wowvx\""));
   EXPECT_THAT(answerTo("watch s --rgbd 64x48 --preset wovwx --count 1").text,

@@ -115,7 +115,7 @@ TEST_F(InspectCommand, saysWhichViewsOfADisplayLookPastTheFile) {
                         "They need a field of view of 104 x 54 degrees"));
   const Finished refused = inspect(file("render.exr") + " --preset none");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.errors, HasSubstr("--preset: there is no \"none\""));
+  EXPECT_THAT(refused.errors, HasSubstr("--preset: there is no preset \"none\""));
 }
 
 TEST_F(InspectCommand, warnsAndSaysWhatToDo) {

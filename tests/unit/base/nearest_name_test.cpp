@@ -63,9 +63,18 @@ TEST(NearestName, asksWithTheNamesInQuotes) {
 
 TEST(NearestName, listsTheNamesThatThereAre) {
   const std::vector<std::string> names{"go", "portrait"};
-  EXPECT_EQ(noSuchName("potrait", names),
-            "there is no \"potrait\"; there are go, portrait; did you mean \"portrait\"?");
-  EXPECT_EQ(noSuchName("x\033", {}), "there is no \"x\\x1b\"; there are none yet");
+  EXPECT_EQ(
+      noSuchName("preset", "potrait", names),
+      "there is no preset \"potrait\"; known presets: go, portrait; did you mean \"portrait\"?");
+  EXPECT_EQ(noSuchName("stream", "x\033", {}),
+            "there is no stream \"x\\x1b\"; there are no streams yet");
+}
+
+TEST(NearestName, listsNoMoreThanSomeOfManyNames) {
+  const std::vector<std::string> many(1000, std::string(64, 'a'));
+  const std::string text = noSuchName("stream", "x", many);
+  EXPECT_TRUE(text.ends_with(" and 968 more")) << text;
+  EXPECT_LT(text.size(), 32 * 70U);
 }
 
 TEST(NearestName, isFastForALongWord) {

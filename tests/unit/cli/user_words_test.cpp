@@ -81,8 +81,8 @@ TEST(UserWords, sayInOneLineWhatIsWrongWithAFile) {
   options.file = path;
   EXPECT_EQ(std::string(makeDisplay(options).status().message()),
             path +
-                ": does not describe a display in JSON: the JSON breaks off or goes "
-                "wrong at byte 1, at \"r\"");
+                ": does not describe a display in JSON: the text is not valid JSON at byte 1, "
+                "near \"r\"");
 }
 
 }  // namespace

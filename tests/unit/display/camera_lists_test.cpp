@@ -38,12 +38,12 @@ TEST(CameraLists, ofAWrongLengthAreRefusedBeforeTheirCameras) {
   const StereoSpec stereo{.eye_size_px = {640, 480}, .eyes = {bad, bad, bad}};
   const absl::Status three = completeDisplaySpec({.kind = stereo}).status();
   EXPECT_EQ(fieldOf(three), "stereo.eyes");
-  EXPECT_THAT(std::string(three.message()), HasSubstr("got 3, accepted is none or 2"));
+  EXPECT_THAT(std::string(three.message()), HasSubstr("got 3 entries; accepted is none or 2"));
   CamerasSpec cameras = goodCameras();
   cameras.cameras.assign(1025, bad);
   const absl::Status many = completeDisplaySpec({.kind = cameras}).status();
   EXPECT_EQ(fieldOf(many), "cameras.cameras");
-  EXPECT_THAT(std::string(many.message()), HasSubstr("got 1025, accepted is 1..1024"));
+  EXPECT_THAT(std::string(many.message()), HasSubstr("got 1025 entries; accepted is 1..1024"));
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ TEST(NamedDisplay, isSuggestedWhateverTheKind) {
     return std::string(completeDisplaySpec(spec).status().message());
   };
   EXPECT_EQ(refusalOf({.kind = IntegralSpec{.preset = "near_eye_2031"}}),
-            "integral.preset: there is no \"near_eye_2031\"; there are near_eye_2013; "
+            "integral.preset: there is no preset \"near_eye_2031\"; known presets: near_eye_2013; "
             "did you mean \"near_eye_2013\"?");
   EXPECT_EQ(refusalOf({.kind = RgbdSpec{.preset = "portrait"}}),
-            "rgbd.preset: there is no \"portrait\"; there are wowvx, wowvx_declipse; "
+            "rgbd.preset: there is no preset \"portrait\"; known presets: wowvx, wowvx_declipse; "
             "\"portrait\" is a display of another kind: open it by its name alone");
   EXPECT_THAT(refusalOf({.kind = LenticularSpec{.preset = "near_eye"}}),
               EndsWith("; \"near_eye_2013\" is a display of another kind: open it by its name "

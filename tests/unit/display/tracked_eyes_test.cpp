@@ -153,7 +153,7 @@ TEST(TrackedEyes, areRefusedWhereTheySeeNothing) {
   }
   const EyePoses poses = eyesAt({0, 0, 0}, {0, 0, -3});
   EXPECT_THAT(std::string(validateInFront(poses, 2).message()),
-              HasSubstr("is -3, on or behind the focal plane; accepted is more than -2"));
+              HasSubstr("z = -3 m, on or behind the focal plane; accepted is more than -2 m"));
   EXPECT_TRUE(validateInFront(poses, 3.5).ok());
 }
 

@@ -52,7 +52,7 @@ TEST(MessageFromJson, takesListsAndEnums) {
 TEST(MessageFromJson, suggestsTheNearestOfTheNamesThatThereAre) {
   const std::string message = refusal(R"({"quilt": {"colums": 8}})");
   EXPECT_TRUE(
-      message.starts_with("quilt.colums: there is no such field; accepted are preset, "
+      message.starts_with("quilt.colums: there is no such field; known fields: preset, "
                           "columns, rows, size"))
       << message;
   EXPECT_TRUE(message.ends_with("did you mean \"columns\"?")) << message;
@@ -60,53 +60,54 @@ TEST(MessageFromJson, suggestsTheNearestOfTheNamesThatThereAre) {
 
 TEST(MessageFromJson, saysWhatCameAndWhatIsAccepted) {
   EXPECT_EQ(refusal(R"({"quilt": {"columns": "eight"}})"),
-            "quilt.columns: got \"eight\", accepted is a whole number from 0 on");
+            "quilt.columns: got \"eight\"; accepted is a whole number, 0 or more");
   EXPECT_EQ(refusal(R"({"quilt": {"columns": -1}})"),
-            "quilt.columns: got -1, accepted is a whole number from 0 on");
+            "quilt.columns: got -1; accepted is a whole number, 0 or more");
   EXPECT_EQ(refusal(R"({"quilt": {"columns": 4294967296}})"),
-            "quilt.columns: got 4294967296, accepted is a whole number from 0 on");
+            "quilt.columns: got 4294967296; accepted is a whole number, 0 or more");
   EXPECT_EQ(refusal(R"({"quilt": {"columns": 2.5}})"),
-            "quilt.columns: got 2.5, accepted is a whole number from 0 on");
+            "quilt.columns: got 2.5; accepted is a whole number, 0 or more");
   EXPECT_EQ(refusal(R"({"quilt": {"aspect": [1]}})"),
-            "quilt.aspect: got a list, accepted is a number");
-  EXPECT_EQ(refusal(R"({"quilt": 5})"), "quilt: got 5, accepted is an object in braces");
+            "quilt.aspect: got a list; accepted is a number");
+  EXPECT_EQ(refusal(R"({"quilt": 5})"), "quilt: got 5; accepted is an object in braces");
   EXPECT_EQ(refusal(R"({"stereo": {"tracked": 1}})"),
-            "stereo.tracked: got 1, accepted is true or false");
+            "stereo.tracked: got 1; accepted is true or false");
   EXPECT_EQ(refusal(R"({"cameras": {"cameras": {}}})"),
-            "cameras.cameras: got an object, accepted is a list in brackets");
+            "cameras.cameras: got an object; accepted is a list in brackets");
   EXPECT_EQ(refusal(R"({"cameras": {"cameras": [{}, {"pose": {"position": {"x": true}}}]}})"),
-            "cameras.cameras[1].pose.position.x: got true, accepted is a number");
+            "cameras.cameras[1].pose.position.x: got true; accepted is a number");
 }
 
 TEST(MessageFromJson, listsTheWordsOfAnEnum) {
   const std::string message = refusal(R"({"quality": "QUALITY_BETS"})");
   EXPECT_EQ(message,
-            "quality: got \"QUALITY_BETS\", accepted is one of QUALITY_UNSPECIFIED, QUALITY_DRAFT, "
+            "quality: got \"QUALITY_BETS\"; accepted is one of QUALITY_UNSPECIFIED, QUALITY_DRAFT, "
             "QUALITY_BALANCED, QUALITY_BEST; did you mean \"QUALITY_BEST\"?");
 }
 
 TEST(MessageFromJson, refusesAFieldThatComesTwiceInEitherSpelling) {
   EXPECT_EQ(refusal(R"({"quilt": {"columns": 8, "columns": 9}})"),
-            "quilt.columns: came twice; accepted is once");
+            "quilt.columns: is given twice; accepted is once");
   EXPECT_EQ(refusal(R"({"quilt": {"view_cone_rad": 1, "viewConeRad": 1}})"),
-            "quilt.view_cone_rad: came twice; accepted is once");
+            "quilt.view_cone_rad: is given twice; accepted is once");
   EXPECT_FALSE(refusal(R"({"quilt": {}, "stereo": {}})").empty()) << "two of one kind";
 }
 
 TEST(MessageFromJson, refusesWhatIsNoJsonOrNoObject) {
-  EXPECT_TRUE(refusal(R"({"quilt": )").starts_with("the JSON breaks off"));
-  EXPECT_TRUE(refusal("").starts_with("the JSON breaks off"));
-  EXPECT_TRUE(refusal("{} {}").starts_with("the JSON breaks off"));
-  EXPECT_EQ(refusal("5"), "got 5, accepted is an object");
-  EXPECT_EQ(refusal("[{}]"), "got a list, accepted is an object");
+  EXPECT_TRUE(refusal(R"({"quilt": )").starts_with("the text is not valid JSON"));
+  EXPECT_TRUE(refusal("").starts_with("the text is not valid JSON"));
+  EXPECT_TRUE(refusal("{} {}").starts_with("the text is not valid JSON"));
+  EXPECT_EQ(refusal("5"), "got 5; accepted is an object");
+  EXPECT_EQ(refusal("[{}]"), "got a list; accepted is an object");
 }
 
 TEST(MessageFromJson, endsWhereTextIsTooLongOrTooDeep) {
-  EXPECT_EQ(refusal(std::string(kBytesMax + 1, ' ')), "has 4097 bytes, accepted are up to 4096");
+  EXPECT_EQ(refusal(std::string(kBytesMax + 1, ' ')),
+            "the text has 4097 bytes; accepted is up to 4096");
   EXPECT_FALSE(refusal(std::string(kBytesMax, '[')).empty());
   std::string deep = R"({"cameras": {"cameras": )";
   deep += std::string(2000, '[');
-  EXPECT_EQ(refusal(deep), "cameras.cameras[0]: got a list, accepted is an object in braces");
+  EXPECT_EQ(refusal(deep), "cameras.cameras[0]: got a list; accepted is an object in braces");
 }
 
 TEST(MessageFromJson, quotesForeignTextSafelyAndShortly) {

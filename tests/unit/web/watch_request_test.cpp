@@ -108,7 +108,7 @@ TEST_F(WatchRequests, refuseWhatTheWebCannotCarry) {
 
 TEST_F(WatchRequests, nameTheFieldAtFaultAsTheApiDoes) {
   EXPECT_EQ(messageOf({{"display", R"({"quilt": {"preset": "portrait", "columns": 51}})"}}),
-            "display.quilt.columns: got 51, accepted is 1..50");
+            "display.quilt.columns: got 51; accepted is 1..50");
   EXPECT_EQ(fieldAtFault({{"display", R"({"quilt": {"preset": "portrait", "aspect": "NaN"}})"}}),
             "display.quilt.aspect");
   EXPECT_EQ(fieldAtFault({{"display", "{}"}}), "display.kind");
@@ -123,11 +123,11 @@ TEST_F(WatchRequests, nameTheParameterOfWhatCameByHand) {
             std::string::npos);
   EXPECT_EQ(fieldAtFault({{"width", "x"}}), "width");
   EXPECT_EQ(messageOf({{"width", "3"}, {"height", "3000"}}),
-            "width: got 3 px for 8 columns, accepted is 1 px a tile or more");
+            "width: the quilt is 3 px wide and has 8 columns; accepted is at least 1 px a column");
   EXPECT_EQ(fieldAtFault({{"width", "800"}, {"display", R"({"preset": "portrait"})"}}), "width");
   const std::string unknown = messageOf({{"columns", "4"}});
   EXPECT_TRUE(
-      unknown.starts_with("columns: there is no such parameter; accepted are stream, "
+      unknown.starts_with("columns: there is no such parameter; known parameters: stream, "
                           "display, encoding, preset, width, height"))
       << unknown;
 }
@@ -136,7 +136,7 @@ TEST_F(WatchRequests, sayWhichStreamsExist) {
   const absl::Status status = parse({{"stream", "sceen"}}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(status.message(),
-            "stream: there is no \"sceen\"; there are scene; did you mean \"scene\"?");
+            "stream: there is no stream \"sceen\"; known streams: scene; did you mean \"scene\"?");
 }
 
 }  // namespace
