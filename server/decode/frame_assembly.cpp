@@ -31,27 +31,30 @@ absl::StatusOr<std::span<uint8_t>> FrameAssembly::beginChunk(uint32_t plane_inde
                                                              uint64_t offset_bytes,
                                                              uint64_t size_bytes) {
   if (complete()) {
-    return invalidField("chunk.plane_index",
-                        strCat("is ", plane_index, " after the last byte of frame ", format_.number,
-                               ", a header must come next"));
+    return invalidField("chunk.plane_index", strCat("a chunk of plane ", plane_index,
+                                                    " came after the last byte of frame ",
+                                                    format_.number, "; accepted next is a header"));
   }
   if (plane_index != current_plane_) {
-    return invalidField("chunk.plane_index", strCat("is ", plane_index, ", must be ",
-                                                    current_plane_, " of ", plane_bytes_.size()));
+    return invalidField("chunk.plane_index",
+                        strCat("a chunk of plane ", plane_index, " came; accepted next is plane ",
+                               current_plane_, " (planes are 0..", plane_bytes_.size() - 1, ")"));
   }
   const uint64_t declared_bytes = plane_bytes_[current_plane_];
   if (offset_bytes != collected_bytes_) {
     return invalidField("chunk.offset_bytes",
-                        strCat("is ", offset_bytes, ", must be ", collected_bytes_));
+                        strCat("a chunk begins at byte ", offset_bytes,
+                               " of its plane; accepted next is byte ", collected_bytes_));
   }
   if (size_bytes == 0 || size_bytes > kChunkBytesMax) {
-    return invalidField("chunk.data",
-                        strCat("has ", size_bytes, " bytes, must have 1..", kChunkBytesMax));
+    return invalidField("chunk.data", strCat("a chunk has ", size_bytes, " bytes; accepted is 1..",
+                                             kChunkBytesMax));
   }
   if (size_bytes > declared_bytes - collected_bytes_) {
     return invalidField(
-        "chunk.data", strCat("has ", size_bytes, " bytes, the plane of ", declared_bytes, " lacks ",
-                             declared_bytes - collected_bytes_));
+        "chunk.data",
+        strCat("a chunk has ", size_bytes, " bytes; accepted is up to ",
+               declared_bytes - collected_bytes_, ", the rest of the plane of ", declared_bytes));
   }
   if (!filling_) filling_ = pool_.takeUncleared(declared_bytes);
   begun_bytes_ = size_bytes;
@@ -81,9 +84,10 @@ absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes
 
 absl::Status FrameAssembly::requireComplete() const {
   if (complete()) return absl::OkStatus();
-  return invalidField(
-      "header", strCat("comes before the end of frame ", format_.number, ": plane ", current_plane_,
-                       " has ", collected_bytes_, " of ", plane_bytes_[current_plane_], " bytes"));
+  return invalidField("header",
+                      strCat("a header came before the end of frame ", format_.number, ": plane ",
+                             current_plane_, " has ", collected_bytes_, " of ",
+                             plane_bytes_[current_plane_], " bytes; send the rest first"));
 }
 
 CollectedFrame FrameAssembly::take() {

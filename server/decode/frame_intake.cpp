@@ -145,7 +145,7 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
     lock.unlock();
     report({.number = number,
             .outcome = FrameOutcome::kRefused,
-            .reason = "the server drains and takes no more frames"});
+            .reason = "the server is shutting down and takes no more frames"});
     return;
   }
   const auto [entry, idle] = state_->streams.try_emplace(stream);

@@ -85,24 +85,25 @@ struct JpegDecoder::Reader {
 absl::Status JpegDecoder::Reader::validateHeader(SizePx size_px) const {
   const auto refuse = [](std::string_view what) {
     return absl::InvalidArgumentError(
-        strCat("is a JPEG ", what, ", must be baseline, 8 bits, grey or YCbCr, one scan"));
+        strCat("the JPEG ", what,
+               "; accepted is a baseline JPEG with 8 bits, grey or YCbCr, in one scan"));
   };
-  if (decoder.progressive_mode) return refuse("in progressive mode");
-  if (decoder.arith_code) return refuse("with arithmetic coding");
+  if (decoder.progressive_mode) return refuse("is progressive");
+  if (decoder.arith_code) return refuse("has arithmetic coding");
   if (decoder.data_precision != BITS_IN_JSAMPLE) {
-    return refuse(strCat("of ", decoder.data_precision, " bits"));
+    return refuse(strCat("has ", decoder.data_precision, " bits"));
   }
   if (decoder.jpeg_color_space == JCS_CMYK || decoder.jpeg_color_space == JCS_YCCK) {
-    return refuse("in CMYK");
+    return refuse("is CMYK");
   }
   if (decoder.jpeg_color_space != JCS_GRAYSCALE && decoder.jpeg_color_space != JCS_YCbCr) {
-    return refuse(strCat("of ", decoder.num_components, " channels in another colour space"));
+    return refuse(strCat("has ", decoder.num_components, " channels in another colour space"));
   }
-  if (decoder.comps_in_scan != decoder.num_components) return refuse("of several scans");
+  if (decoder.comps_in_scan != decoder.num_components) return refuse("has several scans");
   if (decoder.image_width != size_px.width || decoder.image_height != size_px.height) {
-    return absl::InvalidArgumentError(strCat("is a JPEG of ", decoder.image_width, "x",
-                                             decoder.image_height, ", must be ", size_px.width, "x",
-                                             size_px.height));
+    return absl::InvalidArgumentError(
+        strCat("the JPEG has ", decoder.image_width, "x", decoder.image_height,
+               " px; accepted is the declared size, ", size_px.width, "x", size_px.height));
   }
   return absl::OkStatus();
 }
@@ -121,7 +122,7 @@ absl::Status JpegDecoder::decode(std::span<const uint8_t> wire, SizePx size_px,
   const auto broken = [this] {
     jpeg_abort_decompress(&reader_->decoder);
     return absl::InvalidArgumentError(
-        strCat("is not a whole baseline JPEG: ", reader_->fault.message.data()));
+        strCat("the bytes are not a whole baseline JPEG: ", reader_->fault.message.data()));
   };
   if (!reader_->readHeader(wire.data(), wire.size())) return broken();
   if (absl::Status status = reader_->validateHeader(size_px); !status.ok()) {

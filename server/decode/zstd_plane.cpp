@@ -15,15 +15,16 @@ absl::StatusOr<unsigned long long> declaredBytes(std::span<const uint8_t> wire) 
   const size_t frame_bytes = ZSTD_findFrameCompressedSize(wire.data(), wire.size());
   if (ZSTD_isError(frame_bytes)) {
     return absl::InvalidArgumentError(
-        strCat("is not a whole zstd frame: ", ZSTD_getErrorName(frame_bytes)));
+        strCat("the bytes are not a whole zstd frame: ", ZSTD_getErrorName(frame_bytes)));
   }
   if (frame_bytes != wire.size()) {
-    return absl::InvalidArgumentError(
-        strCat("has ", wire.size() - frame_bytes, " bytes after its zstd frame, must have none"));
+    return absl::InvalidArgumentError(strCat(
+        wire.size() - frame_bytes,
+        " bytes follow the zstd frame of the plane; accepted is one zstd frame and nothing else"));
   }
   const unsigned long long declared = ZSTD_getFrameContentSize(wire.data(), wire.size());
   if (declared == ZSTD_CONTENTSIZE_ERROR) {
-    return absl::InvalidArgumentError("does not begin with a zstd frame");
+    return absl::InvalidArgumentError("the bytes do not begin with a zstd frame");
   }
   return declared;
 }
@@ -44,7 +45,7 @@ absl::StatusOr<uint64_t> ZstdInflater::contentBytes(std::span<const uint8_t> wir
   if (!declared.ok()) return declared.status();
   if (*declared != ZSTD_CONTENTSIZE_UNKNOWN && *declared != expected) {
     return absl::InvalidArgumentError(
-        strCat("inflates to ", *declared, " bytes, must inflate to ", expected));
+        strCat("the zstd frame inflates to ", *declared, " bytes; accepted is ", expected));
   }
   return expected;
 }
@@ -54,11 +55,13 @@ absl::StatusOr<uint64_t> ZstdInflater::contentBytesUpTo(std::span<const uint8_t>
   const absl::StatusOr<unsigned long long> declared = declaredBytes(wire);
   if (!declared.ok()) return declared.status();
   if (*declared == ZSTD_CONTENTSIZE_UNKNOWN) {
-    return absl::InvalidArgumentError("is a zstd frame without its content size, must state it");
+    return absl::InvalidArgumentError(
+        "the zstd frame does not state the size of its content; accepted for a JPEG is one that "
+        "does");
   }
   if (*declared == 0 || *declared > bytes_max) {
     return absl::InvalidArgumentError(
-        strCat("inflates to ", *declared, " bytes, must inflate to 1..", bytes_max));
+        strCat("the zstd frame inflates to ", *declared, " bytes; accepted is 1..", bytes_max));
   }
   return *declared;
 }
@@ -69,12 +72,12 @@ absl::Status ZstdInflater::inflate(std::span<const uint8_t> wire, uint64_t conte
   const size_t got =
       ZSTD_decompressDCtx(context_.get(), out.data(), out.size(), wire.data(), wire.size());
   if (ZSTD_isError(got)) {
-    return absl::InvalidArgumentError(
-        strCat("does not inflate to ", content_bytes, " bytes: ", ZSTD_getErrorName(got)));
+    return absl::InvalidArgumentError(strCat("the zstd frame does not inflate to ", content_bytes,
+                                             " bytes: ", ZSTD_getErrorName(got)));
   }
   if (got != content_bytes) {
     return absl::InvalidArgumentError(
-        strCat("inflates to ", got, " bytes, must inflate to ", content_bytes));
+        strCat("the zstd frame inflates to ", got, " bytes; accepted is ", content_bytes));
   }
   return absl::OkStatus();
 }

@@ -176,14 +176,14 @@ absl::Status PictureLoop::prepare(const AtlasJob& job,
                                   const std::optional<PlannedPicture>& planned) const {
   if (!planned) {
     return absl::FailedPreconditionError(
-        "no engine of this server makes such a picture of this stream's frames");
+        "this server cannot render such a display of this stream; choose another display");
   }
   try {
     for (const ResidentStructure* structure : structuresOf(job)) {
       structure->forms->of(rank_)->prepare(links_.clock);
     }
   } catch (const EngineOutOfMemory& error) {
-    return absl::ResourceExhaustedError(strCat("this display cannot be served: ", error.what()));
+    return absl::ResourceExhaustedError(strCat("this display cannot be rendered: ", error.what()));
   }
   return absl::OkStatus();
 }

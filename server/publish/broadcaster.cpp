@@ -51,14 +51,16 @@ struct Broadcaster::State {
 };
 
 absl::Status Broadcaster::State::checkRoom(bool is_new_display) const {
-  if (is_draining) return absl::UnavailableError("the server is shutting down");
+  if (is_draining) return absl::UnavailableError("the server is shutting down; try again later");
   if (subscriber_count >= limits.subscriber_count_max) {
     return absl::ResourceExhaustedError(
-        strCat("too many subscribers: accepted are up to ", limits.subscriber_count_max));
+        strCat("too many subscribers: this server accepts up to ", limits.subscriber_count_max,
+               " viewers; close one, or raise limits.subscribers_max"));
   }
   if (is_new_display && displays.size() >= limits.display_count_max) {
     return absl::ResourceExhaustedError(
-        strCat("too many distinct displays: accepted are up to ", limits.display_count_max));
+        strCat("too many distinct displays: this server accepts up to ", limits.display_count_max,
+               "; choose one that is watched already, or raise limits.displays_max"));
   }
   return absl::OkStatus();
 }

@@ -80,7 +80,7 @@ absl::Status alreadyPublished(const KnownStream& known, const std::string& host,
   const absl::Status status = absl::AlreadyExistsError(
       strCat("stream \"", known.entry.name, "\" has a publisher",
              known.host.empty() ? "" : strCat(" on ", known.host), ", for ", held,
-             " now; accepted is its session_id, or another name"));
+             " now; take another name, or its session_id to take the stream over"));
   return !host.empty() && known.host == host ? worthRetry(status, kRetryDelay_ns) : status;
 }
 
@@ -112,8 +112,9 @@ absl::Status StreamDirectory::State::makeRoomFor(const std::string& stream) {
     streams.erase(found);
     return absl::OkStatus();
   }
-  return absl::ResourceExhaustedError(
-      strCat("too many streams: accepted are up to ", stream_count_max));
+  return absl::ResourceExhaustedError(strCat("too many streams: this server accepts up to ",
+                                             stream_count_max,
+                                             "; end one, or raise limits.streams_max"));
 }
 
 StreamDirectory::StreamDirectory(const Clock& clock, uint32_t stream_count_max)
@@ -133,8 +134,9 @@ absl::StatusOr<std::unique_ptr<StreamDirectory::Claim>> StreamDirectory::claim(
     std::lock_guard lock(state_->mutex);
     const bool is_new = !state_->streams.contains(stream);
     if (is_new && state_->streams.size() >= state_->stream_count_max) {
-      return absl::ResourceExhaustedError(
-          strCat("too many streams: accepted are up to ", state_->stream_count_max));
+      return absl::ResourceExhaustedError(strCat("too many streams: this server accepts up to ",
+                                                 state_->stream_count_max,
+                                                 "; end one, or raise limits.streams_max"));
     }
     KnownStream& known = state_->streams[stream];
     const bool is_live = known.claim_id != 0;

@@ -14,7 +14,8 @@
 namespace viewloom {
 
 // What calls that end with UNAVAILABLE say.
-inline constexpr const char* kDrainMessage = "the server drains; try again later or elsewhere";
+inline constexpr const char* kDrainMessage =
+    "the server is shutting down; try again later, or use another server";
 
 // Derived classes say what a message means and what is written next. The call keeps itself alive
 // from open() to OnDone; others hold it weakly and may lock it after its end, when nothing happens

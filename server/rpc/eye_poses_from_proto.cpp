@@ -27,7 +27,7 @@ absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto) {
                  .eyes = {}};
   if (proto.eyes_size() != int(poses.eyes.size())) {
     return invalidField("eye_poses.eyes",
-                        strCat("got ", proto.eyes_size(), ", accepted is two: left, right"));
+                        strCat("got ", proto.eyes_size(), " eyes; accepted is two: left, right"));
   }
   for (int i = 0; i < proto.eyes_size(); ++i) {
     const auto eye = eyeFromProto(proto.eyes(i));

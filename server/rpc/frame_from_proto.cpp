@@ -61,7 +61,6 @@ constexpr EnumRow<v1::NormalSpace, NormalSpace> kNormalSpaces[] = {
     {v1::NORMAL_SPACE_CAMERA, NormalSpace::kCamera},
     {v1::NORMAL_SPACE_WORLD, NormalSpace::kWorld}};
 
-// The only one that is served, and nothing has to be done for it.
 constexpr EnumRow<v1::ToneMap, ToneMap> kToneMaps[] = {{v1::TONE_MAP_UNSPECIFIED, ToneMap::kClip},
                                                        {v1::TONE_MAP_CLIP, ToneMap::kClip},
                                                        {v1::TONE_MAP_FILMIC, ToneMap::kFilmic},
@@ -119,7 +118,8 @@ absl::Status addPlane(const PlaneFormat& plane, std::optional<PlaneFormat>& colo
                         : plane.kind == PlaneKind::kDepth ? depth.has_value()
                                                           : layer.find(plane.kind) != nullptr;
   if (is_known) {
-    return invalidField("kind", "got a second plane of this kind; accepted: one of each");
+    return invalidField("kind",
+                        "the layer has a second plane of this kind; accepted is one of each kind");
   }
   if (plane.kind == PlaneKind::kColor) {
     color = plane;
@@ -127,7 +127,8 @@ absl::Status addPlane(const PlaneFormat& plane, std::optional<PlaneFormat>& colo
   } else if (plane.kind == PlaneKind::kDepth) {
     depth = plane;
   } else if (!color || !depth) {
-    return invalidField("kind", "comes before COLOR and DEPTH; accepted: those two first");
+    return invalidField("kind",
+                        "the plane comes before COLOR and DEPTH; accepted are those two first");
   } else {
     layer.others.push_back(plane);
   }
@@ -145,8 +146,8 @@ absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(addPlane(*plane, color, depth, layer), path));
   }
   if (!color || !depth) {
-    return invalidField(
-        "planes", strCat("got ", proto.planes_size(), "; accepted: one COLOR and one DEPTH plane"));
+    return invalidField("planes", strCat("COLOR or DEPTH is missing among ", proto.planes_size(),
+                                         " planes; accepted is one of each, first"));
   }
   layer.color = *color;
   layer.depth = *depth;
@@ -156,8 +157,9 @@ absl::StatusOr<LayerFormat> layerFromProto(const v1::Layer& proto) {
 
 absl::Status projectionOfCubeMap(const v1::Camera& proto, SizePx plane_px, Camera& camera) {
   if (proto.has_fov() || proto.has_intrinsics()) {
-    return invalidField(proto.has_fov() ? "fov" : "intrinsics",
-                        "is given; accepted: none, as each face of a cube map is 90 degrees wide");
+    return invalidField(
+        proto.has_fov() ? "fov" : "intrinsics",
+        "the camera of a cube map has a projection; leave it out, as each face is 90 degrees wide");
   }
   // Of an empty plane, any: validateFrame refuses its size.
   camera.intrinsics = cubeFaceIntrinsics(std::max(plane_px.width, 1U));
@@ -184,8 +186,8 @@ absl::Status cameraFromProto(const v1::Source& source, SizePx size_px, Camera& c
 absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const FrameLimits& limits) {
   const auto layer_count = static_cast<uint32_t>(proto.layers_size());
   if (layer_count == 0 || layer_count > limits.layer_count_max) {
-    return invalidField(
-        "layers", strCat("has ", layer_count, " entries, must have 1..", limits.layer_count_max));
+    return invalidField("layers", strCat("the source has ", layer_count, " layers; accepted is 1..",
+                                         limits.layer_count_max));
   }
   SourceFormat source;
   source.connection_tolerance = proto.connection_tolerance();
@@ -204,8 +206,8 @@ absl::StatusOr<SourceFormat> sourceFromProto(const v1::Source& proto, const Fram
 
 absl::Status validateSourceCount(uint32_t source_count, const FrameLimits& limits) {
   if (source_count > 0 && source_count <= limits.source_count_max) return absl::OkStatus();
-  return invalidField(
-      "sources", strCat("has ", source_count, " entries, must have 1..", limits.source_count_max));
+  return invalidField("sources", strCat("the frame has ", source_count, " sources; accepted is 1..",
+                                        limits.source_count_max));
 }
 
 absl::StatusOr<FrameFormat> formatFromProto(const v1::FrameHeader& proto,

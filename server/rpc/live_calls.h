@@ -45,7 +45,8 @@ class LiveCalls {
     std::lock_guard lock(mutex_);
     if (draining_) return absl::UnavailableError(kDrainMessage);
     std::erase_if(calls_, [](const std::weak_ptr<Call>& gone) { return gone.expired(); });
-    if (calls_.size() >= kOpenCallsMax) return absl::ResourceExhaustedError("too many open calls");
+    if (calls_.size() >= kOpenCallsMax)
+      return absl::ResourceExhaustedError("too many open calls; close some, or try again later");
     calls_.push_back(call);
     return absl::OkStatus();
   }

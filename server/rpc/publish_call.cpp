@@ -19,6 +19,12 @@ constexpr size_t kSessionBytesMax = 128;
 // publisher that does not read its reports holds back nobody but itself.
 constexpr size_t kOpenReportsMax = 64;
 
+// A call begins with its settings.
+absl::Status refuseFirst(const char* message) {
+  return invalidField(message,
+                      strCat("the first message is a ", message, "; accepted first is settings"));
+}
+
 void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutcome outcome) {
   if (outcome == FrameOutcome::kReplaced) parts.directory.countReplaced(stream);
   if (outcome == FrameOutcome::kRefused) {
@@ -50,24 +56,29 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
     case v1::PublishFramesRequest::kChunk:
       return handleChunk(request.chunk());
     case v1::PublishFramesRequest::kHeartbeat:
-      if (stream_.empty()) return invalidField("heartbeat", "came first; accepted: settings first");
+      if (stream_.empty()) return refuseFirst("heartbeat");
       return absl::OkStatus();
     case v1::PublishFramesRequest::MESSAGE_NOT_SET:
       break;
   }
-  return invalidField("message", "got none; accepted: settings, header, chunk or heartbeat");
+  return invalidField("message",
+                      "the message is empty; accepted is settings, header, chunk or heartbeat");
 }
 
 absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
-  if (!stream_.empty()) return invalidField("settings", "came again; accepted: once, first");
+  if (!stream_.empty())
+    return invalidField("settings", "settings came again; accepted is once, as the first message");
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(settings.stream(), "settings.stream"));
   if (settings.session_id().size() > kSessionBytesMax) {
-    return invalidField("settings.session_id", strCat("has ", settings.session_id().size(),
-                                                      " bytes; accepted: 0..", kSessionBytesMax));
+    return invalidField("settings.session_id",
+                        strCat("the session id has ", settings.session_id().size(),
+                               " bytes; accepted is 0..", kSessionBytesMax));
   }
   const auto on_takeover = [self = weak_from_this()] {
     const auto call = self.lock();
-    if (call) call->end(absl::AbortedError("taken over by another call with the session id"));
+    if (call)
+      call->end(
+          absl::AbortedError("another call with the same session id has taken the stream over"));
   };
   auto claim = parts_.directory.claim(settings.stream(), settings.session_id(), on_takeover, host_);
   if (!claim.ok()) {
@@ -92,7 +103,7 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
 }
 
 absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
-  if (stream_.empty()) return invalidField("header", "came first; accepted: settings first");
+  if (stream_.empty()) return refuseFirst("header");
   if (assembly_.has_value()) VIEWLOOM_RETURN_IF_ERROR(assembly_->requireComplete());
   auto format = frameFormatFromProto(header, parts_.limits);
   if (!format.ok()) {
@@ -101,7 +112,8 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
   }
   if (format->number <= last_number_) {
     return fieldError(absl::StatusCode::kOutOfRange, "header.number",
-                      strCat("is ", format->number, ", must be above ", last_number_));
+                      strCat("the number of the frame is ", format->number,
+                             "; accepted is more than ", last_number_, ", the last one"));
   }
   last_number_ = format->number;
   times_ = {};
@@ -110,7 +122,9 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
 }
 
 absl::Status PublishCall::handleChunk(const v1::FrameChunk& chunk) {
-  if (!assembly_.has_value()) return invalidField("chunk", "came before a header");
+  if (!assembly_.has_value())
+    return invalidField(
+        "chunk", "a chunk came before any header; accepted first is settings, then a header");
   VIEWLOOM_RETURN_IF_ERROR(
       assembly_->addChunk(chunk.plane_index(), chunk.offset_bytes(), chunk.data()));
   return noteChunk(chunk.data().size());
@@ -158,10 +172,13 @@ void PublishCall::onReport(const FrameReport& report) {
 }
 
 absl::Status PublishCall::handleHalfClose() {
-  if (stream_.empty()) return invalidField("settings", "never came; accepted: once, first");
+  if (stream_.empty())
+    return invalidField(
+        "settings", "the call was closed without settings; accepted is once, as the first message");
   if (assembly_.has_value() && !assembly_->complete()) {
     return invalidField(
-        "chunk", strCat("is missing: the call was closed within frame ", assembly_->frameNumber()));
+        "chunk", strCat("the call was closed before the end of frame ", assembly_->frameNumber(),
+                        "; send all chunks of a frame first"));
   }
   end(absl::OkStatus());
   return absl::OkStatus();
@@ -207,8 +224,8 @@ void PublishCall::tick() {
     if (!heard_.reaches(kSilenceTicks)) return;
   }
   end(absl::UnavailableError(strCat("no heartbeat came for ", kSilence_s,
-                                    " s, and the stream's name is free for others; a "
-                                    "publisher that lives may call again")));
+                                    " s, and the name of the stream is free again; call again to "
+                                    "go on publishing")));
 }
 
 bool PublishCall::wantsToRead() const {

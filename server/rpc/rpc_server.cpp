@@ -83,8 +83,10 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
   builder.RegisterService(&catalog_);
   server_ = builder.BuildAndStart();
   if (server_ == nullptr || port == 0) {
-    throw std::runtime_error("cannot listen on " + options.address +
-                             ": is the port taken, the host this machine's?");
+    throw std::runtime_error(
+        "cannot listen on " + options.address +
+        " for gRPC: another program has the port, or the address is not of this "
+        "machine; choose another with --grpc.address");
   }
   port_ = static_cast<uint16_t>(port);
   ticker_.emplace(kTick, [this] {

@@ -48,7 +48,8 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
   VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
   const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
   if (opens != stream_.empty()) {
-    return invalidField(opens ? "open" : "message", "is not open, first, and only first");
+    return opens ? invalidField("open", "open came again; accepted is once, as the first message")
+                 : invalidField("message", "the first message is not open; accepted first is open");
   }
   switch (request.message_case()) {
     case v1::StreamAtlasesRequest::kOpen:
@@ -67,7 +68,7 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
       break;
   }
   return invalidField("message",
-                      "got none; accepted: change, eye_poses, presented or "
+                      "the message is empty; accepted is change, eye_poses, presented or "
                       "clock_probe");
 }
 
@@ -106,8 +107,8 @@ absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
 absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request, int64_t received_ns) {
   if (eyes_ == nullptr) {
     return fieldError(absl::StatusCode::kFailedPrecondition, "eye_poses",
-                      "came for a display that is not tracked; accepted for a StereoDisplay that "
-                      "is");
+                      "eye poses came for a display that does not track eyes; accepted are they "
+                      "for a StereoDisplay with tracked set");
   }
   absl::StatusOr<EyePoses> poses = eyePosesFromProto(request);
   VIEWLOOM_RETURN_IF_ERROR(poses.status());
@@ -195,7 +196,9 @@ void WatchCall::leave(std::unique_ptr<Broadcaster::Subscription> subscription) {
 }
 
 absl::Status WatchCall::handleHalfClose() {
-  if (stream_.empty()) return invalidField("open", "never came; accepted: once, first");
+  if (stream_.empty())
+    return invalidField("open",
+                        "the call was closed without open; accepted is once, as the first message");
   return absl::OkStatus();
 }
 

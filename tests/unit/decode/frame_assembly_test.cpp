@@ -92,7 +92,9 @@ TEST_F(FrameAssemblyTest, tellsWhatIsMissing) {
   EXPECT_TRUE(assembly_.addChunk(0, 0, "ab").ok());
   const absl::Status status = assembly_.requireComplete();
   EXPECT_EQ(fieldOf(status), "header");
-  EXPECT_EQ(status.message(), "header: comes before the end of frame 7: plane 0 has 2 of 6 bytes");
+  EXPECT_EQ(status.message(),
+            "header: a header came before the end of frame 7: plane 0 has 2 of 6 bytes; send the "
+            "rest first");
 }
 
 }  // namespace

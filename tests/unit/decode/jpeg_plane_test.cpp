@@ -83,7 +83,7 @@ TEST_F(JpegPlane, refusesTwelveBits) {
 
 TEST_F(JpegPlane, refusesAnotherSizeBeforeItAllocates) {
   EXPECT_THAT(refusal(sampleJpeg({32, 24}, JpegSort::kBaseline), {32, 25}),
-              HasSubstr("JPEG of 32x24, must be 32x25"));
+              HasSubstr("JPEG has 32x24 px; accepted is the declared size, 32x25"));
   EXPECT_EQ(out_.capacity(), 0U);
 }
 

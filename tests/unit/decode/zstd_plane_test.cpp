@@ -43,7 +43,7 @@ TEST(ZstdPlane, takesAFrameThatLeavesItsSizeOpen) {
 TEST(ZstdPlane, refusesAnotherStatedSizeByItsHeader) {
   const std::vector<uint8_t> packed = zstdFrame(content(5000), ZstdSize::kStated);
   EXPECT_THAT(std::string(ZstdInflater::contentBytes(packed, 4999).status().message()),
-              HasSubstr("inflates to 5000 bytes, must inflate to 4999"));
+              HasSubstr("inflates to 5000 bytes; accepted is 4999"));
   EXPECT_FALSE(ZstdInflater::contentBytes(packed, 5001).ok());
 }
 
@@ -62,7 +62,7 @@ TEST(ZstdPlane, refusesLessThanDeclared) {
   std::vector<uint8_t> out;
   const std::vector<uint8_t> packed = zstdFrame(content(100), ZstdSize::kOpen);
   EXPECT_THAT(std::string(inflater.inflate(packed, 101, out).message()),
-              HasSubstr("inflates to 100 bytes, must inflate to 101"));
+              HasSubstr("inflates to 100 bytes; accepted is 101"));
 }
 
 TEST(ZstdPlane, wantsTheSizeStatedWhereNothingElseBoundsIt) {
@@ -82,7 +82,7 @@ TEST(ZstdPlane, refusesEveryTruncationAndWhatFollowsTheFrame) {
   }
   packed.push_back(0);
   EXPECT_THAT(std::string(ZstdInflater::contentBytes(packed, 3000).status().message()),
-              HasSubstr("1 bytes after its zstd frame"));
+              HasSubstr("1 bytes follow the zstd frame"));
 }
 
 }  // namespace
