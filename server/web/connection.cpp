@@ -31,16 +31,19 @@ HttpRequest requestOf(const http::request<http::empty_body>& request) {
 std::optional<HttpReply> replyToBroken(const ErrorCode& error) {
   if (error == http::error::header_limit) {
     return errorReply(
-        431, invalidField("header", strCat("longer than the ", HttpOptions{}.header_bytes_max,
-                                           " bytes that this server accepts; send a long display "
-                                           "over the WebSocket /ws, as a change")));
+        431,
+        invalidField("header", strCat("the header of the request is too long; accepted is up to ",
+                                      HttpOptions{}.header_bytes_max,
+                                      " bytes. Send a long display over the WebSocket /ws, as "
+                                      "a change")));
   }
   if (error == http::error::body_limit) {
-    return errorReply(413, invalidField("body", "accepted are requests without one"));
+    return errorReply(
+        413, invalidField("body", "the request has a body; accepted is a request without one"));
   }
   const bool is_http = error.category() == make_error_code(http::error::bad_method).category();
   if (!is_http || error == http::error::end_of_stream) return std::nullopt;
-  return errorReply(400, invalidField("request", "no HTTP: " + error.message()));
+  return errorReply(400, invalidField("request", "the request is not HTTP: " + error.message()));
 }
 
 HttpAnswer answerKind(unsigned status) {
@@ -143,8 +146,8 @@ net::awaitable<void> Connection::serve() {
 
 net::awaitable<void> Connection::refuse() {
   const auto self = shared_from_this();
-  const HttpReply reply =
-      errorReply(absl::ResourceExhaustedError("too many connections, try again later"));
+  const HttpReply reply = errorReply(
+      absl::ResourceExhaustedError("too many connections; close some, or try again later"));
   const Parser unread;
   ErrorCode error;
   co_await write(reply, unread, false, error);

@@ -31,9 +31,9 @@ absl::Status HostPolicy::checkHost(std::string_view host) const {
                                    [&](const auto& other) { return lowerCase(other) == name; });
   if (allowed || isLoopbackHost(name)) return absl::OkStatus();
   return fieldError(absl::StatusCode::kPermissionDenied, "host",
-                    strCat("got \"", std::string(host),
-                           "\", accepted on loopback are localhost, loopback addresses and "
-                           "the hosts named in the settings"));
+                    strCat("the request names the host \"", std::string(host),
+                           "\"; accepted is localhost, a loopback address, or a host named in the "
+                           "setting http.allowed_hosts"));
 }
 
 absl::Status HostPolicy::checkOrigin(std::string_view origin, std::string_view host) const {
@@ -44,7 +44,8 @@ absl::Status HostPolicy::checkOrigin(std::string_view origin, std::string_view h
   if (same) return absl::OkStatus();
   return fieldError(
       absl::StatusCode::kPermissionDenied, "origin",
-      strCat("got \"", std::string(origin), "\", accepted are pages of this server, and programs"));
+      strCat("a page of \"", std::string(origin),
+             "\" asks for a WebSocket; accepted are pages of this server, and programs"));
 }
 
 }  // namespace viewloom

@@ -72,10 +72,11 @@ absl::StatusOr<AddressParts> takeApart(const Url& url, const QuiltAddressForm& f
     parts.suffix = rest.substr(suffix);
     rest = rest.substr(0, suffix);
   } else if (!has_extension || !url.parameters.contains("display")) {
-    return fieldError(absl::StatusCode::kNotFound, "url",
-                      strCat("accepted are ", form.root, "STREAM/PRESET, ", form.root,
-                             "STREAM_qs8x6a0.75", form.extensions.front(), " and ", form.root,
-                             "STREAM", form.extensions.front(), "?display=JSON"));
+    return fieldError(
+        absl::StatusCode::kNotFound, "url",
+        strCat("the address names no display; accepted is ", form.root, "STREAM/PRESET, ",
+               form.root, "STREAM_qs8x6a0.75", form.extensions.front(), " or ", form.root, "STREAM",
+               form.extensions.front(), "?display=JSON"));
   }
   parts.parameters["stream"] = rest;
   return parts;

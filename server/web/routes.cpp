@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/nearest_name.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "web/catalog_json.h"
 #include "web/multipart_stream.h"
@@ -22,6 +23,8 @@ constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
+
+constexpr size_t kShownBytesMax = 128;  // of a path that does not exist
 
 HttpReply assetReply(const PageAsset& asset, const HttpRequest& request) {
   HttpReply reply;
@@ -63,7 +66,8 @@ HttpReply webSocketReply(const WebContext& context, const Url& url) {
   const absl::StatusOr<WatchRequest> request = makeWatchRequest(url.parameters, context.streams);
   if (!request.ok()) return errorReply(request.status());
   HttpReply reply =
-      errorReply(426, absl::FailedPreconditionError("accepted is a WebSocket upgrade"));
+      errorReply(426, absl::FailedPreconditionError(
+                          "a plain request came to the WebSocket; accepted is an upgrade"));
   reply.headers.emplace_back("Upgrade", "websocket");
   return reply;
 }
@@ -75,10 +79,11 @@ HttpReply notFoundReply(const std::string& path) {
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
-      strCat("there is no ", path, suggestion.empty() ? "" : ", ", suggestion,
-             "; there are /, /api/streams, /api/displays, /api/presets, /api/fields, /metrics, "
-             "/healthz, "
-             "/still/STREAM/PRESET, /stream/STREAM/PRESET and /ws?stream=STREAM")));
+      strCat(
+          "there is no page \"", printable(path.substr(0, kShownBytesMax)),
+          "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, /metrics, "
+          "/healthz, /still/STREAM/PRESET, /stream/STREAM/PRESET, /ws?stream=STREAM",
+          suggestion.empty() ? "" : "; ", suggestion)));
 }
 
 }  // namespace
@@ -87,7 +92,7 @@ std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& r
   if (request.method != "GET" && request.method != "HEAD") {
     HttpReply reply =
         errorReply(405, fieldError(absl::StatusCode::kUnimplemented, "method",
-                                   strCat("got ", request.method, ", accepted are GET and HEAD")));
+                                   strCat("got ", request.method, "; accepted is GET or HEAD")));
     reply.headers.emplace_back("Allow", "GET, HEAD");
     return reply;
   }

@@ -49,7 +49,9 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
   for (;;) {
     if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas, address);
     if (const auto ended = inbox->ended()) {
-      co_return errorReply(ended->ok() ? absl::UnavailableError("the server drains") : *ended);
+      co_return errorReply(
+          ended->ok() ? absl::UnavailableError("the server is shutting down; try again later")
+                      : *ended);
     }
     ErrorCode interrupted;
     co_await deadline->async_wait(into(interrupted));
@@ -57,8 +59,8 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
   }
   co_return errorReply(fieldError(
       absl::StatusCode::kDeadlineExceeded, "stream",
-      strCat("\"", request.stream, "\" gave no atlas within ",
-             context.options.still_timeout.count(), " ms; does its publisher send frames?")));
+      strCat("no picture of stream \"", request.stream, "\" was ready within ",
+             context.options.still_timeout.count(), " ms; check that its publisher sends frames")));
 }
 
 }  // namespace

@@ -24,14 +24,14 @@ absl::StatusOr<std::string> decode(std::string_view escaped, Plus plus) {
       const char* end = begin + 2;
       if (i + 2 >= escaped.size() || std::from_chars(begin, end, value, 16).ptr != end) {
         return invalidField("url", strCat("the escape \"", std::string(escaped.substr(i, 3)),
-                                          "\" is broken, accepted is % and two "
+                                          "\" is broken; accepted is % and two "
                                           "hexadecimal digits"));
       }
       character = static_cast<char>(value);
       i += 2;
     }
     if (absl::ascii_iscntrl(static_cast<unsigned char>(character))) {
-      return invalidField("url", "holds a control character");
+      return invalidField("url", "the address has a control character; leave it out");
     }
     plain.push_back(character);
   }
@@ -50,7 +50,8 @@ absl::Status parseParameters(std::string_view query, QueryParameters& parameters
         decode(equals == std::string_view::npos ? std::string_view() : pair.substr(equals + 1),
                Plus::kSpace);
     VIEWLOOM_RETURN_IF_ERROR(value.status());
-    if (!parameters.emplace(*key, *value).second) return invalidField(*key, "given twice");
+    if (!parameters.emplace(*key, *value).second)
+      return invalidField(*key, "the parameter is given twice; accepted is once");
   }
   return absl::OkStatus();
 }
@@ -75,7 +76,7 @@ std::string percentEncoded(std::string_view plain) {
 absl::StatusOr<Url> parseUrl(std::string_view target) {
   target = target.substr(0, target.find('#'));
   if (target.empty() || target.front() != '/') {
-    return invalidField("url", "accepted is a path that begins with /");
+    return invalidField("url", "the address is not a path; accepted is a path that begins with /");
   }
   const size_t question = target.find('?');
   const absl::StatusOr<std::string> path = decode(target.substr(0, question), Plus::kLiteral);

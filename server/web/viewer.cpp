@@ -133,8 +133,8 @@ absl::Status Viewer::takeMessage(std::string_view text) {
       break;
   }
   return invalidField("message",
-                      "accepted are {\"shown\": DELIVERY}, {\"change\": {\"display\": ..., "
-                      "\"encoding\": ...}} and {\"ping\": NUMBER}");
+                      "the message is empty; accepted is {\"shown\": DELIVERY}, {\"change\": "
+                      "{\"display\": ..., \"encoding\": ...}} or {\"ping\": NUMBER}");
 }
 
 absl::Status Viewer::change(const v1::ChangeDisplay& changes) {

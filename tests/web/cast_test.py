@@ -209,11 +209,11 @@ class Refusals(CastTest):
                 self.check_refusal(self.cast(), FAILED, words)
 
     def test_what_the_server_does_not_have(self):
-        self.check_refusal(self.cast(stream="none"), FAILED, 'there is no "none"')
+        self.check_refusal(self.cast(stream="none"), FAILED, 'there is no stream "none"')
         self.check_refusal(self.cast("--preset", "none"), FAILED, "none")
-        self.check_refusal(self.cast(stream="silent"), FAILED, "gave no atlas within 1000 ms")
+        self.check_refusal(self.cast(stream="silent"), FAILED, "was ready within 1000 ms")
         self.check_refusal(self.cast(stream="a b"), USAGE, "stream", "letters")
-        self.check_refusal(self.cast("--preset", "a/b"), FAILED, 'there is no "a/b"')
+        self.check_refusal(self.cast("--preset", "a/b"), FAILED, 'there is no preset "a/b"')
 
     def test_a_page_that_is_none(self):
         self.check_refusal(self.cast(address=self.bridge.url), FAILED, self.bridge.url,

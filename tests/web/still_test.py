@@ -93,7 +93,7 @@ class Stills(PaintedCase):
         location = fetch(self.port, "/still/silent/portrait").headers["location"]
         reply = fetch(self.port, location)
         self.assertEqual(reply.status, 504)
-        self.assertIn("gave no atlas within 3000 ms", reply.json()["error"]["message"])
+        self.assertIn("was ready within 3000 ms", reply.json()["error"]["message"])
 
 
 if __name__ == "__main__":
