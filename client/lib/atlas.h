@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole atlas as it came over the wire, and its pictures decoded on demand.
+// A whole atlas as it was received. Its pictures are decoded on demand.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace viewloom {
 
-// A full-width strip, its pieces joined.
+// A full-width strip of an image, with its pieces joined.
 struct AtlasBand {
   uint32_t image_index = 0;
   v1::AtlasPlane plane = v1::ATLAS_PLANE_COLOR;
-  uint32_t first_row = 0;  // of its image
+  uint32_t first_row = 0;  // px from the top of its image
   uint32_t row_count = 0;
   v1::BandEncoding encoding = v1::BAND_ENCODING_JPEG;
   std::string bytes;
@@ -26,7 +26,7 @@ struct Atlas {
   std::shared_ptr<const v1::AtlasLayout> layout;
   v1::AtlasHeader header;
   v1::AtlasEnd end;
-  std::vector<AtlasBand> bands;  // of each plane from the top; planes in any order
+  std::vector<AtlasBand> bands;  // bands of a plane from the top; planes in any order
 
   size_t byteCount() const;
 };
@@ -43,25 +43,26 @@ struct AtlasPicture {
 // Whether the bands of the plane cover every image of the atlas without gap or overlap.
 bool hasWholePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
-// A colour plane of one image as one JPEG file, byte for byte as the server encoded it: COLOR, or
-// of JPEG_PLANES RED, GREEN and BLUE, which are grey. FAILED_PRECONDITION when it was not sent so.
+// Returns a colour plane of one image as a JPEG file, with the bytes that the server encoded. The
+// plane is COLOR, or for JPEG_PLANES one of RED, GREEN and BLUE, which are grey.
+// FAILED_PRECONDITION if the server did not send that plane as JPEG.
 absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas,
                                           v1::AtlasPlane plane = v1::ATLAS_PLANE_COLOR,
                                           uint32_t image = 0);
 
-// Decodes one plane of the whole atlas, its images one below the other: COLOR to RGB, also from its
-// channels; RED, GREEN, BLUE and MASK to one byte, DEPTH_CODES to two, DEPTH to four.
-// FAILED_PRECONDITION when the atlas does not have it, DATA_LOSS when its bytes do not decode to
-// the size of the layout.
+// Decodes one plane of the whole atlas, with its images one below the other. COLOR becomes RGB,
+// also from separate channels. RED, GREEN, BLUE and MASK become one byte a pixel, DEPTH_CODES two,
+// DEPTH four. FAILED_PRECONDITION if the atlas has no such plane. DATA_LOSS if its bytes do not
+// decode to the size of the layout.
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
-// Where the tile of a view begins in the atlas.
+// Top left corner of a view's tile in the atlas.
 struct TilePlace {
   uint32_t left_px = 0;
   uint32_t top_px = 0;
 };
 
-// view < layout.view_count().
+// Expects view < layout.view_count().
 TilePlace placeOfView(const v1::AtlasLayout& layout, uint32_t view);
 
 // Cuts one view out of a decoded plane, by the order, columns and tile size of the layout.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the messages of StreamAtlases together to whole atlases; what stays incomplete is discarded.
+// Assembles whole atlases from the messages of StreamAtlases. Incomplete atlases are discarded.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace viewloom {
 struct AtlasCounts {
   uint64_t whole = 0;
   uint64_t discarded = 0;  // begun, and abandoned by the server or never ended
-  uint64_t skipped = 0;    // the server said so
-  uint64_t gaps = 0;  // missing in the sequence; more than skipped = lost on a change of display
+  uint64_t skipped = 0;    // by the server, in Skipped messages
+  uint64_t gaps = 0;  // missing numbers; more than skipped means that a change of display lost some
 };
 
-// Foreign bytes are bounded: an atlas holds at most bytes_max.
+// An atlas holds at most bytes_max bytes, whatever the server sends.
 // Thread-safety: none; one owner.
 class AtlasAssembler {
  public:
   explicit AtlasAssembler(uint64_t bytes_max = uint64_t{2} << 30);
 
-  // A new call begins: what is half done is discarded, the sequence starts anew.
+  // Begins a new call: an unfinished atlas is discarded, and the sequence starts again.
   void restart();
-  // The atlas that this message ends, if it ends one. DATA_LOSS when the server breaks the order of
-  // its messages.
+  // Takes a message and returns the atlas that it completes, if any. DATA_LOSS if messages of the
+  // server are out of order.
   absl::StatusOr<std::optional<Atlas>> add(v1::StreamAtlasesResponse message);
   // The newest layout; null before the first.
   std::shared_ptr<const v1::AtlasLayout> layout() const { return layout_; }

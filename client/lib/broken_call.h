@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a proxy or a connection ended a call, and what to do about it, in a user's words.
+// Explains to users why a proxy or a connection ended a call, and what to do.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace viewloom {
 
-// "a proxy refused the amount of data (...); ...". Empty for statuses that the server itself gave,
-// and for a server that cannot be reached.
+// Cause and remedy: "a proxy refused the amount of data (...); ...". Empty for statuses that the
+// server itself gave, and for a server that cannot be reached.
 std::string explainBrokenCall(const absl::Status& status);
 
-// Why no connection to a server comes about, or why it broke: "connection refused". gRPC's own
-// message where that is all there is.
+// Reason why there is no connection to a server, or why it broke: "connection refused". It is
+// gRPC's own message if nothing better is known.
 std::string connectionProblem(const absl::Status& status);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks a server what it has.
+// Lists the streams, displays and presets of a server.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace viewloom {
 
-// Each call ends within five seconds; UNAVAILABLE when nobody listens.
+// Client of CatalogService. Each call ends within 5 s. UNAVAILABLE if there is no server.
 // Thread-safety: all methods may be called from any thread.
 class Catalog {
  public:
   explicit Catalog(std::shared_ptr<grpc::Channel> channel);
 
-  // CANCELLED once a stop is requested.
+  // Ends with CANCELLED if a stop is requested.
   absl::StatusOr<v1::ListStreamsResponse> listStreams(const std::stop_token& stop = {}) const;
   absl::StatusOr<v1::ListDisplaysResponse> listDisplays() const;
   absl::StatusOr<v1::ListPresetsResponse> listPresets() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Channels to a server, with every limit set, and gRPC statuses as ours.
+// Makes channels to a server, with every limit set, and converts gRPC statuses.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 #include "base/status.h"
 
-// Declared rather than included: gRPC's headers take long to compile, and most users of this file
-// only hand a channel on.
+// Declared instead of included: gRPC's headers are slow to compile, and most users of this file
+// only pass a channel on.
 namespace grpc {
 class Channel;
 class Status;
@@ -16,26 +16,26 @@ class Status;
 
 namespace viewloom {
 
-// Where a server listens when nothing else is said.
+// Default address of a server.
 inline constexpr char kDefaultAddress[] = "127.0.0.1:50051";
 
-// Largest message either way: chunks and bands hold up to 1 MiB, and the layout of 2500 views with
-// their cameras takes less than 1 MiB.
+// Largest message in either direction. Chunks and bands hold up to 1 MiB. The layout of 2500 views
+// with their cameras takes less than 1 MiB.
 inline constexpr int kMessageBytesMax = 4 << 20;
 
-// address: "host:port" or "unix:path". Does not connect yet; plain text.
+// Makes a channel to "host:port" or "unix:path", without encryption. It does not connect yet.
 std::shared_ptr<grpc::Channel> makeChannel(const std::string& address);
 
-// Whether what goes to this address leaves no machine: a Unix socket, or the loopback.
+// Whether the address is on this machine: a Unix socket or a loopback address.
 bool staysOnMachine(const std::string& address);
 
-// The same status, which also tells where it comes from (isFromServer, isFromTransport) and, by
-// retryDelayNs, when to ask again.
+// Converts a status. It keeps the origin (isFromServer, isFromTransport) and the time of the next
+// try (retryDelayNs).
 absl::Status statusFromGrpc(const grpc::Status& status);
 
-// The server itself has answered so.
+// Whether the server itself gave the status.
 bool isFromServer(const absl::Status& status);
-// A proxy has, or the connection broke.
+// Whether a proxy gave the status, or the connection broke.
 bool isFromTransport(const absl::Status& status);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of file names that come from outside.
+// File names made from foreign text.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace viewloom {
 
-// Whether a server's word may stand in the name of a file: up to 64 letters, digits, '_', '-', '.'.
+// Whether a text may be part of a file name: up to 64 letters, digits, '_', '-', '.'.
 bool isFileNamePart(std::string_view text);
 
-// The text made fit to begin the name of a file: what could lead elsewhere, hide the file or pass
-// for an option becomes '_', and it is cut to 128 bytes.
+// Makes the beginning of a file name from a text. Characters that could lead to another folder,
+// hide the file or look like an option become '_'. The result has at most 128 bytes.
 std::string fileNameFrom(std::string_view text);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the messages of a publisher's call, and heartbeats where there are none.
+// Writes the messages of a publisher's call, and heartbeats while there are no messages.
 #pragma once
 
 #include <atomic>
@@ -14,27 +14,27 @@
 
 namespace viewloom {
 
-// Thread-safety: write() from one thread; the heartbeats come from a thread of its own.
+// Thread-safety: write() belongs to one thread. Another thread, of this object, sends heartbeats.
 class HeartbeatWriter {
  public:
-  // Its messages go serialised, so that chunks share the bytes of their planes.
+  // Call with serialised messages, so that chunks share the bytes of their planes.
   using Call = grpc::ClientReaderWriter<grpc::ByteBuffer, v1::PublishFramesResponse>;
 
-  // The call has its settings. It must outlive the writer.
+  // Expects that the settings were sent. The call must outlive the writer.
   explicit HeartbeatWriter(Call& call);
 
-  // False when the call is broken.
+  // Sends a message; returns false if the call is broken.
   bool write(const grpc::ByteBuffer& message);
-  // Sends the last heartbeat, if one is under way, and tells the server that nothing follows.
+  // Finishes a heartbeat that is being sent, and half-closes the call.
   void finish();
 
  private:
   void run(const std::stop_token& stop);
 
   Call& call_;
-  std::mutex mutex_;  // gRPC takes one write at a time; held while one waits for the network
+  std::mutex mutex_;  // one write at a time; held while a write waits for the network
   std::atomic<uint32_t> idle_tick_count_ = 0;
-  std::jthread thread_;  // last: it uses what stands above
+  std::jthread thread_;  // last: it uses the members above
 };
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planes of binary32 depth as 1/Z, whatever they measure.
+// Converts planes of depth to 1/Z as binary32, whatever they measure.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace viewloom {
 
 inline constexpr float kNoInvZ = -1;  // no surface
 
-// What a source's depth planes are seen with, in px of one of them; of a cube map, by each face.
-// Nothing when the source does not say it.
+// Intrinsics of a source in pixels of its depth planes; for a cube map, those of each face. Empty
+// if the source has no projection.
 std::optional<Intrinsics> depthIntrinsics(const v1::Source& source);
 
-// float[height][width], 1/m: 0 is the sky, kNoInvZ no surface. Nothing when the declaration is one
-// that a server refuses, or the bytes are not what it says.
+// Returns float[height][width], 1/m. 0 is the sky, kNoInvZ is no surface. Empty if a server would
+// refuse the plane, or if the bytes do not match it.
 std::optional<std::vector<float>> inverseDepth(const v1::Plane& plane,
                                                std::span<const uint8_t> bytes,
                                                const Intrinsics& intrinsics, bool is_cube_map);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishes one stream: newest frame first, through broken connections.
+// Publishes one stream, newest frame first, and reconnects by itself.
 #pragma once
 
 #include <condition_variable>
@@ -28,30 +28,30 @@ namespace viewloom {
 
 struct PublisherOptions {
   std::string stream;
-  std::string session_id;       // empty = random; lets this publisher, and no other, come back
-  int zstd_level = 0;           // 0 = planes go as they are
-  bool predicts_depth = false;  // as CompressionOptions
-  // Frames sent and not yet reported. One is decoded, one built, one traced: more would only be
-  // replaced on the server after having been sent.
+  std::string session_id;       // lets only this publisher come back; empty = random
+  int zstd_level = 0;           // 0 = planes are not compressed
+  bool predicts_depth = false;  // as in CompressionOptions
+  // Most frames that are sent and not yet reported. The server decodes one, builds one and renders
+  // one at a time. It would replace further ones after they were sent.
   size_t in_flight_max = 4;
   BackoffOptions backoff;
 };
 
-// Called from the publisher's threads, one at a time per callback. They must not destroy the
-// publisher; while one runs, no further answer is read.
+// Functions that the threads of the publisher call, each from one thread at a time. They must not
+// destroy the publisher. While one runs, no further answer is read.
 struct PublisherCallbacks {
   std::function<void(const v1::PublishAccepted&)> on_accepted;
   std::function<void(const v1::FrameReport&)> on_report;
   std::function<void(const v1::Wanted&)> on_wanted;
   OnConnection on_connection;
-  // Each frame whose last byte has gone, as it went; the newest again after a broken connection,
-  // under its number.
+  // Called for each frame after its last byte was sent. After a broken connection it is called
+  // again for the newest frame, with the same number.
   std::function<void(const CompressedFrame&)> on_sent;
 };
 
 struct PublisherCounts {
   uint64_t offered = 0;
-  uint64_t replaced_here = 0;  // overtaken by a newer frame before they were sent
+  uint64_t replaced_here = 0;  // replaced by a newer frame before they were sent
   uint64_t sent = 0;
   uint64_t sent_bytes = 0;
   uint64_t reported = 0;  // by the server, any outcome
@@ -60,34 +60,35 @@ struct PublisherCounts {
   uint64_t reconnects = 0;
 };
 
-// Frames are numbered 1, 2, ... by the publisher. After a broken connection it comes back with its
-// session id, and shows the newest frame again if no newer one waits. It sends heartbeats, and
-// takes 5 s without one from the server for a broken connection. While another publisher of this
-// host has the stream, it waits for the name. Thread-safety: all methods may be called from any
-// thread, but the destructor from one only.
+// Publisher of one stream. It numbers frames 1, 2, ...
+//
+// After a broken connection it reconnects with its session id. It sends the newest frame again if
+// no newer one waits. It sends heartbeats, and treats 5 s without one from the server as a broken
+// connection. While another publisher of this host has the stream, it waits for the name.
+//
+// Thread-safety: any thread may call any method, but only one thread the destructor.
 class Publisher {
  public:
   Publisher(std::shared_ptr<grpc::Channel> channel, PublisherOptions options,
             PublisherCallbacks callbacks);
-  // Breaks the call off; frames that wait are lost.
+  // Breaks the call off. Waiting frames are lost.
   ~Publisher();
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  // Never blocks. The frame takes the place of one that still waits. Its planes are not copied:
-  // they are shared, and must not change, until the last of their bytes has gone or the call is
-  // over.
+  // Offers a frame; never blocks. The frame replaces one that still waits. Its planes are shared,
+  // not copied. They must not change until their last byte is sent or the call is over.
   void offer(WireFrame frame);
   // Whether a frame waits to be sent.
   bool isWaiting() const;
-  // Sends what waits, and ends the call once all is reported. Nothing may be offered afterwards.
-  // Does not wait.
+  // Sends the waiting frame, and ends the call once all frames are reported. Nothing may be offered
+  // afterwards. Does not wait.
   void close();
-  // Closes, and waits for the end. Breaks off with DEADLINE_EXCEEDED after timeout_ns.
+  // Closes and waits for the end. Breaks off with DEADLINE_EXCEEDED after timeout_ns.
   absl::Status finish(int64_t timeout_ns);
-  // How the publisher ended, if it has: OK after finish(), else why the server does not take it.
+  // Status with which the publisher ended, if it has. OK after finish(), else the server's refusal.
   std::optional<absl::Status> ended() const;
-  // Waits for the end, at most so long. True = it has ended.
+  // Waits for the end, at most timeout_ns. Returns true if it has ended.
   bool waitEnded(int64_t timeout_ns) const;
   PublisherCounts counts() const;
 
@@ -110,7 +111,7 @@ class Publisher {
   mutable std::mutex mutex_;
   mutable std::condition_variable_any changed_;
   std::optional<WireFrame> waiting_;
-  std::optional<WireFrame> newest_sent_;  // shown again after a broken connection
+  std::optional<WireFrame> newest_sent_;  // sent again after a broken connection
   std::set<uint64_t> in_flight_;          // numbers sent in this call and not reported
   uint64_t last_number_ = 0;
   bool answers_ended_ = false;
@@ -118,9 +119,9 @@ class Publisher {
   bool finishing_ = false;
   std::optional<absl::Status> ended_;
   PublisherCounts counts_;
-  ChunkSize chunk_size_;  // the thread's own
+  ChunkSize chunk_size_;  // used by thread_ only
 
-  std::jthread thread_;  // last: joins before what it uses goes
+  std::jthread thread_;  // last: it uses the members above
 };
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a call again, after a while, for as long as its failure is one that passes.
+// Repeats a call with delays while its failures are temporary.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,24 @@ namespace viewloom {
 
 struct BackoffOptions {
   int64_t first_ns = 200'000'000;  // mean of the first delay
-  // No delay is longer than 1.5 times this: whoever waits for a server is back within 2 s of its
-  // return.
+  // Largest mean delay; no delay is longer than 1.5 times this. A client is back within 2 s of the
+  // return of its server.
   int64_t max_ns = 1'000'000'000;
-  double factor = 2.0;  // from delay to delay, > 1
+  double factor = 2.0;  // growth from delay to delay, > 1
 };
 
-// How long to wait before the next attempt: exponential, with jitter.
+// Delays before the next attempt: exponential, with jitter.
 // Thread-safety: none; one owner.
 class Backoff {
  public:
-  // Uniform in [0, 1).
+  // Returns random numbers, uniform in [0, 1).
   using Random = std::function<double()>;
 
   Backoff(const BackoffOptions& options, Random random);
 
-  // The n-th delay since reset() is uniform in [0.5, 1.5) x min(first x factor^n, max): clients
-  // that lost the same server do not come back in step.
+  // Returns the next delay. The n-th one since reset() is uniform in
+  // [0.5, 1.5) x min(first x factor^n, max). So clients that lost the same server do not all call
+  // again at the same time.
   int64_t nextDelayNs();
   void reset();
 
@@ -38,38 +39,39 @@ class Backoff {
   double mean_ns_;
 };
 
-// Random numbers that differ from process to process.
+// Makes random numbers that differ from process to process.
 Backoff::Random makeRandom();
 
-// What a client is doing, told to whoever listens.
+// News about the connection of a client.
 struct ConnectionEvent {
   enum class Kind { kConnected, kRetrying };
   Kind kind = Kind::kConnected;
   absl::Status reason;   // kRetrying: how the last call ended
-  int64_t delay_ns = 0;  // kRetrying: until the next attempt
+  int64_t delay_ns = 0;  // kRetrying: time until the next attempt
 };
 using OnConnection = std::function<void(const ConnectionEvent&)>;
 
-// How a call ended.
+// End of a call.
 struct CallEnd {
   absl::Status status;
   bool was_connected = false;  // the server had answered: the next failure is a new one
 };
 
-// Whether the same call may succeed later. What the server itself refuses may not, unless it drains
-// or says when to ask again; what a proxy or the connection did to a call may.
+// Whether the same call may succeed later. A refusal by the server is final, unless the server is
+// shutting down or says when to ask again. Failures of a proxy or the connection are temporary.
 bool isPassing(const absl::Status& status);
 
-// Thread-safety: run() belongs to one thread.
+// Repeats one call. Thread-safety: run() belongs to one thread.
 class RetryLoop {
  public:
-  // Waits; returns early when stopped.
+  // Waits; returns early if stopped.
   using Sleep = std::function<void(const std::stop_token&, int64_t delay_ns)>;
 
   RetryLoop(const BackoffOptions& options, OnConnection on_connection,
             Backoff::Random random = makeRandom(), Sleep sleep = &sleepUntilStopped);
 
-  // Calls until it ends OK, fails for good, or is stopped (CANCELLED). Returns the last status.
+  // Calls until the call ends OK, fails for good, or is stopped (CANCELLED). Returns the last
+  // status.
   absl::Status run(const std::stop_token& stop, const std::function<CallEnd()>& call);
 
   static void sleepUntilStopped(const std::stop_token& stop, int64_t delay_ns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the server's clock is ahead of this process's, from what it says when asked.
+// Measures how far the server's clock is ahead of the clock of this process.
 #pragma once
 
 #include <array>
@@ -10,27 +10,27 @@
 
 namespace viewloom {
 
-// Monotonic; the clock of all probes, and of whatever is compared with the server's.
+// Monotonic time of this process. Probes, and all times compared with the server's, use it.
 int64_t steadyNowNs();
 
 struct ClockOffset {
-  int64_t ahead_ns = 0;  // server's time = ours + that
-  int64_t error_ns = 0;  // at most: half of what the way there and back took, whichever was longer
+  int64_t ahead_ns = 0;  // server's time = our time + ahead_ns
+  int64_t error_ns = 0;  // largest error: half of the time of the round trip
 };
 
-// Answers that waited somewhere tell little: of the last kProbeCount the one counts that was on its
-// way for the shortest time. Older ones are forgotten, since clocks drift apart.
-// Thread-safety: none; one owner.
+// Estimates the offset from answers to probes. Among the last kProbeCount answers, the one with the
+// shortest round trip counts, because the others waited somewhere. Older answers are forgotten,
+// because clocks drift. Thread-safety: none; one owner.
 class ServerClock {
  public:
   static constexpr size_t kProbeCount = 16;
 
-  // It came at that time. What no clock can have said is left out.
+  // Adds a reply that arrived at received_ns. Impossible replies are ignored.
   void add(const v1::ClockReply& reply, int64_t received_ns);
-  // A new connection may lead to another server.
+  // Forgets all answers: a new connection may lead to another server.
   void restart() { *this = {}; }
 
-  // None before the first answer.
+  // Offset of the clocks. Empty before the first answer.
   std::optional<ClockOffset> offset() const;
 
  private:

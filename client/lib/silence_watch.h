@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notices that a server which sends heartbeats has fallen silent.
+// Notices when a server that sends heartbeats falls silent.
 #pragma once
 
 #include <atomic>
@@ -13,26 +13,28 @@
 namespace viewloom {
 
 struct SilenceOptions {
-  // Counted in ticks: a client that was stopped for a while has missed nothing.
+  // Silence is counted in ticks, so that a client that was paused does not report silence.
   std::chrono::milliseconds tick{250};
-  uint32_t tick_count_max = 20;  // 5 s, of a heartbeat a second
+  uint32_t tick_count_max = 20;  // 5 s; heartbeats come once a second
 };
 
-// Only time spent waiting for a message counts, and only from the first heartbeat on: servers
-// without them may be silent. Thread-safety: `on_silence` is called on a thread of its own, once;
-// listens(), hears() and expectHeartbeats() belong to one thread, the one that reads.
+// Calls `on_silence` once if no message comes. Only time spent waiting for a message counts, and
+// only after the first heartbeat: servers without heartbeats may be silent.
+//
+// Thread-safety: another thread calls `on_silence`. listens(), hears() and expectHeartbeats()
+// belong to the thread that reads.
 class SilenceWatch {
  public:
   explicit SilenceWatch(std::function<void()> on_silence, const SilenceOptions& options = {});
 
-  // Waits for the next message from now on.
+  // The wait for the next message begins.
   void listens();
   // A message came, or the call has ended.
   void hears() { is_listening_ = false; }
   void expectHeartbeats() { has_heartbeats_ = true; }
 
   bool hasFired() const { return has_fired_; }
-  // UNAVAILABLE, for how the call ended.
+  // Status for the call that ended because of silence: UNAVAILABLE.
   absl::Status status() const;
 
  private:
@@ -44,7 +46,7 @@ class SilenceWatch {
   std::atomic<bool> has_heartbeats_ = false;
   std::atomic<bool> has_fired_ = false;
   std::atomic<uint32_t> tick_count_ = 0;
-  std::jthread thread_;  // last: it uses what stands above
+  std::jthread thread_;  // last: it uses the members above
 };
 
 }  // namespace viewloom

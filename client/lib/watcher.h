@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches one stream on one display: whole atlases, through broken connections, and the clock of
-// the server.
+// Watches one stream on one display. It gives whole atlases, reconnects by itself, and measures the
+// server's clock.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -23,13 +23,13 @@
 
 namespace viewloom {
 
-// Called from the watcher's thread, one at a time. They must not destroy the watcher; while one
-// runs, nothing is read, and the server skips what comes meanwhile.
+// Functions that the thread of the watcher calls, one at a time. They must not destroy the watcher.
+// While one runs nothing is read, and the server skips atlases.
 struct WatcherCallbacks {
   std::function<void(const v1::AtlasLayout&)> on_layout;
   std::function<void(Atlas)> on_atlas;
   OnConnection on_connection;
-  // Every message as it came, before anything is made of it.
+  // Called for every message as it came, before the other functions.
   std::function<void(const v1::StreamAtlasesResponse&)> on_message;
 };
 
@@ -39,10 +39,11 @@ struct WatcherCounts {
   uint64_t reconnects = 0;
 };
 
-// After a broken connection it opens the display again, as last changed, waits for its stream, and
-// asks for as many atlases as are left of the count. A server that sends heartbeats and falls
-// silent for 5 s is a broken connection. Thread-safety: all methods may be called from any thread,
-// but the destructor from one only.
+// Watcher of one stream. After a broken connection it opens the display again, as last changed. It
+// then waits for its stream, and asks for the atlases that are left of the count. If a server with
+// heartbeats is silent for 5 s, the connection counts as broken.
+//
+// Thread-safety: any thread may call any method, but only one thread the destructor.
 class Watcher {
  public:
   Watcher(std::shared_ptr<grpc::Channel> channel, v1::OpenDisplay open, WatcherCallbacks callbacks,
@@ -51,23 +52,24 @@ class Watcher {
   Watcher(const Watcher&) = delete;
   Watcher& operator=(const Watcher&) = delete;
 
-  // Another display, another encoding, or both; also for calls after a broken connection.
+  // Changes the display, the encoding, or both; also for calls after a broken connection.
   void change(const v1::ChangeDisplay& change);
-  // Where the eyes before a tracked stereo display are now; also for calls after a broken
-  // connection, while the display stays tracked. The newest count: of poses that come faster than
-  // atlases, the server drops those overtaken. One that the server refuses ends the call.
+  // Sends the places of the eyes in front of a tracked stereo display. They also count for calls
+  // after a broken connection, while the display stays tracked. The server uses the newest poses
+  // and drops the others. Poses that the server refuses end the call.
   void sendEyePoses(const v1::EyePoses& poses);
-  // Asks the server what time it is; lost when there is no connection. See ClockFollower.
+  // Asks for the time of the server. Lost if there is no connection. See ClockFollower.
   void probeClock();
-  // What the answers of this connection say. None before the first.
+  // Offset by the answers of this connection. Empty before the first.
   std::optional<ClockOffset> serverClock() const;
-  // Tells what was shown when, by the clock of the eye poses. Lost when there is no connection.
+  // Reports when an atlas was shown, by the clock of the eye poses. Lost if there is no connection.
   void reportPresented(uint64_t sequence, int64_t presented_time_ns);
-  // Breaks off. Does not wait.
+  // Breaks the call off. Does not wait.
   void stop();
-  // How it ended: OK when all atlases asked for have come, CANCELLED after stop().
+  // Status with which it ended, if it has: OK after the last atlas asked for, CANCELLED after
+  // stop().
   std::optional<absl::Status> ended() const;
-  // Waits for the end, at most so long. True = it has ended.
+  // Waits for the end, at most timeout_ns. Returns true if it has ended.
   bool waitEnded(int64_t timeout_ns) const;
   WatcherCounts counts() const;
 
@@ -82,32 +84,31 @@ class Watcher {
 
   const WatcherCallbacks callbacks_;
   const std::unique_ptr<v1::DisplayService::Stub> stub_;
-  AtlasAssembler assembler_;  // the thread's own
+  AtlasAssembler assembler_;  // used by thread_ only
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  v1::OpenDisplay open_;  // with the count that is left
+  v1::OpenDisplay open_;  // with the rest of the count
   std::optional<v1::EyePoses> eyes_;
-  bool is_complete_ = false;    // the last atlas asked for has come
+  bool is_complete_ = false;    // the last atlas has come
   bool was_connected_ = false;  // in this call
   WatcherCounts counts_;
   ServerClock server_clock_;
   std::optional<absl::Status> ended_;
 
-  std::mutex write_mutex_;  // gRPC takes one write at a time; held while one waits for the network
+  std::mutex write_mutex_;  // one write at a time; held while a write waits for the network
   Call* call_ = nullptr;    // null = no call; guarded by write_mutex_
 
-  std::jthread thread_;  // last: joins before what it uses goes
+  std::jthread thread_;  // last: it uses the members above
 };
 
-// Asks the server again and again what time it is: quickly at first, so that the clock is known at
-// once, then once a second, since clocks drift.
-// Thread-safety: none; the watcher outlives it.
+// Asks for the time of the server repeatedly: quickly at first, then once a second, because clocks
+// drift. The watcher must outlive it. Thread-safety: none.
 class ClockFollower {
  public:
   explicit ClockFollower(Watcher& watcher)
       : thread_([&watcher](const std::stop_token& stop) { run(watcher, stop); }) {}
-  // Stop the watcher first: a probe may wait for a network that is not there.
+  // Stop the watcher first: a probe may wait for the network.
   ~ClockFollower() = default;
 
  private:

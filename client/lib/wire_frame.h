@@ -9,8 +9,8 @@
 
 namespace viewloom {
 
-// Whoever holds a frame shares its planes, and so do messages under way: bytes that were offered
-// must not change, and need not be kept.
+// Copies of a frame share its planes, and so do messages on their way. Bytes of an offered frame
+// must not change; the caller need not keep them.
 struct WireFrame {
   v1::FrameHeader header;
   std::vector<SharedBytes> planes;  // in the header's order: sources, layers, planes
