@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any list of posed pinholes, by angles or by intrinsics; or a grid of them.
+// A list of posed pinhole cameras, with angles or intrinsics; or a grid of them.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace viewloom {
 
 struct View;
 
-// Off-axis eyes on a grid in one plane, all framing one rectangle on the focal plane.
+// Off-axis eyes on a grid in one plane. All frame one rectangle on the focal plane.
 struct CameraGrid {
   uint32_t columns = 0;
   uint32_t rows = 0;
@@ -69,14 +69,14 @@ void visitFields(Cameras& cameras, Visitor& visit) {
 absl::Status takePreset(CamerasSpec& cameras);
 absl::Status settle(CamerasSpec& cameras);
 TileGrid tileGrid(const CamerasSpec& cameras);
-// Views of a grid are counted in the order of its tiles: from the left, and from the top or the
-// bottom as the order says.
+// Lays out the views. Views of a grid count in the order of its tiles: from the left, and from the
+// top or the bottom as the order says.
 void describe(const CamerasSpec& cameras, const StreamDefaults& defaults, AtlasLayout& layout);
 double* focalPlane(CamerasSpec& cameras);
 std::optional<OpenFov> openFov(const CamerasSpec& cameras);
 std::vector<KnownDevice> devicesOf(const CamerasSpec& any);
 
-// Expects valid cameras.
+// Views of a list of cameras. Expects valid cameras.
 std::vector<View> cameraViews(const std::vector<ViewCamera>& cameras, SizePx tile_size_px);
 
 }  // namespace viewloom

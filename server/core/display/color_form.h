@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the colour of an atlas lies in memory on its way to the encoders.
+// Layout of an atlas's colour in memory on its way to the encoders.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace viewloom {
 
-// kRgba: uint8_t[row][x][4] R, G, B, 255. Else planes as JPEG takes them (YcbcrLayout).
+// kRgba: uint8_t[row][x][4] R, G, B, 255. The others: planes as JPEG takes them (YcbcrLayout).
 enum class ColorForm : uint8_t { kRgba, kYcbcr444, kYcbcr420 };
 
-// The form in which an encoder has the least to do. Every encoder takes kRgba; what it makes of
-// either is the same to the byte.
+// Form that costs an encoder the least. Every encoder also takes kRgba, with the same result to the
+// byte.
 ColorForm directForm(const EncodingSpec& encoding);
 
-// Y, Cb and Cr of an image, one plane after the other, uint8_t[row][stride]. Rows are padded with
-// samples of their last px, as libjpeg pads them, to whole MCUs and to whole vectors.
+// Y, Cb and Cr of an image, one plane after the other, uint8_t[row][stride]. Rows are padded to
+// whole MCUs and vectors with samples of their last pixel, as libjpeg pads them.
 struct YcbcrLayout {
   uint32_t luma_stride = 0;  // bytes, of 1 px each; a multiple of kPadding_px
   uint32_t luma_row_count = 0;
@@ -27,7 +27,7 @@ struct YcbcrLayout {
 
   static constexpr uint32_t kPadding_px = 32;
 
-  // `form`: not kRgba.
+  // Expects a form other than kRgba.
   YcbcrLayout(SizePx size_px, ColorForm form);
 
   size_t lumaBytes() const { return size_t{luma_stride} * luma_row_count; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of displays there are. A new kind joins this list.
+// List of all kinds of displays. Add a new kind here.
 #pragma once
 
 #include <utility>

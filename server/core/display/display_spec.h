@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client wants to see, checked and with every default filled in but those the stream gives.
+// A display that a client asks for, checked, with every default except those from the stream.
 #pragma once
 
 #include <functional>
@@ -25,15 +25,15 @@ inline constexpr Word<OutsideFill> kOutsideFills[] = {{"BORDER", OutsideFill::kB
 struct DisplaySpec {
   DisplayKind kind;
   RayFilter filter;
-  std::optional<Pose> world_pose;  // none = stands in the source's camera
-  double tolerance_px = 0;         // output px; 0 = of the quality
+  std::optional<Pose> world_pose;  // none = in the source's camera
+  double tolerance_px = 0;         // px of the atlas; 0 = as quality says
   OutsideFill outside_fill = OutsideFill::kBorder;
   uint32_t background_rgb = 0;  // 0xRRGGBB, sRGB
   std::optional<ReflectionSpec> reflection = std::nullopt;
   double focus_following_s = 0;  // time constant of the focal plane; 0 = it stays where it is
   std::optional<LensSpec> lens;  // none = everything is sharp
   Quality quality = Quality::kBalanced;
-  std::optional<TemporalSpec> temporal;  // none = an atlas a frame
+  std::optional<TemporalSpec> temporal;  // none = one atlas for each frame
 };
 
 template <SpecOf<DisplaySpec> Display, typename Visitor>
@@ -56,48 +56,49 @@ void visitFields(Display& display, Visitor& visit) {
   visit.label("quality", display.quality, kQualities);
 }
 
-inline constexpr double kDefaultTolerance_px = 0.25;  // of balanced quality
+inline constexpr double kDefaultTolerance_px = 0.25;  // with balanced quality
 inline constexpr uint32_t kJpegSidePxMax = 65500;     // libjpeg's JPEG_MAX_DIMENSION
 
-// The range of a number by its path in proto Display ("quilt.columns", "quilt.size.width").
-// Expects a field that has one.
+// Range of a number by its path in proto Display ("quilt.columns", "quilt.size.width"). Expects a
+// field that has a range.
 Range rangeOf(std::string_view field);
-// All of them.
+// Ranges of all fields by their paths.
 const std::map<std::string, Range, std::less<>>& fieldRanges();
 
 // Checks every range and fills in presets and defaults that need no stream. Errors name the field
 // as in proto Display ("quilt.columns"). NOT_FOUND for a preset that does not exist.
 absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec);
 
-// The same display with its focal plane elsewhere. Empty where views frame no plane in common, or
-// one that is not the display's to move.
+// The same display with its focal plane at another distance. Empty if its views frame no common
+// plane, or a plane that cannot move.
 std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m);
 
-// kJpegPlanes: red, green and blue as images of one channel each.
+// Packing of a band. kJpegPlanes: red, green and blue as one grey JPEG each.
 enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw };
 enum class Chroma : uint8_t { k420, k444 };
 
-// How the atlas is packed.
+// Packing of the atlas.
 struct EncodingSpec {
   BandEncoding color = BandEncoding::kJpeg;
   uint32_t jpeg_quality = 85;  // 1..100
   Chroma chroma = Chroma::k420;
   bool with_depth = false;
   bool with_mask = false;
-  bool with_depth_codes = false;              // of displays that are complete only with them
+  bool with_depth_codes = false;              // displays with 16-bit depth need them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw
 
   bool operator==(const EncodingSpec&) const = default;
 };
 
-// Errors name the field as in proto AtlasEncoding.
+// Checks an encoding. Errors name the field as in proto AtlasEncoding.
 absl::Status validateEncodingSpec(const EncodingSpec& encoding);
-// Of a display: what leaves its picture whole. Shared chroma mixes what neighbouring subpixels of a
-// lenticular panel show to different eyes.
+// Checks that an encoding keeps the picture of a display whole. Shared chroma mixes the pictures
+// that neighbouring subpixels of a lenticular panel show to different eyes.
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding);
 
-// Expect completed specs. Same key = same picture from the same stream: traced once. What cannot
-// change the picture (a preset's name, the JPEG quality of lossless colour) is left out.
+// Keys of completed specs. The same key means the same picture from the same stream, which is
+// rendered once. Values that cannot change the picture are left out: a preset's name, the JPEG
+// quality of lossless colour.
 std::string displayKey(const DisplaySpec& spec);
 std::string encodingKey(const EncodingSpec& encoding);
 

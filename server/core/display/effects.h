@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Effects on top of a display's views, as they are asked for (proto Effects), and how much is spent
-// on what a display leaves open.
+// Effects on the views of a display (proto Effects), and the effort for fields that it leaves open.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +14,16 @@ enum class Quality : uint8_t { kDraft, kBalanced, kBest };
 inline constexpr Word<Quality> kQualities[] = {
     {"DRAFT", Quality::kDraft}, {"BALANCED", Quality::kBalanced}, {"BEST", Quality::kBest}};
 
-// A thin lens before every view (display/lens.h).
+// A thin lens in front of every view (display/lens.h).
 struct LensSpec {
   double aperture_radius_m = 0;
   bool has_automatic_aperture = false;
   std::optional<double> focus_distance_m;  // none = the display's focal plane
   uint32_t blades = 0;                     // 0 = round
   double rotation_rad = 0;
-  uint32_t walked_count = 0;               // 0 = of the quality
-  std::optional<uint32_t> gathered_count;  // none = of the quality
-  bool is_exact = false;  // gathered rays that something else may stand in the way of are walked
+  uint32_t walked_count = 0;               // 0 = as quality says
+  std::optional<uint32_t> gathered_count;  // none = as quality says
+  bool is_exact = false;                   // gathered rays that something may block are walked
 };
 inline constexpr Word<bool> kGatherModes[] = {{"FAST", false}, {"EXACT", true}};
 
@@ -36,15 +35,15 @@ inline constexpr Word<TemporalMode> kTemporalModes[] = {
 struct TemporalSpec {
   double output_rate_hz = 0;
   TemporalMode mode = TemporalMode::kPredict;
-  double bridge_s = 0;  // 0 = a quarter of a second
+  double bridge_s = 0;  // 0 = 0.25
 
   bool operator==(const TemporalSpec&) const = default;
 };
 
-// What a display shows of what surfaces mirror.
+// Reflections in mirroring surfaces.
 struct ReflectionSpec {
-  uint32_t bounce_count = 0;     // along one ray; 0 = of the quality
-  uint32_t sample_count = 0;     // rays a px of a rough surface; 0 = of the quality
+  uint32_t bounce_count = 0;     // along one ray; 0 = as quality says
+  uint32_t sample_count = 0;     // rays a px of a rough surface; 0 = as quality says
   uint32_t environment_rgb = 0;  // 0xRRGGBB, sRGB
   bool is_unfiltered = false;    // samples are not smoothed over neighbouring px
 
@@ -83,8 +82,7 @@ void visitFields(Reflection& reflection, Visitor& visit) {
   visit("unfiltered", reflection.is_unfiltered);
 }
 
-// Fill what is left open, once the fields are checked. Errors name the field as in proto
-// LensEffect.
+// Fill fields that are left open, after the checks. Errors name the field as in proto LensEffect.
 absl::Status settle(LensSpec& lens, Quality quality);
 void settle(TemporalSpec& temporal);
 void settle(ReflectionSpec& reflection, Quality quality);

@@ -1,20 +1,20 @@
-// SPDX-License-Identifier: Apache-2.0
-// Fields of displays, as proto Display names them. One list a message says what each may be.
+// SPDX-License-Identifier: Apache-2.0 Fields of displays, named as in proto Display. Each message
+// has one list of its fields.
 //
-// A list is a function visitFields(Spec&, Visitor&), beside its struct. Everything that needs all
-// fields walks it: the conversion from proto, the checks, the key, the ranges that `viewloom` and
-// the page offer. A visitor has these members:
+// A list is a function visitFields(Spec&, Visitor&), beside its struct. Users of all fields visit
+// it: the conversion from proto, the checks, the key, the ranges that `viewloom` and the page
+// offer. A visitor has these members:
 //   (name, value, range)       a number, a size, or an optional number
 //   (name, value)              a bool
 //   word(name, value, words)   an enum
 //   color(name, value)         0xRRGGBB
-//   label(name, ...)           text, or an enum with words, that completing a display uses up: it
-//                              no longer changes the picture
+//   label(name, ...)           text, or an enum with words, that only matters until the display is
+//                              completed
 //   cameras(name, value, counts), pose(name, value)
 //   part(name, value)          a message: an optional spec with a list of its own
 //   group(name, function)      a message whose fields are members of the same struct
 //   kind(value)                the oneof of proto Display
-//   made(function)             what completing found, and changes the picture; no field
+//   made(function)             a value that completing found and that changes the picture; no field
 #pragma once
 
 #include <concepts>
@@ -35,19 +35,19 @@
 
 namespace viewloom {
 
-// A spec, or a constant one.
+// A spec, constant or not.
 template <typename Type, typename Spec>
 concept SpecOf = std::same_as<std::remove_const_t<Type>, Spec>;
 
-// Numbers that a field accepts.
+// Range of numbers that a field accepts.
 struct Range {
   double min = 0;
   double max = 0;
   bool accepts_zero = false;      // 0 means "not given"
-  bool accepts_infinity = false;  // beyond `max`
+  bool accepts_infinity = false;  // although it is beyond `max`
 };
 
-// Focal distances are held far inside what binary64 squares without loss.
+// Focal distances stay far inside the range that binary64 squares without loss.
 inline constexpr double kFocalDistanceMin_m = 1e-6;
 inline constexpr double kFocalDistanceMax_m = 1e9;
 inline constexpr double kViewAngleMax_rad = 2.6;  // of a cone or a field of view; tan(1.3) = 3.6
@@ -57,14 +57,14 @@ inline constexpr Range kOptionalAngle{0, kViewAngleMax_rad};
 inline constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(),
                                   std::numeric_limits<double>::max()};
 
-// A value of an enum by its name in proto, without the enum's own prefix.
+// A value of an enum and its name in proto, without the prefix of the enum.
 template <typename Value>
 struct Word {
   const char* name;
   Value value;
 };
 
-// A camera given by angles or by intrinsics in tile px.
+// A camera with angles, or with intrinsics in pixels of a tile.
 struct ViewCamera {
   Pose pose;  // relative to the display
   std::variant<Fov, Intrinsics> projection;

@@ -13,7 +13,7 @@
 
 namespace viewloom {
 
-// Microlenses in front of a panel, a picture behind each (proto IntegralDisplay).
+// Microlenses in front of a panel, with a picture behind each (proto IntegralDisplay).
 struct IntegralSpec {
   static constexpr const char* kName = "integral";
 
@@ -22,18 +22,18 @@ struct IntegralSpec {
   double pixel_pitch_m = 0;
   double lens_pitch_m = 0;
   double focal_length_m = 0;
-  uint32_t lens_columns = 0;  // 0 = as many as the panel has room for
+  uint32_t lens_columns = 0;  // 0 = as many as fit on the panel
   uint32_t lens_rows = 0;
-  glm::dvec2 offset_px{0.0};  // of the lenses' middle from the panel's, right and down
-  bool is_flipped = false;    // each picture is turned by half a turn
-  double scale = 0;           // metres of the scene a metre of the panel; 0 = 1
-  double distance_m = 0;      // of the lenses from the display's eye, metres of the scene
+  glm::dvec2 offset_px{0.0};  // from the panel's middle to the lenses', right and down
+  bool is_flipped = false;    // each picture is turned by 180 degrees
+  double scale = 0;           // metres of the scene for each metre of the panel; 0 = 1
+  double distance_m = 0;      // from the display's eye to the lenses, metres of the scene
 };
 
-// A lens of fewer px shows one picture to all; a picture of more than that is no lens's.
+// Pixels that a lens covers. With fewer, a lens shows one picture to everybody. No lens has more.
 inline constexpr double kLensPxMin = 1;
 inline constexpr double kLensPxMax = 4096;
-// From a phone's px under a lens of two of them to a wall of hogels.
+// Lengths of a panel, from a lens of two pixels of a phone to a wall of hogels.
 inline constexpr Range kPanelLength{1e-7, 10};
 
 template <SpecOf<IntegralSpec> Integral, typename Visitor>
@@ -58,7 +58,7 @@ TileGrid tileGrid(const IntegralSpec& integral);
 void describe(const IntegralSpec& integral, const StreamDefaults& defaults, AtlasLayout& layout);
 double* focalPlane(IntegralSpec& integral);
 std::optional<OpenFov> openFov(const IntegralSpec& integral);
-// None is verified on hardware.
+// Known devices. None is verified on hardware.
 std::vector<KnownDevice> devicesOf(const IntegralSpec& any);
 
 }  // namespace viewloom

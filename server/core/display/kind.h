@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What every kind of display says of itself. A kind is a struct with a name (kName), a field list,
-// and these functions (CONTRIBUTING.md shows how to add one):
+// SPDX-License-Identifier: Apache-2.0 Functions of every kind of display. A kind is a struct with a
+// name (kName), a field list, and these functions (CONTRIBUTING.md shows how to add one):
 //   absl::Status takePreset(Spec&)         fills what the named device gives; before the checks
 //   absl::Status settle(Spec&)             fills the rest, and checks fields against each other
 //   TileGrid tileGrid(const Spec&)         the atlas without a stream
@@ -29,31 +28,31 @@ enum class TileOrder : uint8_t { kBottomLeft, kTopLeft };
 inline constexpr Word<TileOrder> kTileOrders[] = {{"BOTTOM_LEFT", TileOrder::kBottomLeft},
                                                   {"TOP_LEFT", TileOrder::kTopLeft}};
 
-// The tiles of a display and where they stand, before any stream is known.
+// Tiles of a display, before any stream is known.
 struct TileGrid {
-  const char* size_field;  // what the client would have to make smaller
+  const char* size_field;  // field that the client can make smaller
   uint32_t columns;
   uint32_t rows;
   SizePx tile_size_px;
   TileOrder order;
   uint32_t view_count;
-  uint64_t width_px;  // of the atlas; 64 bits: not yet known to be within limits
+  uint64_t width_px;  // of the atlas; 64 bits, because it is not checked yet
   uint64_t height_px;
   uint32_t image_count = 1;  // see AtlasLayout
-  uint32_t rays_per_px = 1;  // 3 where each channel of a px is seen from a place of its own
+  uint32_t rays_per_px = 1;  // 3 if each channel of a pixel has its own eye
 };
 
 // A device that has a display of this kind.
 struct KnownDevice {
   std::string_view name;    // "portrait"
   std::string_view device;  // "Looking Glass Portrait"
-  std::string_view note;    // where sources disagree; "" = they do not
-  SizePx panel_px;          // of its panel; none = it is not known, or does not matter
+  std::string_view note;    // where published sources disagree; "" = nowhere
+  SizePx panel_px;          // of its panel; none = unknown or irrelevant
   double panel_dpi = 0;
-  bool has_size = true;  // false: its atlas has whatever size the client says
+  bool has_size = true;  // false: the client gives the size of the atlas
 };
 
-// The field of view that the stream gives a display where it is 0.
+// Field of view of a display; 0 means that the stream gives it.
 struct OpenFov {
   const char* field;
   double fov_y_rad;

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Lenticular panels in their own px: every subpixel shows what is seen from where its lens sends
-// it.
+// SPDX-License-Identifier: Apache-2.0 Lenticular panels in their own pixels. Each subpixel shows
+// what is seen from the place to which its lens directs it.
 #pragma once
 
 #include <optional>
@@ -12,14 +11,14 @@
 
 namespace viewloom {
 
-// A lenticular panel in its own px (proto LenticularDisplay).
+// A lenticular panel in its own pixels (proto LenticularDisplay).
 struct LenticularSpec {
   static constexpr const char* kName = "lenticular";
 
   std::string preset;
-  std::string calibration_json;            // empty once it is completed
-  std::optional<Calibration> calibration;  // filled in with the rest
-  uint32_t view_count = 0;  // subpixels show the nearest of so many views; 0 = each its own
+  std::string calibration_json;            // empty after completion
+  std::optional<Calibration> calibration;  // set by completion
+  uint32_t view_count = 0;  // subpixels show the nearest of so many views; 0 = their own view
   double view_cone_rad = 0;
   double focal_distance_m = 0;
   double fov_y_rad = 0;
@@ -27,7 +26,7 @@ struct LenticularSpec {
 
 inline constexpr uint32_t kLenticularViewsMax = 2500;
 
-// What a panel shows depends on: its calibration without the names of the device.
+// Optics of a panel, as text: its calibration without the names of the device.
 std::string opticsOf(const LenticularSpec& lenticular);
 
 template <SpecOf<LenticularSpec> Lenticular, typename Visitor>
@@ -41,12 +40,12 @@ void visitFields(Lenticular& lenticular, Visitor& visit) {
   visit("fov_y_rad", lenticular.fov_y_rad, kOptionalAngle);
 }
 
-// NOT_FOUND for a preset that does not exist, FAILED_PRECONDITION for one whose panel no
-// calibration is published of.
+// NOT_FOUND for an unknown preset. FAILED_PRECONDITION for a preset without a published
+// calibration.
 absl::Status takePreset(LenticularSpec& lenticular);
 absl::Status settle(LenticularSpec& lenticular);
 TileGrid tileGrid(const LenticularSpec& lenticular);
-// One view, from the middle of the cone.
+// Lays out one view, from the middle of the cone.
 void describe(const LenticularSpec& lenticular, const StreamDefaults& defaults,
               AtlasLayout& layout);
 double* focalPlane(LenticularSpec& lenticular);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Named devices. Published tables lag the hardware: defaults only, none verified on hardware.
+// Named devices, with published values as defaults. None is verified on hardware.
 #pragma once
 
 #include <optional>
@@ -20,19 +20,19 @@ struct Preset {
   SizePx size_px;
   double aspect;
   double view_cone_deg;
-  std::string_view note;  // where sources disagree; "" = they do not
+  std::string_view note;  // where published sources disagree; "" = nowhere
 };
 
-// Sorted by name.
+// All presets, sorted by name.
 std::span<const Preset> allPresets();
-// nullptr when there is none.
+// Preset of this name; nullptr if there is none.
 const Preset* findPreset(std::string_view name);
-// NOT_FOUND with those that there are.
+// NOT_FOUND with the known names if there is no such preset.
 absl::Status checkPreset(std::string_view name, std::string_view field);
 
-// The panel of a preset's device, with its usual calibration. Every unit is glued by itself, so a
-// device's own file is needed for a clear picture; none is verified on hardware. Empty where no
-// calibration of such a device is published.
+// Panel of a preset's device, with its usual calibration. Every unit is glued on its own, so a
+// clear picture needs the file of the device. None is verified on hardware. Empty if no calibration
+// of such a device is published.
 std::optional<Calibration> panelOfPreset(std::string_view preset);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quilts: N off-axis views from a line, never toed in, as lenticular panels show them.
+// Quilts: N off-axis views from a line of eyes, never toed in, as lenticular panels show them.
 #pragma once
 
 #include <string>
@@ -9,18 +9,19 @@
 
 namespace viewloom {
 
-// How the eyes of a quilt lie in its cone (proto CameraConvention).
+// Places of the eyes of a quilt in its cone (proto CameraConvention).
 enum class CameraConvention : uint8_t { kWebxr, kCore, kBridge };
 inline constexpr Word<CameraConvention> kCameraConventions[] = {
     {"WEBXR", CameraConvention::kWebxr},
     {"CORE", CameraConvention::kCore},
     {"BRIDGE", CameraConvention::kBridge}};
 
-// Off-axis views from a line. What is 0 comes from the stream or the preset (proto QuiltDisplay).
+// Off-axis views from a line of eyes. Fields of 0 come from the stream or the preset (proto
+// QuiltDisplay).
 struct QuiltSpec {
   static constexpr const char* kName = "quilt";
 
-  std::string preset;  // the name it came from, for the catalogue; "" = none
+  std::string preset;  // name that it came from, for the catalogue; "" = none
   uint32_t columns = 0;
   uint32_t rows = 0;
   SizePx size_px;
@@ -31,8 +32,8 @@ struct QuiltSpec {
   TileOrder order = TileOrder::kBottomLeft;
   uint32_t view_count = 0;
   CameraConvention convention = CameraConvention::kWebxr;
-  double depthiness = 0;  // of the cone; 0 = 1
-  // The part of the cone that the views share, 0 = its left end, 1 = its right end.
+  double depthiness = 0;  // widens the cone; 0 = 1
+  // Part of the cone that the views share: 0 is its left end, 1 its right end.
   double cone_begin = 0;
   double cone_end = 0;  // 0 = 1
 };
@@ -65,13 +66,13 @@ double* focalPlane(QuiltSpec& quilt);
 std::optional<OpenFov> openFov(const QuiltSpec& quilt);
 std::vector<KnownDevice> devicesOf(const QuiltSpec& any);
 
-// Of one view as shown. Expects a completed spec.
+// Width / height of a view as shown. Expects a completed spec.
 double quiltAspect(const QuiltSpec& quilt);
 
-// Where view i of N stands on the line of eyes, m from its middle, for a focal plane D in front of
-// it. With t its share of the way from the first to the last, in [-0.5, 0.5] (Looking Glass
-// software, as public sources have it; none verified on hardware; of a part of the cone, t runs
-// over that part):
+// Place of view i of N on the line of eyes, m from its middle, for a focal plane at distance D. t
+// is its share of the way from the first to the last, in [-0.5, 0.5]. For a part of the cone, t
+// runs over that part. The formulas are those of Looking Glass software by public sources; none is
+// verified on hardware:
 //   webxr   D tan(depthiness cone t), t = (i + 0.5) / N - 0.5: each in the middle of its share
 //   Core    D tan(depthiness cone t), t = i / (N - 1) - 0.5: the outermost at the cone's edges
 //   Bridge  D depthiness tan(cone) t, t = i / (N - 1) - 0.5: at equal distances

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// How far the rays of a display with more than one eye a view go apart: what holds for the
-// outermost holds for all.
+// SPDX-License-Identifier: Apache-2.0 Bounds of the rays of a display with more than one eye a
+// view. They lie between the outermost rays.
 #pragma once
 
 #include <vector>
@@ -9,14 +8,14 @@
 
 namespace viewloom {
 
-// The view from each corner of the rectangle of all eyes; between the px 0 and size_px of each lie
-// all its rays, those of samples too.
+// Views from each corner of the rectangle around all eyes. All rays, also those of samples, lie
+// between the pixels 0 and size_px of each.
 struct RayExtent {
   std::vector<Camera> corners;
   SizePx size_px;
 };
 
-// Expects rays that do not all come from their view's eye.
+// Bounds of a layout. Expects rays that do not all come from their view's eye.
 RayExtent rayExtent(const AtlasLayout& layout);
 
 }  // namespace viewloom

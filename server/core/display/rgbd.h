@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Displays that make their own views: one view and its depth as grey, or two layers of them.
+// Displays that compute their own views: one view and its depth as grey, or two layers of them.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct DisplaySpec;
 enum class RgbdForm : uint8_t { kColorDepth, kTwoLayers };
 inline constexpr Word<RgbdForm> kRgbdForms[] = {{"COLOR_DEPTH", RgbdForm::kColorDepth},
                                                 {"TWO_LAYERS", RgbdForm::kTwoLayers}};
-// Where depth lies, seen from colour.
+// Place of the depth, seen from colour.
 enum class DepthPlacement : uint8_t { kRight, kLeft, kTop, kBottom };
 inline constexpr Word<DepthPlacement> kDepthPlacements[] = {{"RIGHT", DepthPlacement::kRight},
                                                             {"LEFT", DepthPlacement::kLeft},
@@ -29,16 +29,16 @@ struct RgbdSpec {
 
   std::string preset;
   SizePx view_size_px;
-  std::optional<RgbdForm> form;                   // completed: never empty
-  std::optional<DepthPlacement> depth_placement;  // completed: where depth lies in the colour
+  std::optional<RgbdForm> form;                   // never empty after completion
+  std::optional<DepthPlacement> depth_placement;  // set by completion if depth lies in the colour
   bool is_black_near = false;
   double near_m = 0;        // 0 = from the stream
   double far_m = 0;         // may be infinite; 0 = from the stream
-  double screen_m = 0;      // has the middle code; 0 = the preset's, else the range stays as it is
+  double screen_m = 0;      // has the middle code; 0 = the preset's, or range not widened
   double fov_y_rad = 0;     // 0 = what the source sees
   uint32_t depth_bits = 0;  // 8 or 16; 0 = 8
 
-  // The preset says that the screen is half way in 1/Z between the ends of the range.
+  // Whether the preset puts the screen half way in 1/Z between the ends of the range.
   bool hasMiddleScreen() const { return !preset.empty() && screen_m == 0; }
 };
 
@@ -60,23 +60,23 @@ void visitFields(Rgbd& rgbd, Visitor& visit) {
 absl::Status takePreset(RgbdSpec& rgbd);
 absl::Status settle(RgbdSpec& rgbd);
 TileGrid tileGrid(const RgbdSpec& rgbd);
-// All tiles from one eye, in the middle of the display. The range of the codes may come out empty,
-// where one end of it is the stream's: see validateDepthCodes.
+// Lays out all tiles, seen from one eye in the middle of the display. The range of the codes can be
+// empty if one end of it comes from the stream: see validateDepthCodes.
 void describe(const RgbdSpec& rgbd, const StreamDefaults& defaults, AtlasLayout& layout);
 double* focalPlane(RgbdSpec& rgbd);
 std::optional<OpenFov> openFov(const RgbdSpec& rgbd);
-// None is verified on hardware, and px of none are published.
+// Known inputs. None is verified on hardware; the resolution of none is published.
 std::vector<KnownDevice> devicesOf(const RgbdSpec& any);
 
-// Of what describe() made. FAILED_PRECONDITION: what the stream gives and what the display says
-// leave no range of depths.
+// Checks the codes that describe() made. FAILED_PRECONDITION if the values of the stream and the
+// display leave no range of depths.
 absl::Status validateDepthCodes(const DepthCodes& codes);
 
-// Whether there are codes among its colour.
+// Whether the colour contains depth codes.
 bool showsDepth(const DisplaySpec& spec);
-// Whether its atlas is complete only with the plane of 16-bit codes.
+// Whether the atlas has a plane of 16-bit codes.
 bool hasDepthPlane(const DisplaySpec& spec);
-// Whether it asks for what lies behind the first surface.
+// Whether the display shows the hidden surface behind the first one.
 bool hasLayerBehind(const DisplaySpec& spec);
 
 }  // namespace viewloom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a source has to show so that the rays of displays find something: the union of what their
-// views see between two depths, as dense as the densest of them.
+// Computes which source would serve displays: the union of what their views see between two depths,
+// as dense as the densest view.
 #pragma once
 
 #include <limits>
@@ -16,13 +16,13 @@ struct InvZRange {
   double near = 0;
 };
 
-// Depths that stay while what is measured of a moving scene merely trembles. Thread-safety: none;
-// one owner.
+// A range of depths that stays the same while measurements of a moving scene merely fluctuate.
+// Thread-safety: none; one owner.
 class SettledRange {
  public:
-  // How much wider than what is measured it is when it is settled anew, at either end, as a share
-  // of the nearest 1/Z; it stays while it holds what is measured and is up to twice that wider.
-  // A scene that moves by less than 6 % of its distance moves nothing.
+  // Margin that a new range adds to the measurement at either end, as a share of the nearest 1/Z.
+  // The range stays while it contains the measurement and is at most twice the margin wider. A
+  // scene that moves by less than 6 % of its distance changes nothing.
   static constexpr double kMargin = 1.0 / 16;
 
   const InvZRange& settle(const InvZRange& measured);
@@ -31,33 +31,33 @@ class SettledRange {
   InvZRange settled_;
 };
 
-// Pinholes of `size_px` that see whatever any ray of the display does, and nothing else where all
-// rays of its views come from their eyes.
+// Pinhole cameras of `size_px` that together see everything that any ray of the display sees. They
+// see nothing else if all rays of its views come from their eyes.
 struct OutermostViews {
   std::vector<Camera> cameras;  // relative to the display
   SizePx size_px;
 };
 
-// Of one view, and of all of them.
+// Outermost views for one view, and for all views.
 OutermostViews outermostViewsOf(const AtlasLayout& layout, const View& view);
 OutermostViews outermostViews(const AtlasLayout& layout);
 
-// Of a pinhole that looks along -z from where poses are relative to. It serves what lies up to
-// 1.3 rad to its sides: a view of more asks for that much.
+// Demand on a pinhole camera that looks along -z from the origin of the poses. It serves up to 1.3
+// rad to each side: a wider view asks for that much.
 class SourceDemand {
  public:
-  // What the views see between the depths of `range`. `view` is relative to the source.
+  // Adds what the views see between the depths of `range`. `view` is relative to the source.
   void include(const Camera& view, SizePx size_px, const InvZRange& range);
   void include(const OutermostViews& views, const Pose& source_from_display,
                const InvZRange& range);
 
-  // Something that a view sees can be served; the others expect it, but for hasParallax().
+  // Whether anything can be served. All other methods except hasParallax() expect that.
   bool isServable() const { return left_ < right_ && down_ < up_; }
   Fov fov() const;
-  // Up to the largest plane that is accepted.
+  // Size of the source, at most the largest plane that the server accepts.
   SizePx sizePx() const;
   double tangentWidth() const { return right_ - left_; }
-  // Some view stands elsewhere than the source.
+  // Whether a view stands elsewhere than the source.
   bool hasParallax() const { return has_parallax_; }
 
  private:
@@ -69,7 +69,7 @@ class SourceDemand {
   double right_ = -std::numeric_limits<double>::infinity();
   double up_ = -std::numeric_limits<double>::infinity();
   double down_ = std::numeric_limits<double>::infinity();
-  glm::dvec2 focal_px_{0.0};  // of the densest view, as a px of the source moves in it
+  glm::dvec2 focal_px_{0.0};  // focal length of the densest view, in terms of the source
   bool has_parallax_ = false;
 };
 

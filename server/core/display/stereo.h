@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Stereo pairs: two off-axis eyes on a line, or two given cameras. Of a tracked display, the eyes
-// until others come (tracked_eyes.h).
+// SPDX-License-Identifier: Apache-2.0 Stereo pairs: two off-axis eyes on a line, or two given
+// cameras. A tracked display uses these eyes until tracked ones come (tracked_eyes.h).
 #pragma once
 
 #include <vector>
@@ -40,8 +39,8 @@ void visitFields(Stereo& stereo, Visitor& visit) {
 absl::Status takePreset(StereoSpec& stereo);
 absl::Status settle(StereoSpec& stereo);
 TileGrid tileGrid(const StereoSpec& stereo);
-// Left, right; without given cameras at -/+ half the eye distance, both framing one rectangle on
-// the focal plane.
+// Lays out the left and the right eye. Without given cameras they are at -/+ half the eye distance,
+// and both frame one rectangle on the focal plane.
 void describe(const StereoSpec& stereo, const StreamDefaults& defaults, AtlasLayout& layout);
 double* focalPlane(StereoSpec& stereo);
 std::optional<OpenFov> openFov(const StereoSpec& stereo);

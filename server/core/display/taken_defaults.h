@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame that a stream's defaults are taken from, and when they are taken anew.
+// Decides from which frames a stream's defaults are taken.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace viewloom {
 
-// Depth that has moved by more than this, from what the defaults were taken from, takes them anew.
+// Factor by which depth must move before the defaults are taken again.
 inline constexpr double kMovedFactor = 4;
-// Within this time of such a move, the next one must exceed the square of the factor: a scene that
-// jumps to and fro takes nothing anew with every frame.
+// Time after such a move in which the next one must exceed the square of the factor. So a scene
+// that jumps to and fro does not take new defaults with every frame.
 inline constexpr int64_t kMoveRest_ns = 1'000'000'000;
 
 enum class DefaultsReason : uint8_t { kFirstFrame, kNewPublisher, kDepthMoved };
 
-// How often a stream's defaults were taken, from 1, and why last.
+// Number of times that a stream's defaults were taken, from 1, and the last reason.
 struct DefaultsTaking {
   uint64_t count = 0;
   DefaultsReason reason = DefaultsReason::kFirstFrame;
@@ -25,23 +25,23 @@ struct DefaultsTaking {
   bool operator==(const DefaultsTaking&) const = default;
 };
 
-// Whether what displays take from depth has moved by more than the factor: the nearest surfaces,
-// the focal plane, or the span of 1/Z where that grew. A frame without surfaces moves nothing.
+// Whether depth has moved by more than the factor: the nearest surfaces, the focal plane, or a span
+// of 1/Z that grew. A frame without surfaces counts as not moved.
 bool hasDepthMoved(const SourceStats& from, const SourceStats& to, double factor);
 
-// "1.5 to 4 m", of the depth in use.
+// Text of the depth in use: "1.5 to 4 m".
 std::string depthRangeText(const SourceStats& stats);
 
-// Thread-safety: none; one owner.
+// Defaults of one stream. Thread-safety: none; one owner.
 class TakenDefaults {
  public:
-  // The next frame of the stream, of that publisher's session, and when it was built. True where
-  // the defaults are those of this frame from now on.
+  // Takes the next frame of the stream, its publisher's session and the time when it was built.
+  // Returns true if the defaults now come from this frame.
   bool follow(uint64_t session, const SourceStats& stats, int64_t built_ns);
-  // Whether follow() would answer true because the session is new.
+  // Whether follow() would return true because the session is new.
   bool isBegunBy(uint64_t session, const SourceStats& stats) const;
 
-  // The measurements that they were taken from. Expects a frame.
+  // Measurements of the frame that they were taken from. Expects that there was one.
   const SourceStats& stats() const { return stats_; }
   const DefaultsTaking& taking() const { return taking_; }
 
@@ -51,7 +51,7 @@ class TakenDefaults {
   SourceStats stats_;
   DefaultsTaking taking_;
   uint64_t session_ = 0;
-  double factor_ = kMovedFactor;  // that depth has to move by
+  double factor_ = kMovedFactor;  // for the next move
   int64_t taken_ns_ = 0;
 };
 

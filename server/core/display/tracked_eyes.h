@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The eyes before a tracked stereo display: where they are now, and what they see of it.
+// Eyes in front of a tracked stereo display: their places, and what they see.
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@
 
 namespace viewloom {
 
-// Relative to the display. Without a projection it frames the display's rectangle on the focal
-// plane, however it is turned; with one, that is what it sees, in px of an eye's image.
+// An eye, relative to the display. Without a projection it frames the display's rectangle on the
+// focal plane, in whatever direction it looks. With a projection it sees just that, in pixels of an
+// eye's image.
 struct TrackedEye {
   Pose pose;
   std::optional<std::variant<Fov, Intrinsics>> projection;
 };
 
-// As proto viewloom.v1.EyePoses. The client's times mean nothing here.
+// See proto viewloom.v1.EyePoses. The times of the client are only echoed.
 struct EyePoses {
   int64_t time_ns = 0;
   int64_t predicted_display_time_ns = 0;
@@ -31,14 +32,14 @@ using EyePosesPtr = std::shared_ptr<const EyePoses>;
 
 bool isTracked(const DisplaySpec& spec);
 
-// Who frames a rectangle stands in front of it. INVALID_ARGUMENT names the field as
-// "eye_poses.eyes[1].pose.position.z".
+// Checks that eyes without a projection stand in front of the focal plane. INVALID_ARGUMENT names
+// the field as "eye_poses.eyes[1].pose.position.z".
 absl::Status validateInFront(const EyePoses& poses, double focal_distance_m);
 
-// Puts the eyes in the place of the layout's views: an off-axis frustum from each of them through
-// one rectangle, that of the display without them (R. Kooima, "Generalized Perspective Projection",
-// 2009, for a screen that all coordinates are parallel to). Expects the layout of a completed
-// spec. Errors as above, also of eyes so far aside or so close that they see nothing finite.
+// Replaces the views of the layout by the eyes. Each has an off-axis frustum through the rectangle
+// that the display frames without tracked eyes. (R. Kooima, "Generalized Perspective Projection",
+// 2009, for a screen parallel to all coordinates.) Expects the layout of a completed spec. Errors
+// as above, also for eyes so far aside or so close that their view is not finite.
 absl::Status placeEyes(const EyePoses& poses, const StereoSpec& stereo,
                        const StreamDefaults& defaults, AtlasLayout& layout);
 
