@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// A queue of fixed capacity: a full one makes the producer wait, a closed one lets everyone go.
+// SPDX-License-Identifier: Apache-2.0 A queue of fixed capacity. Producers wait while it is full.
+// Closing it releases all waiting threads.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(size_t capacity) : capacity_(capacity) {}
 
-  // Waits for room. False, and the item is dropped, once the queue is closed.
+  // Waits for room. Once the queue is closed it drops the item and returns false.
   bool push(Item item) {
     std::unique_lock lock(mutex_);
     room_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
@@ -27,7 +27,7 @@ class BoundedQueue {
     return true;
   }
 
-  // Waits for an item. Empty once the queue is closed and drained.
+  // Waits for an item. Returns nothing once the queue is closed and empty.
   std::optional<Item> pop() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return closed_ || !items_.empty(); });
@@ -38,7 +38,7 @@ class BoundedQueue {
     return item;
   }
 
-  // No more items come in; those inside are still handed out.
+  // Accepts no more items. Items inside can still be taken.
   void close() {
     std::lock_guard lock(mutex_);
     closed_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Byte buffers that come back: after warm-up, frames and bands travel without touching the heap.
+// A pool of byte buffers. After warm-up, frames and bands need no new memory.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace viewloom {
 
-// Bytes that several readers share; goes back to its pool with the last of them.
+// Bytes that several readers share. They return to their pool with the last reader.
 using SharedBytes = std::shared_ptr<const std::vector<uint8_t>>;
 
 // Lends growable byte buffers. A returned buffer keeps its capacity and serves the next request.
@@ -21,16 +21,16 @@ class BytePool {
  public:
   using Buffer = std::shared_ptr<std::vector<uint8_t>>;
 
-  // At most kept_count buffers wait in the pool, with kept_bytes_max of memory together; what is
-  // more is freed, beginning with the buffer that has waited longest.
+  // The pool keeps at most kept_count free buffers, with kept_bytes_max of memory together. It
+  // frees the oldest ones first.
   explicit BytePool(size_t kept_count, size_t kept_bytes_max = std::numeric_limits<size_t>::max());
-  // An empty buffer with room for capacity_bytes: the smallest of those waiting, unless even that
-  // is several times too large; else a new one.
+  // Takes an empty buffer with room for capacity_bytes: the smallest free one that fits, or a new
+  // one if that is several times too large.
   Buffer take(size_t capacity_bytes);
-  // The same, of `size_bytes`, for one who writes them all: they are what they were left as, or 0.
+  // Takes a buffer of `size_bytes` with old content or 0, for callers that write all of it.
   Buffer takeAsLeft(size_t size_bytes);
-  // The same, of the size that it was left at: for one who writes piece by piece and grows it where
-  // it is too small, so that it is not filled with 0 first.
+  // Takes a buffer with its old size and content. For callers that write piece by piece and grow
+  // it, so that it is not filled with 0 first.
   Buffer takeUncleared(size_t capacity_bytes);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VIEWLOOM_CHECK: an invariant of our own code; a violation is a bug and ends the process in every
-// build.
+// VIEWLOOM_CHECK tests an invariant of our own code. A violation is a bug and ends the process in
+// every build.
 #pragma once
 
 namespace viewloom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Monotonic time in nanoseconds, and one that tests turn by hand.
+// Monotonic time in nanoseconds, and a clock that tests set by hand.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class Clock {
   virtual ~Clock() = default;
   // Nanoseconds since an arbitrary start; never goes back.
   virtual int64_t nowNs() const = 0;
-  // For how long whoever waits for this time may sleep, at most, before it looks at it again.
+  // Longest time that a thread may sleep before it checks this time again.
   virtual std::chrono::nanoseconds napUntil(int64_t due_ns) const = 0;
 };
 
@@ -34,7 +34,7 @@ class SteadyClock final : public Clock {
 class ManualClock final : public Clock {
  public:
   int64_t nowNs() const override { return now_ns_; }
-  // It may be turned at any time, and wakes nobody.
+  // A test may set the clock at any time; this wakes nobody.
   std::chrono::nanoseconds napUntil(int64_t) const override { return std::chrono::milliseconds(1); }
   void advance(int64_t by_ns) { now_ns_ += by_ns; }
 

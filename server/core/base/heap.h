@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the process keeps memory that it has freed.
+// Keeps freed memory in the process.
 #pragma once
 
 namespace viewloom {
 
-// Lets the C library keep what is freed for what comes next. Left to itself, glibc gives the memory
-// of each received message back to the system and fetches it again for the next one, page by page:
-// of a server that receives frames, most of the CPU time (tests/performance.md). Call once, before
-// other threads begin. Does nothing with other C libraries.
+// Makes the C library keep freed memory for the next use. By default, glibc returns the memory of
+// each received message to the system and fetches it again for the next one, page by page. In a
+// server that receives frames, that takes most of the CPU time (tests/performance.md). Call once,
+// before other threads begin. Does nothing with other C libraries.
 void keepFreedMemory();
 
 }  // namespace viewloom

@@ -11,12 +11,12 @@ namespace viewloom {
 
 struct HostPort {
   std::string host;              // without the brackets of an IPv6 address; never empty
-  std::optional<uint16_t> port;  // empty where none is given
+  std::optional<uint16_t> port;  // empty if none is given
 
-  std::string text() const;  // as it is written, with brackets where they are needed
+  std::string text() const;  // with brackets around an IPv6 address
 };
 
-// HOST, HOST:PORT, [IPV6] or [IPV6]:PORT, with a port of 0..65535; nothing where it is neither.
+// Parses HOST, HOST:PORT, [IPV6] or [IPV6]:PORT, with a port 0..65535; empty for other texts.
 std::optional<HostPort> parseHostPort(std::string_view text);
 
 // Whether a host, without port and brackets, is a name or an address of the loopback interface.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand-over with one slot: the newest item wins, the one it replaces is returned and counted.
+// Holds one item, the newest. An item that it replaces is returned and counted.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace viewloom {
 template <typename Item>
 class LatestMailbox {
  public:
-  // Puts the item in the slot. Returns the item it replaced, if nobody had taken it.
+  // Puts an item in. Returns the item that it replaced, if nobody had taken that.
   std::optional<Item> push(Item item) {
     std::lock_guard lock(mutex_);
     std::optional<Item> replaced = std::exchange(slot_, std::move(item));

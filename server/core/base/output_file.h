@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Files that viewloom writes: complete beside their place first, then put there.
+// SPDX-License-Identifier: Apache-2.0 Files that viewloom writes. They are completed under another
+// name first, then moved to their place.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,31 @@
 
 namespace viewloom {
 
-// OK when a file can be written at `path`: nothing stands there, or a regular file, which is
-// replaced, and its folder takes new files. Else INVALID_ARGUMENT with the reason: folders,
-// devices, pipes, sockets and symbolic links are never replaced.
+// Checks whether a file can be written at `path`. OK if there is nothing or a regular file, and the
+// folder is writable. Otherwise INVALID_ARGUMENT with the reason. Folders, devices, pipes, sockets
+// and symbolic links are never replaced.
 absl::Status checkOutput(const std::filesystem::path& path);
 
-// Without replace() or placeNew() nothing is left behind. Errors are FAILED_PRECONDITION and name
-// the path and the reason, as a full disk. Thread-safety: none.
+// A file that is being written. Without replace() or placeNew() it leaves nothing behind. Errors
+// are FAILED_PRECONDITION and name the path and the reason, such as a full disk. Thread-safety:
+// none.
 class OutputFile {
  public:
-  // Opens PATH.part. Fails as checkOutput.
+  // Opens PATH.part. Fails like checkOutput.
   static absl::StatusOr<std::unique_ptr<OutputFile>> create(std::filesystem::path path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   absl::Status write(std::string_view bytes);
-  // Cuts what was written down to so many bytes; the next write goes there.
+  // Cuts the file to so many bytes. The next write continues there.
   absl::Status cutTo(uint64_t bytes);
   uint64_t size() const { return size_; }
 
-  // Puts the file at its path, in place of an older regular file. Call once.
+  // Moves the file to its path. It replaces an older regular file. Call once.
   absl::Status replace();
-  // Puts the file at its path when nothing stands there; false = something does, and stays. Call
-  // once.
+  // Moves the file to its path if nothing is there. Returns false if something is there, which
+  // stays. Call once.
   absl::StatusOr<bool> placeNew();
 
  private:

@@ -7,8 +7,8 @@
 
 namespace viewloom {
 
-// The text with every control character written as \x1b, and bytes that are no UTF-8 likewise: a
-// terminal shows it and obeys nothing in it. Line breaks and tabs stay when `keeps_lines`.
+// Writes control characters, and bytes that are not UTF-8, as \x1b. A terminal then shows the text
+// and obeys nothing in it. Line breaks and tabs stay with `keeps_lines`.
 std::string printable(std::string_view text, bool keeps_lines = false);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refusals that may pass: when to ask again.
+// Attaches to a status when to try again.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace viewloom {
 
-// The same refusal; asking again after so long makes sense.
+// The same status, worth another try after delay_ns.
 absl::Status worthRetry(absl::Status status, int64_t delay_ns);
 
-// After how long to ask again; nullopt where nothing was said of that.
+// Time until the next try; nullopt if the status has none.
 std::optional<int64_t> retryDelayNs(const absl::Status& status);
 
 }  // namespace viewloom

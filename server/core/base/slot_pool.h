@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bounded set of reusable resources, lent until the last borrower lets go.
+// A bounded set of reusable resources. Each is lent until its last borrower releases it.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +12,25 @@
 
 namespace viewloom {
 
-// A borrower keeps a slot at least until the device is done with it. Borrowed slots may outlive the
-// pool. Thread-safety: all methods may be called from any thread; slots come back on any thread.
+// Lends slots. A borrower keeps a slot at least until the device has finished with it. Borrowed
+// slots may outlive the pool. Thread-safety: all methods may be called from any thread, and slots
+// may return on any thread.
 template <typename Slot>
 class SlotPool {
  public:
-  // `on_return` is called, without a lock held, after each return; it must not throw.
+  // `on_return` is called after each return, without a lock. It must not throw.
   SlotPool(size_t slot_count_max, std::function<void()> on_return)
       : shelf_(std::make_shared<Shelf>(slot_count_max, std::move(on_return))) {}
 
-  // From now on so many. Those too many go as they come back.
+  // Changes the number of slots. Excess slots are freed when they return.
   void setCountMax(size_t slot_count_max) { shelf_->setCountMax(slot_count_max); }
 
-  // Whether take() would find one. Of those that take and ask from one thread: it stays so.
+  // Whether take() would succeed. The answer stays true if only this thread takes slots.
   bool hasRoom() const { return shelf_->hasRoom(); }
 
-  // A slot for which `fits(slot)`: a free one, else one that `make()` allocates, in the place of a
-  // free misfit once slot_count_max slots exist. nullptr = all are lent. What make() throws passes.
+  // Takes a slot for which `fits(slot)` holds: a free one, or a new one from `make()`. Once
+  // slot_count_max slots exist, a new one replaces a free one that does not fit. Returns nullptr if
+  // all are lent. Exceptions of make() pass through.
   template <typename Fits, typename Make>
   std::shared_ptr<Slot> take(const Fits& fits, const Make& make) {
     std::unique_ptr<Slot> slot = shelf_->takeFree(fits);

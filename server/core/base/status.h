@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of foreign input: an absl::Status that names the field at fault.
+// Errors of foreign input: an absl::Status that names the wrong field.
 #pragma once
 
 #include <string>
@@ -15,17 +15,18 @@
 
 namespace viewloom {
 
-// A refusal: `field` is the path in the request ("header.sources[0].layers[1].planes[0].size"),
-// the message reads "<field>: <what came and what is accepted>".
+// Makes an error. `field` is the path in the request
+// ("header.sources[0].layers[1].planes[0].size"). The message is "<field>: <problem>". The problem
+// says in words what was given and what is accepted.
 absl::Status fieldError(absl::StatusCode code, std::string_view field, std::string_view problem);
 
-// INVALID_ARGUMENT, the commonest.
+// Makes an INVALID_ARGUMENT error.
 absl::Status invalidField(std::string_view field, std::string_view problem);
 
-// The field a fieldError named; empty for other statuses.
+// Field of a fieldError; empty for other statuses.
 std::string fieldOf(const absl::Status& status);
 
-// The same error seen from further up: "prefix.field" (or "prefix" when it named none).
+// The same error with the field "prefix.field", or "prefix" if it named none.
 absl::Status withFieldPrefix(const absl::Status& status, std::string_view prefix);
 
 }  // namespace viewloom

@@ -18,7 +18,7 @@ inline absl::string_view asAbslPart(std::string_view part) {
   return {part.data(), part.size()};
 }
 
-// Text of all parts, one after the other; numbers with up to six significant digits.
+// Joins all parts to a text. Numbers have up to six significant digits.
 template <typename... Parts>
 std::string strCat(const Parts&... parts) {
   return absl::StrCat(asAbslPart(parts)...);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of threads, as `top -H`, `perf` and debuggers show them.
+// Names threads for `top -H`, `perf` and debuggers.
 #pragma once
 
 namespace viewloom {
 
-// Names the calling thread, and those that it begins until they are named. At most 15 characters:
-// what is beyond is cut off.
+// Names the calling thread, and threads that it starts until they get a name. Names are cut to 15
+// characters.
 void nameThread(const char* name);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an atlas was traced (shaders/README.md); the values of proto TraceMethod.
+// Method by which an atlas was rendered (shaders/README.md); the values of proto TraceMethod.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads that share the pieces of one task with the thread that has it.
+// Threads that share the pieces of a task with the calling thread.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,11 @@
 
 namespace viewloom {
 
-// Thread-safety: forEach() may be called from any thread; tasks of several callers run one after
-// the other.
+// A pool of workers. Thread-safety: forEach() may be called from any thread. Tasks of several
+// callers run one after the other.
 class WorkerPool {
  public:
-  // As many workers as that, of which the caller of forEach() is one. 0 = one a core.
+  // Number of workers, including the caller of forEach(). 0 = one for each core.
   explicit WorkerPool(uint32_t worker_count = 0);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -25,9 +25,8 @@ class WorkerPool {
 
   uint32_t workerCount() const { return uint32_t(threads_.size()) + 1; }
 
-  // Calls piece(index, worker) once for every index below `count`, and returns when all have
-  // returned. A worker, numbered below workerCount(), has one piece at a time. Pieces must not
-  // throw.
+  // Calls piece(index, worker) once for every index below `count`, and returns after all calls. A
+  // worker has one piece at a time; its number is below workerCount(). Pieces must not throw.
   using Piece = std::function<void(uint32_t index, uint32_t worker)>;
   void forEach(uint32_t count, const Piece& piece);
 

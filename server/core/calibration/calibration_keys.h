@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads single values of a calibration file, and says what is wrong with them.
+// Reads single values of a calibration file, with errors for users.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,24 @@
 
 namespace viewloom {
 
-// A refusal that says how to get a file that is whole.
+// An error that says how to get a complete file.
 absl::Status refuseKey(std::string_view key, std::string_view problem);
 
 struct NumberKey {
   const char* name;
   double min;
   double max;
-  std::optional<double> fallback = std::nullopt;  // where the key is absent; none: it must be there
+  std::optional<double> fallback = std::nullopt;  // for an absent key; none: the key is required
   bool is_whole = false;
 };
 
-// The number at the key, plain or as {"value": x}. INVALID_ARGUMENT names the key.
+// Reads the number of a key, plain or as {"value": x}. INVALID_ARGUMENT names the key.
 absl::StatusOr<double> readNumber(const nlohmann::json& object, const NumberKey& key);
 
-// The text at the key, plain or as {"value": "x"}; empty where it is absent.
+// Reads the text of a key, plain or as {"value": "x"}; empty if the key is absent.
 absl::StatusOr<std::string> readText(const nlohmann::json& object, const char* key);
 
-// What came, short enough for a sentence.
+// Text of a JSON value, short enough for a sentence.
 std::string describeJson(const nlohmann::json& value);
 
 }  // namespace viewloom

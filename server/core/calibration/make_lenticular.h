@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lenses of a calibrated panel, over its px.
+// Lenses of a calibrated panel, in terms of its pixels.
 #pragma once
 
 #include "calibration/calibration.h"
@@ -7,13 +7,13 @@
 
 namespace viewloom {
 
-// Lenses across the panel's width, along a row; negative where the pitch is.
+// Number of lenses along a row of the panel; negative if the pitch is negative.
 double lensCount(const Calibration& calibration);
-// How many widths of the panel a lens moves to the left from its bottom to its top; turned around
-// with flip_x.
+// Widths of the panel by which a lens moves to the left from its bottom to its top; reversed with
+// flip_x.
 double lensTilt(const Calibration& calibration);
 
-// Prepared in binary64; what a shader or a loop asks viewCoordinate() with.
+// Values for viewCoordinate() in shaders and loops, computed in binary64.
 abi::Lenticular makeLenticular(const Calibration& calibration);
 
 }  // namespace viewloom

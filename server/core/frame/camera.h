@@ -22,12 +22,12 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
-// `outer` applied after `inner`: the pose of what stands at `inner` inside a thing that stands at
-// `outer`.
+// Applies `outer` after `inner`: the pose in the world of an object at `inner` inside another one
+// at `outer`.
 Pose compose(const Pose& outer, const Pose& inner);
 Pose inverse(const Pose& pose);
 
-// Signed half angles as XrFovf; left and down are negative for a centred camera.
+// Signed half angles like XrFovf. Left and down are negative for a centred camera.
 struct Fov {
   double left_rad = 0;
   double right_rad = 0;
@@ -35,7 +35,7 @@ struct Fov {
   double down_rad = 0;
 };
 
-// Pixels of the image the camera belongs to.
+// Intrinsics in pixels of the image that the camera belongs to.
 struct Intrinsics {
   glm::dvec2 focal_px{1.0};
   glm::dvec2 principal_px{0.0};
@@ -53,8 +53,8 @@ struct Camera {
 Intrinsics intrinsicsFromFov(const Fov& fov, SizePx size_px);
 Fov fovFromIntrinsics(const Intrinsics& intrinsics, SizePx size_px);
 
-// Checks of foreign values; errors name the field relative to `field`. A quaternion that passes is
-// of unit length within 1e-3: who stores it normalises it first.
+// Check foreign values. Errors name the field relative to `field`. A quaternion that passes has
+// unit length to within 1e-3: normalise it before use.
 absl::Status validatePose(const Pose& pose, std::string_view field);
 absl::Status validateFov(const Fov& fov, std::string_view field);
 absl::Status validateIntrinsics(const Intrinsics& intrinsics, std::string_view field);

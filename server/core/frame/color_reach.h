@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the colour of a sample is averaged (shaders/color.md, Means).
+// Area over which the colour of a sample is averaged (shaders/color.md, Means).
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace viewloom {
 
-// The mean goes so far beyond the sample's own px, to both sides along each axis of the source, px.
-// 0: it is the sample alone.
+// Reach of the mean beyond the sample's own pixel, to both sides along each axis of the source, px.
+// 0: only the sample itself.
 struct ColorReach {
   float x_px = 0;
   float y_px = 0;
@@ -18,12 +18,12 @@ struct ColorReach {
   bool operator==(const ColorReach&) const = default;
 };
 
-// Samples that a reach takes in, whole or in part, to each side.
+// Number of samples to each side that a reach covers, whole or in part.
 inline uint32_t tapCount(float reach_px) {
   return uint32_t(std::ceil(reach_px));
 }
 
-// What the one that is `tap` px away counts, 0..1.
+// Weight of the sample that is `tap` pixels away, 0..1.
 inline float tapWeight(float reach_px, uint32_t tap) {
   return std::clamp(reach_px + 1 - float(tap), 0.0F, 1.0F);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The six faces of a cube map: pinholes 90 degrees wide at one place (proto Source.cube_map).
+// Six faces of a cube map: pinhole cameras 90 degrees wide in one place (proto Source.cube_map).
 #pragma once
 
 #include <array>
@@ -12,24 +12,24 @@
 
 namespace viewloom {
 
-// +x, -x, +y, -y, +z, -z: the directions in which they look.
+// Directions of the faces: +x, -x, +y, -y, +z, -z.
 inline constexpr uint32_t kCubeFaceCount = 6;
-// In the place of the source's camera, and as that is turned.
+// Face in the direction of the source's camera.
 inline constexpr uint32_t kCubeFrontFace = 5;
 
-// Of a plane that holds six faces, one below the other.
+// Size of a face in a plane of six faces, one below the other.
 inline SizePx cubeFaceSize(SizePx plane_px) {
   return {plane_px.width, plane_px.height / kCubeFaceCount};
 }
 
-// Of a face without its apron.
+// Intrinsics of a face without its apron.
 inline Intrinsics cubeFaceIntrinsics(uint32_t side_px) {
   return {.focal_px = glm::dvec2(0.5 * side_px), .principal_px = glm::dvec2(0.5 * side_px)};
 }
 
-// Face to cube: the camera that looks along -z, turned until it looks along the face's axis. Faces
-// to the side are upright; those above and below are what the front one sees with its head raised
-// or bowed.
+// Orientation from a face to the cube: the camera that looks along -z, turned to the axis of the
+// face. Faces to the side are upright. Faces above and below are what the front one sees with
+// its head raised or bowed.
 inline glm::dquat cubeFaceOrientation(uint32_t face) {
   struct Directions {
     glm::dvec3 forward;
@@ -45,7 +45,7 @@ inline glm::dquat cubeFaceOrientation(uint32_t face) {
   return glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(forward, up), up, -forward)));
 }
 
-// Of a face around which `apron_px` px more are known.
+// Camera of a face with `apron_px` more known pixels around it.
 inline Camera cubeFaceCamera(const Pose& cube, uint32_t face, uint32_t side_px,
                              uint32_t apron_px = 0) {
   Camera camera{.pose = {cube.position_m, cube.orientation * cubeFaceOrientation(face)},

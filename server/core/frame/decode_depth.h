@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The meaning of one depth sample on the CPU: its 1/Z, or why it has none. The kernels of
-// sweep/column_kernels.cpp and prepare_columns.comp do the same to many samples at a time.
+// Decodes one depth sample on the CPU: its 1/Z, or why it has none. The kernels of
+// sweep/column_kernels.cpp and prepare_columns.comp do the same for many samples at a time.
 #pragma once
 
 #include "frame/depth.h"
@@ -16,15 +16,15 @@ enum class DepthSampleKind {
 
 struct DecodedDepth {
   DepthSampleKind kind = DepthSampleKind::kBad;
-  float inv_z = 0;  // 1/m; 0 but for kSurface
+  float inv_z = 0;  // 1/m; 0 unless kSurface
 
   bool isSurface() const {
     return kind == DepthSampleKind::kSurface || kind == DepthSampleKind::kSky;
   }
 };
 
-// `sample` as stored, U16 as 0..65535. `ray_length`: of the ray through the px, per metre along the
-// view axis; counts for ray distances only.
+// Decodes a sample as stored, U16 as 0..65535. `ray_length` is the length of the ray through the
+// pixel for each metre along the view axis. It matters for ray distances only.
 //
 //   sample              PLANAR, RAY_DISTANCE    DISPARITY       WINDOW
 //   the invalid value   no surface, or the sky where it is far

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the px of a source are spread over depth.
+// Histogram of the pixels of a source over depth.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,18 @@
 
 namespace viewloom {
 
-// So many px with 1/Z in [inv_z_low, inv_z_high), 1/m. Infinity is in the one that begins at 0.
+// Number of pixels with 1/Z in [inv_z_low, inv_z_high), 1/m. Infinity is in the bin that begins at
+// 0.
 struct DepthBin {
   double inv_z_low = 0;
   double inv_z_high = 0;
   uint32_t count = 0;
 };
 
-// From far to near, next to each other or apart; none is empty.
+// Bins from far to near, which may have gaps between them. None is empty.
 using DepthSpread = std::vector<DepthBin>;
 
-// `counts` of bins, of which `start_of(bin)` is the least 1/Z, 1/m.
+// Spread from `counts` of bins. `start_of(bin)` is the smallest 1/Z of a bin, 1/m.
 template <typename StartOf>
 DepthSpread depthSpread(std::span<const uint32_t> counts, const StartOf& start_of) {
   DepthSpread spread;

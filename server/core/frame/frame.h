@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The immutable frame: one input instant, decoded, as it travels from ingest to upload.
+// A frame: one instant, decoded, on its way from ingest to upload. Immutable.
 #pragma once
 
 #include <algorithm>
@@ -34,15 +34,15 @@ enum class ColorTransfer : uint8_t { kSrgb, kLinear };
 enum class ColorPrimaries : uint8_t { kBt709, kDisplayP3, kBt2020 };
 enum class AlphaMode : uint8_t { kOpaque, kPremultiplied, kStraight };
 enum class NormalSpace : uint8_t { kCamera, kWorld };
-// How light brighter than white is shown, of planes of linear colour (proto ToneMap).
+// Mapping of light brighter than white, for planes of linear colour (proto ToneMap).
 enum class ToneMap : uint8_t { kClip, kFilmic, kAgx };
 enum class DepthMeaning : uint8_t { kPlanar, kRayDistance, kWindow, kDisparity };
 
-// How depth samples become 1/Z; frame/depth.h makes of it what kernels compute with.
+// Conversion of depth samples to 1/Z. frame/depth.h makes coefficients for kernels of it.
 struct DepthFormat {
   DepthMeaning meaning = DepthMeaning::kPlanar;
-  double scale = 1;      // metre or 1/m per unit of the sample
-  double offset = 0;     // after the scale
+  double scale = 1;      // metres, or 1/m, for each unit of the sample
+  double offset = 0;     // added after the scale
   double min_depth = 0;  // kWindow, as in XrCompositionLayerDepthInfoKHR
   double max_depth = 1;
   double near_z_m = 0;  // may be +inf; near > far is reversed depth
@@ -51,7 +51,7 @@ struct DepthFormat {
   bool invalid_is_far = false;
 };
 
-// What a plane is, before and apart from its bytes.
+// Description of a plane without its bytes.
 struct PlaneFormat {
   PlaneKind kind = PlaneKind::kColor;
   PlaneEncoding encoding = PlaneEncoding::kRgba8;
@@ -69,24 +69,24 @@ struct PlaneFormat {
 struct LayerFormat {
   PlaneFormat color;
   PlaneFormat depth;
-  bool depth_first = false;  // the order in which these two came on the wire
-  // After those two, in the order in which they came: of other kinds, one each at most.
+  bool depth_first = false;  // depth came before colour on the wire
+  // Planes of other kinds after those two, in the order of the wire; at most one of each kind.
   std::vector<PlaneFormat> others = {};
   bool color_has_reflections = false;
 
-  // Of `others`; nullptr = there is none.
+  // Plane of this kind among `others`; nullptr if there is none.
   const PlaneFormat* find(PlaneKind kind) const {
     for (const PlaneFormat& plane : others) {
       if (plane.kind == kind) return &plane;
     }
     return nullptr;
   }
-  // Whether reflections are added to its colour where a display asks for them.
+  // Whether reflections are added to the colour if a display asks for them.
   bool mirrors() const { return find(PlaneKind::kSpecular) != nullptr && !color_has_reflections; }
 };
 
 struct SourceFormat {
-  Camera camera;  // intrinsics in px of the depth planes; of a cube map, of its front face
+  Camera camera;  // intrinsics in pixels of the depth planes, or of the front face of a cube map
   std::vector<LayerFormat> layers;  // 1..4, nearest first
   double connection_tolerance = 0;  // 1/m; 0 = measured
   // Every plane holds six faces, one below the other (frame/cube_map.h).
@@ -98,7 +98,7 @@ struct SourceFormat {
   }
 };
 
-// A frame without its bytes: what a header declares and validateFrame accepts.
+// A frame without its bytes: a header that validateFrame accepts.
 struct FrameFormat {
   uint64_t number = 0;
   int64_t capture_time_ns = 0;
@@ -107,22 +107,23 @@ struct FrameFormat {
   ToneMap tone_map = ToneMap::kClip;
 };
 
-// Decoded, packed planes. color: uint8_t[h][w][4] for kRgba8 (kRgb8 and kJpeg decode to it), or
-// binary16[h][w][4] for kRgba16f. depth: samples as declared, packed. surface: how a layer that
-// mirrors does, abi::SurfaceTexel[h][w]; else null. Top row first.
+// Decoded, packed planes, top row first.
+//   color    uint8_t[h][w][4] for kRgba8 (also from kRgb8 and kJpeg), or binary16[h][w][4]
+//   depth    samples as declared
+//   surface  abi::SurfaceTexel[h][w] for a layer that mirrors; else null
 struct LayerPlanes {
   SharedBytes color;
   PlaneEncoding color_encoding = PlaneEncoding::kRgba8;  // kRgba8 or kRgba16f
   SharedBytes depth;
   SharedBytes surface = nullptr;
-  uint64_t bad_normals_count = 0;  // without a length: there the surface's own slope counts
-  // How it moves by itself, m/s along the world's axes, binary16[h][w][3], finite; null where
-  // nothing does.
+  uint64_t bad_normals_count = 0;  // normals without length; the slope of the depth is used there
+  // Motion of the surfaces, m/s along the axes of the world, binary16[h][w][3], finite; null if
+  // nothing moves.
   SharedBytes motion = nullptr;
-  uint64_t bad_motions_count = 0;  // that were not finite: there it stands
+  uint64_t bad_motions_count = 0;  // motions that were not finite; the surface stands still there
 };
 
-// When what happened to a frame, on the server's monotonic clock.
+// Times of a frame, on the server's monotonic clock.
 struct FrameTimes {
   int64_t first_chunk_ns = 0;
   int64_t last_chunk_ns = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where decoded frames go, and what comes back: one outcome per frame.
+// Destination of decoded frames, which reports one outcome for each frame.
 #pragma once
 
 #include <functional>
@@ -31,26 +31,26 @@ struct FrameReport {
   std::string reason{};  // kRefused
   std::vector<DisplayReport> displays{};
   SourceStats stats{};
-  std::string note{};  // for a person; mostly empty
+  std::string note{};  // for a person; usually empty
 };
 
-// Where a frame comes from.
+// Origin of a frame.
 struct FrameOrigin {
   std::string stream;
-  // Of the publisher; with another one, whatever was learnt from the stream's frames starts anew.
+  // Session of the publisher. With another session, everything learnt from the stream starts again.
   uint64_t session = 0;
 };
 
-// Called exactly once per frame, from any thread; must not block.
+// Called exactly once for each frame, from any thread; must not block.
 using ReportFrame = std::function<void(const FrameReport&)>;
 
-// Thread-safety: all methods may be called from any thread; none blocks.
+// Takes frames. Thread-safety: all methods may be called from any thread; none blocks.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  // Takes the newest frame of a stream; an older one that still waits is reported kReplaced.
+  // Takes the newest frame of a stream. An older one that still waits is reported as kReplaced.
   virtual void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) = 0;
-  // The stream's name is free again and nobody watches: its resident structure may go.
+  // Drops the structure of a stream whose name is free and that nobody watches.
   virtual void forgetStream(const std::string& stream) = 0;
 };
 

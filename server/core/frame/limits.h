@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame may be: every declared field is checked before a byte is allocated for it.
+// Limits of frames. Every declared field is checked before a byte is allocated for it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace viewloom {
 
 struct FrameLimits {
   uint32_t plane_side_px_max = 8192;
-  // All planes together: each counts with its decoded or its wire bytes, whichever is more.
+  // Bytes of all planes together. Each counts with the larger of its decoded and its wire bytes.
   uint64_t frame_bytes_max = uint64_t{3} << 29;  // 1.5 GiB
   uint32_t layer_count_max = 4;
   uint32_t source_count_max = 8;
@@ -19,20 +19,20 @@ struct FrameLimits {
 
 inline constexpr uint64_t kPlaneWireBytesMax = uint64_t{512} << 20;
 
-// More than a baseline JPEG of so many pixels can have.
+// Upper bound for the bytes of a baseline JPEG of so many pixels.
 uint64_t jpegBytesMax(uint64_t area_px);
-// Bytes from row to row of an uncompressed plane as sent: the declared stride, else packed.
+// Bytes from row to row of an uncompressed plane as sent: the declared stride, or packed.
 uint64_t wireRowBytes(const PlaneFormat& plane);
 // Bytes of the plane before compression, with stride; 0 for JPEG.
 uint64_t uncompressedBytes(const PlaneFormat& plane);
-// Of how a layer mirrors, in a Frame (LayerPlanes::surface).
+// Bytes a pixel of LayerPlanes::surface, for layers that mirror.
 inline constexpr uint32_t kSurfaceTexelBytes = 8;
 // Bytes of the plane once it is decoded: packed, RGB8 and JPEG as RGBA8.
 uint64_t decodedBytes(const PlaneFormat& plane);
 
-// The whole header. Errors name the field as in proto
-// ("header.sources[0].layers[1].planes[0].size"): INVALID_ARGUMENT for what can never be,
-// RESOURCE_EXHAUSTED for what is over these limits.
+// Checks a whole header. Errors name the field as in proto
+// ("header.sources[0].layers[1].planes[0].size"). INVALID_ARGUMENT for impossible values,
+// RESOURCE_EXHAUSTED for values over these limits.
 absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which encodings planes of a kind may have, and how large their samples are.
+// Encodings that each kind of plane accepts, and sizes of their samples.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 namespace viewloom {
 
 bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding);
-// All of a kind, as proto names them: "R8, RGB8".
+// All encodings of a kind, named as in proto: "R8, RGB8".
 const char* encodingsOf(PlaneKind kind);
-// Bytes of one pixel in memory as sent; 0 for JPEG, which has none.
+// Bytes of one pixel as sent; 0 for JPEG.
 uint32_t wirePixelBytes(PlaneEncoding encoding);
 
 }  // namespace viewloom

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured on a frame's way: stage times, ray classes, the depth of a source.
+// Measurements of a frame: stage times, endings of rays, depth of a source.
 #pragma once
 
 #include <cstdint>
 
 namespace viewloom {
 
-// How the rays of an atlas ended, as counts.
+// Numbers of rays of an atlas, by their ending.
 struct Coverage {
   uint64_t hit = 0;
   uint64_t hit_assumed = 0;
@@ -25,14 +25,14 @@ struct Coverage {
   bool operator==(const Coverage&) const = default;
 };
 
-// Where the reflected rays of an atlas ended, as counts (proto ReflectionShares).
+// Numbers of reflected rays of an atlas, by their ending (proto ReflectionShares).
 struct ReflectionCounts {
   uint64_t hit = 0;
   uint64_t assumed = 0;
   uint64_t back = 0;
   uint64_t cube = 0;
   uint64_t environment = 0;
-  uint64_t bent = 0;  // of them all, those that their own surface's slope stood in the way of
+  uint64_t bent = 0;  // among all, those that would have gone below their own surface
 
   uint64_t rayCount() const { return hit + assumed + back + cube + environment; }
   void add(const ReflectionCounts& other) {
@@ -46,7 +46,7 @@ struct ReflectionCounts {
   bool operator==(const ReflectionCounts&) const = default;
 };
 
-// Nanoseconds; the stages of proto viewloom.v1.StageTimes.
+// Times of the stages in nanoseconds (proto viewloom.v1.StageTimes).
 struct StageTimes {
   int64_t receive_ns = 0;
   int64_t decode_ns = 0;
@@ -58,7 +58,7 @@ struct StageTimes {
   int64_t total_ns = 0;
 };
 
-// Measured on the device while a structure is built; 1/m where not said otherwise.
+// Measured while a structure is built; 1/m unless a name says otherwise.
 struct SourceStats {
   double depth_step = 0;
   double noise_sigma = 0;
@@ -71,7 +71,7 @@ struct SourceStats {
   double inv_z_max = 0;
   double inv_z_near = 0;       // 98th percentile of 1/Z
   double inv_z_far = 0;        // 2nd percentile of 1/Z
-  double smoothing_reach = 0;  // how far coarse samples may have been moved; 0: they are fine
+  double smoothing_reach = 0;  // most that coarse samples were moved; 0: they are fine
 };
 
 }  // namespace viewloom

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the time that an atlas shows stands to the frames it was made of.
+// Relation of the time that an atlas shows to the frames it was made of.
 #pragma once
 
 #include <cstdint>
 
 namespace viewloom {
 
-// As proto viewloom.v1.Timing.
+// See proto viewloom.v1.Timing.
 enum class Timing : uint8_t { kCaptured, kPredicted, kInterpolated, kHeld };
 
-// In JSON: "captured", "predicted", "interpolated" or "held".
+// Name in JSON: "captured", "predicted", "interpolated" or "held".
 inline const char* timingText(Timing timing) {
   switch (timing) {
     case Timing::kCaptured:

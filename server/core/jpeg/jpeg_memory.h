@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a libjpeg object memory for its images that is kept from one image to the next.
+// Memory of a libjpeg object that is kept from one image to the next.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace viewloom {
 
-// libjpeg allocates a few sample rows of full image width for each image and frees them after it:
-// above 64 KiB for every band, and for every frame wider than about 3200 px. This takes over the
-// image pool of one compressor or decompressor and serves it from blocks that are only rewound.
-// Thread-safety: that of the libjpeg object.
+// Replaces the image pool of one compressor or decompressor by blocks that are only rewound.
+// libjpeg itself allocates a few rows for each image and frees them after it. They take over 64 KiB
+// for every band, and for every frame wider than about 3200 px. Thread-safety: that of the libjpeg
+// object.
 class JpegMemory {
  public:
   // Takes a compress or decompress struct after jpeg_create_...; must live until after

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A display as a client asks for it, and the packing of its atlases → DisplaySpec and EncodingSpec,
+// Converts a display and the encoding of its atlases from proto to DisplaySpec and EncodingSpec,
 // completed and checked.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace viewloom {
 
-// Refuses unknown and later fields, then completes and checks the spec. Errors name the field as in
-// proto Display ("quilt.columns").
+// Refuses unknown values and values that are not served yet, then completes and checks the spec.
+// Errors name the field as in proto Display ("quilt.columns").
 absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto);
 
-// Every default is filled in. The display is completed. Errors name the field as in proto
-// AtlasEncoding.
+// Converts an encoding and fills in every default. Expects a completed display. Errors name the
+// field as in proto AtlasEncoding.
 absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
                                                const DisplaySpec& display);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proto enums to ours by a table: what the table lacks is refused, by name or by number.
+// Converts proto enums by a table. Values that the table lacks are refused, by name or by number.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct EnumRow {
   Value value;
 };
 
-// UNIMPLEMENTED for a value the proto names, INVALID_ARGUMENT for 0 and for numbers it does not
-// know.
+// Makes the error for a value. UNIMPLEMENTED if proto has a name for it; INVALID_ARGUMENT for 0 and
+// for unknown numbers.
 inline absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int number,
                                const std::string& accepted, std::string_view field) {
   const auto* known = type.FindValueByNumber(number);
@@ -34,7 +34,7 @@ inline absl::Status refuseEnum(const google::protobuf::EnumDescriptor& type, int
   return invalidField(field, strCat("got ", got, "; accepted is ", accepted));
 }
 
-// A table that lists the _UNSPECIFIED value has a default; one that does not refuses it.
+// Converts a value. A table with the _UNSPECIFIED value has a default; other tables refuse it.
 template <typename Proto, typename Value, size_t kRowCount>
 absl::StatusOr<Value> enumFromProto(Proto proto, std::string_view field,
                                     const EnumRow<Proto, Value> (&rows)[kRowCount]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether JSON names the fields of a message, each once and with a value of its type.
+// Checks that JSON names fields of a message, each once and with a value of its type.
 #pragma once
 
 #include <string_view>
@@ -10,9 +10,9 @@
 
 namespace viewloom {
 
-// Reads the text once, with memory for one path. Errors name the field inside the message
-// ("quilt.columns"), what came, and what is accepted; for an unknown name, the names that there
-// are. Numbers are left to protobuf's own reader where they are within their type.
+// Checks a text in one pass, with memory for one path. Errors name the field inside the message
+// ("quilt.columns"), what was given and what is accepted. For an unknown name they list the known
+// ones. protobuf's own reader checks numbers that are within their type.
 absl::Status checkJsonFields(std::string_view text, const google::protobuf::Descriptor& type);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras, poses and the meaning of depth as clients send them, checked.
+// Converts and checks cameras, poses and depth formats of clients.
 #pragma once
 
 #include <string_view>
@@ -15,15 +15,16 @@ namespace viewloom {
 
 SizePx sizeFromProto(const v1::SizePx& proto);
 
-// An absent pose is the identity, an all-zero quaternion no rotation. The result is of unit length.
-// Errors name `field` or what lies in it.
+// Converts a pose. An absent pose is the identity, and an all-zero quaternion no rotation. The
+// result has unit length. Errors name `field` or a field inside it.
 absl::StatusOr<Pose> poseFromProto(const v1::Pose& proto, std::string_view field);
 
-// Angles or intrinsics, as given. Errors name the field inside the camera ("fov").
+// Projection of a camera: angles or intrinsics, as given. Errors name the field inside the camera
+// ("fov").
 absl::StatusOr<std::variant<Fov, Intrinsics>> projectionFromProto(const v1::Camera& proto);
 
-// Measure of the samples of a depth plane. Every default is filled in; refuses an unknown meaning.
-// Errors name the field ("meaning"). The numbers are left to validateDepthFormat.
+// Converts a depth format and fills in every default. Refuses an unknown meaning. Errors name the
+// field ("meaning"). validateDepthFormat checks the numbers.
 absl::StatusOr<DepthFormat> depthFormatFromProto(const v1::DepthFormat& proto);
 
 }  // namespace viewloom

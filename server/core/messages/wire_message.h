@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages ↔ the raw bytes that calls read and write.
+// Converts between messages and the raw bytes that calls read and write.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@ namespace viewloom {
 
 grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message);
 
-// INVALID_ARGUMENT for bytes that are no such message.
+// Parses a message. INVALID_ARGUMENT for bytes that are not such a message.
 absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message);
 
-// Shares part of the bytes, without a copy; they stay alive as long as the slice does.
+// Shares part of the bytes without a copy. They live as long as the slice.
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count);
 
-// The field of a message that holds a part, and the bytes field of that part: its highest one, so
-// that its bytes end the message.
+// Number of the field that holds a part, and of the bytes field inside the part. The second one has
+// the highest number, so that its bytes end the message.
 struct DataFields {
   int part = 0;
   int data = 0;
 };
 
-// The beginning of a serialised message, up to the data, which are sent behind it without a copy.
+// Beginning of a serialised message up to its data, which follow without a copy.
 std::string headOfMessage(const google::protobuf::MessageLite& part_without_data, DataFields fields,
                           size_t data_bytes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Command lines: options, subcommands, what is said of wrong ones.
+// Command lines: options, subcommands, and errors.
 //
 // The parser behind this is CLI11. Each file that includes it takes seconds longer to compile, so
 // it stays behind these handles. Everything here is for one thread.
@@ -52,7 +52,7 @@ class Option {
   Option needs(const std::string& other) const;  // of the same command, added before
   Option excludes(Option other) const;
   Option excludes(const std::string& other) const;
-  // Where the command line does not name it, this variable of the environment is taken.
+  // Environment variable that gives the value if the command line does not.
   Option environment(const std::string& variable) const;
 
   // Values that are accepted.
@@ -65,7 +65,7 @@ class Option {
   Option existingFolder() const;
   // The words also name the value. Suggests the nearest of them to another.
   Option oneOf(std::vector<std::string> words) const;
-  // So many values.
+  // Number of values.
   Option count(int value_count) const;
 
   // Called when the command line names it.
@@ -88,10 +88,10 @@ class Command {
   // `value` holds the default. The end of command_line.cpp lists the types that it may have.
   template <typename Value>
   Option add(const std::string& names, Value& value, const std::string& help = "") const;
-  // One whose value is given to `take`, which may throw BadValue.
+  // An option whose value is given to `take`, which may throw BadValue.
   Option addTaken(const std::string& names, std::function<void(const std::string&)> take,
                   const std::string& help) const;
-  // One that takes a word, which stands for a value.
+  // An option that takes a word, which stands for a value.
   template <typename Target, typename Value>
   Option addWord(const std::string& names, Target& value, const std::map<std::string, Value>& words,
                  const std::string& help) const;
