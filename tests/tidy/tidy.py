@@ -15,6 +15,7 @@ import proto_rules
 import schedule_rules
 import text_rules
 import user_texts
+import version_rules
 from tree import Tree
 
 
@@ -24,7 +25,8 @@ def main():
         include_graph.write(tree, sys.argv[3])
         return 0
     findings = sorted(finding for rules in (build_rules, include_graph, layering, proto_rules,
-                                            schedule_rules, text_rules, user_texts)
+                                            schedule_rules, text_rules, user_texts,
+                                            version_rules)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)
