@@ -33,6 +33,7 @@ build_packages=(
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium curl python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
+  python3-pip python3-setuptools python3-venv python3-wheel
   xdotool xvfb
   clang clang-format clang-tidy libembree-dev
 )

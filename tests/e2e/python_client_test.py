@@ -19,7 +19,7 @@ sys.path.insert(0, STUBS)
 import grpc
 from PIL import Image
 
-from google.rpc import error_details_pb2, status_pb2
+from viewloom.rpc import error_details_pb2, status_pb2
 from viewloom.v1 import catalog_service_pb2 as catalog
 from viewloom.v1 import catalog_service_pb2_grpc as catalog_grpc
 from viewloom.v1 import display_pb2 as display
@@ -190,8 +190,9 @@ class PythonClient(unittest.TestCase):
             receive_still(self.channel, "wall", quilt(0, 2, DEPTH_M))
         self.assertEqual(refused.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
         details = dict(refused.exception.trailing_metadata())["grpc-status-details-bin"]
-        bad_request = error_details_pb2.BadRequest()
-        self.assertTrue(status_pb2.Status.FromString(details).details[0].Unpack(bad_request))
+        detail = status_pb2.Status.FromString(details).details[0]
+        self.assertEqual(detail.TypeName(), "google.rpc.BadRequest")
+        bad_request = error_details_pb2.BadRequest.FromString(detail.value)
         self.assertEqual(bad_request.field_violations[0].field, "open.display.quilt.columns")
 
     def test_the_catalogue_knows_the_stream(self):

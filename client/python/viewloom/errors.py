@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple, Optional
 
 import grpc
-from google.rpc import error_details_pb2, status_pb2
+
+from viewloom.rpc import error_details_pb2, status_pb2
 
 _DETAILS_KEY = "grpc-status-details-bin"
 
@@ -69,11 +70,12 @@ def _details_of(rpc_error: Any) -> _Details:
             continue
         details = details._replace(is_there=True)
         for detail in status_pb2.Status.FromString(value).details:
-            bad_request, retry = error_details_pb2.BadRequest(), error_details_pb2.RetryInfo()
-            if detail.Unpack(bad_request) and bad_request.field_violations:
-                details = details._replace(field=str(bad_request.field_violations[0].field))
-            elif detail.Unpack(retry):
-                delay = retry.retry_delay
+            if detail.TypeName() == "google.rpc.BadRequest":
+                bad_request = error_details_pb2.BadRequest.FromString(detail.value)
+                for violation in bad_request.field_violations[:1]:
+                    details = details._replace(field=str(violation.field))
+            elif detail.TypeName() == "google.rpc.RetryInfo":
+                delay = error_details_pb2.RetryInfo.FromString(detail.value).retry_delay
                 details = details._replace(retry_delay_s=delay.seconds + 1e-9 * delay.nanos)
     return details
 
