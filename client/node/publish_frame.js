@@ -3,7 +3,7 @@
 //   node publish_frame.js --stream demo
 import {once} from 'node:events';
 
-import {connect, printable, run} from './viewloom.js';
+import {connect, printable, run} from './command_line.js';
 
 const kSize_px = {width: 320, height: 180};
 const kHalfHeight_rad = 0.3;

@@ -3,7 +3,7 @@
 //   node watch_quilt.js --stream demo --preset portrait --out quilt
 import {writeFile} from 'node:fs/promises';
 
-import {connect, run} from './viewloom.js';
+import {connect, run} from './command_line.js';
 
 // One atlas: its layout, its header, and its bands joined, which are one JPEG file. Only its end
 // makes it whole: one that is abandoned, or that another header follows, is discarded.

@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A foreign client: the examples for Node publish a frame and watch a quilt of it.
-
-Without Node, or without npm's registry, the test is skipped and says why, but where
-VIEWLOOM_REQUIRE_NODE is 1.
-"""
+"""A foreign client: the examples for Node publish a frame and watch a quilt of it."""
 
 import hashlib
 import io
-import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -18,6 +12,8 @@ import tempfile
 import unittest
 
 from PIL import Image
+
+import npm
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "show"))
 from fake_displays import FakeDisplays  # noqa: E402
@@ -27,32 +23,16 @@ from viewloom.v1.display_service_pb2 import StreamAtlasesResponse  # noqa: E402
 
 SERVER, FOLDER, PROTOS = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
 
-PATIENCE_S = 120
-SKIPPED = 77  # as CMakeLists.txt says
-NPM = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1",
-       "--fetch-retry-mintimeout=2000",
- "--fetch-timeout=20000"]
-
-
-class Missing(Exception):
-    """Something the test cannot run without."""
+PATIENCE_S = npm.PATIENCE_S
 
 
 def install():
     """node_modules as the lock file has it; kept until that changes."""
-    for program in ("node", "npm"):
-        if not shutil.which(program):
-            raise Missing(f"there is no {program}: install it, or Debian's package of that name")
     lock = hashlib.sha256((FOLDER / "package-lock.json").read_bytes()).hexdigest()
     stamp = FOLDER / "node_modules" / ".installed_lock"
     if stamp.is_file() and stamp.read_text(encoding="ascii") == lock:
         return
-    try:
-        subprocess.run(NPM, cwd=FOLDER, capture_output=True, text=True, timeout=PATIENCE_S,
-                       check=True)
-    except subprocess.SubprocessError as problem:
-        raise Missing(f"npm could not install what package-lock.json lists, {problem}:\n"
-                      f"{problem.stderr}") from None
+    npm.install("ci", cwd=FOLDER)
     stamp.write_text(lock, encoding="ascii")
 
 
@@ -160,10 +140,5 @@ class NodeClient(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    try:
-        install()
-    except Missing as missing:
-        is_required = os.environ.get("VIEWLOOM_REQUIRE_NODE") == "1"
-        print(f"{'VIEWLOOM_REQUIRE_NODE is 1, but' if is_required else 'skipped:'} {missing}")
-        sys.exit(1 if is_required else SKIPPED)
+    npm.require(install)
     unittest.main(verbosity=2)

@@ -73,8 +73,8 @@ class ReadmeLines(unittest.TestCase):
         self.assertIn("npm ci", lines)
         self.assertTrue((folder / "package-lock.json").is_file())
         script, words = re.search(r"^node (\S+) (.*)", lines, re.MULTILINE).groups()
-        code = (folder / script).read_text(encoding="utf-8") + (folder / "viewloom.js").read_text(
-            encoding="utf-8")
+        code = "".join((folder / name).read_text(encoding="utf-8")
+                       for name in (script, "command_line.js"))
         for option in re.findall(r"--(\w+)", words):
             self.assertRegex(code, rf"\b{option}: {{type: 'string'")
 

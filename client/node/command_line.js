@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the examples share: their options, and errors as one line.
+import {fileURLToPath} from 'node:url';
+import {parseArgs} from 'node:util';
+
+const {connect, status} = await loadViewloom();
+export {connect};
+
+async function loadViewloom() {
+  try {
+    return await import('./viewloom.js');
+  } catch (error) {
+    if (error.code !== 'ERR_MODULE_NOT_FOUND') throw error;
+    console.error('the packages of package.json are missing: run `npm ci --ignore-scripts` in ' +
+                  fileURLToPath(new URL('.', import.meta.url)));
+    process.exit(1);
+  }
+}
+
+// What every example takes on its command line.
+const kCommonOptions = {
+  server: {type: 'string', default: '127.0.0.1:50051'},
+  stream: {type: 'string', default: 'demo'},
+  protos: {type: 'string'},
+};
+
+// Text of a server or a file, without what would drive a terminal.
+export function printable(text) {
+  return text.replace(/[\p{Cc}\p{Cf}]/gu, (character) =>
+    character === '\n' ? character : `\\u{${character.codePointAt(0).toString(16)}}`);
+}
+
+// The name of a call's status and its message, which begins with the field; of a server that is not
+// there, where it was looked for and what to do.
+function errorText({code, details}, server) {
+  const isAbsent = code === status.UNAVAILABLE &&
+      /No connection established|ECONNREFUSED|ENOTFOUND|Name resolution failed/.test(details);
+  if (!isAbsent) return `${status[code]}: ${details}`;
+  return `no viewloomd answers at ${server}: start one with \`viewloomd serve\` or ` +
+      `\`deploy/demo.sh\`, or say where it is with --server HOST:PORT (${details})`;
+}
+
+// Runs an example: main(options). What a call ends with, or a bad option, is one line, and exit
+// code 1.
+export async function run(moreOptions, main) {
+  let server = kCommonOptions.server.default;
+  try {
+    const {values: options} = parseArgs({options: {...kCommonOptions, ...moreOptions}});
+    server = options.server;
+    await main(options);
+  } catch (error) {
+    console.error(
+        printable(error.details === undefined ? error.message : errorText(error, server)));
+    process.exitCode = 1;
+  }
+}
