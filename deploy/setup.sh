@@ -52,7 +52,7 @@ esac
 system="$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}" || true)"
 if [[ "$system" != "debian 12" ]]; then
   echo "setup: this is \"${system:-an unknown system}\"; viewloom is built and tested on Debian 12" \
-    "(bookworm). Use deploy/Dockerfile here, or install by hand what Debian calls:" >&2
+    "(bookworm). Use deploy/Containerfile here, or install by hand what Debian calls:" >&2
   echo "  ${packages[*]}" >&2
   exit 1
 fi

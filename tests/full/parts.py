@@ -97,4 +97,6 @@ PARTS = [
     compare(),
     Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),
+    Part("container", "the image of deploy/Containerfile, by podman or docker", "runs",
+         lambda: [Step("build to health", ["tests/full/container.sh"])]),
 ]

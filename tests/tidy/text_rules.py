@@ -10,7 +10,7 @@ from tree import Finding, VENDORED
 SHADERS = (".comp", ".vert", ".frag", ".glsl")
 SOURCES = SHADERS + (".cpp", ".h", ".proto", ".py", ".js", ".css", ".html", ".sh", ".cmake",
                      ".toml", ".service", ".yml", ".yaml")
-SOURCE_NAMES = ("CMakeLists.txt", "Dockerfile", ".clang-tidy")
+SOURCE_NAMES = ("CMakeLists.txt", "Containerfile", ".clang-tidy")
 MEASURED = SHADERS + (".cpp", ".h", ".proto", ".py", ".js")
 
 LINES_MAX = 300
@@ -122,7 +122,7 @@ def check_names(tree):
         name = os.path.basename(path)
         if VAGUE_FILE.search(name):
             yield Finding(path, 0, "name", "says nothing: name what the file is about")
-        stem_is_free = name.endswith((".md", ".txt")) or name.startswith((".", "Docker"))
+        stem_is_free = name.endswith((".md", ".txt")) or name.startswith((".", "Container"))
         if is_source(path) and not stem_is_free and not re.fullmatch(r"[a-z0-9_.-]+|\w+\.cmake",
                                                                      name):
             yield Finding(path, 0, "name", "files are snake_case")
