@@ -49,7 +49,7 @@ uint countOf(bvec4 flags) {
 vec4 linearise(DepthPlane plane, vec4 depth_sample, vec4 ray_length, bvec4 exists,
                inout uint bad_count) {
   // Not fused: where the two terms cancel, as for window depth, the sweep would see other values.
-  precise const vec4 value = (depth_sample - plane.origin) * plane.scale + plane.offset;
+  precise const vec4 value = (depth_sample - plane.origin) * vec4(plane.scale) + plane.offset;
   const bool is_reciprocal = plane.reciprocal != 0u;
   const vec4 length = plane.ray_distance != 0u ? ray_length : vec4(1.0);
   const vec4 inv_z = is_reciprocal ? (1.0 / value) * length : value;
