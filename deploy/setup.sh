@@ -21,7 +21,7 @@ runtime_packages=(
   mesa-vulkan-drivers zlib1g
 )
 build_packages=(
-  ccache cmake g++ git mold ninja-build pkg-config
+  ccache cmake g++ git mold ninja-build pkg-config python3
   glslang-tools libvulkan-dev mesa-vulkan-drivers libglm-dev
   libabsl-dev libgrpc++-dev libhwy-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc grpc-proto
   libheif-dev libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libpng-dev libtiff-dev libwebp-dev
@@ -32,9 +32,9 @@ build_packages=(
 )
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
-  chromium curl python3 python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
+  chromium curl python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   python3-pip python3-setuptools python3-venv python3-wheel
-  xdotool xvfb
+  man-db xdotool xvfb zsh
   clang clang-format clang-tidy libembree-dev
 )
 # Node from elsewhere is as good, and Debian's npm cannot be installed beside it.
