@@ -99,4 +99,6 @@ PARTS = [
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),
     Part("container", "the image of deploy/Containerfile, by podman or docker", "runs",
          lambda: [Step("build to health", ["tests/full/container.sh"])]),
+    Part("packages", "Debian packages, installed in a bare Debian 12 (as root)", "runs",
+         lambda: [Step("packages to picture", ["tests/full/bare_packages.sh"])]),
 ]
