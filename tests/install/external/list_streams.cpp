@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints the streams of a server.
+#include <viewloom/broken_call.h>
 #include <viewloom/catalog.h>
 
 #include <iostream>
