@@ -10,6 +10,7 @@ import sys
 import build_rules
 import file_lengths
 import include_graph
+import language_rules
 import layering
 import proto_rules
 import schedule_rules
@@ -24,8 +25,8 @@ def main():
     if sys.argv[2:3] == ["--graph"]:
         include_graph.write(tree, sys.argv[3])
         return 0
-    findings = sorted(finding for rules in (build_rules, include_graph, layering, proto_rules,
-                                            schedule_rules, text_rules, user_texts,
+    findings = sorted(finding for rules in (build_rules, include_graph, language_rules, layering,
+                                            proto_rules, schedule_rules, text_rules, user_texts,
                                             version_rules)
                       for finding in rules.check(tree))
     for finding in findings:
