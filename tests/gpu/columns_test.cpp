@@ -288,6 +288,12 @@ TEST_F(ColumnsTest, areTheDevicesWhereEncodingsMeet) {
     for (int layer = 0; layer < 2 + frame % 3; ++layer) {
       layers.push_back({kMeanings[random.integer(0, 3)], kEncodings[random.integer(0, 2)]});
     }
+    std::string kinds;
+    for (const LayerKind& kind : layers) {
+      kinds += " meaning " + std::to_string(int(kind.meaning)) + " encoding " +
+               std::to_string(int(kind.encoding));
+    }
+    SCOPED_TRACE(kinds);
     expectTheDevices(frameOfLayers(random, layers));
     if (HasFatalFailure()) return;
   }

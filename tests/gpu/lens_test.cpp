@@ -124,7 +124,8 @@ void Lens::expectBlurredEnd(GatheringPlace place) {
   const double few_codes = differenceOf(few, walked);
   const double gathered_codes = differenceOf(gathered, walked);
   std::cout << "rms " << few_codes << " of few rays, " << gathered_codes << " codes with more\n";
-  const bool is_host = place == GatheringPlace::kHost;
+  // The structure of a GPU is out of the host's reach, so the device gathers there in either case.
+  const bool is_host = place == GatheringPlace::kHost && device().info().is_software;
   EXPECT_LT(gathered_codes, (is_host ? kMissedShareOnHost : kMissedShareOnDevice) * few_codes);
   const auto background_count = std::count(walked.color.begin(), walked.color.end(), 0xffff00ff);
   EXPECT_GT(background_count, walked.color.size() / 10);
