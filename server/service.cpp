@@ -112,7 +112,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
   openRpc(config, clock);
 }
 
-// What travels against the data: demand, and room for new streams.
+// Connections against the data's direction: demand, and room for new streams.
 void Service::Parts::connect() {
   broadcaster.onDemandChange([this](const std::string& stream) {
     engine_room->serveDisplays(stream);

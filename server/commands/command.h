@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subcommand of viewloomd is to main.
+// Interface between main and the subcommands of viewloomd.
 #pragma once
 
 #include <functional>

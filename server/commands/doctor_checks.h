@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can stand in the way of a server on this machine, each with its remedy.
+// Checks for obstacles to a server on this machine, each with its remedy.
 #pragma once
 
 #include <string>

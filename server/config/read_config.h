@@ -23,7 +23,8 @@ class ConfigError : public std::runtime_error {
 
 struct ConfigSources {
   std::optional<std::string> file;  // path of a TOML file
-  // Of these, VIEWLOOM_ and the key in capitals with '_' for '.': VIEWLOOM_GRPC_ADDRESS.
+  // Environment variables whose name is VIEWLOOM_ and the key in capitals with '_' for '.':
+  // VIEWLOOM_GRPC_ADDRESS.
   std::map<std::string, std::string> environment{};
   std::map<std::string, std::string> flags{};  // key to text: "grpc.address" to "0.0.0.0:50051"
 };

@@ -42,7 +42,7 @@ using SettingValue = std::variant<bool, int64_t, double, std::string>;
 // All settings, bound to `config`, which must outlive them. In the order of the example file.
 std::vector<Setting> settingsOf(Config& config);
 
-// What is accepted, in words: "1..8192 px", "true or false".
+// Accepted values in words: "1..8192 px", "true or false".
 std::string acceptedText(const Setting& setting);
 // Its description in --help, and the name of its value there: "PIXELS".
 std::string helpText(const Setting& setting);

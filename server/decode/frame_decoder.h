@@ -13,7 +13,7 @@
 
 namespace viewloom {
 
-// What became of each plane, in the order of the wire.
+// Result of each plane, in the order of the wire.
 using DecodedPlanes = std::vector<absl::StatusOr<SharedBytes>>;
 
 // The frame of these planes, or the first error among them, which then names the plane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the encoders take: the traced samples of one band, as they lie in host memory.
+// Input of the encoders: the traced samples of one band in host memory.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,15 @@ struct BandPixels {
   uint32_t first_row = 0;  // px from the top; a multiple of bandRowCount()
   uint32_t row_count = 0;  // bandRowCount(), fewer only in the last band
   uint32_t width_px = 0;   // of the atlas
-  // Of kColor; JPEG takes its directForm() beside kRgba, lossless encodings take kRgba alone.
+  // Form of kColor. JPEG takes its directForm() as well as kRgba; lossless encodings take kRgba
+  // alone.
   ColorForm form = ColorForm::kRgba;
   // Top row first. kColor: uint8_t[row][x][4] R, G, B, ignored, or uint8_t[row][x] Y; kRed, kGreen
   // and kBlue: as kColor, of which they are one channel, never in another form than kRgba; kDepth:
   // float[row][x] in 1/m; kMask: uint8_t[row][x], a RayClass; kDepthCodes: as kDepth.
   std::span<const uint8_t> bytes;
   size_t stride_bytes = 0;  // from row to row
-  // Of colour that is not kRgba, rows padded as in YcbcrLayout: uint8_t[row][x].
+  // Chroma of colour that is not kRgba, rows padded as in YcbcrLayout: uint8_t[row][x].
   std::span<const uint8_t> cb, cr;
   size_t chroma_stride_bytes = 0;
   abi::DepthScale depth_scale = {};  // of kDepthCodes: what is made of depth

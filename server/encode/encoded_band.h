@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaves the encoders: bands, and the atlas they make. Immutable, shared by all who watch.
+// Output of the encoders: bands, and the atlas they make. Immutable, shared by all viewers.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ inline constexpr std::array kColorPlane = {AtlasPlane::kColor};
 inline constexpr std::array kChannelPlanes = {AtlasPlane::kRed, AtlasPlane::kGreen,
                                               AtlasPlane::kBlue};
 
-// As which planes colour goes out.
+// Planes that carry the colour.
 inline std::span<const AtlasPlane> colorPlanes(const EncodingSpec& encoding) {
   if (encoding.color == BandEncoding::kJpegPlanes) return kChannelPlanes;
   return kColorPlane;
@@ -60,7 +60,7 @@ struct EncodedBand {
   SharedBytes bytes;
 };
 
-// What is known of an atlas only once all of it is made.
+// Facts about an atlas that are known only after its last band.
 struct AtlasOutcome {
   StageTimes times;
   Coverage coverage;

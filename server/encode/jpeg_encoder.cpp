@@ -20,7 +20,7 @@ constexpr size_t kMarker_bytes = 2;
 
 constexpr size_t kFirstStream_bytes = size_t{64} * 1024;
 
-// What jpeg_write_* calls when something is wrong: every parameter was checked, so it is our bug.
+// Called by jpeg_write_* on an error. Every parameter was checked before, so an error is our bug.
 [[noreturn]] void failOnJpegError(j_common_ptr compressor) {
   compressor->err->output_message(compressor);
   failCheck(__FILE__, __LINE__, "libjpeg accepts the band");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a quilt's JPEG says about itself, for players that read it instead of its name.
+// Metadata in the JPEG of a quilt, for players that read it instead of the file's name.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ class SentPoses {
   std::optional<double> latencySeconds(uint64_t sequence, int64_t presented_time_ns) const {
     for (const Sent& sent : sent_) {
       if (sent.sequence != sequence || sent.poses_time_ns == 0) continue;
-      // As floating point: clients send what they like.
+      // Floating point, because clients may send any time.
       const double latency_s = (double(presented_time_ns) - double(sent.poses_time_ns)) * 1e-9;
       if (latency_s >= 0 && latency_s < kLatencyMax_s) return latency_s;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server counts and times, under the names Prometheus reads them by.
+// Counters and timers of the server, under their Prometheus names.
 #pragma once
 
 #include <array>

@@ -10,8 +10,8 @@
 
 namespace viewloom {
 
-// What lies behind the first surface of a ray is known of one structure alone, and what surfaces
-// mirror where colour is not seen through: else FAILED_PRECONDITION where a display asks for it.
+// Refuses what needs a single structure: the surface behind the first one, and mirrors where colour
+// is seen through. FAILED_PRECONDITION if a display asks for it.
 absl::Status validateSourcesOf(const DisplaySpec& spec, std::span<const SeenSource> sources);
 // Whether a display may be shown of so many sources in place of fewer, those of the frame before.
 bool canMerge(const DisplaySpec& spec, size_t source_count);

@@ -21,7 +21,7 @@ glm::dvec2 footprintOf(const abi::ViewParams& tile, SizePx tile_px) {
   const glm::dvec3 step_y(tile.direction_dy);
   const glm::dvec3 middle =
       glm::dvec3(tile.direction) + 0.5 * tile_px.width * step_x + 0.5 * tile_px.height * step_y;
-  // Who looks away from what the source sees has no use for averages.
+  // A view that looks away from the source's field of view has no use for averages.
   if (!(middle.z > 0)) return glm::dvec2(0);
   const glm::dvec2 vanishing = glm::dvec2(middle) / middle.z;
   const glm::dvec2 moved_x = (glm::dvec2(step_x) - vanishing * step_x.z) / middle.z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels are told of displays whose rays do not all come from their view's eye.
+// Parameters of kernels for displays whose rays do not all start at their view's eye.
 #pragma once
 
 #include "display/atlas_layout.h"

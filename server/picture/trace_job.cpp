@@ -62,7 +62,7 @@ struct SeenWalk {
   SizePx size_px;
 };
 
-// What all views see of it, each px from where the sample has it.
+// Adds the tiles with which all views see it, each pixel from the place of its sample.
 void addTiles(TraceJob& job, const Pose& display_pose, const SeenWalk& seen,
               const RaySample& sample) {
   const AtlasLayout& layout = *job.layout;

@@ -37,8 +37,8 @@ struct TraceOutputs {
 
 // Rows of a band at most: 8 rows of MCUs of 16 px.
 inline constexpr uint32_t kBandRowsMax = 128;
-// What the walked rays of a lens met in a band takes no more than this: half of what the smallest
-// devices bind at once. More than that, and there is no second stage.
+// Limit for the hits of a lens's walked rays in a band: half of the least that devices bind at
+// once. Beyond it there is no second stage.
 inline constexpr uint64_t kMetBytesMax = uint64_t{64} << 20;
 
 // A source as views see it; of a cube map, its front face.
@@ -56,7 +56,7 @@ SeenSource seenSource(const SourceFormat& source);
 // Whether some of them mirrors.
 bool haveMirrors(std::span<const SeenSource> sources);
 
-// As many can be asked by one job.
+// Sources that one job can ask for.
 inline constexpr size_t kMergedSourcesMax = 8;
 
 // The walks whose answers are those of one source.
@@ -67,7 +67,7 @@ struct JobSource {
   bool isCubeMap() const { return walk_count > 1; }
 };
 
-// Of rays from many eyes, how one structure sees them.
+// Bounds of rays from many eyes, in one structure.
 struct RayBounds {
   abi::EyeAxes eye_axes;
   // Tiles of extent_px whose rays enclose them.
@@ -83,10 +83,10 @@ struct TraceJob {
   std::vector<abi::ViewParams> tiles;
   uint32_t walk_count = 1;    // structures that rays are walked in
   uint32_t sample_count = 1;  // rays of a px
-  // Of displays whose rays do not all come from their view's eye, [walk]; else empty.
+  // Bounds for displays whose rays do not all start at their view's eye, [walk]; else empty.
   std::vector<RayBounds> bounds;
-  // Of other displays with a lens, the tiles as seen from the corners of the square around it, four
-  // for each: [walk][tile][corner]. Else empty.
+  // Bounds for other displays with a lens: the tiles seen from the four corners of the square
+  // around it, [walk][tile][corner]. Else empty.
   std::vector<abi::ViewParams> lens_bounds;
   std::vector<JobSource> sources;
   std::vector<Pose> source_poses;  // [walk], of the source's camera, or the face's

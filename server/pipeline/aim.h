@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a display sees of the structures of a job, and from where.
+// The structures of a job that a display sees, and the place it sees them from.
 #pragma once
 
 #include <vector>

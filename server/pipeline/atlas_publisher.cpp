@@ -46,7 +46,7 @@ void count(const Metrics& metrics, const AtlasRun& run, const StageTimes& times,
   metrics.rays[RayAnswer::kEmpty].add(static_cast<double>(coverage.empty));
 }
 
-// Of a cube map nobody looks past.
+// No view looks past a cube map.
 std::vector<double> sharesOutside(const AtlasLayout& layout, const Pose& display_pose,
                                   const ResidentStructure& structure) {
   const SeenSource& source = structure.sources.front();
@@ -79,7 +79,7 @@ std::vector<EncodedBand> bandsOf(const AtlasOutput& output, const AtlasLayout& l
   return bands;
 }
 
-// What is known of the run's atlases, whatever their display and encoding.
+// The facts about the run's atlases that do not depend on display and encoding.
 EncodedAtlas begunAtlas(const AtlasRun& run) {
   const ResidentStructure& structure = *run.job.structure;
   EncodedAtlas atlas;

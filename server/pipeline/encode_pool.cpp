@@ -58,7 +58,7 @@ EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, ui
       try {
         run();
       } catch (const std::exception& error) {
-        // What this thread had in hand will never be done: the others must not wait for it.
+        // The work of this thread will never be done, so the others must not wait for it.
         tasks_.close();
         tasks_.clear();
         links_.on_failure(error);

@@ -55,7 +55,7 @@ void EncodeQueue::waitForMore(std::unique_lock<std::mutex>& lock) {
   if (fill_count_ == seen_count) filled_.wait(lock);
 }
 
-// Who looks out sees it, also if it is about to sleep.
+// A thread that looks sees it, even if it is about to sleep.
 void EncodeQueue::noteFilled() {
   ++fill_count_;
   if (lookout_count_ == 0) filled_.notify_one();

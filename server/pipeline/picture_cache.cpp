@@ -16,7 +16,7 @@ std::shared_ptr<TraceJob>* findFree(std::vector<std::shared_ptr<TraceJob>>& jobs
   const auto free =
       std::find_if(jobs.begin(), jobs.end(), [](const auto& job) { return job.use_count() == 1; });
   if (free == jobs.end()) return nullptr;
-  // What its last user read, it read before it let go.
+  // The last user finished reading before it let go.
   std::atomic_thread_fence(std::memory_order_acquire);
   return &*free;
 }

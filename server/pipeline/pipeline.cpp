@@ -70,7 +70,7 @@ struct Pipeline::Loops {
   // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
   // the resident structure's frame, if that has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
-  // Of a tick: false while the picture's last atlas is on its way.
+  // Offers a tick; false while the picture's last atlas is on its way.
   bool offerTick(const AtlasJob& job, const ActiveDisplayPtr& display);
   bool offerTrace(AtlasJob job, const DisplaySpec& spec);
   // Makes what the tick shows, unless there is no room, and has it traced.

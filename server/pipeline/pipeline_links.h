@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the loops work with and do not own. All of it outlives the pipeline.
+// Objects that the loops use and do not own. All of them outlive the pipeline.
 #pragma once
 
 #include <exception>

@@ -48,7 +48,7 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   carried->retimer = nullptr;
   builder_.build(*frame, std::move(slot), *carried);
   carried->build_ns += retimed_ns - started_ns;
-  // What came with the frame, rather than what was made of it.
+  // Bad samples were counted when the frame came.
   carried->stats.bad_samples_count = structure.stats.bad_samples_count;
   carried->stats.unsorted_columns_count = structure.stats.unsorted_columns_count;
   carried->stats.bad_normals_count = structure.stats.bad_normals_count;

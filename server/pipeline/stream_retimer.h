@@ -36,7 +36,7 @@ class StreamRetimer {
     Guesses guesses = Guesses::kStand;
     ResidentPtr structure;
   };
-  // Of each kind one is traced while the next is built.
+  // One slot of each kind is traced while the next is built.
   static constexpr size_t kSlotCount = 4;
 
   ResidentPtr build(const ResidentStructure& structure, int64_t carried_ns, Guesses guesses,

@@ -10,7 +10,7 @@ StreamInstant PipelineStream::newest() const {
   return newest_;
 }
 
-// What it replaces goes with the argument, after the lock.
+// The replaced frame goes with the argument, after the lock.
 void PipelineStream::setNewest(StreamInstant newest) {
   std::lock_guard lock(mutex_);
   std::swap(newest_, newest);

@@ -10,7 +10,7 @@
 namespace viewloom {
 namespace {
 
-// What the frame itself says.
+// Description of a structure from the frame alone.
 ResidentStructure describe(const Frame& frame) {
   ResidentStructure structure;
   structure.frame_number = frame.format.number;

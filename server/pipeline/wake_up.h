@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a loop sleeps on: something changed, look at everything again.
+// Signal on which a loop sleeps: something changed, look at everything again.
 #pragma once
 
 #include <chrono>

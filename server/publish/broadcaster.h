@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who watches which display of which stream; hands each atlas to all of them.
+// Viewers of each display of each stream; hands every atlas to all of them.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ class Member {
 
   uint64_t id() const { return id_; }
 
-  // What a joiner finds and what comes just then may race: the older is then left out.
+  // An atlas that a joiner finds may race with one that just comes: the older is left out.
   void begin(const GrowingAtlasPtr& atlas) {
     std::lock_guard lock(call_mutex_);
     const uint64_t sequence = atlas->atlas().sequence;

@@ -73,7 +73,7 @@ struct StreamDirectory::State {
   std::vector<std::string> notLiveOldestFirst() const;
 };
 
-// Who has the stream and since when; worth another try for the same user.
+// Says which client has the stream and since when; worth another try for the same user.
 absl::Status alreadyPublished(const KnownStream& known, const std::string& host, int64_t now_ns) {
   const int64_t held_s = (now_ns - known.claimed_ns) / 1'000'000'000;
   const std::string held = held_s < 120 ? strCat(held_s, " s") : strCat(held_s / 60, " min");

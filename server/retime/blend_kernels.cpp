@@ -188,7 +188,7 @@ HWY_INLINE WordVec blendChannel(const WordVec* texels, const Vec* shares) {
   return hn::ShiftLeft<kShift>(hn::BitCast(kWords, hn::ConvertTo(kInts, code)));
 }
 
-// Of samples of several layers.
+// Blends samples of several layers.
 WordVec pickTexels(const TexelPlanes& planes, const uint32_t* samples, size_t count) {
   HWY_ALIGN uint32_t texels[HWY_MAX_BYTES / sizeof(uint32_t)] = {};
   for (size_t i = 0; i < count; ++i) {

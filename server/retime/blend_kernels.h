@@ -12,8 +12,8 @@
 
 namespace viewloom {
 
-// Of px one after the other; all arrays are [px], with room for a vector beyond. A px that is one
-// sample's has it three times, and its whole share first.
+// Blends of consecutive pixels; all arrays are [px], with room for a vector beyond. A pixel with a
+// single sample has it three times, with its whole share first.
 struct BlendedRow {
   void reserve(uint32_t width);
 
@@ -23,8 +23,8 @@ struct BlendedRow {
   std::array<AlignedArray<float>, 3> shares;  // their sum is 1
 };
 
-// What pieces show at `count` px from `px` on. `keys`: of these (pieceKey()), 0 where there is
-// none; may be read a vector beyond.
+// Finds the blends that pieces show at `count` pixels from `px` on. `keys`: their pieceKey(), 0
+// where there is none; may be read a vector beyond.
 void findBlends(const MovedSamples& samples, uint32_t px, uint32_t count, const uint64_t* keys,
                 BlendedRow& row);
 

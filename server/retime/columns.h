@@ -35,7 +35,7 @@ struct Columns {
 
   bool isEmpty() const { return first >= end; }
   uint32_t count() const { return end - first; }
-  // What both have, and what lies between them.
+  // The columns in both, and those between them.
   Columns with(const Columns& other) const {
     if (isEmpty()) return other;
     if (other.isEmpty()) return *this;

@@ -19,7 +19,7 @@ using Longs = hn::RebindToUnsigned<Doubles>;
 using DoubleVec = hn::Vec<Doubles>;
 using LongVec = hn::Vec<Longs>;
 using DoubleMask = hn::Mask<Doubles>;
-// As many lanes, of fewer bits.
+// The same number of lanes, with half the bits.
 using HalfFloats = hn::Rebind<float, Doubles>;
 using HalfWords = hn::Rebind<uint32_t, Doubles>;
 using HalfInts = hn::Rebind<int32_t, Doubles>;

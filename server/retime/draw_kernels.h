@@ -20,7 +20,8 @@ inline constexpr uint32_t kFirstQuadrant = 3;
 // All samples of the largest source have numbers.
 static_assert(uint64_t{8192} * 8192 * 4 * kPieceKinds <= UINT32_MAX);
 
-// What a px may show, nearest first as a number: 1/Z (not negative) before the number of the piece.
+// Number of a piece that a pixel may show, nearest first: 1/Z (not negative) before the number of
+// the piece.
 inline uint64_t pieceKey(float inv_z, uint32_t piece) {
   return uint64_t{std::bit_cast<uint32_t>(inv_z)} << 32 | (UINT32_MAX - piece);
 }
@@ -40,8 +41,8 @@ struct Fragments {
   uint32_t count = 0;
 };
 
-// Of the drawn quads (MovedSamples::quads) that begin at `count` px, at most kQuadsPerCall, of a
-// row of a layer. Forgets what was there.
+// Draws the quads (MovedSamples::quads) that begin at `count` pixels, at most kQuadsPerCall, of a
+// row of a layer. Forgets earlier keys.
 void drawQuads(const MovedSamples& samples, uint32_t layer, uint32_t px, uint32_t count,
                Fragments& fragments);
 

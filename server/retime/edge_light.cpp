@@ -13,8 +13,8 @@ namespace {
 
 // Light of two sides that differ by less, of what a channel may differ, cannot be told apart.
 constexpr float kApartLeast = 0.03F;
-// What a thing has in a px beside it, or what is behind in a px of the thing, is not told from
-// their own texture below this share.
+// Below this share, the colour of a thing in a neighbouring pixel, or of the background in a pixel
+// of the thing, is not derived from its own texture.
 constexpr float kShareLeast = 0.1F;
 // Where nothing says what is behind, a px that is less of a thing than this is no px of the thing:
 // its light over its share would be mostly what noise has added.
@@ -23,7 +23,7 @@ constexpr float kShareAlone = 0.5F;
 // of the px beside it, once it lies between px.
 constexpr double kReach_px = 2;
 
-// What threads share is taken by so many.
+// Work is shared among threads in pieces of this size.
 constexpr uint32_t kPxPerPiece = 1024;
 
 uint32_t pieceCount(uint32_t px_count) {
@@ -98,8 +98,8 @@ void EdgeLight::findRims(const MovedSurfaces& surfaces, WorkerPool& workers) {
   }
 }
 
-// Of the sides on which there is an edge, the one on which light differs most. A px of a thing is
-// one of the thing, whatever it is beside.
+// Chooses the side of the edge on which light differs most. A pixel of a thing belongs to the
+// thing, whatever is beside it.
 std::optional<EdgeLight::Rim> EdgeLight::rimAt(const MovedSurfaces& surfaces, uint32_t px) const {
   const EdgeSurroundings around(surfaces, color_);
   std::optional<Rim> found;
@@ -182,7 +182,7 @@ void EdgeLight::offerAround(const MovedSurfaces& surfaces, const Rim& rim,
   }
 }
 
-// Of the thing, in the px of the frame that places between these lie between.
+// Shares of the thing in the pixels of the frame around the places between these.
 EdgeLight::Shares EdgeLight::sharesFrom(const MovedSurfaces& surfaces, const Rim& rim,
                                         const glm::dvec2& first_px,
                                         const glm::dvec2& last_px) const {
@@ -222,7 +222,7 @@ bool EdgeLight::isOfThing(const MovedSurfaces& surfaces, const Rim& rim, uint32_
          isNearer(surfaces.invZ(sample), surfaces.invZ(rim.px), surfaces.invZ(rim.far_px));
 }
 
-// Of the thing, between the px of the frame that the place lies between.
+// Share of the thing, between the pixels of the frame around the place.
 EdgeLight::Part EdgeLight::partAt(const MovedSurfaces& surfaces, const Rim& rim,
                                   const glm::dvec2& at_px) const {
   const SizePx size_px = surfaces.sizePx();

@@ -19,7 +19,7 @@ namespace viewloom {
 
 inline constexpr uint32_t kNoSample = UINT32_MAX;
 
-// Of the first layer. Thread-safety: none; it shares its work among threads.
+// Edge light of the first layer. Thread-safety: none; it shares its work among threads.
 class EdgeLight {
  public:
   // Looks for the edges in surfaces that have been moved. Keeps its memory.
@@ -31,7 +31,7 @@ class EdgeLight {
   // [px]: not 0 only where the first layer's sample may be clean.
   const uint32_t* rims() const { return rim_of_px_.data(); }
 
-  // What was made of the first two layers.
+  // The first two layers as drawn.
   struct Drawn {
     const float* inv_z = nullptr;         // of the first
     const uint32_t* sample = nullptr;     // that most of its px is, kNoSample where nothing is
@@ -61,7 +61,7 @@ class EdgeLight {
   struct Shares {
     int x = 0;  // of the first
     int y = 0;
-    // As many px as lie within reach each way, and as many beside them as they lie between.
+    // Pixels within reach each way, and as many for interpolation between them.
     static constexpr int kCount = 8;
     float shares[kCount][kCount];
   };

@@ -34,8 +34,8 @@ EdgeSides EdgeSurroundings::sidesOf(uint32_t near_px, uint32_t far_px, PxStep st
   return {.far = far, .between = mixed(lightTowards(near_px, {-step.x, -step.y}), 1, far, -1)};
 }
 
-// Of the far side: where a deeper layer holds what the near one hides, between that and the px
-// beyond the edge, if that is not at another edge.
+// Light of the far side. A deeper layer may hold the hidden surface: then it is taken between that
+// and the pixel beyond the edge, unless that pixel is at another edge.
 Texel EdgeSurroundings::farLight(uint32_t near_px, uint32_t far_px, PxStep step) const {
   const SurfaceLinks& links = surfaces_.links();
   const auto behind = links.joinedBehind(near_px, far_px);
@@ -49,8 +49,8 @@ Texel EdgeSurroundings::farLight(uint32_t near_px, uint32_t far_px, PxStep step)
   return mixed(hidden, 0.5F, color_.at(*first), 0.5F);
 }
 
-// What the surface at `px` looks like by the px behind it, and the one behind that: at an edge
-// the px itself may hold the light of two.
+// Colour of the surface at `px`, from the pixel behind it and the one behind that: at an edge the
+// pixel itself may hold the light of two surfaces.
 Texel EdgeSurroundings::lightTowards(uint32_t px, PxStep step) const {
   const SurfaceLinks& links = surfaces_.links();
   const auto first = beside(px, step);

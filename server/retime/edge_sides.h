@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surfaces look like on both sides of an edge between them, as the frame has them.
+// Colours of the surfaces on both sides of an edge, from the frame.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ class EdgeSurroundings {
   std::optional<uint32_t> beside(uint32_t px, PxStep step) const;
   // Two surfaces that go different ways.
   bool isEdge(uint32_t px, uint32_t other) const;
-  // Of an edge between two px, with `step` from the near one to the far one. What is a px wide
-  // shows its own light.
+  // Sides of an edge between two pixels, with `step` from the near one to the far one. A thing one
+  // pixel wide shows its own light.
   EdgeSides sidesOf(uint32_t near_px, uint32_t far_px, PxStep step) const;
 
  private:

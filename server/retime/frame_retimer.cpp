@@ -24,7 +24,7 @@ FramePtr sourceAlone(const Frame& frame, size_t index) {
   return alone;
 }
 
-// Of a source whose layers were made anew: columns were sorted, so any layer may mirror.
+// Describes a source whose layers were made anew: columns were sorted, so any layer may mirror.
 void describeRetimed(SourceFormat& source) {
   const auto mirror = std::find_if(source.layers.begin(), source.layers.end(),
                                    [](const LayerFormat& layer) { return layer.mirrors(); });

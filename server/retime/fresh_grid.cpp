@@ -45,7 +45,7 @@ void FreshGrid::draw(const MovedSurfaces& surfaces, const float* in_front, Worke
   forEachRow(size_px, workers, [&](uint32_t y, uint32_t) { drawRow(y); });
 }
 
-// What moves.
+// Draws moving surfaces.
 void FreshGrid::drawRow(uint32_t y) {
   const MovedSamples& samples = surfaces_->samples();
   const uint32_t width = samples.size_px.width;
@@ -87,8 +87,8 @@ void FreshGrid::drawFootprint(uint32_t layer, uint32_t x, uint32_t y) {
         pieceKey(samples.inv_z[sample] + 0.0F, sample * kPieceKinds + kFirstQuadrant + quadrant));
 }
 
-// What stands has layers of its own, one behind the other. Of what moves, pieces that lie beside
-// each other may both reach over a px: no further apart than kappa they are one surface.
+// Standing surfaces have layers of their own, one behind the other. Neighbouring moving pieces may
+// both reach over a pixel: if they are no further apart than kappa, they are one surface.
 void FreshGrid::offer(uint32_t px, uint64_t key) {
   if (in_front_ != nullptr) {
     const float in_front = in_front_[px];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a source's px show once its surfaces have moved: the nearest of all, then what lies behind.
+// Surfaces at a source's pixels after motion: the nearest first, then those behind.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class FreshGrid {
   // nullptr: the layer in front. `surfaces` stay as they are until it is no longer asked.
   void draw(const MovedSurfaces& surfaces, const float* in_front, WorkerPool& workers);
 
-  // What was drawn at fresh columns of a row.
+  // Fills in the drawn surfaces at fresh columns of a row.
   void findRow(uint32_t y, BlendedRow& row) const;
 
  private:

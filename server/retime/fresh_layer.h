@@ -12,13 +12,13 @@
 
 namespace viewloom {
 
-// What comes into view that no layer holds takes the farther side of its row.
+// Surfaces that come into view and that no layer holds take the farther side of their row.
 enum class Guesses : uint8_t {
   kStand,    // as far as that is
   kGiveWay,  // behind it, so that whoever knows better what is there is seen before it
 };
 
-// What is written of a layer, [px] each.
+// Written planes of a layer, [px] each.
 struct FreshPlanes {
   float* inv_z = nullptr;
   uint8_t* color = nullptr;
@@ -26,7 +26,7 @@ struct FreshPlanes {
   uint32_t* samples = nullptr;  // that most of each px is, kNoSample where nothing is; or nullptr
 };
 
-// Of the fresh columns of a row.
+// Fresh columns of a row.
 struct FreshRow {
   void reserve(uint32_t width);
 
@@ -42,9 +42,9 @@ class FreshLayer {
   FreshLayer(const MovedSurfaces& surfaces, const EdgeLight& edges, uint32_t layer,
              const FreshPlanes& to);
 
-  // Of a row what is as the frame has it, and `fresh` at its fresh columns.
+  // Writes a row: as the frame has it, and `fresh` at its fresh columns.
   void writeRow(uint32_t y, FreshRow& fresh) const;
-  // Of px at which the frame has a surface, and nothing is any more.
+  // Fills pixels at which the frame has a surface and nothing is any more.
   void fillRow(uint32_t y, Guesses guesses) const;
 
  private:

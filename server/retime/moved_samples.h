@@ -40,7 +40,7 @@ struct MovedSamples {
   // 1/m, after the move; abi::kNoSurface also for what has come behind the camera.
   const float* inv_z = nullptr;
   const uint8_t* moves = nullptr;  // 1, or 0
-  // Of those that are drawn: of four samples that exist, were not torn apart, and do not all stand.
+  // Drawn quads: their four samples exist, were not torn apart, and do not all stand.
   const QuadLayers* quads = nullptr;
   // Quadrants of the footprint that lie in such quads; of samples that stand, all.
   const uint8_t* covered = nullptr;
@@ -49,7 +49,7 @@ struct MovedSamples {
   uint32_t sampleAt(uint32_t layer, uint32_t x, uint32_t y) const {
     return layer * areaPx() + y * size_px.width + x;
   }
-  // Of a quad that begins at the px: its samples, in the order of Quadrant.
+  // Samples of a quad that begins at the pixel, in the order of Quadrant.
   std::array<uint32_t, 4> cornersOf(QuadLayers quad, uint32_t layer, uint32_t px) const {
     const uint32_t area = areaPx(), below = px + size_px.width;
     return {layer * area + px, (quad & 3U) * area + px + 1, (quad >> 2 & 3U) * area + below + 1,

@@ -38,7 +38,7 @@ class MovedSurfaces {
   uint32_t layerOf(uint32_t sample) const { return sample / uint32_t(size_px_.area()); }
   uint32_t pxOf(uint32_t sample) const { return sample % uint32_t(size_px_.area()); }
   const SurfaceSteps& steps() const { return steps_; }
-  // As the frame has it, in canonical form (sweep/depth_columns.h).
+  // 1/Z of the frame, in canonical form (sweep/depth_columns.h).
   const float* heldRow(uint32_t layer, uint32_t y) const { return held_inv_z_->row(layer, int(y)); }
 
   // Columns of a row outside of which nothing moves in it, on no layer.
@@ -51,11 +51,11 @@ class MovedSurfaces {
   // Those of px that may lie beside an edge of what moves.
   Columns rimColumns(uint32_t y) const;
 
-  // Of the first layer, as the frame has it: 1/m, abi::kNoSurface where nothing is.
+  // 1/Z of the first layer in the frame: 1/m, abi::kNoSurface where nothing is.
   float frontInvZ(uint32_t px) const {
     return heldRow(0, px / size_px_.width)[px % size_px_.width];
   }
-  // Of rows near what moves.
+  // Links of rows near moving surfaces.
   const SurfaceLinks& links() const { return links_; }
 
   const MovedSamples& samples() const { return samples_; }

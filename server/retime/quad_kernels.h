@@ -21,8 +21,8 @@ struct LinkedRows {
 void findQuads(const LinkedRows& rows, uint32_t first, uint32_t end,
                const ByLayer<QuadLayers*>& quads);
 
-// Of quads that begin at `count` samples of a row from `sample` on, keeps those that are to be
-// drawn (MovedSamples::quads).
+// Keeps the quads that are to be drawn (MovedSamples::quads), of those that begin at `count`
+// samples of a row from `sample` on.
 void keepDrawnQuads(const MovedSamples& samples, uint32_t sample, uint32_t count,
                     const QuadLayers* quads, QuadLayers* drawn);
 

@@ -17,7 +17,7 @@ namespace viewloom {
 // Keeps its memory from frame to frame. Thread-safety: none; it shares its work among threads.
 class SourceRetimer {
  public:
-  // Of the first source of the frame, in which something moves.
+  // Prepares the first source of the frame in which something moves.
   void prepare(FramePtr frame, WorkerPool& workers) {
     surfaces_.prepare(std::move(frame), workers);
   }

@@ -217,7 +217,7 @@ grpc::ByteBuffer AtlasMessages::header() const {
   return bytesFromMessage(response);
 }
 
-// As many of the bands that are ready as a message holds, or a part of the first.
+// The next message: as many ready bands as it holds, or a part of the first.
 grpc::ByteBuffer AtlasMessages::nextPiece(size_t ready_count) {
   const Strip& strip = strips_[strip_];
   const std::span all = std::span(atlas_.bands).subspan(strip.first_band, strip.band_count);

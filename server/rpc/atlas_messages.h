@@ -48,7 +48,7 @@ class AtlasMessages {
   // Which of both.
   bool wasWhole() const { return outcome_ == GrowingAtlas::State::kWhole; }
   const EncodedAtlas& atlas() const { return atlas_; }
-  // Of the atlas, for this client.
+  // State of the atlas for this client.
   GrowingAtlas::State state() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one call writes of the atlases of its display, and in which order.
+// Messages that one call writes about the atlases of its display, in order.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,7 @@
 
 namespace viewloom {
 
-// What must be said before an atlas: a new layout, or atlases that were skipped.
-// Thread-safety: none.
+// Announcements before an atlas: a new layout, or skipped atlases. Thread-safety: none.
 class AtlasAnnouncements {
  public:
   // An atlas that the client will not get.
@@ -46,7 +45,7 @@ class AtlasOutbox {
   // Atlases to come are of another display. The one that is being written is abandoned, unless it
   // is whole. `reader` hears of atlases that have grown.
   void restart(std::shared_ptr<AtlasReader> reader);
-  // As Subscriber::begin and Subscriber::offer; so many viewers share the atlas.
+  // The same as Subscriber::begin and Subscriber::offer; so many viewers share the atlas.
   void begin(GrowingAtlasPtr atlas, size_t viewer_count);
   void offer(AtlasPtr atlas);
   // Nothing more comes in. The one that is being written is abandoned, unless it is whole; what is

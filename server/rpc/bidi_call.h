@@ -13,7 +13,7 @@
 
 namespace viewloom {
 
-// What calls that end with UNAVAILABLE say.
+// Message of calls that end with UNAVAILABLE.
 inline constexpr const char* kDrainMessage =
     "the server is shutting down; try again later, or use another server";
 

@@ -12,7 +12,7 @@
 
 namespace viewloom {
 
-// What GetServerInfo says; fixed while the server runs.
+// Answer of GetServerInfo; fixed while the server runs.
 struct ServerDescription {
   std::string version;
   std::string device;  // Vulkan device name

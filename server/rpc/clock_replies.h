@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What time it is, for a client that asks: one slot, in which a newer probe replaces one before.
+// Replies to clients that ask for the server's time: one slot, in which a newer probe replaces the
+// one before.
 #pragma once
 
 #include <cstdint>

@@ -161,7 +161,7 @@ absl::Status projectionOfCubeMap(const v1::Camera& proto, SizePx plane_px, Camer
         proto.has_fov() ? "fov" : "intrinsics",
         "the camera of a cube map has a projection; leave it out, as each face is 90 degrees wide");
   }
-  // Of an empty plane, any: validateFrame refuses its size.
+  // An empty plane may have any camera: validateFrame refuses its size.
   camera.intrinsics = cubeFaceIntrinsics(std::max(plane_px.width, 1U));
   return absl::OkStatus();
 }

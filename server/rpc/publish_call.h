@@ -68,7 +68,7 @@ class PublishCall final : public BidiCall {
   const IngestParts parts_;
   const std::string host_;
 
-  // Of the reads.
+  // Used only by the read callbacks.
   std::optional<FrameAssembly> assembly_;
   FrameTimes times_;
   uint64_t last_number_ = 0;

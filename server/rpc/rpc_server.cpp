@@ -17,11 +17,11 @@ namespace {
 constexpr int kReceiveBytesMax = 2 << 20;
 // Calls at a time on one connection; a proxy may carry all subscribers of a server over one.
 constexpr int kConnectionCallsMax = 1024;
-// What is written with more to follow gathers up to this before it leaves. A write to a socket
-// wakes its reader, so that 1.5 MB sent 50 KB at a time cost a server twice to three times what
-// they do as one or two writes; 64 KiB, the library's own, was in between, and 4 MiB no better.
-// Larger frames or windows of HTTP/2, which a client may ask for, gained nothing (64 clients, two
-// cores of an AMD EPYC, 2026-11-22). Bands are shared, so that buffers hold no copies.
+// Writes with more to follow are gathered up to this size. A write to a socket wakes its reader:
+// 1.5 MB sent 50 KB at a time cost a server two to three times as much as in one or two writes. The
+// library's default of 64 KiB was in between, and 4 MiB no better. Larger frames or windows of
+// HTTP/2, which a client may ask for, gained nothing (64 clients, two cores of an AMD EPYC,
+// 2026-11-22). Bands are shared, so buffers hold no copies.
 constexpr int kWriteBufferBytes = 1 << 20;
 // Clients may ping this often.
 constexpr int kClientPingMsMin = 5000;

@@ -28,7 +28,8 @@ class SourceWants {
   v1::Wanted wanted(std::span<const AtlasPtr> atlases, uint32_t display_count);
 
  private:
-  // What shares and depths hang on beside the scene: with another of these they are settled anew.
+  // The properties of a display that shares and depths depend on, beside the scene: if one changes,
+  // they are settled anew.
   struct Display {
     std::shared_ptr<const AtlasLayout> layout;
     Camera source_camera;

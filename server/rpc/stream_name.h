@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream may be called, and what is said where there is none.
+// Rules for the names of streams, and the error for an unknown one.
 #pragma once
 
 #include <string>

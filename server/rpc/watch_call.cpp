@@ -158,7 +158,7 @@ absl::Status WatchCall::setDisplay(const v1::Display& proto) {
   return withFieldPrefix(status, "display");
 }
 
-// What is left open depends on the display.
+// The display decides values that are left open.
 absl::Status WatchCall::settleEncoding() {
   const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(encoding_proto_, spec_);
   if (encoding.ok()) encoding_ = *encoding;
@@ -262,8 +262,8 @@ void WatchCall::endUnlessWatching() {
   end(absl::UnavailableError(kDrainMessage));
 }
 
-// What time it is goes before atlases, but no more often than every other message: whoever floods
-// the call with probes still gets them.
+// Replies about the time go before atlases, but no more often than every other message: a client
+// that floods the call with probes still gets atlases.
 std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
   std::optional<grpc::ByteBuffer> message;
   if (!std::exchange(replied_last_, false)) message = takeReply();

@@ -50,7 +50,7 @@ class JobBoard {
   std::optional<AtlasJob> putBack(AtlasJob job, size_t engine);
   // The next of the picture may begin.
   void finish(const std::string& picture_key);
-  // As JobQueue::forgetEyes.
+  // The same as JobQueue::forgetEyes.
   void forgetEyes(const std::string& picture_key);
   // Forgets which engines make pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);

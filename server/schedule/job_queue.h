@@ -33,9 +33,9 @@ inline constexpr uint32_t kRoundsPassed = 3;
 // Thread-safety: none.
 class JobQueue {
  public:
-  // Of two jobs for the same picture the one with the newer structure stays and takes the sooner
-  // deadline, so that a picture with ever newer structures is not put off for ever; the other one
-  // is returned. With the same structure the two become one.
+  // Merges two jobs for the same picture: the newer structure stays and takes the sooner deadline,
+  // so that a picture with ever newer structures is not put off for ever. The other job is
+  // returned. With the same structure the two become one.
   std::optional<AtlasJob> push(AtlasJob job);
 
   size_t waitingCount() const { return waiting_.size(); }
@@ -69,7 +69,7 @@ class JobQueue {
     size_t passed_count = 0;  // of tracked displays that have begun before it, and might not have
   };
 
-  // Of tracked displays that may begin, if there are any.
+  // Tracked displays that may begin, if there are any.
   struct NextHead {
     const Waiting* waiting = nullptr;
     std::optional<int64_t> wait_until_ns;  // rather than begin at once
@@ -77,7 +77,7 @@ class JobQueue {
 
   bool mayBegin(const Waiting& waiting) const;
   bool mayBeginTracked(const Waiting& waiting) const;
-  // Of those that count, or of all that may begin; nullptr = none.
+  // First of those that count, or of all that may begin; nullptr = none.
   template <typename Counts>
   const Waiting* soonest(const Counts& counts) const;
   const Waiting* soonest() const;

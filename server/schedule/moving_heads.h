@@ -17,8 +17,8 @@ inline constexpr int64_t kAlikePoses_ns = 500'000;
 // So soon poses must be due for a wait, as all heads wait for them. Of the head whose turn it is:
 // half of an interval at 60 Hz.
 inline constexpr int64_t kAwaited_ns = 8'000'000;
-// Of anybody's: more than the usual gap between the poses of a few heads, and short enough that of
-// heads that move all at once there is time for a second answer.
+// Limit for anybody's pose: more than the usual gap between the poses of a few heads. It is short
+// enough to leave time for a second answer if all heads move at once.
 inline constexpr int64_t kAnyAwaited_ns = 3'000'000;
 
 // At one instant. Thread-safety: none.
@@ -29,10 +29,9 @@ class MovingHeads {
   void add(const PoseTimes& poses);
 
   int64_t count() const { return count_; }
-  // Of n heads poses came within half an nth of the interval in which they come, or within
-  // kAlikePoses_ns, or are due in half an nth, and in less than kAwaited_ns: that is so of about
-  // one of the heads. Those that nothing is due after, as none came before or for two intervals,
-  // always are.
+  // Whether a pose of about one of n heads is awaited. Its poses came within half an nth of their
+  // interval or within kAlikePoses_ns, or are due in half an nth and in less than kAwaited_ns.
+  // Heads without a next pose, because none came before or for two intervals, are always timely.
   bool areTimely(const PoseTimes& poses) const;
   // They came as late as that, or are due in less than kAwaited_ns, or late.
   bool areAtHand(const PoseTimes& poses) const;

@@ -7,7 +7,7 @@
 namespace viewloom {
 namespace {
 
-// What is made for one serves the other.
+// Whether one picture serves both jobs.
 bool showTheSame(const AtlasJob& a, const AtlasJob& b) {
   return a.structure == b.structure && a.before == b.before &&
          a.tick->shown.carried_ns == b.tick->shown.carried_ns;
@@ -21,7 +21,7 @@ bool isRetimed(const AtlasJob& job) {
 
 RetimeDates retimeDatesOf(const AtlasJob& job) {
   RetimeDates dates{.newest_ns = job.tick->shown.carried_ns, .before_ns = {}};
-  // Of the frame before, only if that moves, too.
+  // The frame before counts only if it moves, too.
   if (job.before && job.before->retimer) {
     dates.before_ns = dates.newest_ns + job.tick->frames_apart_ns;
   }

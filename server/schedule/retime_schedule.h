@@ -12,7 +12,7 @@
 
 namespace viewloom {
 
-// What the job's tick shows is none of its frames: something that moves by itself has gone on.
+// Whether the job's tick lies between its frames: something that moves by itself has gone on.
 bool isRetimed(const AtlasJob& job);
 
 // For how long things go on, from each structure of the job to the time that its tick shows.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What displays were given last, and which of them a job has something new for. Which eyes a
-// display was shown for is in its EyeTrack.
+// Atlases that displays were given last, and which displays a job has something new for. EyeTrack
+// knows the eyes that a display was shown for.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class ServedDisplays {
   void note(const AtlasJob& job, const UnservedDisplays& served);
 
  private:
-  // What the last atlas of a display showed.
+  // Contents of the last atlas of a display.
   struct Served {
     uint64_t serial = 0;                // of its structure
     std::optional<ShownInstant> shown;  // at a tick

@@ -25,8 +25,8 @@ struct Claim {
   bool isLong() const { return !is_tracked && had >= turn; }
 };
 
-// Of two that have begun, part by part: the sooner, of tracked displays before all others, however
-// long those are overdue. One that is long comes last, until another has had as much.
+// Order of two begun pictures, part by part: the sooner first, tracked displays before all others,
+// however long those are overdue. A long one comes last, until another has had as much.
 inline bool goesFirst(const Claim& a, const Claim& b) {
   if (a.isLong() != b.isLong()) return b.isLong();
   if (a.is_tracked != b.is_tracked) return a.is_tracked;

@@ -22,7 +22,7 @@ struct ThingPose {
   bool operator==(const ThingPose&) const = default;
 };
 
-// What a display that stands in a source's camera shows at one time.
+// The view of a display that stands in a source's camera, at one time.
 struct ShownInstant {
   int64_t time_ns = 0;  // the publisher's clock
   Timing timing = Timing::kCaptured;
@@ -39,7 +39,7 @@ struct ShownInstant {
   }
 };
 
-// Of the camera of a source, from frame to frame.
+// Motion of the camera of a source, from frame to frame.
 struct PoseMotion {
   Pose pose;    // of the newest frame
   Pose before;  // of the frame before that
@@ -55,7 +55,7 @@ struct ThingMotion {
   PoseMotion motion;
 };
 
-// Of the newest frame; a camera that nothing is known of stands still.
+// Motion at the newest frame; an unknown camera stands still.
 struct CameraMotion {
   PoseMotion camera;
   int64_t captured_ns = 0;     // the publisher's clock

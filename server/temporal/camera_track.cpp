@@ -108,7 +108,8 @@ void CameraTrack::measure(const TrackedFrame& frame) {
   noteThings(frame, interval_ns, inv_z_near);
 }
 
-// Of those that are elsewhere than a frame ago. One that was put there has not moved.
+// Notes the things that moved since the frame before. A thing that was just put there has not
+// moved.
 void CameraTrack::noteThings(const TrackedFrame& frame, int64_t interval_ns, double inv_z_near) {
   const size_t count = std::min(frame.others.size(), last_->others.size());
   for (size_t i = 0; i < count; ++i) {

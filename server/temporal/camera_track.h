@@ -13,7 +13,7 @@ namespace viewloom {
 // A source that is not the first, as far as it tells of motion.
 struct TrackedSource {
   Pose pose;
-  // As compared with the frame before.
+  // Change since the frame before.
   ContentMotion content = ContentMotion::kUnclear;
 };
 
@@ -53,7 +53,7 @@ class CameraTrack {
   // How fast the publisher's clock may run away from the server's: the least delay seen grows by so
   // much, until frames with less delay are seen.
   static constexpr double kClockDriftMax = 200e-6;
-  // Of the way to what a frame asks for, lag goes so much: a lost frame turns no time back.
+  // Part of the way to a frame's lag that is gone per frame: a lost frame turns no time back.
   static constexpr int64_t kLagStepsPerFrame = 8;
 
   void begin(const TrackedFrame& frame);

@@ -16,8 +16,8 @@
 namespace viewloom {
 namespace {
 
-// Of 1/Z: a sample that is further off, or where one frame alone has a surface, is not on the same
-// surface, however far.
+// Limit of a difference in 1/Z. A sample that is further off, or where one frame alone has a
+// surface, lies on another surface.
 constexpr double kOffMax = 0.1;
 // Means below this may be rounding and noise: 1/Z of a source is connected to within 5 times that
 // (kappa).

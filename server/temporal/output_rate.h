@@ -27,7 +27,7 @@ class OutputClock {
   std::optional<Tick> take(int64_t now_ns);
 
  private:
-  // Of tick `index`, without what a rounded period would add up to.
+  // Time of tick `index`, without the accumulated error of a rounded period.
   int64_t tickNs(uint64_t index) const;
 
   double rate_hz_;

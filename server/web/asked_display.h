@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a web client asks for, in the words of the protocol: messages as JSON.
+// Requests of web clients in the words of the protocol: messages as JSON.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@
 
 namespace viewloom {
 
-// What only this viewer's connection knows.
+// Facts that only this viewer's connection knows.
 struct Delivery {
   uint64_t delivery = 0;       // counts what this viewer is sent, from 1
   uint64_t change_count = 0;   // changes that this viewer had asked for by then, also in vain

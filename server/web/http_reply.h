@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is answered to an HTTP request, apart from how it is written.
+// Answers to HTTP requests, apart from how they are written.
 #pragma once
 
 #include <optional>

@@ -44,7 +44,7 @@ class MultipartStream final : public LiveReader,
   net::awaitable<void> readUntilGone();
   net::awaitable<void> writeParts(ErrorCode& error);
   net::awaitable<void> writeLast(ErrorCode& error);
-  // What is shown, and what stands behind it.
+  // Writes the shown part and its end.
   net::awaitable<void> writePart(std::string end, ErrorCode& error);
   net::awaitable<void> writeText(std::string text, ErrorCode& error);
   void wake() { awake_.cancel(); }

@@ -15,7 +15,7 @@
 
 namespace viewloom {
 
-// What is served below one root; the first extension is that of the short form.
+// Addresses below one root; the first extension is that of the short form.
 struct QuiltAddressForm {
   std::string root;                     // "/still/"
   std::vector<std::string> extensions;  // ".jpg"

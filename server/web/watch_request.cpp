@@ -30,7 +30,7 @@ absl::Status checkStream(const std::string& name, const StreamDirectory& streams
                            : ""));
 }
 
-// What browsers, players and files hold is one image.
+// Browsers, players and files hold a single image.
 absl::Status checkDisplay(const DisplaySpec& display) {
   if (isTracked(display)) {
     return invalidField(

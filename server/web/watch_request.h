@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer, a still or a player watches: checked, and with every default filled in.
+// The display that a viewer, a still or a player watches: checked, with every default filled in.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 namespace viewloom {
 namespace {
 
-// Of the file's three channels, which one a channel of the picture lies at.
+// Index of the file's channel that holds a channel of the picture.
 uint32_t channelAt(const Calibration& calibration, uint32_t channel) {
   return calibration.flip_subpixels ? 2 - channel : channel;
 }

@@ -14,7 +14,7 @@ uint32_t viewCount(const CamerasSpec& cameras) {
   return cameras.grid ? cameras.grid->count() : static_cast<uint32_t>(cameras.cameras.size());
 }
 
-// Of tiles, where they are not given.
+// Default number of columns of the tiles.
 uint32_t usualColumns(const CamerasSpec& cameras) {
   switch (cameras.arrangement) {
     case TileArrangement::kRow:

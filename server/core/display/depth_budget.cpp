@@ -9,7 +9,7 @@
 namespace viewloom {
 namespace {
 
-// Of 1/Z, 1/m.
+// Range of 1/Z, 1/m.
 struct InvZStretch {
   double low = 0;
   double high = 0;

@@ -31,7 +31,8 @@ constexpr KnownPanel kPanels[] = {
      .focal_length_m = 3.3e-3},
 };
 
-// As many whole lenses as the panel has room for, and no more than what covers it.
+// Fills in as many whole lenses as fit on the panel; checks that they do not cover more than it
+// has.
 absl::Status completeLensCount(uint32_t& count, uint32_t side_px, double lens_px,
                                const std::string& field) {
   if (count == 0) count = std::max(1u, static_cast<uint32_t>(side_px / lens_px));
@@ -112,7 +113,7 @@ void describe(const IntegralSpec& integral, const StreamDefaults&, AtlasLayout& 
                     .m_per_px = integral.pixel_pitch_m * integral.scale,
                     .distance_m = integral.distance_m,
                     .is_flipped = integral.is_flipped};
-  // What a lens shows is what a pinhole in its middle sees, px of the panel away from that.
+  // A lens shows the view of a pinhole in its middle, in pixels of the panel from there.
   layout.views = {{Camera{.intrinsics = {.focal_px = glm::dvec2(focal_px)}}}};
   // From an eye further away, a px of a lens is seen through the whole of it.
   layout.view_pitch_m = glm::dvec2(integral.lens_pitch_m * integral.scale);

@@ -102,7 +102,8 @@ void describe(const LenticularSpec& lenticular, const StreamDefaults& defaults,
                                .view_count = lenticular.view_count};
   const FocalWindow window = focalWindow(distance_m, lenticular.fov_y_rad, layout.aspect, defaults);
   layout.views = {{cameraThroughWindow(window, glm::dvec3(0.0), layout.tile_size_px)}};
-  // As far apart as nearest views are; where there are none, as what neighbouring subpixels show.
+  // Distance between neighbouring nearest views; without such views, between those of neighbouring
+  // subpixels.
   const double width_m = 2 * distance_m * std::tan(lenticular.view_cone_rad / 2);
   const double lens_share =
       std::abs(lensCount(*lenticular.calibration)) / (3.0 * layout.size_px.width);

@@ -14,7 +14,7 @@
 namespace viewloom {
 namespace {
 
-// Of the first kind that has such a device.
+// The display of the first kind that has such a device.
 std::optional<DisplayKind> displayOf(std::string_view name) {
   std::optional<DisplayKind> found;
   forEachKind([&](auto kind) {
@@ -52,7 +52,7 @@ AtlasLayout layoutOf(DisplayKind kind) {
   return *std::move(layout);
 }
 
-// What another kind says of a device that is known already.
+// Adds what another kind knows of a device that is in the list already.
 void join(const KnownDevice& device, NamedDevice& known) {
   if (known.device.panel_px != SizePx{}) return;
   known.device.panel_px = device.panel_px;

@@ -9,7 +9,7 @@
 namespace viewloom {
 namespace {
 
-// Of eyes beside the view's own, m; and of px beside the top left of a tile.
+// Bounds of the eyes beside the view's own, m, and of the pixels beside the top left of a tile.
 struct Box {
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};

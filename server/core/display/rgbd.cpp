@@ -13,7 +13,7 @@ namespace viewloom {
 namespace {
 
 constexpr uint32_t kDefaultDepthBits = 8;
-// Of the nearest 1/Z, the least range of a stream that is all at one depth.
+// Share of the nearest 1/Z: the smallest range of a stream that lies at one depth.
 constexpr double kRangeShareMin = 0.01;
 
 // Default size of a view: half of a full-HD frame each way. No panel's own size is published.
@@ -42,7 +42,7 @@ constexpr KnownInput kPresets[] = {
      .form = RgbdForm::kTwoLayers},
 };
 
-// Of the screen, m; 0 = the range stays as it is.
+// Distance of the screen, m; 0 = the range stays unchanged.
 double screenDistance(const RgbdSpec& rgbd, const DepthCodes& range) {
   return rgbd.hasMiddleScreen() ? 2 / (range.inv_z_near + range.inv_z_far) : rgbd.screen_m;
 }

@@ -30,7 +30,7 @@ absl::Status checkRequest(const DisplaySpec& spec, double near_m, double far_m) 
   return withFieldPrefix(requireOwnFov(spec), "display");
 }
 
-// Of a scene between the two depths; of a source there is nothing that the display would ask.
+// Layout for a scene between the two depths, without a source whose values it could take.
 absl::StatusOr<AtlasLayout> layoutOf(const DisplaySpec& spec, const InvZRange& range) {
   StreamDefaults defaults;
   defaults.source_intrinsics = {.focal_px = {1, 1}, .principal_px = {0.5, 0.5}};

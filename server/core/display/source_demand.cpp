@@ -79,7 +79,8 @@ void SourceDemand::include(const OutermostViews& views, const Pose& source_from_
 
 void SourceDemand::include(const Camera& view, SizePx size_px, const InvZRange& range) {
   const Fov fov = fovFromIntrinsics(view.intrinsics, size_px);
-  // What a view sees between two planes is convex: its corners bound its picture.
+  // The part of space that a view sees between two planes is convex, so its corners bound its
+  // picture.
   for (const double x : {std::tan(fov.left_rad), std::tan(fov.right_rad)}) {
     for (const double y : {std::tan(fov.down_rad), std::tan(fov.up_rad)}) {
       for (const double inv_z : {range.far, range.near}) includeCorner(view, {x, y}, inv_z);

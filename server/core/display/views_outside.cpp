@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHundredth = 0.01;
 
-// Of a point of the source's image, px; positive: past it.
+// Distance of a point from the source's image, px; positive: outside.
 double shareBeside(glm::dvec2 point_px, SizePx size_px) {
   const glm::dvec2 size(size_px.width, size_px.height);
   const glm::dvec2 beside = glm::max(-point_px, point_px - size);
@@ -34,7 +34,7 @@ double shareOfRay(const Camera& view, glm::dvec2 tangents, double inv_z, const I
 
 double shareOfView(const Camera& view, SizePx view_px, const Intrinsics& source, SizePx source_px,
                    const InvZRange& range) {
-  // Of a plane, a view sees what lies between its corners.
+  // On a plane, a view sees the area between its corners.
   const glm::dvec2 size(view_px.width, view_px.height);
   double share = -1;
   for (const glm::dvec2 corner : {glm::dvec2(0, 0), {size.x, 0.0}, {0.0, size.y}, size}) {

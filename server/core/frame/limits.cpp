@@ -128,7 +128,7 @@ std::string planePath(size_t layer, const LayerFormat& format, PlaneKind kind) {
   return strCat("layers[", layer, "].planes[", second ? 1 : 0, "]");
 }
 
-// What things that move by themselves need to be drawn anew elsewhere.
+// Checks the data needed to draw things that move by themselves at another time.
 absl::Status validateMotion(const SourceFormat& source, size_t layer) {
   const LayerFormat& format = source.layers[layer];
   const PlaneFormat& first = source.layers.front().color;

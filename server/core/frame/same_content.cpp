@@ -7,8 +7,8 @@
 namespace viewloom {
 namespace {
 
-// What there is to compare in a format. Each names all fields of its struct, so that one more does
-// not compile until it is told here whether it counts.
+// Compared values of each format. Every struct is listed with all of its fields, so a new field
+// does not compile until this file says whether it counts.
 
 auto contentOf(const DepthFormat& format) {
   const auto& [meaning, scale, offset, min_depth, max_depth, near_z_m, far_z_m, invalid_value,
@@ -31,7 +31,7 @@ auto contentOf(const PlaneFormat& format) {
 
 bool haveSameContent(const LayerFormat& one, const LayerFormat& other) {
   const auto& [color, depth, depth_first, others, color_has_reflections] = one;
-  // What others hold is in LayerPlanes::surface and motion.
+  // Other planes are compared in LayerPlanes::surface and motion.
   return contentOf(color) == contentOf(other.color) && contentOf(depth) == contentOf(other.depth) &&
          one.mirrors() == other.mirrors();
 }

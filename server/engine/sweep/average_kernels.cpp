@@ -29,7 +29,7 @@ HWY_INLINE void addScaled(Channels& sum, const Channels& channels, Vec by) {
   sum.blue = hn::Add(sum.blue, hn::Mul(by, channels.blue));
 }
 
-// What each texel counts where all of them do.
+// Weights of texels where all of them count.
 struct WholeWeights {
   explicit WholeWeights(const AverageRow& row) {
     float here = 1;
@@ -128,7 +128,7 @@ HWY_INLINE WordVec linkedMean(const AverageRow& row, uint32_t layer, size_t x) {
       const auto is_clean = hn::Eq(mixed, hn::Zero(kInts));
       const Mask counts = hn::RebindMask(kFloats, hn::And(is_linked, is_clean));
       here.add(channels, counts, tap.weight_here);
-      // Of the other row, its own sample counts in any case.
+      // A sample on the other row counts in any case.
       const bool is_its_own = side == 1 && k == 0;
       there.add(channels, is_its_own ? hn::RebindMask(kFloats, is_linked) : counts,
                 tap.weight_there);
@@ -173,7 +173,7 @@ void MarkMixed(const std::array<const uint8_t*, 4>& links, uint32_t width, uint8
   }
 }
 
-// Of texels of which some reach beyond the ends.
+// Mean of texels some of which reach beyond the ends.
 HWY_INLINE WordVec meanAtEnd(const AverageChain& chain, size_t x) {
   WeightedSum sum{channelsOf<true>(hn::LoadU(kWords, chain.texels + x)), set(1)};
   const IntVec at = hn::Iota(kInts, int32_t(x));

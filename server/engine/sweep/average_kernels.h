@@ -18,7 +18,7 @@ struct AverageTap {
   // In the px one nearer, to this one: 1 + layer here; what else there is, is no link.
   ByLayer<const uint8_t*> links{};
   ByLayer<const uint8_t*> is_mixed{};  // not 0: it takes no part, but is passed
-  // What it counts in the mean of the row's samples, and in that of the next row's.
+  // Its weight in the mean of the row's samples, and in that of the next row's.
   float weight_here = 0;
   float weight_there = 0;
 };

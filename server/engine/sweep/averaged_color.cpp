@@ -21,7 +21,7 @@ void AveragedColor::begin(const RowSource& source, float reach_px) {
   width_ = source.columns->sizePx().width;
   height_ = int(source.columns->sizePx().height);
   layer_count_ = source.columns->layerCount();
-  // Of a row and the next, what links between the rows around them need.
+  // Rows that the links around this row and the next need.
   rows_.resize(std::max(rows_.size(), size_t{2} * tapCount(reach_px) + 6));
   for (Row& row : rows_) {
     row.slopes_of = row.columns_linked_of = row.mixed_of = kNoRow;

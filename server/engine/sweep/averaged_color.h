@@ -21,7 +21,7 @@ struct RowBetween {
   float share = 0;        // of the other row, 0..0.5
 };
 
-// What links the columns of a row, by layer: as findSlopesX and linkColumns make it.
+// Links between the columns of a row, by layer, made by findSlopesX and linkColumns.
 struct RowColumns {
   ByLayer<const float*> slope_x{};
   ByLayer<const uint8_t*> to_right{};
@@ -38,7 +38,7 @@ class AveragedColor {
   bool isNeeded() const { return reach_px_ > 0; }
   // Blends means around the samples of two rows into packed codes of all layers.
   void blend(const RowBetween& between, const ByLayer<uint32_t*>& texels);
-  // Of a row's facets, until rows are asked for that are further away.
+  // Slopes of a row's facets, valid until rows further away are asked for.
   ByLayer<const float*> slopesAlongY(int y) { return facetsAlongY(y).slope; }
   RowColumns columnsOf(int y);
 
@@ -53,7 +53,7 @@ class AveragedColor {
     AlignedArray<uint8_t> is_mixed;
   };
   static constexpr int kNoRow = -2;
-  // What is known of rows of the source, and of which.
+  // Cached values of one row of the source, and the row's number.
   struct Row {
     int slopes_of = kNoRow;
     int columns_linked_of = kNoRow;

@@ -45,7 +45,7 @@ HWY_INLINE Vec loadSamples(PlaneEncoding encoding, const std::byte* bytes, size_
   }
 }
 
-// What linearizeRow needs of DepthCoefficients, a copy in each lane.
+// The members of DepthCoefficients that linearizeRow needs, one copy in each lane.
 struct Line {
   explicit Line(const SampleRow& row)
       : coefficients(*row.coefficients),
@@ -107,7 +107,7 @@ uint32_t LinearizeRow(const SampleRow& row, float* HWY_RESTRICT inv_z) {
       const Vec sample = loadSamples(row.encoding, row.samples, x);
       hn::StoreU(linearize(line, sample, x, exists, bad), kFloats, inv_z + x);
     } else {
-      // What the plane does not have: its bytes end here.
+      // Stands in for bytes beyond the plane's end.
       std::byte last[HWY_MAX_BYTES] = {};
       for (size_t i = 0; i < count * sample_bytes; ++i) {
         last[i] = row.samples[x * sample_bytes + i];

@@ -17,7 +17,7 @@ struct SampleRow {
   PlaneEncoding encoding = PlaneEncoding::kDepthF32;
   const DepthCoefficients* coefficients = nullptr;
   uint32_t width = 0;
-  // Of the rays of the row, where samples are distances along them.
+  // Intrinsics for the rays of the row, if samples are distances along them.
   Intrinsics intrinsics;
   uint32_t y = 0;
 };

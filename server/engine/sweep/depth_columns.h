@@ -79,7 +79,7 @@ class DepthColumns {
   uint32_t layer_count_ = 0;
   uint32_t pitch_ = 0;
   AlignedArray<float> inv_z_;
-  // What passes of smoothing leave, in turn; the last one leaves it in inv_z_.
+  // Results of the passes of smoothing, in turn; the last pass writes inv_z_.
   std::array<AlignedArray<float>, 2> halves_;
   Smoothing smoothing_;
   std::array<Plane, abi::kLayerCountMax> planes_;

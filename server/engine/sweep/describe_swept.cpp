@@ -52,7 +52,7 @@ abi::RayRecord recordOf(const RowToDescribe& described, uint32_t p, uint8_t ray_
           .visits = 0};
 }
 
-// As applyEdgeBlends does it.
+// The same as applyEdgeBlends.
 void blendLinear(const EdgeBlends& blends, float* rgba) {
   std::vector<float> others;
   for (uint32_t i = 0; i < blends.count; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What few displays ask of a swept row beside its colour: depth, mask, and what tests look at.
+// Outputs of a swept row beside its colour, for few displays and for tests: depth and mask.
 #pragma once
 
 #include "sweep/view_sweeper.h"

@@ -65,8 +65,8 @@ bool showsSurfaceOf(const Steps& steps, size_t edge, Travel travel, const SweepV
          std::abs(texel_from_end) <= kEdgeReach;
 }
 
-// Of the edges noted, those that are seen: the px on the near side shows the surface that ends
-// there, and the one beyond something further back.
+// Blends the visible ones of the noted edges: the near pixel shows the surface that ends there, and
+// the pixel beyond it shows something further back.
 void blendSeen(const SurfaceRow& row, const Steps& steps, Travel travel, const SweepView& view,
                SweptRow& swept) {
   for (uint32_t i = 0; i < swept.covering_count; ++i) {

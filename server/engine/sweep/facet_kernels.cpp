@@ -122,8 +122,8 @@ bool FindEdges(const FacetRow& row, const ByLayer<const float*>& slope_y, float 
                const EdgeRow& edges){
     VIEWLOOM_BY_LAYER_COUNT(row.layer_count, edgesOf, row, slope_y, dy, edges)}
 
-// Of all lines through (begin, anchor) that pass by the edges of the facets from `begin` on within
-// the tolerance, up to the first that none passes; at most to `last`.
+// Considers all lines through (begin, anchor). Returns the first facet that no line passes within
+// the tolerance, counted from `begin`; at most `last`.
 uint32_t FindRunEnd(const RunSearch& search, uint32_t begin, float* end_inv_z) {
   const float* const left = search.left;
   const float* const right = search.right;

@@ -19,10 +19,10 @@ constexpr uint32_t kCellPeriod_px = 2;
 // How far back a jump between views may take a px, of its way from the one before: the rest is more
 // than what rounds.
 constexpr double kJumpMax = 0.75;
-// Of an eye that is in the source's place: as little beside it as decides which way rays go.
+// Offset of an eye at the source's place: just enough to decide the direction of its rays.
 constexpr double kBeside = 1e-6;
 
-// As abi::viewCoordinate().
+// The same as abi::viewCoordinate().
 float placeOf(int64_t phase) {
   return float(uint32_t(phase) >> 8U) * 0x1p-24F;
 }
@@ -83,7 +83,7 @@ void LensPieces::placeViews(uint32_t view_count) {
   if (view_count > 0) views_.push_back({.first_phase = kLens});
 }
 
-// Of the strides of px after which lenses nearly repeat, the one that takes the fewest pieces.
+// Takes the stride of pixels after which lenses nearly repeat that needs the fewest pieces.
 bool LensPieces::settleStride(double inv_z_max, double tolerance_px) {
   const Channel& channel = channels_.front();
   const double half_cone_rad = 0.5 * double{channel.eyes.view_cone_rad};
@@ -95,8 +95,8 @@ bool LensPieces::settleStride(double inv_z_max, double tolerance_px) {
   // Between the ends of a stretch of L rad a line misses D tan() by D tan''() L^2 / 8, by half of
   // that to either side.
   bend_max_rad2_ = 16 * error_m / double{channel.eyes.distance_m};
-  // What a piece goes through at most, in lenses: of eyes on a line, on an average way from the
-  // middle; or the share of a nearest view, as if none went on in the next.
+  // Upper bound of a piece, in lenses. Eyes on a line may be an average distance from the middle;
+  // nearest views may take a whole share, none of which continues in the next.
   const uint32_t view_count = channel.eyes.view_count;
   const double stretch_rad = stretchFrom(0.5 * half_cone_rad, half_cone_rad);
   const double run_max =
@@ -140,8 +140,8 @@ double LensPieces::eyeAt(const Channel& channel, int64_t phase) const {
   return views_.empty() ? eyeOf(channel, double{placeOf(phase)}) : viewAt(phase).eye_m;
 }
 
-// Of px from one with this phase on, those that one line of eyes serves: within a lens, of one
-// nearest view, or no further than eyes stay on the line.
+// Counts the pixels from one with this phase on that one line of eyes serves: within a lens, within
+// one nearest view, or while eyes stay on the line.
 uint32_t LensPieces::countAlike(const Channel& channel, int64_t phase, uint32_t count_max) const {
   if (phase_step_ == 0) return count_max;
   const int64_t step = std::abs(phase_step_);

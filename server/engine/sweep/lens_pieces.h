@@ -28,21 +28,21 @@ class LensPieces {
   // tolerance, 1/32 px of the panel by default.
   static constexpr double kEyeErrorShare = 1.0 / 8;
 
-  // Of a panel of one ray a channel, whose eyes lie beside the source along its rows. nullopt for
-  // any other display, and for panels whose lenses repeat so badly that eyes would jump from px to
-  // px. `inv_z_max`: of the source, 1/m.
+  // For panels of one ray a channel whose eyes lie beside the source along its rows. nullopt for
+  // other displays, and if lenses repeat so badly that eyes would jump between pixels. `inv_z_max`:
+  // largest 1/Z of the source, 1/m.
   static std::optional<LensPieces> make(const TraceJob& job, double inv_z_max);
 
   // Every px of a row of the panel once; `sample`: which of the job's, and so which channel.
   void appendRow(uint32_t row, uint32_t sample, std::vector<LensPiece>& pieces) const;
 
-  // Of what a sample says of each px: the byte of its channel in R, G, B.
+  // The byte that a sample fills in each pixel: its channel in R, G, B.
   uint32_t channelOf(uint32_t sample) const { return channels_[sample].eyes.channel; }
   // By which rays move, the most of any px: px of the source for an inv_z of 1/m.
   float pxPerInvZ() const { return px_per_inv_z_; }
 
  private:
-  // Of one channel: place = start + x step + (eye + eye_m right) w + eye_m back, source px.
+  // Places of one channel: place = start + x step + (eye + eye_m right) w + eye_m back, source px.
   struct Channel {
     abi::LenticularEyes eyes;
     double start_px = 0;
@@ -67,8 +67,7 @@ class LensPieces {
   double stretchFrom(double angle_rad, double half_cone_rad) const;
 
   std::vector<Channel> channels_;  // [sample]
-  // Of those that subpixels show the nearest of, and one behind the last; none: every px has its
-  // own.
+  // Nearest views of the subpixels, and one behind the last; empty: every pixel has its own.
   std::vector<View> views_;
   SizePx panel_px_;
   double right_px_m_ = 0;     // how far the source's place moves with the eye, at an inv_z of 1/m

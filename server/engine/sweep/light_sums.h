@@ -8,7 +8,7 @@
 
 namespace viewloom {
 
-// Of one row of each of several tiles. Thread-safety: none; one a thread.
+// Sums of light for one row of several tiles. Thread-safety: none; one a thread.
 class LightSums {
  public:
   // Nothing is added yet.

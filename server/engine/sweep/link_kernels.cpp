@@ -97,7 +97,7 @@ struct EdgeSides {
   int shift;
 };
 
-// Of the edges at x. `exists`: whether there is a facet here; and there.
+// Finds the edges at x. `exists`: whether there is a facet here; and there.
 template <uint32_t kLayers>
 struct EdgeVectors {
   EdgeVectors(const EdgeSides& sides, size_t x, const SurfaceSteps& steps) {

@@ -47,7 +47,7 @@ void addTo(Counts& sums, const Counts& counts) {
   std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
 }
 
-// Of surfaces: the sky is neither rounded nor noisy.
+// Noise of surfaces: the sky is neither rounded nor noisy.
 float surfaceSigma(const ColumnHistograms& histograms) {
   const float sky_count = float(std::min(histograms.depth[0], histograms.noise[0]));
   return noiseQuantile(histograms.noise, 0, sky_count, 0.5F) / abi::kMedianPerSigma;
@@ -141,7 +141,7 @@ MeasuredColumns settleColumns(const ColumnHistograms& histograms, const RangeHis
   const float kappa = is_given ? given_kappa : measured_kappa;
   const SurfaceSteps steps = {
       .kappa = {.least = kappa, .share = is_given ? 0 : abi::kKappaRelative, .from = base},
-      // What is one surface is not two things.
+      // The step of one surface is not the step between two things.
       .deep = {.least = std::max(abi::leastStep(abi::kDeepStep, inv_z_range), kappa),
                .share = abi::kDeepStep,
                .from = base},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured on the columns of a source: its depths, steps and noise, and the connection
-// tolerance that follows. The same as measure_depth.comp and settle_tolerance.comp find.
+// Measurements on the columns of a source: depths, steps, noise, and the connection tolerance that
+// follows. measure_depth.comp and settle_tolerance.comp find the same.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace viewloom {
 
-// Of layer 0, one px of every block of 4x4.
+// Histograms of layer 0, one pixel of every block of 4x4.
 struct ColumnHistograms {
   std::array<uint32_t, abi::kDepthHistogramBinCount> depth{};
   std::array<uint32_t, abi::kNoiseHistogramBinCount> noise{};  // |second differences|
@@ -27,7 +27,7 @@ struct ColumnHistograms {
 // Where their percentiles lie, for a finer look.
 abi::RangeBounds settleRange(const ColumnHistograms& histograms);
 
-// Of the same px, between the percentiles.
+// Histogram of the same pixels, between the percentiles.
 struct RangeHistogram {
   abi::RangeBounds bounds;
   std::array<uint32_t, abi::kRangeHistogramBinCount> counts{};

@@ -30,8 +30,8 @@ HWY_INLINE void paintBridges(const Steps& bridges, const RowRays& rays, const Sw
   }
 }
 
-// What fills px whose rays never come out again: the deepest layer, and of it the silhouette that
-// the ray passed last.
+// Fills pixels whose rays never come out again with the deepest layer: the silhouette that the ray
+// passed last.
 void paintFill(const SurfaceRow& row, const RowRays& rays, const SweepFill& fill, SweptRow& swept) {
   const int32_t lanes = int32_t(hn::Lanes(kFloats));
   for (uint32_t i = 0; i < swept.passed_layer_count; ++i) {
@@ -82,7 +82,7 @@ bool paintLayers(const SurfaceRow& row, const RowRays& rays, const SweepFill& fi
     const Steps& bridges = layer.bridges[size_t(rays.travel())];
     projectSteps(bridges, rays, swept);
     paintBridges(bridges, rays, swept, painter);
-    // Of one layer only the nearest counts, which either lies beyond or does not.
+    // In one layer only the nearest surface counts. It lies beyond the far side or it does not.
     if (i == 0 && swept.passed_layer_count > 0) dropBeyondFarSide(rays.widthPx(), swept);
   }
   return swept.passed_layer_count > 0;

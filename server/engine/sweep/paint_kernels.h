@@ -11,7 +11,7 @@
 
 namespace viewloom {
 
-// What rays that meet nothing show.
+// Colour of rays that meet nothing.
 struct SweepFill {
   bool fills_border = true;  // the image's border goes on where it was left
   uint32_t background = 0;   // R, G, B, 255 in memory order

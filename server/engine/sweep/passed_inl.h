@@ -28,7 +28,7 @@ struct EdgeLine {
         low(set(steps.low_inv_z[k])),
         high(set(steps.high_inv_z[k])) {}
 
-  // Of the px of a vector from `first` on.
+  // 1/Z at the pixels of a vector from `first` on.
   Vec invZ(int32_t first, Vec p) const {
     const Vec inv_z = rays.areFew()
                           ? hn::Mul(hn::Sub(edge, rays.startsFrom(first)), rays.perEyesFrom(first))
@@ -92,7 +92,7 @@ HWY_INLINE bool paintPassed(const SurfaceRow& row, const RowRays& rays, const Sw
     const EdgeLine line(steps, k, rays);
     forVectors(swept.from[k], swept.to[k], [&](int32_t first, Vec p, Mask inside) {
       const Vec inv_z = line.invZ(first, p);
-      // Who passes it further up comes out before.
+      // A ray that passes it further up comes out before.
       const Vec behind_px = set(steps.behind_px[k]);
       const Vec meets_up_to = hn::MulAdd(behind_px, hn::Abs(rays.perEyesFrom(first)), line.low);
       const Mask passes = reaches(passed_before, first, inv_z, inside);

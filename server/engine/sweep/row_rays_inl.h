@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// What kernels need of a SweepView, worked out once for all that is painted of it.
+// Values that kernels need of a SweepView, computed once for the whole row.
 class RowRays {
  public:
   // Over `run_count` runs. Keeps in `swept`, which must outlive it, where each of few rays is.
@@ -47,12 +47,12 @@ class RowRays {
   // Fewer than runs, or of several eyes: each is placed for itself. Else all have one eye.
   bool areFew() const { return are_few_; }
 
-  // Of px 0, and from px to px.
+  // Start at pixel 0, and the step between pixels.
   Vec startPx() const { return start_px_; }
   Vec stepPx() const { return step_px_; }
-  // Of few: of the px of a vector from `first` on.
+  // Starts of few rays: the pixels of a vector from `first` on.
   HWY_INLINE Vec startsFrom(int32_t first) const { return hn::Load(kFloats, starts_px_ + first); }
-  // Of all.
+  // Eyes of all rays.
   HWY_INLINE Vec eyesFrom(int32_t first) const {
     return are_few_ ? hn::Load(kFloats, eyes_px_m_ + first) : eye_px_m_;
   }

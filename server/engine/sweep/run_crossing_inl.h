@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viewloom::HWY_NAMESPACE {
 
-// What rays meet.
+// Hit of a ray.
 struct Place {
   Vec inv_z;
   IntVec texel;
@@ -66,7 +66,7 @@ HWY_INLINE RunSlopes slopesOf(const RunLanes& run, const RowRays& rays) {
           hn::Mul(x_per_u, hn::Mul(set(kSubtexelSteps), rays.stepPx()))};
 }
 
-// Of runs that rays graze, little is left of a difference: no place is beside the run.
+// Rays that graze a run leave little of a difference: no place lies beside the run.
 class LineCrossing {
  public:
   LineCrossing(const RunLanes& run, const RunSlopes& slopes)

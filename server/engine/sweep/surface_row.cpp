@@ -8,7 +8,7 @@
 namespace viewloom {
 namespace {
 
-// What vectors read beyond the last.
+// Elements that vectors read beyond the last.
 constexpr uint32_t kSlack = 16;
 
 }  // namespace

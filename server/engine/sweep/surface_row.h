@@ -46,10 +46,10 @@ struct Steps {
   AlignedArray<int32_t> texel;
   // How far it moves from there with the inv_z above `low`.
   AlignedArray<float> texel_per_inv_z;
-  // Of silhouettes: where the near side's last px lies; -1 if it goes on in front of the edge.
+  // Last pixel of the near side of each silhouette; -1 if it goes on in front of the edge.
   AlignedArray<int32_t> near_texel;
-  // Of silhouettes: how far the layer goes on in front of `low` from the edge, px; behind that, who
-  // is as far back as `low` has met the far side. Negative: nothing is met.
+  // Length by which the layer of a silhouette goes on in front of `low` from the edge, px. Behind
+  // that, a ray as far back as `low` has met the far side. Negative: nothing is met.
   AlignedArray<float> behind_px;
 
   void reserve(uint32_t step_count);
@@ -96,7 +96,7 @@ struct SurfaceRow {
   uint32_t layer_count = 0;
   bool is_outside = false;  // above or below the image: no ray meets anything
   ByLayer<LayerSurfaces> layers;
-  // Of every surface its px from the left, and one more at both ends: packed codes.
+  // Pixels of every surface from the left, and one more at both ends: packed codes.
   AlignedArray<uint32_t> texels;
   AlignedArray<uint8_t> texel_layer;
   uint32_t texel_count = 0;
@@ -110,7 +110,7 @@ struct SurfaceRow {
 
   // Room for all that can be made of so many columns.
   void reserve(uint32_t columns, uint32_t layers_of_each);
-  // Of surfaces.
+  // Removes all surfaces.
   void clear();
   // Lets mixed texels give way to the next ones so far, 0..1.
   void cleanMixedTexels(float share);

@@ -169,7 +169,7 @@ void SurfaceRowBuilder::followSurface(uint32_t layer, uint32_t column) {
   noteMixed(base, begins_deep, ends_deep);
 }
 
-// Of a surface that has just been followed, from texel `first` to the last.
+// Averages the surface that has just been followed, from texel `first` to the last.
 void SurfaceRowBuilder::averageAlong(uint32_t first, uint32_t end, bool begins_deep,
                                      bool ends_deep) {
   uint32_t* const chain = chain_.data() + kRowSlack;
@@ -218,7 +218,7 @@ void SurfaceRowBuilder::followPiece(Surface& surface, uint32_t layer, uint32_t f
     float end_inv_z = 0;
     const uint32_t end = findRunEnd(search, begin, &end_inv_z);
     addRun(surface, layer, float(begin), float(end), search.left[begin], end_inv_z);
-    // Who passes by the end of a surface passes by its last run.
+    // A ray that passes by the end of a surface passes by its last run.
     row_.layers[layer].right[end - 1] = end_inv_z;
     begin = end;
   }

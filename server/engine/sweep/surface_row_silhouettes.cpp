@@ -102,7 +102,7 @@ float SurfaceRowSilhouettes::goesOnInFront(uint32_t layer, Travel travel, uint32
     if (float(i) >= reach_px) return reach_px;
     if (row_.inv_z[layer][x] < 0 || entered[x] <= low_inv_z) return float(i);
     if (left[x] <= low_inv_z) {
-      // What falls below the sky falls faster than its edges say.
+      // A surface that falls below the sky falls faster than its edges say.
       const float fall = std::max(std::abs(facets.slope_x[x]), entered[x] - left[x]);
       return float(i) + (entered[x] - low_inv_z) / fall;
     }
@@ -110,8 +110,8 @@ float SurfaceRowSilhouettes::goesOnInFront(uint32_t layer, Travel travel, uint32
   return float(column_count);
 }
 
-// What shows of rays that come from a column without a surface: of the first one further back, at
-// distances that double. As findFarSide in shaders/lib/walk/far_side.glsl.
+// Texel for rays from a column without a surface: the first one further back, at distances that
+// double. The same as findFarSide in shaders/lib/walk/far_side.glsl.
 int32_t SurfaceRowSilhouettes::texelBeyondNothing(Travel travel, uint32_t column) const {
   const float near = row_.inv_z[0][column];
   const float deep = near - row_.steps.deep.at(near);

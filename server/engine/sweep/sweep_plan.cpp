@@ -67,7 +67,7 @@ std::optional<SweepPlan> SweepPlan::make(const TraceJob& job, double inv_z_max) 
     }
   }
   plan.group_count_ = uint32_t(plan.groups_.front().size());
-  // What rounds to other groups from sample to sample cannot be added up row by row.
+  // Groups that differ from sample to sample by rounding cannot be added up row by row.
   const auto isAlike = [&](const std::vector<SweptTiles>& groups) {
     return std::equal(groups.begin(), groups.end(), plan.groups_.front().begin(),
                       plan.groups_.front().end(),

@@ -51,11 +51,11 @@ class SweepPlan {
     const OneEye& view = views_[sample][tile];
     return {.start_px = view.start_px, .step_px = view.step_px, .eye_px_m = view.eye_px_m};
   }
-  // Of a lenticular panel, instead of viewOf(); else null.
+  // Pieces of a lenticular panel, used instead of viewOf(); else null.
   const LensPieces* lensPieces() const { return lens_pieces_ ? &*lens_pieces_ : nullptr; }
 
  private:
-  // Of SweepView what there may be thousands of.
+  // The members of SweepView of which there may be thousands.
   struct OneEye {
     float start_px = 0;
     float step_px = 1;

@@ -25,7 +25,7 @@ class SweepSource {
   uint64_t sizeBytes() const { return columns_.sizeBytes(); }
 
  private:
-  // Of all blocks, by all workers; of `empty`'s kind.
+  // Adds up the histograms of all blocks, made by all workers; of the kind of `empty`.
   template <typename Histogram>
   Histogram measured(const Histogram& empty, WorkerPool& workers) const;
   void smooth(WorkerPool& workers);

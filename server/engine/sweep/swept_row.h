@@ -14,7 +14,7 @@ struct SweepView {
   float start_px = 0;
   float step_px = 1;  // > 0
   float eye_px_m = 0;
-  // Of px that are seen from places beside each other, all of them on one side of the source.
+  // Step between eyes of neighbouring pixels, all of them on one side of the source.
   float eye_step_px_m = 0;
   // Or from two places, on one side too: px from this one on start so much further, and their eye
   // is so far beside that of the others. 0: no px.

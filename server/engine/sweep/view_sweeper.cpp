@@ -64,7 +64,7 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
 }
 
-// As codes that are rounded already.
+// Writes codes that are rounded already.
 void writeLinear(const uint32_t* rgba, uint32_t width_px, float* linear) {
   for (size_t i = 0; i < size_t{width_px} * 4; ++i) {
     linear[i] = float(rgba[i / 4] >> (8 * (i % 4)) & 0xff) / 255;
@@ -153,7 +153,8 @@ void ViewSweeper::sweepLenses(Piece& piece, uint32_t index) {
   }
 }
 
-// Of a row of the plan the tiles that takes(tile), each coloured at rowOf(tile).
+// Paints the tiles of a row of the plan for which takes(tile) is true, each coloured at
+// rowOf(tile).
 template <typename Takes, typename RowOf>
 void ViewSweeper::sweepRow(Piece& piece, uint32_t index, const Takes& takes, const RowOf& rowOf) {
   const SweepPlan& plan = *piece.picture.plan;

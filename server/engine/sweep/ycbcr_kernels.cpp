@@ -66,7 +66,7 @@ constexpr Shorts kShorts;
 constexpr Halves kHalves;
 constexpr Samples kSamples;
 
-// Of the halves of each px: low * low + high * high. Coefficients are taken as int16_t.
+// Dot product of the halves of each pixel: low * low + high * high. Coefficients are int16_t.
 HWY_INLINE SumVec dot(PxVec px, uint32_t low, uint32_t high) {
   const PxVec pairs = hn::Set(kPx, (low & 0xffffU) | high << 16);
   SumVec rest = hn::Zero(kSums);
@@ -85,7 +85,7 @@ struct Ycbcr {
 HWY_INLINE Ycbcr ycbcrOf(PxVec rgba) {
   const PxVec red_blue = hn::And(rgba, hn::Set(kPx, 0x00ff00ffU));
   const PxVec green = hn::And(hn::ShiftRight<8>(rgba), hn::Set(kPx, 0xffU));
-  // What does not fit int16_t: twice its half; and -32768, in a sum that is taken away.
+  // Coefficients that do not fit int16_t: twice the half; and -32768 in a sum that is subtracted.
   static_assert(abi::kLumaOfGreen % 2 == 0 && abi::kChromaOfOwn == 32768);
   const SumVec half = dot(green, abi::kLumaOfGreen / 2, 0);
   const SumVec others = dot(red_blue, abi::kLumaOfRed, abi::kLumaOfBlue);

@@ -56,7 +56,7 @@ class YcbcrRows {
     }
   }
 
-  // Of tiles in this row of the grid.
+  // Whether tiles in this row of the grid take it.
   bool takesRow(uint32_t grid_row, Step step) const;
   uint32_t atlasRow(uint32_t grid_row, Step step) const {
     return layout_->padding_top_px + grid_row * layout_->tile_size_px.height + step.tile_row;

@@ -23,7 +23,7 @@ class KernelCompiler {
   KernelCompiler(
       uint32_t thread_count, std::function<void(const std::exception& error)> on_failure,
       std::function<void()> before_each = [] {});
-  // As drain().
+  // The same as drain().
   ~KernelCompiler();
 
   // `then` is called on one of its threads once all of these are compiled.

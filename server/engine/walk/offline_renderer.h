@@ -51,7 +51,7 @@ class OfflineRenderer {
       const DisplaySpec& spec, const TraceOutputs& outputs,
       const std::function<void(uint32_t done_rows, uint32_t row_count)>& on_progress);
 
-  // Of each source.
+  // Statistics of each source.
   std::vector<SourceStats> stats() const;
 
  private:

@@ -62,7 +62,7 @@ class Buffer {
 
 // GPU allocations of this process so far; what proves that warm slots allocate nothing.
 uint64_t gpuAllocationCount();
-// What its buffers hold now, as it was allocated: on the device, and where the CPU writes or reads.
+// Bytes allocated for its buffers: on the device, and where the CPU writes or reads.
 uint64_t gpuMemoryBytes();
 
 enum class TexelFormat : uint8_t { kR32Uint, kRg32Uint, kRgba32Uint, kR32Float };

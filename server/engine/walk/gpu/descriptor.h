@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a shader reads and writes through bindings: pushed with each dispatch, never pooled.
+// Data that a shader reads and writes through bindings: pushed with each dispatch, never pooled.
 //
 // Most data could be reached by address alone, but software devices load through bindings several
 // times faster (shaders/README.md, Memory).
@@ -23,7 +23,7 @@ struct DescriptorSlot {
   DescriptorKind kind = DescriptorKind::kStorage;
 };
 
-// What stands in a slot for one dispatch.
+// Contents of a slot for one dispatch.
 struct Descriptor {
   uint32_t binding = 0;
   DescriptorKind kind = DescriptorKind::kStorage;

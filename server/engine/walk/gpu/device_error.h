@@ -13,8 +13,8 @@
 
 namespace viewloom {
 
-// What a user can know of the error: that memory has run out, or that the driver has given up. The
-// driver's own words follow in brackets. Other errors say what they say.
+// Text for a user: memory has run out, or the driver has given up, with the driver's own words in
+// brackets. Other errors keep their text.
 std::string deviceErrorText(const std::exception& error);
 
 // Whether the device has no memory left for what was asked of it.

@@ -18,7 +18,7 @@ inline constexpr const char* kRequiredExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSI
 
 // Exactly the required features switched on, ready for vkCreateDevice.
 FeatureChain requiredFeatures();
-// What the device lacks, by the names of the Vulkan specification; empty = it will do.
+// Features that the device lacks, by the names of the Vulkan specification; empty = it will do.
 std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& device);
 
 }  // namespace viewloom

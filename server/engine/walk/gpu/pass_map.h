@@ -61,7 +61,7 @@ class PassMap {
   std::map<Variant, Entry> entries_;
 };
 
-// Of a kernel that has no variants.
+// Pass of a kernel that has no variants.
 using SinglePass = PassMap<std::monostate>;
 
 }  // namespace viewloom

@@ -16,7 +16,7 @@ static_assert(kSide_px == kLensPatternSide_px, "points of a block are those of t
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
 
-// As besideOf in shaders/lib/lens/lens_rays.glsl.
+// The same as besideOf in shaders/lib/lens/lens_rays.glsl.
 float besideOf(uint32_t point, double step) {
   const double place = 0.5 + point * step;
   return float(place - std::floor(place) - 0.5);
@@ -171,7 +171,7 @@ void BandGatherer::gatherRays(GatheredRays rays, uint32_t first_count) {
   addGuesses(met.open_count);
 }
 
-// What is looked for along every open ray of the first stage serves those of the second.
+// The answer for every open ray of the first stage serves rays of the second.
 void BandGatherer::guess(const GatheredRays& rays) {
   guesses_ = {};
   for (const OpenRay& open : open_) {

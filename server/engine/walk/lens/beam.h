@@ -23,8 +23,8 @@ struct RectPx {
 // is for that in the middle.
 class Beam {
  public:
-  // Of px [low, high) of a tile, whose rays all go where the source looks; from 1/Z = 0 to here,
-  // 1/m, > 0.
+  // Beam of the pixels [low, high) of a tile, whose rays all go where the source looks; from 1/Z =
+  // 0 to this one, 1/m, > 0.
   Beam(const abi::ViewParams& view, glm::vec2 low_px, glm::vec2 high_px, float inv_z_near);
 
   // Encloses where rays are while 1/Z is between these.
@@ -48,7 +48,7 @@ inline RectPx Beam::rectOver(float least_inv_z, float largest_inv_z) const {
     const int axis = i % 2;
     const float of_x = rim_far_[axis] + inv_z[i] * rim_pace_[axis];
     const float of_y = rim_far_[axis + 2] + inv_z[i] * rim_pace_[axis + 2];
-    // Of a lens that is not turned against the source, one is 0.
+    // One of them is 0 for a lens that is not turned against the source.
     const float beside = std::abs(of_x) + std::abs(of_y);
     low[i] = far_.low[axis] + inv_z[i] * pace_.low[axis] - beside;
     high[i] = far_.high[axis] + inv_z[i] * pace_.high[axis] + beside;

@@ -16,7 +16,7 @@ struct Light {
   Vec red, green, blue;
 };
 
-// As linearFromSrgb in shaders/lib/light/srgb.glsl, of codes 0..255.
+// The same as linearFromSrgb in shaders/lib/light/srgb.glsl, of codes 0..255.
 HWY_INLINE Vec lightOfCode(Vec code) {
   const Vec srgb = hn::Mul(code, set(1.0F / 255));
   Vec curve = hn::MulAdd(set(-0.1167994F), srgb, set(0.5265083F));
@@ -34,7 +34,7 @@ HWY_INLINE Light lightOf(WordVec rgba) {
   return {channel(rgba), channel(hn::ShiftRight<8>(rgba)), channel(hn::ShiftRight<16>(rgba))};
 }
 
-// As codesFromLinear in shaders/lib/light/srgb.glsl.
+// The same as codesFromLinear in shaders/lib/light/srgb.glsl.
 HWY_INLINE Vec codeOfLight(Vec light) {
   const Vec clipped = hn::Min(hn::Max(light, hn::Zero(kFloats)), set(1));
   const Vec root = hn::Sqrt(clipped);

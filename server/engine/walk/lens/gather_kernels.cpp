@@ -55,7 +55,7 @@ struct Meetings {
   IntOfPx facets;
 };
 
-// What the rays of a point have met so far.
+// Nearest hits of the rays of a point so far.
 struct Nearest {
   OfBlock inv_z;   // < 0: none of the surfaces
   IntOfPx texels;  // where, or as below
@@ -112,7 +112,7 @@ HWY_INLINE void meetSheet(const GatheredRays& rays, const Image& image, const Le
   }
 }
 
-// Of the facets where a sheet is met, those count that lie within its reach.
+// Compares the facets at the meetings with a sheet; facets within its reach count.
 HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met, float reach,
                               bool may_leave, int32_t sheet_bit, Nearest& nearest) {
   for (size_t p = 0; p < kBlockArea_px; p += hn::Lanes(kFloats)) {
@@ -146,7 +146,7 @@ HWY_INLINE void compareFacets(const OfPx<uint64_t>& facets, const Meetings& met,
   }
 }
 
-// Of the rays of any point, by lanes.
+// Hits of the rays of any point, by lanes.
 struct MetWords {
   WordVec sheets;  // bits of those that were met
   WordVec none;  // all bits where one met none within the image, or at its border, if that goes on

@@ -25,7 +25,7 @@ struct LensPoint {
   float beside_y_px = 0;
 };
 
-// What the rays of a block are, and what they may meet.
+// Rays of a block, and the sheets they may meet.
 struct GatheredRays {
   const HostStructure& structure;
   const abi::ViewParams& view;
@@ -61,7 +61,7 @@ struct OpenRay {
   uint32_t point = 0;  // of the points
 };
 
-// What rays met.
+// Sheets that rays met.
 struct MetSheets {
   uint32_t sheets = 0;   // bit i: sheet i
   bool is_all = true;    // every ray met one, or the image's border if that goes on

@@ -34,7 +34,7 @@ struct HostStructure {
 // a texel for each sample of depth.
 bool isInReach(const Device& device, const FrameShape& shape);
 
-// Of a slot that is in reach, and whose build is done.
+// View of a slot that is in reach and whose build is done.
 HostStructure hostStructure(const StructureSlot& slot);
 
 }  // namespace viewloom

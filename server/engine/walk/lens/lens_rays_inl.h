@@ -74,7 +74,7 @@ struct Directions {
   }
 };
 
-// As makeLensRay in shaders/lib/lens/lens_rays.glsl.
+// The same as makeLensRay in shaders/lib/lens/lens_rays.glsl.
 HWY_INLINE LensRay lensRay(const abi::ViewParams& view, const Directions& directions,
                            const LensPoint& point, size_t p) {
   const Vec moved_x = hn::Mul(set(view.lens_px_m.x), hn::Load(kFloats, point.x.data() + p));
@@ -117,7 +117,7 @@ struct Cell {
   IntVec index;
 };
 
-// Of the way along an axis of the image. Whatever the place is, the px is one of the image.
+// Cell at a place along an axis of the image. It is inside the image wherever the place is.
 HWY_INLINE Cell cellOf(Vec place, Vec last) {
   const Vec first = hn::Min(hn::Floor(place), last);
   // Above 2^23 the steps of floats are 1.
@@ -142,7 +142,7 @@ HWY_INLINE IntVec indexOf(const Meeting& at, uint32_t pitch) {
   return hn::Add(hn::Mul(at.row.index, hn::Set(kInts, int32_t(pitch))), at.column.index);
 }
 
-// As `meets` in shaders/lib/lens/lens_rays.glsl.
+// The same as `meets` in shaders/lib/lens/lens_rays.glsl.
 HWY_INLINE Meeting meet(const glm::vec3& plane, const LensRay& ray, const Image& image) {
   constexpr float kTowardsMin = 1e-20F;
   const Vec one = set(1);

@@ -22,7 +22,7 @@ struct Path {
   glm::vec2 far;   // where that is 0
   glm::vec2 pace;  // for each 1/m
 
-  // As makeLensRay in shaders/lib/lens/lens_rays.glsl.
+  // The same as makeLensRay in shaders/lib/lens/lens_rays.glsl.
   Path(const GatheredRays& rays, const OpenRay& open) {
     const abi::ViewParams& view = rays.view;
     const LensPoint& point = rays.points[open.point];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays through a lens are taken to see that met nothing they could have: as walks have it
+// Answers for rays through a lens that met no sheet. They follow the rules of walked rays
 // (shaders/color.md, Colour of hidden and outside rays).
 #pragma once
 

@@ -25,9 +25,9 @@ RectPx common(const RectPx& a, const RectPx& b) {
   return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
-// What does not fit in so few sheets as there may be is looked for anew with twice the reach; even
-// where rays pass by all of a scene of which no two px lie in a plane, few rounds are needed: at
-// 2^12 times an eighth of a px, blocks see single sheets.
+// Rounds of a search. If the sheets do not suffice, the next round doubles the reach. Few rounds
+// are needed even for a scene of which no two pixels lie in a plane: at 2^12 times an eighth of a
+// pixel, blocks see single sheets.
 constexpr int kRoundsMax = 12;
 
 }  // namespace
@@ -40,7 +40,7 @@ struct SheetList::PlanePart {
         inv_z(cell.at(at - cell_at.center())),
         slope(cell.slope),
         error(cell.error) {}
-  // Of a facet, alone.
+  // Plane part of a single facet.
   PlanePart(const CellAt& cell_at, const SurfaceCell& facet)
       : at(cell_at.center()), inv_z(facet.inv_z), slope(facet.slope) {}
 
@@ -56,7 +56,7 @@ struct SheetList::PlanePart {
   float error = 0;  // no facet of it is further away
 };
 
-// What a search looks at.
+// State of one search.
 struct SheetList::Search {
   const HostStructure& structure;
   const Beam& beam;
@@ -121,7 +121,7 @@ void SheetList::add(uint32_t layer, const PlanePart& part) {
                        .reach = reachOver(part.range())};
 }
 
-// Of a plane that lies there, the part that rays may meet.
+// Finds the part of a plane there that rays may meet.
 void SheetList::findPlane(const Search& search, uint32_t layer, const CellAt& at,
                           const SurfaceCell& cell, RectPx met) {
   const PlanePart whole(at, cell, met);
@@ -227,7 +227,7 @@ void SheetList::find(const HostStructure& structure, const abi::ViewParams& view
   const Beam beam(view, low_px, high_px, inv_z_near);
   const glm::vec2 size_px(structure.size_px.width, structure.size_px.height);
   Search search{structure, beam, {glm::vec2(0), size_px}};
-  // That changes little from px to px: what is seen in the middle, far away, tells it for all.
+  // It changes little from pixel to pixel, so the middle, far away, stands for all.
   const RectPx far = beam.rectOver(0, 0);
   const glm::vec2 middle_px = 0.5F * (low_px + high_px);
   const glm::vec3 direction =

@@ -20,7 +20,8 @@ namespace viewloom {
 // Thread-safety: none.
 class SheetList {
  public:
-  // What the rays of px [low, high) of a tile may meet. They all go where the source looks.
+  // Finds the sheets that rays of the pixels [low, high) of a tile may meet. All rays go where the
+  // source looks.
   void find(const HostStructure& structure, const abi::ViewParams& view, glm::vec2 low_px,
             glm::vec2 high_px);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a build takes its planes from and keeps its columns in, and what means of colour are made by
-// way of. Nobody reads it afterwards, so structures that are built one after the other share it.
+// Planes that a build reads, its columns, and the memory in which means of colour are made. Nobody
+// reads it afterwards, so structures that are built one after the other share it.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace viewloom {
 
-// Of one part of a frame. The device must outlive it. Thread-safety: none; who shares it sees that
-// the device is done with one build before the planes of the next are written.
+// Build memory for one part of a frame. The device must outlive it. Thread-safety: none. Its users
+// make sure that the device is done with one build before they write the planes of the next.
 class BuildMemory {
  public:
   // Throws when the device cannot hold it (isOutOfDeviceMemory).
@@ -23,8 +23,8 @@ class BuildMemory {
   const Buffer& staging() const { return staging_; }
   const TexelView& stagingTexels() const { return staging_texels_; }
   const LayeredBuffer& invZ() const { return inv_z_; }  // float, abi::invZIndex
-  // What means along the rows are made from; allocated when it is first asked for. Whoever writes
-  // it waits for what was submitted before.
+  // Intermediate means along the rows, allocated at the first call. A writer waits for earlier
+  // submissions.
   const LayeredBuffer& meansAlongY();
 
  private:
@@ -38,7 +38,7 @@ class BuildMemory {
 
 using BuildMemoryPtr = std::shared_ptr<BuildMemory>;
 
-// Of all parts of a frame, in their order.
+// Memory of all parts of a frame, in their order.
 using FrameBuildMemory = std::vector<BuildMemoryPtr>;
 
 FrameBuildMemory makeBuildMemory(const Device& device, const std::vector<FrameShape>& shapes);

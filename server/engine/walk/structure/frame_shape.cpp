@@ -23,14 +23,14 @@ bool isPlainColor(const PlaneFormat& color, PlaneEncoding decoded_encoding) {
          color.primaries == ColorPrimaries::kBt709 && color.alpha == AlphaMode::kOpaque;
 }
 
-// Of a plane, or of its part that is a face, which then has an apron around it.
+// Size of the structure of a plane, or of a face with its apron.
 SizePx structureSize(SizePx plane_px, const SourcePart& part) {
   if (!part.face) return plane_px;
   const SizePx face_px = cubeFaceSize(plane_px);
   return {face_px.width + 2 * abi::kCubeApron_px, face_px.height + 2 * abi::kCubeApron_px};
 }
 
-// Of a layer.
+// Bytes of the means of a layer.
 uint64_t meanBytes(const FrameShape& shape) {
   return shape.depth_px.area() * sizeof(uint32_t);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a frame's source decides the size of its GPU resources: those of one shape share slots.
+// Properties of a frame's source that decide the size of its GPU resources: frames of one shape
+// share slots.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@ enum class ColorStorage : uint8_t {
   kRgba16fLinear  // linear BT.709, premultiplied, 8 bytes a px: everything else
 };
 
-// What one structure is made of: a source, or a face of one that is a cube map.
+// The content of one structure: a source, or a face of a cube map.
 struct SourcePart {
   size_t source = 0;
   std::optional<uint32_t> face = std::nullopt;
@@ -27,10 +28,10 @@ struct SourcePart {
 // All of a frame, in the order of its sources.
 std::vector<SourcePart> partsOf(const FrameFormat& format);
 
-// Of all layers; the means of a reach, and what they are made by way of, take 8 bytes each.
+// Limit over all layers; each sample takes 8 bytes for the means of a reach and 8 for making them.
 inline constexpr uint64_t kAveragedSamplesMax = uint64_t{1} << 24;
 
-// Of one part. Sizes are those of its structure: of a face with its apron.
+// Shape of one part. Sizes are those of its structure: for a face, with its apron.
 struct FrameShape {
   SizePx depth_px;
   std::vector<SizePx> color_px;  // [layer]
@@ -59,7 +60,7 @@ struct FrameShape {
 };
 
 FrameShape shapeOf(const Frame& frame, const SourcePart& part = {});
-// Of all parts of a frame.
+// Shapes of all parts of a frame.
 std::vector<FrameShape> shapesOf(const Frame& frame);
 
 // Memory that a structure of this shape takes at most, bytes, and that builds take beside it, which

@@ -29,18 +29,18 @@ class FrameStructure {
   // From uploaded planes to structures that can be traced.
   void recordBuild(Commands commands, const StructureBuilder& builder) const;
 
-  // Of each part of the frame.
+  // Slots of the parts of the frame.
   std::span<const StructureSlot* const> parts() const { return parts_; }
   const StructureSlot& firstPart() const { return *parts_.front(); }
 
-  // Of each source, once the build's submission is done. Of a cube map: what is counted, of all
-  // faces; the range of all; the rest of the front one.
+  // Statistics of each source, valid after the build's submission is done. For a cube map, counts
+  // are sums over the faces, ranges cover all faces, and the rest is that of the front face.
   std::vector<SourceStats> stats() const;
-  // Of the first source, then; of a cube map, of its front face.
+  // Depths of the first source, valid then; for a cube map, of its front face.
   DepthSpread depthSpread() const;
 
  private:
-  // What a source is built of.
+  // Parts of which a source is built.
   struct BuiltSource {
     std::span<const StructureSlot* const> parts;
     Buffer face_list;  // of a cube map: abi::CubeFaceList

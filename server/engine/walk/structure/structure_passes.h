@@ -39,7 +39,7 @@ struct PrepareVariant {
   auto operator<=>(const PrepareVariant&) const = default;
 };
 
-// Of cube maps: for any layers, reached by address.
+// Passes for the aprons of cube maps: for any layers, reached by address.
 struct ApronPasses {
   ComputePass fill_apron;
   ComputePass color_apron;

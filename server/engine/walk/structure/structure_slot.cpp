@@ -31,7 +31,7 @@ void copyWithinApron(std::span<const uint8_t> faces, uint32_t face, SizePx with_
   }
 }
 
-// What lies there is like the nearest px of the face.
+// Gives the apron the texels of the nearest pixels of the face.
 void fillApronFromWithin(SizePx with_apron_px, abi::SurfaceTexel* texels) {
   const uint32_t last_px = with_apron_px.width - abi::kCubeApron_px - 1;
   const auto within = [&](uint32_t place) {

@@ -34,12 +34,12 @@ class StructureSlot {
 
   const FrameShape& shape() const { return shape_; }
   const StructureLayout& layout() const { return layout_; }
-  // Of the uploaded part.
+  // Camera of the uploaded part.
   const Camera& sourceCamera() const { return source_camera_; }
   // Once the build's submission is done.
   abi::MeasuredHead measuredHead() const;
   SourceStats stats() const;
-  // Of its first layer, as percentiles in stats are.
+  // Depths of its first layer, in percentiles like those of stats.
   DepthSpread depthSpread() const;
 
   // Kernels reach what is read as texels, or what is written, by address: it is larger than
@@ -67,7 +67,7 @@ class StructureSlot {
   // The upload as words; as good as none where kernels read by address.
   Descriptor stagingDescriptor() const;
 
-  // What the build's passes are told of the uploaded frame.
+  // Parameters of the build's passes for the uploaded frame.
   const abi::DepthPlanes& depthPlanes() const { return depth_planes_; }
   const std::vector<abi::ConvertColorPush>& conversions() const { return conversions_; }
   const abi::BuildPush& buildPush() const { return build_; }

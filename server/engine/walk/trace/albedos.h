@@ -14,7 +14,8 @@ namespace viewloom {
 
 using AlbedoTable = std::array<uint32_t, size_t{abi::kAlbedoSteps} * abi::kAlbedoSteps>;
 
-// As abi::kAlbedoSteps says. Made once. Thread-safety: may be called from any thread.
+// The table that abi::kAlbedoSteps describes, made once. Thread-safety: may be called from any
+// thread.
 const AlbedoTable& albedoTable();
 
 // The table on a device, which must outlive it. Thread-safety: may be called from any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes over a band tell their kernels, in the form in which they take it.
+// Parameters of the passes over a band, in the form in which kernels take them.
 #pragma once
 
 #include "gpu/commands.h"
@@ -28,7 +28,7 @@ inline uint32_t groupCount(uint32_t invocation_count) {
   return (invocation_count + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize;
 }
 
-// Of abi::IncompleteHead: nothing is on it, whatever used it before.
+// Empties the list of abi::IncompleteHead, whatever used it before.
 inline void recordEmptyList(Commands commands, const Buffer& list) {
   recordComputeToTransfer(commands);
   const abi::IncompleteHead empty{.group_count = {0, 1, 1}, .count = 0};

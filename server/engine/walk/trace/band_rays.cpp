@@ -10,8 +10,8 @@
 namespace viewloom {
 namespace {
 
-// Of a lens that the host gathers. What a middle ray is taken to see that ends behind something
-// would be as sharp as without a lens: there the rays of the first stage are walked.
+// Middle rays for a lens that the host gathers. The answer for one that ends behind something would
+// be as sharp as without a lens, so those pixels walk the rays of the first stage.
 std::vector<BandRays> middleRays(const TraceJob& job, uint32_t wanted) {
   return {{.wanted = wanted, .lists_hidden = true},
           {.wanted = wanted & abi::kWantLinear, .count_of_hidden = job.layout->lens->walked_count}};
@@ -25,7 +25,7 @@ bool gathersOnDevice(const TraceJob& job, const StructureSlot& structure) {
 
 std::vector<BandRays> raysOfPart(const TraceJob& job, const StructureSlot& first_structure,
                                  const TraceOutputs& outputs, const BandPart& part) {
-  // What else is wanted than colour is that of the ray through the middle of px and lens.
+  // Outputs other than colour belong to the ray through the middle of pixel and lens.
   const uint32_t wanted = wantedFlags(outputs);
   if (job.gathers_on_host) return middleRays(job, wanted);
   const bool gathers = gathersOnDevice(job, first_structure);

@@ -18,7 +18,7 @@ constexpr DescriptorSlot kBlendSlots[] = {{abi::kBindingSample, DescriptorKind::
 // Groups a row of the dispatch: bands have more px than a row may have groups.
 constexpr uint32_t kGroupsPerRow = 1024;
 
-// Of one channel.
+// Weight of one channel.
 float weightOf(const std::vector<RaySample>& samples, uint32_t index, uint8_t channel) {
   if ((samples[index].channels & channel) == 0) return 0;
   const auto counts = [&](const RaySample& sample) { return (sample.channels & channel) != 0; };

@@ -11,7 +11,7 @@
 
 namespace viewloom {
 
-// What is blended where: `sample` is read, `band` written by the last of sample_count.
+// Targets of a blend: `sample` is read, `band` is written by the last of sample_count.
 struct BlendTarget {
   const Buffer& sample;         // R, G, B, ignored, uint32_t per px
   const Buffer& sums;           // linear light, float[3] per px

@@ -12,7 +12,7 @@ constexpr uint32_t blocksIn(uint32_t length_px) {
   return (length_px + abi::kMetBlockSide_px - 1) / abi::kMetBlockSide_px;
 }
 
-// Of a row of the tiles, which begin below the padding.
+// Row of blocks for a row of the tiles, which begin below the padding.
 uint32_t blockRowOf(const AtlasLayout& layout, uint32_t row) {
   const uint32_t height_px = layout.tile_size_px.height;
   return row / height_px * blocksIn(height_px) + row % height_px / abi::kMetBlockSide_px;

@@ -17,7 +17,8 @@ struct MetBlocks {
 MetBlocks metBlocks(const AtlasLayout& layout, BandRows rows);
 // Bytes of the lists of a band with so many rows, wherever it begins.
 uint64_t metListsBytes(const AtlasLayout& layout, uint32_t row_count_max);
-// What may be listed as incomplete: blocks where the device gathers a lens, px where the host does.
+// Upper bound of the list of incomplete places: blocks where the device gathers a lens, pixels
+// where the host does.
 uint64_t incompleteCount(const TraceJob& job, uint32_t row_count_max);
 
 // The walked rays of each px come in rounds [first, end), after each of which blocks are looked at:
@@ -27,7 +28,7 @@ struct MetRound {
   uint32_t first = 0;
   uint32_t end = 0;
 };
-// That of a sample, of so many.
+// The round that a sample belongs to, of so many samples.
 MetRound metRound(uint32_t sample, uint32_t sample_count);
 
 }  // namespace viewloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes to the px of a band by way of surfaces of one source that mirror.
+// Adds reflected light to the pixels of a band, for surfaces of one source.
 #pragma once
 
 #include <compare>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every kernel binds that sends rays on from the surfaces of a structure.
+// Bindings of every kernel that sends rays on from the surfaces of a structure.
 #pragma once
 
 #include <initializer_list>
@@ -17,8 +17,8 @@ namespace viewloom {
 // Slots of such a kernel, with its own ones behind them.
 std::vector<DescriptorSlot> mirrorSlots(std::initializer_list<DescriptorSlot> own_slots);
 
-// What stands in those slots: the structure with its own colour, its surfaces where it mirrors, the
-// albedos; and `params`, of the walk: its tiles, its extras with the records,
+// Descriptors for those slots: the structure with its own colour, its surfaces where it mirrors,
+// the albedos. `params` are of the walk: its tiles, its extras with the records,
 // abi::ReflectionSettings, and the points of the lens.
 std::vector<Descriptor> mirrorDescriptors(const StructureSlot& structure,
                                           std::span<const Descriptor> params, Albedos& albedos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reflected rays meet in several sources: each of their walks sends rays on from its own
-// surfaces, and answers to all.
+// Reflections in several sources: each walk sends rays on from its own surfaces, and all sources
+// answer them.
 #pragma once
 
 #include <compare>

@@ -13,7 +13,7 @@ namespace viewloom {
 // No run has fewer, but for the last of a row of a tile.
 inline constexpr uint32_t kRunPixelsMin = 8;
 
-// Of one view, neighbours in a row. Views see about what the source sees.
+// Length of a run of neighbours in a row of one view. Views see about as much as the source.
 uint32_t pixelsOfRun(const DeviceInfo& device, const StructureSlot& structure,
                      const AtlasLayout& layout);
 // Whether neighbouring invocations are of neighbouring views.

@@ -12,7 +12,7 @@
 namespace viewloom {
 namespace {
 
-// Of a face in ReflectionSettings::recorded_as.
+// Position of a face in ReflectionSettings::recorded_as.
 constexpr uint32_t kFaceShift = abi::kRecordFaceShift - abi::kRecordSourceShift;
 
 float linearFromCode(uint32_t code) {

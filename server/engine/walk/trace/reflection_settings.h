@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of reflections are told of a display and of the structure they work on.
+// Parameters of the kernels of reflections for a display and a structure.
 #pragma once
 
 #include "frame/camera.h"
@@ -12,7 +12,8 @@ namespace viewloom {
 // Linear light.
 abi::vec3 environmentOf(const ReflectionSpec& spec);
 
-// Of a walk of a job that reflects. `first_walk`: in whose camera rays are told.
+// Settings for a walk of a job that reflects. `first_walk`: the walk whose camera rays are given
+// in.
 abi::ReflectionSettings reflectionSettings(const StructureSlot& structure, const TraceJob& job,
                                            uint32_t walk, uint32_t first_walk);
 

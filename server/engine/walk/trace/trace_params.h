@@ -17,7 +17,7 @@
 
 namespace viewloom {
 
-// What descriptors of any device may begin at.
+// Alignment that suffices for descriptors of any device.
 inline constexpr uint64_t kDescriptorAlignment_bytes = 256;
 
 // Addresses of what rays write beside colour; 0 = not wanted.

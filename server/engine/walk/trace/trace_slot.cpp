@@ -57,7 +57,8 @@ bool hasUnusedPixels(const TraceJob& job) {
          layout.views.size() < size_t{layout.columns} * layout.rows;
 }
 
-// What no view covers is black; every plane is cleared, so that no byte of an older band is left.
+// Pixels outside all views are black. Every plane is cleared, so that no byte of an older band is
+// left.
 void recordClear(Commands commands, const ReadablePlane& plane, uint32_t value) {
   if (!plane.isEmpty()) commands.fill(plane.target(), value);
 }

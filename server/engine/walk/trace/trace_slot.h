@@ -19,11 +19,11 @@
 
 namespace viewloom {
 
-// Of rays by class, in sets (shaders/shared/trace_abi.h).
+// Counters of rays by class, in sets (shaders/shared/trace_abi.h).
 inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCounterStride;
 
-// What the answers of several walks take at most, unless a single row takes more: they are
-// merged before the next rows are traced.
+// Memory limit for the answers of several walks, which are merged before the next rows are traced.
+// A single row may take more.
 inline constexpr uint64_t kAnswersBytesMax = uint64_t{32} << 20;
 
 // How the answers of several walks to a piece of a band lie in memory, walk after walk.
@@ -86,12 +86,12 @@ class TraceSlot {
   const Buffer& unfinished() const { return unfinished_; }
   const Buffer& paths() const { return paths_; }
   const Buffer& reflected() const { return reflected_; }
-  // Of a walk, as the next submission sees it.
+  // Settings of a walk for the next submission.
   Descriptor writeReflectionSettings(uint32_t walk, const abi::ReflectionSettings& settings) const;
 
  private:
   bool isRgba() const { return shape_.outputs.color == ColorForm::kRgba; }
-  // Of abi::RayRecord per px; 0 = not wanted.
+  // Address of abi::RayRecord per pixel; 0 = not wanted.
   uint64_t recordsAddress() const;
   TracedPlanes planes() const;
   void addReflections(const Device& device, uint64_t area_px);

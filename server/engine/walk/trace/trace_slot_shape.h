@@ -28,7 +28,7 @@ struct TraceSlotShape {
   void include(const TraceSlotShape& other);
 };
 
-// That of bands of a job, of so many rows at most.
+// Shape for bands of a job with so many rows at most.
 TraceSlotShape slotShape(const TraceJob& job, uint32_t row_count_max, const TraceOutputs& outputs);
 
 }  // namespace viewloom

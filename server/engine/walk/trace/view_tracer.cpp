@@ -116,7 +116,7 @@ void ViewTracer::recordAfter(Commands commands, const StructureSlot& structure, 
   }
 }
 
-// Of rows whose px are known. The last of them adds all to the px.
+// Records reflections for rows whose pixels are known. The last one adds all light to the pixels.
 void ViewTracer::recordReflections(Commands commands,
                                    std::span<const StructureSlot* const> structures,
                                    const TraceJob& job, BandRows rows, const BandPart& part,

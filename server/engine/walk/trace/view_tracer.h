@@ -56,7 +56,7 @@ class ViewTracer {
  private:
   void recordRays(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, const BandRays& rays, const TraceSlot& slot);
-  // What has to follow those rays.
+  // Records the work that has to follow those rays.
   void recordAfter(Commands commands, const StructureSlot& structure, const TraceJob& job,
                    BandRows rows, const BandRays& rays, const TraceSlot& slot);
   void recordReflections(Commands commands, std::span<const StructureSlot* const> structures,

@@ -87,7 +87,7 @@ WalkPass::Variant WalkPass::variantOf(const Walk& walk) const {
   const bool is_one_of_several = walk.job.walk_count > 1;
   const bool eyes_in_plane = eyesAreInPlane(
       rays.tiles, is_one_of_several ? std::max(inv_z_max, kInvZOfOthers) : inv_z_max);
-  // Of rays between others, plain as well if they are linear in their eye, all at one depth.
+  // Merged rays are plain too, if they are linear in their eye and all at one depth.
   const bool rays_are_plain =
       (eyes_in_plane || !rays.are_bounds) && raysArePlain(rays.tiles, rays.tile_px, inv_z_max);
   return {.reads_by_address = structure.readsByAddress(),
