@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Of the published frames: small, for machines without a GPU.
+# Size of the published frames: small, for machines without a GPU.
 size="${VIEWLOOM_DEMO_SIZE:-480x270}"
 rate_hz="${VIEWLOOM_DEMO_RATE:-15}"
 log_folder=build/demo

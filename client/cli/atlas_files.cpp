@@ -115,8 +115,8 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, con
   }
   const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
   if (!picture.ok()) return picture.status();
-  // What neighbouring subpixels of a panel show to different eyes no usual JPEG keeps apart.
-  // Panels are the displays with a cone whose picture is one view, not a quilt.
+  // No usual JPEG keeps neighbouring subpixels of a panel apart, which different eyes see. Panels
+  // are the displays with a cone whose picture is one view, not a quilt.
   const bool is_panel = atlas.layout->view_cone_rad() > 0 && atlas.layout->suffix().empty();
   if (!options.writes_views)
     return writePicture(*picture, options.writes_png || is_panel, whole, save);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subcommands of `viewloom` have in common.
+// Interface that the subcommands of `viewloom` share.
 #pragma once
 
 #include <functional>

@@ -287,7 +287,7 @@ absl::StatusOr<v1::AtlasEncoding> makeEncoding(const DisplayOptions& options) {
     if (options.has_mask) encoding.set_with_mask(true);
     return encoding;
   }
-  // What is left open the server chooses by the display.
+  // The server chooses values left open, by the display.
   if (options.is_lossless) encoding.set_color(v1::BAND_ENCODING_ZSTD);
   if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);
   encoding.set_jpeg_quality(options.jpeg_quality);

@@ -38,9 +38,9 @@ struct DisplayOptions {
   bool has_mask = false;
 };
 
-// What says where its views stand and what they frame, but for their field of view.
+// Options for the places and frames of its views, without their field of view.
 usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options);
-// That, and the rest of what is asked of a server.
+// Those options, and the rest of a request to a server.
 void addDisplayOptions(const usage::Command& app, DisplayOptions& options);
 void addMaskOption(const usage::Command& app, DisplayOptions& options);
 

@@ -18,7 +18,7 @@ class EyeTimes {
     last_[newest_] = {.time_ns = time_ns, .here_ns = here_ns};
   }
 
-  // Of the newest poses with that time. None for those that never came, or long ago.
+  // Arrival of the newest poses with that time. None if they never came, or came long ago.
   std::optional<int64_t> hereNs(int64_t time_ns) const {
     std::lock_guard lock(mutex_);
     for (size_t age = 0; age < last_.size(); ++age) {

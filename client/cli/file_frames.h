@@ -27,11 +27,11 @@ struct FileFeedOptions {
 // Options that say what files are, given where there are none or where files say all themselves:
 // INVALID_ARGUMENT with the first of them. `what`: "--synthetic".
 absl::Status refuseFileOptions(const FileFeedOptions& options, const std::string& what);
-// What goes with deep files, and what does not.
+// Checks which options may be used with deep files.
 absl::Status validateDeep(const FileFeedOptions& options);
 // The lists checked against each other, frame by frame: of video files, as many as they hold.
 absl::StatusOr<std::vector<FrameFiles>> framesOf(const FileFeedOptions& options);
-// What splitting a deep file cost, in a line.
+// Cost of splitting a deep file, in a line.
 std::string noteOf(const files::DeepReport& deep);
 
 // Files are read as their frames come due.

@@ -55,7 +55,7 @@ PairKey pairKey(const std::string& file_name) {
   return found;
 }
 
-// What a kind of input says of depth files makes photos one half of a pair.
+// Photos are one half of a pair if the kind of input has depth files.
 absl::StatusOr<bool> FilePairs::isWholePhoto(const std::string& file) const {
   if (settings_.kind != InputKind::kAuto && settings_.kind != InputKind::kIphone) return false;
   const auto photo = photos::Photo::open(file);

@@ -24,9 +24,9 @@ class FrameFeed {
   virtual std::optional<double> nextDue_s() { return std::nullopt; }
   // Whether there will be none any more, once there was none.
   virtual bool hasEnded() const { return true; }
-  // What is being published, for the status: "synthetic 960x540, 2 layers".
+  // Name of the published content, for the status: "synthetic 960x540, 2 layers".
   virtual std::string description() const = 0;
-  // What there is to say about the frames since the last call, a line each.
+  // Notes about the frames since the last call, a line each.
   virtual std::vector<std::string> takeNotes() { return {}; }
   // The same, waiting for what is still being looked at: for the end.
   virtual std::vector<std::string> takeLastNotes() { return takeNotes(); }

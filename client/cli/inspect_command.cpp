@@ -43,7 +43,7 @@ void sortFiles(FileFeedOptions& options) {
     bool is_deep = false;
     if (files::isExr(file)) {
       const absl::StatusOr<files::ExrDescription> description = files::describeExr(file);
-      // What cannot be read is told when its turn comes.
+      // A file that cannot be read is reported when its turn comes.
       is_deep = description.ok() && description->isDeep();
     }
     (is_deep ? options.deeps : options.colors).push_back(std::move(file));

@@ -14,7 +14,7 @@ namespace viewloom::cli {
 namespace {
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-// Of all surfaces, those of the sky are the farthest.
+// Farthest share of all surfaces: the sky is not among the others.
 constexpr double kFarShare = 0.02;
 
 absl::StatusOr<Camera> cameraOf(const v1::Camera& proto, SizePx size_px) {

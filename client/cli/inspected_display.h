@@ -13,7 +13,7 @@
 
 namespace viewloom::cli {
 
-// Of the first source of a frame, between the 2nd and the 98th percentile of its first layer.
+// Needs of the first source of a frame, between the 2nd and the 98th percentile of its first layer.
 struct DisplayNeed {
   std::vector<ViewsOutside> outside;
   Fov wanted_fov;  // of a source in the same place that all views stay within

@@ -24,7 +24,7 @@ std::string partText(const std::string& exr_type) {
   return prefix + (exr_type.starts_with("tile") || exr_type == "deeptile" ? "tiles" : "scan lines");
 }
 
-// Of an image around the axis.
+// Angle that an image around the axis covers.
 double fovDegrees(double focal_px, uint32_t side_px) {
   return 2 * std::atan(0.5 * side_px / focal_px) * 180 / std::numbers::pi;
 }

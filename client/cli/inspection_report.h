@@ -23,7 +23,7 @@ struct InspectedFile {
   std::optional<DisplayNeed> need;  // of a display, where one was named
 };
 
-// What there is to say about the file itself, before its planes are read.
+// Description of the file itself, before its planes are read.
 absl::StatusOr<std::string> describeFormat(const std::string& file);
 
 // "kind: what was seen; the remedy".

@@ -64,7 +64,7 @@ double scaleOf(const v1::DepthFormat& format) {
   return format.scale() == 0 ? 1 : format.scale();
 }
 
-// As "metres along the view axis = sample x 0.001 + 0; 0 is no surface".
+// For example "metres along the view axis = sample x 0.001 + 0; 0 is no surface".
 std::string depthText(const v1::Plane& plane) {
   const v1::DepthFormat& format = plane.depth();
   std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What planes are, for people and for machines.
+// Descriptions of planes, for people and for machines.
 #pragma once
 
 #include <string>

@@ -106,7 +106,7 @@ class RecordRun {
     return failure_.ok() && recorder_->isWithinAtlas();
   }
 
-  // What has begun is worth waiting for; then the call is broken off.
+  // An atlas that has begun is worth waiting for; then the call is broken off.
   void finishAtlas() {
     const int64_t begun_ns = clock_.nowNs();
     const auto isOver = [&] {
@@ -133,7 +133,7 @@ class RecordRun {
     const bool is_stopped = ended.code() == absl::StatusCode::kCancelled;
     absl::Status failed = failure();
     if (failed.ok() && !ended.ok() && !is_stopped) failed = ended;
-    // What came before something went wrong is kept.
+    // Atlases that came before an error are kept.
     const absl::Status completed = recorder_->complete();
     if (completed.ok()) {
       const uint64_t count = recorder_->atlasCount();

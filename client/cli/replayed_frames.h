@@ -30,7 +30,7 @@ class ReplayedFrames final : public FrameFeed {
   absl::StatusOr<std::optional<WireFrame>> next(double elapsed_s) override;
   std::optional<double> nextDue_s() override;
   std::string description() const override;
-  // That a recording is cut short, once its end has been met.
+  // Says that a recording is cut short, once its end has been met.
   std::vector<std::string> takeNotes() override;
   bool isLive() const override { return false; }
 
@@ -40,7 +40,7 @@ class ReplayedFrames final : public FrameFeed {
 
   void readAhead();
   void startAgain();
-  // Of what was recorded so long after the first frame: since that was played.
+  // Playing time of a record, so long after the first frame.
   double playedAt_ns(double recorded_ns) const;
   int64_t captureTime(const RecordedFrame& frame);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `viewloom publish` does with frames that have gone: says how their depth went, and keeps
-// them in a recording.
+// Follow-up of frames that `viewloom publish` has sent: reports on their depth, and a recording of
+// them.
 #pragma once
 
 #include <memory>

@@ -64,7 +64,7 @@ absl::Status checkEyes(show::ShowMode mode, const v1::Display& display) {
       "\"tracked\": true");
 }
 
-// What a calibration says about the quilt to ask for, where the user has not.
+// The quilt that a calibration suggests, if the user names none.
 absl::StatusOr<v1::Display> displayOf(DisplayOptions options,
                                       const std::optional<Calibration>& calibration) {
   const bool is_said = !options.file.empty() || !options.preset.empty() || options.columns > 0;
@@ -80,7 +80,7 @@ absl::StatusOr<v1::Display> displayOf(DisplayOptions options,
   return display;
 }
 
-// What suits no calibrated panel: both eyes of a pair of them, or one view of many.
+// Mode for displays without a calibrated panel: both eyes of a pair, or one view of many.
 show::ShowMode plainMode(const v1::Display& display) {
   return display.has_stereo() ? show::ShowMode::kPair : show::ShowMode::kView;
 }

@@ -6,7 +6,7 @@
 
 namespace viewloom::deep {
 
-// As a file has it: matter between two depths, or at one.
+// Sample as in the file: matter between two depths, or at one.
 struct DeepSample {
   float z_m = 0;
   float z_back_m = 0;  // a point sample has no more than z_m

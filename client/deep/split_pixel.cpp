@@ -119,8 +119,8 @@ Partition partitionPoints(std::span<const DeepPoint> points, uint32_t group_coun
 
 namespace {
 
-// Of 1/Z: a twentieth of the step that the server takes for one surface, and far more than a step
-// of binary16 depth at which it would take two layers for the same.
+// Share of 1/Z: a twentieth of the step that the server takes for one surface. It is far more than
+// a step of binary16 depth, at which the server would take two layers for the same.
 constexpr double kCloseShare = 1.0 / 1024;
 
 }  // namespace

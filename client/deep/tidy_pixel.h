@@ -30,7 +30,7 @@ class PixelTidier {
   uint64_t droppedCount() const { return dropped_count_; }
 
  private:
-  // What lies at one depth, or per metre of depth. Coinciding matter adds up in these numbers.
+  // Matter at one depth, or per metre of depth. Coinciding matter adds up in these numbers.
   struct Matter {
     double optical_depth = 0;    // -ln(1 - alpha) of what is not opaque
     glm::dvec3 emission{0};      // colour * optical_depth / alpha

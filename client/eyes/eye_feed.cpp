@@ -172,7 +172,7 @@ absl::StatusOr<std::optional<std::string>> EyeFeed::nextLine(const std::stop_tok
 
 void EyeFeed::waitUntilDue(int64_t time_ns, const std::stop_token& stop) {
   if (!first_) first_ = {.file_ns = time_ns, .here_ns = nowNs()};
-  // As floating point: any whole number may stand in a file.
+  // Floating point, because a file may hold any whole number.
   const double due_s = (double(time_ns) - double(first_->file_ns)) * 1e-9;
   const double passed_s = double(nowNs() - first_->here_ns) * 1e-9;
   const double pause_s = std::min(due_s - passed_s, kPauseMax_s);

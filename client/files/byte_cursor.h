@@ -9,8 +9,8 @@
 
 namespace viewloom::files {
 
-// What is not there is 0 or empty, and hasFailed() from then on: who reads asks once, before it
-// believes anything.
+// Reads beyond the end give 0 or empty, and hasFailed() is true from then on: a caller asks once,
+// before it believes anything.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const uint8_t> bytes, size_t offset = 0)

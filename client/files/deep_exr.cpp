@@ -144,7 +144,7 @@ absl::Status DeepExr::readChunk(const Chunk& chunk,
   if (sample_count_ > kDeepSamplesMax) {
     return refuse(chunk, strCat("is beyond ", kDeepSamplesMax, " samples in view"));
   }
-  // What compression would not make smaller is stored as it is.
+  // Data that compression would not make smaller is stored uncompressed.
   const bool is_stored = packed_size == unpacked_size;
   const std::string problem = unpackExr(is_stored ? ExrCompression::kNone : compression(), packed,
                                         unpacked_size, unpacked_);
@@ -195,7 +195,7 @@ absl::Status DeepExr::readCounts(const Chunk& chunk, std::span<const uint8_t> pa
 void DeepExr::visitRows(const Chunk& chunk, const std::function<void(const DeepRow&)>& visit) {
   const ExrWindow& data = header_.part.data;
   const ExrWindow& display = header_.part.display;
-  // Of the chunk's columns.
+  // Columns of the chunk.
   const int64_t begin = std::max(int64_t{0}, int64_t{display.min_x} - data.min_x - chunk.x);
   const int64_t end =
       std::min(int64_t{chunk.width_px}, int64_t{display.max_x} + 1 - data.min_x - chunk.x);

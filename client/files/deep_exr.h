@@ -20,7 +20,7 @@ namespace viewloom::files {
 // Limits, each checked before memory is taken. Windows are within kSideMax_px (the display's) and
 // kExrDataSideMax_px.
 inline constexpr uint64_t kDeepFileBytesMax = uint64_t{1} << 32;
-// Of what is in view:
+// Limits for the visible part:
 inline constexpr uint64_t kDeepChunkPixelsMax = uint64_t{1} << 26;  // in a tile or row
 inline constexpr uint64_t kDeepChunkBytesMax = uint64_t{1} << 28;   // its samples, unpacked
 inline constexpr uint64_t kDeepSamplesMax = uint64_t{1} << 29;      // in the file
@@ -87,7 +87,7 @@ class DeepExr {
   Channel channels_[kWantedCount];
   uint32_t sample_bytes_ = 0;  // of all channels of the file
   uint64_t sample_count_ = 0;  // so far
-  // Of one chunk, kept for the next.
+  // Sizes of one chunk, kept for the next.
   std::vector<uint8_t> table_;
   std::vector<uint32_t> counts_;
   std::vector<uint8_t> unpacked_;

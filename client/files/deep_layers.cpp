@@ -22,7 +22,7 @@ namespace {
 
 constexpr size_t kColorBytes = 8;  // a px
 constexpr size_t kDepthBytes = 4;
-// Of all planes together; as much as the server takes of a frame.
+// Bytes of all planes together: the server's limit for a frame.
 constexpr uint64_t kLayersBytesMax = uint64_t{3} << 29;
 // Half a step of binary16 below 1: less cannot be told from an opaque px.
 constexpr double kOpaque = 1 - 1.0 / 4096;

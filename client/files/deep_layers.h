@@ -13,7 +13,7 @@
 
 namespace viewloom::files {
 
-// What splitting a deep file into layers cost. Shares and means are over the px with samples.
+// Cost of splitting a deep file into layers. Shares and means are over the pixels with samples.
 struct DeepReport {
   std::string file;
   uint32_t layer_count = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the header of an OpenEXR file says: its parts, their channels, and what is told of camera
-// and colour.
+// Contents of an OpenEXR file's header: its parts, their channels, camera and colour.
 #pragma once
 
 #include <OpenEXR/ImfChromaticities.h>
@@ -43,13 +42,13 @@ struct ExrDescribedPart {
 // Directions that the px of an environment map see; kNone = a picture of a pinhole.
 enum class ExrEnvmap { kNone, kLatLong, kCube };
 
-// As in the file, unchecked: 16 numbers in the order in which vectors are rows.
+// Matrix as in the file, unchecked: 16 numbers in the order in which vectors are rows.
 using ExrMatrix = std::array<double, 16>;
 
 struct ExrDescription {
   std::vector<ExrDescribedPart> parts;
   std::vector<std::string> views;
-  // Of the first part. Numbers and texts by the attribute's name, numbers as text.
+  // Attributes of the first part by name: texts, and numbers as text.
   std::map<std::string, std::string> texts;
   std::optional<ExrMatrix> world_to_camera;
   std::optional<ExrMatrix> world_to_ndc;

@@ -98,7 +98,7 @@ class HeaderReader {
     }
   }
 
-  // What is known, of the type it must have; the rest is of no use here.
+  // Reads the known attributes, if they have the right type; others are of no use here.
   static void readAttribute(const std::string& name, const std::string& type, ByteCursor& content,
                             std::span<const uint8_t> value, ExrPart& part) {
     const auto is = [&](const char* a_name, const char* a_type) {

@@ -14,7 +14,8 @@
 
 namespace viewloom::files {
 
-// Of a data window: far beyond any display window, yet no count of chunks is out of reach.
+// Limit for the sides of a data window: far beyond any display window, while the number of chunks
+// stays bounded.
 inline constexpr int64_t kExrDataSideMax_px = 32768;
 // In the version field: headers of several parts follow each other.
 inline constexpr uint32_t kExrMultiPartFlag = 0x1000;
@@ -27,7 +28,7 @@ struct ExrWindow {
   int64_t height() const { return int64_t{max_y} - min_y + 1; }
 };
 
-// As numbered in files.
+// Numbers as in files.
 enum class ExrSampleType : uint32_t { kUint = 0, kHalf = 1, kFloat = 2 };
 enum class ExrCompression : uint8_t { kNone = 0, kRle = 1, kZips = 2 };
 
@@ -53,7 +54,7 @@ struct ExrPart {
   std::optional<std::array<float, 8>> chromaticities;
   uint64_t chunk_table_offset = 0;  // where in the file the offsets of its chunks begin
 
-  // Of the largest level.
+  // Chunk columns of the largest level.
   int64_t chunkColumns() const;
   int64_t chunkRows() const;
 };
@@ -65,9 +66,9 @@ struct DeepExrHeader {
   ExrPart part;
 };
 
-// What comes back is checked: both windows have an inside and are within the limits, the
-// compression is one of ExrCompression, tiles have a size (no tiles: one row a chunk), no channel
-// is subsampled, and the table of the largest level's chunks lies in the file.
+// The header is checked. Both windows have an inside and are within the limits; the compression is
+// one of ExrCompression. Tiles have a size (no tiles: one row a chunk), and no channel is
+// subsampled. The table of the largest level's chunks lies in the file.
 absl::StatusOr<DeepExrHeader> readDeepHeader(const std::string& path,
                                              std::span<const uint8_t> bytes);
 

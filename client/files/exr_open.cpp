@@ -18,7 +18,8 @@
 namespace viewloom::files {
 namespace {
 
-// Of a data window or a tile: far beyond any display window, yet no chunk table of gigabytes.
+// Limit for the sides of a data window or a tile: far beyond any display window, without a chunk
+// table of gigabytes.
 constexpr int kDataSideMax_px = 32768;
 // OpenEXR takes memory for an attribute before it reads it. Lists of names (cryptomatte) have some
 // hundred kilobytes, previews less.

@@ -19,8 +19,8 @@ absl::StatusOr<v1::TruthManifest> readTruthManifest(const std::filesystem::path&
 struct LoadedFrame {
   WireFrame wire;
   std::vector<DeepReport> deep;  // of the sources that are deep files, in their order
-  // Of the depth of each layer that is no deep file's, in the order of sources and layers: the
-  // largest code of whole numbers, 0 for floats.
+  // Largest code of whole numbers, 0 for floats: for the depth of each layer that is no deep
+  // file's, in the order of sources and layers.
   std::vector<uint32_t> code_max;
 };
 

@@ -33,8 +33,8 @@ constexpr std::array<Known, 4> kKnown{
       {{{0.6097, 0.3111, 0.0195}, {0.2053, 0.6257, 0.0609}, {0.1492, 0.0632, 0.7446}}},
       {0.640F, 0.330F, 0.210F, 0.710F, 0.150F, 0.060F}}}};
 
-// Of X, Y or Z of white. Profiles differ by the digits of D65 and D50 that they were made with, up
-// to 0.001; the nearest two of the above differ by 0.02.
+// Tolerance for X, Y or Z of white. Profiles were made with different digits of D65 and D50, up to
+// 0.001 apart; the nearest two of the above differ by 0.02.
 constexpr double kSame = 0.002;
 
 constexpr size_t kHeaderBytes = 128;

@@ -9,7 +9,7 @@
 
 namespace viewloom::files {
 
-// What is absent is empty, 0 or false. Spans point into the bytes that were read.
+// Segments of a JPEG; absent ones are empty, 0 or false. Spans point into the bytes that were read.
 struct JpegSegments {
   uint8_t frame_marker = 0;  // 0xC0 is baseline; 0 without a frame header
   uint32_t scan_count = 0;

@@ -20,7 +20,7 @@ absl::StatusOr<Picture> decodePnm(const std::string& name, std::span<const uint8
 // header may have comments and any white space, CR LF included. `name` is for messages.
 absl::StatusOr<Picture> decodePfm(const std::string& name, std::span<const uint8_t> bytes);
 
-// As colorPlane and depthPlane make it.
+// Colour in the form of colorPlane and depthPlane.
 absl::StatusOr<PlaneImage> readPfmColor(const std::filesystem::path& path);
 absl::StatusOr<PlaneImage> readPfmDepth(const std::filesystem::path& path);
 

@@ -37,7 +37,7 @@ std::string valueOf(const std::string& header, const char* key, char last) {
   return "";
 }
 
-// As "<f4": byte order, kind, bytes.
+// Reads types such as "<f4": byte order, kind, bytes.
 std::optional<SampleType> typeOf(std::string text) {
   if (text.size() < 2 || (text.front() != '\'' && text.front() != '"')) return std::nullopt;
   text = text.substr(1, text.size() - 2);

@@ -30,7 +30,7 @@ struct Picture {
   float sampleAt(size_t index) const;
 };
 
-// What a picture is read for. Decoders keep samples of depth as they are.
+// Purpose of a picture. Decoders keep samples of depth unchanged.
 enum class PictureUse { kColor, kDepth };
 
 // `file` is for messages: a picture without two such halves is refused.

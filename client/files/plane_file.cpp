@@ -27,7 +27,7 @@ std::filesystem::path resolve(const v1::PlaneFile& file, const std::filesystem::
   return folder / file.file();
 }
 
-// What only some formats know must not be asked of others.
+// Refuses settings of formats that the file does not have.
 absl::Status refuseForeign(const v1::PlaneFile& file, Container container) {
   const bool is_exr = container == Container::kExr, is_yuv = container == Container::kYuv;
   if (!is_exr && !file.channels().empty()) {

@@ -70,7 +70,7 @@ class PngReader {
     return true;
   }
 
-  // What the chunks before the samples say of colour. Chunks behind the samples count for nothing.
+  // Colour coding by the chunks before the samples. Chunks behind the samples count for nothing.
   ColorCoding coding() {
     png_charp name = nullptr;
     png_bytep profile = nullptr;

@@ -21,7 +21,7 @@ absl::StatusOr<Picture> readPng(const std::filesystem::path& path, PictureUse us
 absl::StatusOr<Picture> decodePng(const std::string& name, std::span<const uint8_t> bytes,
                                   PictureUse use);
 
-// As colorPlane and depthPlane make it.
+// Colour in the form of colorPlane and depthPlane.
 absl::StatusOr<PlaneImage> readPngColor(const std::filesystem::path& path, bool linear_samples);
 absl::StatusOr<PlaneImage> readPngDepth(const std::filesystem::path& path, bool spread);
 

@@ -188,7 +188,7 @@ absl::StatusOr<Picture> readConverted(const std::string& name, const TiffStream&
                   .bytes = {}};
   picture.coding.is_premultiplied = true;
   std::vector<uint32_t> abgr(picture.pixelCount());
-  // As if it were upright: the tag is applied to all pictures alike.
+  // Reads it as if it were upright: the tag is applied to all pictures alike.
   if (TIFFReadRGBAImageOriented(tiff, header.width_px, header.height_px, abgr.data(),
                                 header.orientation, 1) == 0) {
     return refuseTiff(name, stream);

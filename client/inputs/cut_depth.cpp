@@ -24,7 +24,7 @@ absl::Status cutPlane(double farthest_m, const v1::Camera& camera, v1::Plane& pl
   if (!samples.ok()) return samples.status();
   std::vector<float> stored = inspect::storedNumbers(plane, *bytes);
   v1::DepthFormat& format = *plane.mutable_depth();
-  // What was the format's own number without a surface becomes the new one.
+  // The format's own number for "no surface" becomes the new one.
   for (size_t i = 0; i < stored.size(); ++i) {
     const bool is_far = samples->inv_z[i] >= 0 && samples->inv_z[i] * farthest_m < 1;
     if (is_far || samples->inv_z[i] < 0) {

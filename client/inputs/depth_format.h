@@ -7,10 +7,10 @@
 
 namespace viewloom::inputs {
 
-// What is given in the settings replaces what `format` has.
+// The format, with the values that the settings give.
 v1::DepthFormat withSettings(v1::DepthFormat format, const InputSettings& settings);
 
-// What samples lie between.
+// Bounds of samples.
 struct SampleRange {
   double black = 0;
   double white = 1;
@@ -21,11 +21,11 @@ struct NearAndFar {
   double near_m = 0;
   double far_m = 0;
 };
-// What is not given is chosen for a display. Depth of unknown scale is worth any distances: on
-// displays whose cone turns about the focal plane, their ratio alone is seen. 1/Z from 0.5 to 1.5
-// 1/m puts the focal plane, which lies at the mean, at 1 m. It keeps the disparity from view to
-// view of 48 views of 420 px over 35 degrees within the 5 px that fuse (server/display/
-// depth_budget.h): 420 px x tan(17.5) / tan(15.3) / 47 x 0.5 = 5.2 px, at the ends.
+// Fills in missing bounds for a display. Depth of unknown scale suits any distances: on displays
+// whose cone turns about the focal plane, only their ratio is visible. 1/Z from 0.5 to 1.5 1/m puts
+// the focal plane, which lies at the mean, at 1 m. It keeps the disparity between views of 48 views
+// of 420 px over 35 degrees within the 5 px that fuse (server/display/depth_budget.h): 420 px x
+// tan(17.5) / tan(15.3) / 47 x 0.5 = 5.2 px, at the ends.
 NearAndFar nearAndFar(const InputSettings& settings);
 // Whether nearAndFar chooses any.
 bool choosesDistances(const InputSettings& settings);

@@ -20,7 +20,7 @@ namespace {
 
 // How far axes of a rigid camera may be from unit length and right angles: binary32 and digits.
 constexpr double kRigid = 1e-3;
-// Of the larger side: where the axis meets the image, when 0, 0 is meant to be the middle.
+// Share of the larger side: an axis so close to 0, 0 is meant to be in the middle.
 constexpr double kMiddle = 0.05;
 
 // Vectors are rows in the file and columns in glm, and so are the 16 numbers.

@@ -137,7 +137,7 @@ absl::Status readHeaderCamera(const InputSettings& settings, const std::string& 
     setCameraSize(description, result);
     return absl::OkStatus();
   }
-  // What the user says of a plain file holds, whatever the header has.
+  // For a plain file, the user's words hold, whatever the header has.
   if (settings.kind == InputKind::kPlain) return absl::OkStatus();
   auto camera = exrCamera(file, description,
                           {.width_px = double(part.width_px),

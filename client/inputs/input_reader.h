@@ -32,7 +32,7 @@ class InputReader {
   void settleZeros(Interpretation& how, files::LoadedFrame& frame);
 
   InputSettings settings_;
-  // Of floats without a scale: those of the first frame, so that later ones do not pulse.
+  // Range of floats without a scale: that of the first frame, so that later ones do not pulse.
   std::optional<SampleRange> float_range_;
   // Whether 0 lies scattered over the first frame's inverse depth, and so is no surface.
   std::optional<bool> has_scattered_zeros_;

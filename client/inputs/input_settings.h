@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user says about input files: which tool wrote them, and what their samples mean where the
-// files do not say it themselves.
+// Settings of a user about input files: which tool wrote them, and what their samples mean if the
+// files do not say it.
 #pragma once
 
 #include <cstdint>
@@ -45,10 +45,10 @@ enum class Projection {
   kCube,      // OpenEXR's cube: six faces, one below the other
 };
 
-// As --input takes it: "blender".
+// Name that --input takes: "blender".
 std::string nameOf(InputKind kind);
 
-// What is not given comes from the kind of input.
+// Values left open come from the kind of input.
 struct InputSettings {
   InputKind kind = InputKind::kAuto;
 

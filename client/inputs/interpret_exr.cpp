@@ -19,7 +19,7 @@
 namespace viewloom::inputs {
 namespace {
 
-// What Blender writes where a ray hits nothing.
+// Blender writes this where a ray hits nothing.
 constexpr double kBlenderNothing = 1e10;
 constexpr double kMetresPerCentimetre = 0.01;
 

@@ -107,7 +107,7 @@ absl::Status readTmiv(const InputSettings& settings, const InputFiles& files,
   return absl::OkStatus();
 }
 
-// What packed samples of 0..1 stand for, where no kind of input says it.
+// Settles the meaning of packed samples of 0..1, if no kind of input defines it.
 absl::Status readPacking(const InputSettings& settings, Interpretation& result) {
   v1::DepthFormat& format = *result.source.mutable_layers(0)->mutable_depth()->mutable_depth();
   const v1::DepthPacking packing = settings.depth_packing;

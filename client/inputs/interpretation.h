@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What input files are, by their headers and by what the user says, before any pixel is read.
+// Interpretation of input files from their headers and the user's words, before any pixel is read.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace viewloom::inputs {
 
-// What is left to settle once the depth is there.
+// Range that is settled once the depth is there.
 enum class DepthRange {
   kStated,      // nothing: the format is complete
   kBetween,     // nothing: it is complete by the near and far of the settings

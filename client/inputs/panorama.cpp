@@ -248,7 +248,7 @@ void convertDepth(Projection projection, uint32_t side, v1::Plane& plane, Shared
                             plane.depth().meaning() == v1::DEPTH_MEANING_RAY_DISTANCE;
   std::vector<uint8_t> faces(sizeof(float) * kFaceCount * side * side);
   forEachDirection(side, [&](const glm::dvec3& direction, size_t index) {
-    // Of the ray, per metre along the face's axis.
+    // Length of the ray per metre along the face's axis.
     const double length = is_along_ray ? glm::length(direction) : 1;
     const float value = sampler.at(lookup.at(direction));
     const auto along_axis = float(is_disparity ? value * length : value / length);

@@ -118,7 +118,7 @@ absl::Status interpretPhoto(const InputSettings& settings, const InputFiles& fil
   if (!photo.ok()) return photo.status();
   const PhotoDescription& description = photo->description();
   readProfile(description, result);
-  // What the user says of a plain file holds, whatever it has.
+  // For a plain file, the user's words hold, whatever it has.
   if (settings.kind != InputKind::kPlain) readFocalLength(description, result);
   if (!files.depth.empty()) return absl::OkStatus();
   if (settings.kind != InputKind::kAuto && settings.kind != InputKind::kIphone) {

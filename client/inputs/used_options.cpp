@@ -11,7 +11,7 @@
 namespace viewloom::inputs {
 namespace {
 
-// What an interpretation can use.
+// Options that an interpretation can use.
 struct Uses {
   InputKind kind = InputKind::kPlain;
   bool is_between = false;  // depth lies between a nearest and a farthest distance

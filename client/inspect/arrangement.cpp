@@ -16,7 +16,7 @@ constexpr size_t kIslandCells = 8;       // smaller areas are none
 constexpr double kIslandsShare = 0.02;   // of the image, that far islands have at least
 constexpr double kIslandsDominance = 4;  // ... and so many times what near islands have
 
-// What planes are judged by: three cells in a row, so far apart.
+// Reach of the test for planes: three cells in a row, so far apart.
 constexpr uint32_t kBendReach = 4;
 constexpr float kBendSlope = 0.02F;   // of the depth, from the first to the last
 constexpr float kBendEvenness = 2;    // both halves rise alike: no edge lies between

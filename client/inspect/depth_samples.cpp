@@ -51,7 +51,7 @@ class SampleReader {
   }
 
  private:
-  // Of the ray through a px, per metre along the view axis.
+  // Length of the ray through a pixel, per metre along the view axis.
   float rayLength(uint32_t x, uint32_t y) const {
     const double right = (x + 0.5 - camera_.principal_x_px()) / camera_.focal_x_px();
     const double down = (y + 0.5 - camera_.principal_y_px()) / camera_.focal_y_px();

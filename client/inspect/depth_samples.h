@@ -37,7 +37,7 @@ struct DepthSamples {
   uint64_t bad_minus_infinity_count = 0;
   uint64_t bad_negative_count = 0;  // finite
 
-  // Of the numbers as stored, where there is a surface nearer than infinity; U16 as 0..65535.
+  // Range of the numbers as stored, where there is a surface nearer than infinity; U16 as 0..65535.
   float stored_min = 0;
   float stored_max = 0;
   uint64_t at_min_count = 0;

@@ -38,7 +38,7 @@ struct Differences {
   uint64_t changing_count = 0;  // where depth is not the same in all three px
 };
 
-// As shaders/structure/measure_depth.comp takes them.
+// The same differences as in shaders/structure/measure_depth.comp.
 Differences secondDifferences(const DepthSamples& samples) {
   const Columns columns(samples);
   Differences differences;

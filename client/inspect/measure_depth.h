@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured in the depth of a layer: its range, its step and its noise.
+// Measurements in the depth of a layer: its range, its step and its noise.
 #pragma once
 
 #include "inspect/depth_samples.h"
@@ -10,13 +10,13 @@ namespace viewloom::inspect {
 // shaders/structure/measure_depth.comp has, but without its bins, so up to a sixteenth below: of
 // one px in each block of 4x4, second differences along x and y in turn.
 struct DepthMeasures {
-  // Of surfaces nearer than infinity, in 1/m; 0 without any.
+  // Range of surfaces nearer than infinity, in 1/m; 0 without any.
   float inv_z_min = 0;
   float inv_z_median = 0;
   float inv_z_max = 0;
   float inv_z_far = 0;   // 2nd percentile
   float inv_z_near = 0;  // 98th percentile
-  // Of differences that are not 0, the 1st percentile; of stepped depth, its step. 1/m
+  // The 1st percentile of differences that are not 0, 1/m; for stepped depth, its step.
   float step = 0;
   // Their median as standard deviation of independent noise, 1/m.
   float noise_sigma = 0;

@@ -15,10 +15,10 @@ namespace viewloom::inspect {
 class Rereading {
  public:
   virtual ~Rereading() = default;
-  // As with these options after those given, as on a command line. Nothing where the files cannot
-  // be read so.
+  // Reads the files with these options after the given ones, in the way of a command line. Nothing
+  // if the files cannot be read so.
   virtual std::optional<files::LoadedFrame> read(const std::string& options) const = 0;
-  // What to say for the options: themselves, or what has to stand in a manifest.
+  // Text for the options: the options themselves, or entries of a manifest.
   virtual std::string spoken(const std::string& options) const = 0;
   // Nothing more is read once it is requested.
   virtual std::stop_token stop() const { return {}; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What looks wrong in the depth and the colour of a layer.
+// Doubts about the depth and the colour of a layer.
 #pragma once
 
 #include <string>

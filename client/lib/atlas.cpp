@@ -52,7 +52,7 @@ uint32_t channelsOf(v1::AtlasPlane plane) {
   return plane == v1::ATLAS_PLANE_DEPTH ? 4 : 1;
 }
 
-// Of one image, into its rows of the picture.
+// Decodes one image into its rows of the picture.
 absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_height,
                         AtlasPicture& picture) {
   const std::unique_ptr<void, int (*)(void*)> handle(tjInitDecompress(), &tjDestroy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the examples share: their options, and errors as one line.
+// Parts that the examples share: their options, and errors as one line.
 import {fileURLToPath} from 'node:url';
 import {parseArgs} from 'node:util';
 
@@ -17,7 +17,7 @@ async function loadViewloom() {
   }
 }
 
-// What every example takes on its command line.
+// Options of every example.
 const kCommonOptions = {
   server: {type: 'string', default: '127.0.0.1:50051'},
   stream: {type: 'string', default: 'demo'},

@@ -15,7 +15,7 @@
 namespace viewloom {
 namespace {
 
-// What a display is shown later is held anyway; in ns, and added to any time of this age, it fits.
+// Limit of a time after a frame: in ns, added to any time of this age, it fits.
 constexpr double kLaterMax_s = 1e6;
 
 // The frame before is uploaded with the newest one, as sources of one frame.

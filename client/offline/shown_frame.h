@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a display with an output rate is shown between the frames of a stream, or after the last.
+// Pictures for a display with an output rate, between the frames of a stream or after the last.
 #pragma once
 
 #include <vector>

@@ -22,7 +22,8 @@ struct StageReport {
   double upload_ms = 0;
   double build_ms = 0;                          // submitted until done
   std::map<std::string, double> build_pass_ms;  // on the device, by pass; empty without timestamps
-  // Of a display that the server sweeps: from planes to columns, and the sweep, on all cores.
+  // Times for a display that the server sweeps: from planes to columns, and the sweep, on all
+  // cores.
   std::optional<double> sweep_source_ms;
   std::optional<double> sweep_ms;
   uint64_t swept_frame_bytes = 0;  // its planes and columns

@@ -19,12 +19,12 @@ uint8_t codeFrom(double linear) {
   return static_cast<uint8_t>(std::lround(255 * std::clamp(srgbFromLinear(linear), 0.0, 1.0)));
 }
 
-// Of [px, px + 1).
+// Length of [px, px + 1) within the range.
 double overlap(double low, double high, double px) {
   return std::clamp(std::min(high, px + 1) - std::max(low, px), 0.0, 1.0);
 }
 
-// Of a px that far inside an edge, px.
+// Share of a pixel that is so far inside an edge, px.
 double shareInside(double distance_px) {
   return std::clamp(distance_px + 0.5, 0.0, 1.0);
 }

@@ -17,8 +17,8 @@ constexpr Rgb kWhite = {255, 255, 255};
 constexpr Rgb kBlack = {0, 0, 0};
 constexpr Rgb kFrame = {60, 60, 60};
 
-// Of 1080, from the middle: nothing but frames and corners lies further out than the narrowest
-// panel shows.
+// Half the width of the card's content, in 1080ths from the middle: only frames and corners lie
+// outside the narrowest panel.
 constexpr double kCardHalfWidth = 288;
 constexpr double kColorsTop = -300, kColorsHeight = 110;
 constexpr double kStepsTop = -180, kStepsHeight = 70;
@@ -71,7 +71,7 @@ class CardDrawing {
  private:
   Canvas& canvas() { return layer_.canvas(); }
 
-  // Of 1080, from the middle.
+  // Coordinates are 1080ths from the middle.
   void write(double x, double y, double em, const std::string& text) {
     const WrittenText written = lettering_.write(em * unit_, text);
     const double middle_x = whole_.middleX() + x * unit_, middle_y = whole_.middleY() + y * unit_;
@@ -101,7 +101,7 @@ class CardDrawing {
     canvas().fill(boxAround(whole_.middleX(), whole_.middleY(), 2 * reach, line_px), kFrame);
   }
 
-  // What views of some shapes show, as they crop the source around its middle.
+  // Frames of the parts that views of some shapes show, as they crop the source around its middle.
   void drawFrames() {
     for (const NamedAspect& shape : kAspects) {
       const double width = std::min(whole_.right, whole_.bottom * shape.aspect);
@@ -146,7 +146,7 @@ class CardDrawing {
     }
   }
 
-  // What is mirrored or upside down shows in the letters; the border is one px wide.
+  // Letters show whether the picture is mirrored or upside down; the border is one pixel wide.
   void drawCorners() {
     const double length = kCornerLength * unit_, line_px = std::max(4 * unit_, 2.0);
     for (const bool right : {false, true}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all patterns share: their scale, their camera, and the end of drawing.
+// Shared end of all patterns: their scale, their camera, and the end of drawing.
 #pragma once
 
 #include <initializer_list>
@@ -13,7 +13,7 @@ namespace viewloom::patterns {
 // Patterns are laid out for 1920 x 1080: px of the source for one of those.
 double unitPx(SizePx size_px);
 PxBox wholeImage(SizePx size_px);
-// Of patterns that need no other.
+// Focal length of patterns that need no other.
 double defaultFocalPx(SizePx size_px);
 
 // Fails where letters could not be written.

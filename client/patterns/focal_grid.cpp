@@ -21,7 +21,7 @@ constexpr Rgb kSlant = {36, 66, 96};
 constexpr Rgb kSlantLine = {150, 196, 232};
 constexpr Rgb kLevelLine = {255, 214, 64};
 
-// Of 1080.
+// Distance in 1080ths.
 constexpr double kLineDistance = 12;
 constexpr int kLinesPerStrong = 10;
 constexpr double kSlantWidth = 480;

@@ -25,7 +25,7 @@ class LayerDrawing {
     double slope_y = 0;
   };
   void place(const PxBox& box, const Plane& plane);
-  // What the other shows there, surfaces too.
+  // Copies the other drawing there, surfaces too.
   void copy(const LayerDrawing& other, const PxBox& box);
   void clear(const PxBox& box);
 

@@ -22,7 +22,8 @@ constexpr Rgb kInk = {14, 14, 16};
 constexpr Rgb kChalk = {232, 234, 238};
 constexpr Rgb kZero = {206, 22, 30};
 
-// Of 1080: rows below each other, in each a label, the sliding ruler and the one on the plane.
+// Layout in 1080ths: rows below each other, in each a label, the sliding ruler and the one on the
+// plane.
 constexpr double kRowsTop = 76;
 constexpr double kRowHeight = 108;
 constexpr double kLabelMiddle = 17;
@@ -107,7 +108,7 @@ class RulerDrawing {
     }
     drawSliding(row.sliding, row.disparity_px > 0 ? kNear : kLevel, first_);
     first_.place(row.sliding, {.inv_z = row.inv_z});
-    // What stands before the plane hides it.
+    // A surface before the plane hides it.
     if (row.disparity_px > 0) second_.place(row.sliding, {.inv_z = kFocalPlane_inv_m});
   }
 

@@ -22,7 +22,7 @@ constexpr Rgb kInk = {16, 16, 16};
 constexpr Rgb kWhite = {255, 255, 255};
 constexpr Rgb kBlack = {0, 0, 0};
 
-// Of a number, in its widths: the code below the digits, and the angle, which reads upwards.
+// Sizes in widths of a number: the code below the digits, and the angle, which reads upwards.
 constexpr double kDigitsHeight = 3.0;
 constexpr double kBlockSide = 0.4;
 constexpr double kCodeTop = 3.3;

@@ -33,7 +33,7 @@ absl::StatusOr<NumberPlaces> numberPlaces(const PatternOptions& options);
 // highest first; the number of white bits is odd (white) or even (black), and the opposite.
 inline constexpr uint32_t kCodeColumns = 2;
 inline constexpr uint32_t kCodeRows = 7;
-// Of the number that fills the window.
+// A block of the code below the number that fills the window.
 PxBox codeBlock(const PxBox& window, uint32_t row, uint32_t column);
 // Whether they are white, row by row.
 std::array<bool, size_t{kCodeRows} * kCodeColumns> codeOf(uint32_t number);

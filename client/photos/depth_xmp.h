@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What XMP says of a photo's depth image.
+// Description of a photo's depth image in its XMP.
 #pragma once
 
 #include <optional>

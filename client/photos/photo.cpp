@@ -44,7 +44,7 @@ struct PlaneRequest {
 
 constexpr PlaneRequest kRgb{heif_colorspace_RGB, heif_chroma_interleaved_RGB,
                             heif_channel_interleaved};
-// As it is stored: colour of a depth image, if it has any, says nothing.
+// Stored form: colour of a depth image, if it has any, has no meaning.
 constexpr PlaneRequest kLuma{heif_colorspace_undefined, heif_chroma_undefined, heif_channel_Y};
 
 // Rows of one channel of a decoded image.

@@ -43,7 +43,7 @@ class Photo {
   // DEPTH_U16 of the codes as stored. INVALID_ARGUMENT without depth, with what to do.
   absl::StatusOr<files::PlaneImage> readDepth() const;
 
-  // What readDepth refuses, before anything is decoded.
+  // The error with which readDepth refuses a photo, before anything is decoded.
   absl::Status requireDepth() const;
 
  private:

@@ -47,7 +47,7 @@ std::optional<CodeEnds> usable(double at_zero, double at_most) {
   return CodeEnds{at_zero, at_most};
 }
 
-// Of a depth image: libheif looks in vain for that of any other auxiliary one.
+// Reads the representation of a depth image: libheif finds none for other auxiliary images.
 void readRepresentation(const heif_image_handle* image, heif_item_id id, PhotoDepth& depth) {
   const heif_depth_representation_info* found = nullptr;
   if (heif_image_handle_get_depth_image_representation_info(image, id, &found) == 0) return;

@@ -17,7 +17,7 @@ enum class CodeQuantity {
   kDistance,   // codes are linear in Z, metres along the view axis
 };
 
-// What code 0 and the largest code stand for: 1/m or m, both finite.
+// Meaning of code 0 and of the largest code: 1/m or m, both finite.
 struct CodeEnds {
   double at_zero = 0;
   double at_most = 0;
@@ -40,7 +40,7 @@ struct FoundDepth {
   std::vector<std::string> other_types;  // of auxiliary images that are no depth
 };
 
-// What the codes stand for by Apple's XMP; its numbers count for `depth.code_max`.
+// Reads the meaning of codes from Apple's XMP; its numbers count for `depth.code_max`.
 void readDepthXmp(const DepthXmp& xmp, PhotoDepth& depth);
 
 // The first auxiliary image whose type is depth, or whose XMP says that it is disparity or depth.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscriber got, in a file and out of it.
+// The atlases of a subscriber, written to a file and read back.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class AtlasRecorder {
   absl::Status add(const v1::StreamAtlasesResponse& message);
   // Whether an atlas has begun and not ended.
   bool isWithinAtlas() const { return is_within_atlas_; }
-  // As RecordingWriter::complete.
+  // The same as RecordingWriter::complete.
   absl::Status complete() { return writer_->complete(); }
   uint64_t atlasCount() const { return atlas_count_; }
 
@@ -48,14 +48,14 @@ struct RecordedAtlas {
 // Thread-safety: none.
 class AtlasRecordingReader {
  public:
-  // As RecordingReader::open.
+  // The same as RecordingReader::open.
   static absl::StatusOr<std::unique_ptr<AtlasRecordingReader>> open(
       const std::filesystem::path& path);
 
   // Nothing after the last whole atlas. INVALID_ARGUMENT for messages that make no atlas, and for
   // layouts that do not add up: those given can be cut into views and named after their suffix.
   absl::StatusOr<std::optional<RecordedAtlas>> next();
-  // As RecordingReader.
+  // The same as in RecordingReader.
   bool isCutShort() const { return reader_->isCutShort(); }
   const std::filesystem::path& path() const { return reader_->path(); }
 

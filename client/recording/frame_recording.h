@@ -23,7 +23,7 @@ class FrameRecorder {
 
   // A frame that goes now. One that goes a second time, under its number, is not kept again.
   absl::Status add(const WireFrame& frame);
-  // As RecordingWriter::complete.
+  // The same as RecordingWriter::complete.
   absl::Status complete() { return writer_->complete(); }
   uint64_t frameCount() const { return frame_count_; }
 
@@ -45,13 +45,13 @@ struct RecordedFrame {
 // Thread-safety: none.
 class FrameRecordingReader {
  public:
-  // As RecordingReader::open.
+  // The same as RecordingReader::open.
   static absl::StatusOr<std::unique_ptr<FrameRecordingReader>> open(
       const std::filesystem::path& path);
 
   // Nothing after the last whole frame. INVALID_ARGUMENT for messages that make no frame.
   absl::StatusOr<std::optional<RecordedFrame>> next();
-  // As RecordingReader; a frame whose rest is missing is not given.
+  // The same as in RecordingReader; a frame whose rest is missing is not given.
   bool isCutShort() const { return is_cut_short_ || reader_->isCutShort(); }
   void rewind();
   const std::filesystem::path& path() const { return reader_->path(); }

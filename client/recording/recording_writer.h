@@ -27,7 +27,7 @@ class RecordingWriter {
   absl::Status add(int64_t time_ns, const google::protobuf::MessageLite& message);
   // The same of a serialised message: its beginning, and the bytes that follow.
   absl::Status add(int64_t time_ns, std::string_view head, std::span<const uint8_t> data);
-  // What was added so far stays whatever comes.
+  // Records added so far stay, whatever comes.
   void markWhole();
   // Drops what is not whole, ends the file and renames it, also after add() failed: what was whole
   // before is kept. FAILED_PRECONDITION when nothing is whole or the file cannot be renamed. Call

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is left of a picture when a border is taken off.
+// A picture without its border.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other threads hand to the one that draws.
+// Atlases and events that other threads hand to the drawing thread.
 #pragma once
 
 #include <atomic>

@@ -30,9 +30,10 @@ class DisplayLink {
   void change(v1::ChangeDisplay change);
   // Where the eyes before a tracked display are. Newest wins.
   void sendEyePoses(v1::EyePoses poses);
-  // What was shown when, by this machine's clock. While 64 wait to be sent, the oldest goes.
+  // Reports when an atlas was shown, by this machine's clock. While 64 reports wait to be sent, the
+  // oldest goes.
   void reportPresented(uint64_t sequence, int64_t presented_time_ns);
-  // As the watcher has them.
+  // State of the watcher.
   std::optional<absl::Status> ended() const { return watcher_.ended(); }
   WatcherCounts counts() const { return watcher_.counts(); }
   std::optional<ClockOffset> serverClock() const { return watcher_.serverClock(); }

@@ -12,7 +12,7 @@ namespace viewloom::show {
 namespace {
 
 constexpr double kStep = 1.05;  // of focus and cone, from key to key
-// What the API takes.
+// Range that the API takes.
 constexpr double kFocusMin_m = 1e-6;
 constexpr double kFocusMax_m = 1e9;
 constexpr double kConeMin_rad = 0.001;
@@ -66,7 +66,7 @@ uint32_t pairDistance(const ShowSettings& settings, const v1::AtlasLayout& layou
   return std::max(layout.view_count() / 8, 1u);
 }
 
-// What keys have changed, into a quilt or a panel.
+// Copies settings changed by keys into a quilt or a panel.
 template <typename Kind>
 void turn(const ShowSettings& settings, Kind& kind) {
   if (settings.focal_distance_m > 0) kind.set_focal_distance_m(settings.focal_distance_m);

@@ -51,7 +51,7 @@ std::optional<ShowAction> actionOfKey(int32_t sdl_key);
 
 enum class ShowEffect { kNone, kRedraw, kNewDisplay, kFullScreen, kQuit };
 
-// What the modes can do here.
+// Modes that can be used here.
 struct ShowAbilities {
   bool can_weave = false;   // a calibrated panel has the window's px
   bool can_native = false;  // and the server has not refused to interlace
@@ -65,7 +65,7 @@ ShowEffect applyAction(ShowAction action, const v1::AtlasLayout& layout,
 uint32_t firstView(const ShowSettings& settings, const v1::AtlasLayout& layout);
 uint32_t secondView(const ShowSettings& settings, const v1::AtlasLayout& layout);
 
-// What to ask the server for. asked: what the user wants in modes other than kNative.
+// Request to the server. asked: the user's display, for modes other than kNative.
 v1::Display displayFor(const ShowSettings& settings, const v1::Display& asked,
                        const std::optional<Calibration>& calibration);
 

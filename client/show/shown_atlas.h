@@ -30,7 +30,7 @@ class ShownAtlas {
   // RESOURCE_EXHAUSTED when the graphics card does not take its picture.
   absl::Status replace(const DecodedAtlas& atlas);
   bool isThere() const { return layout_ != nullptr; }
-  // Of the atlas on the screen; an empty one before the first.
+  // Layout of the atlas on the screen; an empty one before the first.
   const v1::AtlasLayout& layout() const;
   const v1::AtlasHeader& header() const { return header_; }
   // Draws it as the mode says. What the server interlaced for the panel is never woven again, and a

@@ -35,7 +35,7 @@ bool writeTuned(const Calibration& calibration, const TuneOptions& options,
   return written.ok();
 }
 
-// What an event does to the calibration and the window.
+// Effect of an event on the calibration and the window.
 TuneEffect effectOf(const SDL_Event& event, Calibration& calibration) {
   if (event.type == SDL_QUIT) return TuneEffect::kQuit;
   if (event.type == SDL_WINDOWEVENT) return TuneEffect::kRedraw;

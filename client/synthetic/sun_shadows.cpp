@@ -16,8 +16,8 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-// What the test of all at once gives away, so that whatever it refuses is lit: coordinates below
-// 16 m, squared, round by less than 16^2 2^-23 = 3e-5 m^2 an operation.
+// Slack of the test of all at once, so that every refused point is lit: coordinates below 16 m,
+// squared, round by less than 16^2 2^-23 = 3e-5 m^2 an operation.
 constexpr float kSlack_m2 = 1e-3F;
 constexpr float kSlack_m = 1e-3F;
 

@@ -12,9 +12,9 @@
 
 namespace viewloom::synthetic {
 
-// Of one instant of the scene, which must outlive it. Most points lie in no ball's and no pole's
-// shadow: a test of all of them at once says so before any is looked at for itself.
-// Thread-safety: immutable.
+// Shadows at one instant of the scene, which must outlive it. Most points lie in no ball's and no
+// pole's shadow: a test of all at once finds them before any is looked at alone. Thread-safety:
+// immutable.
 class SunShadows {
  public:
   explicit SunShadows(const Scene& scene);

@@ -11,7 +11,7 @@ namespace viewloom {
 
 // RGBA8 sRGB colour and binary32 planar depth in every layer. The number is left to the publisher.
 WireFrame syntheticWireFrame(const SyntheticOptions& options, int64_t capture_time_ns);
-// As one more source of the frame.
+// Adds the scene as one more source of the frame.
 void addSyntheticSource(const SyntheticOptions& options, WireFrame& frame);
 // Layers of one size, nearest first, seen by this camera, as one more source; returns it.
 v1::Source& addLayeredSource(const Camera& camera, SizePx size_px,

@@ -9,7 +9,7 @@ const kStepsDownMax = 2;  // at once: a judgement while a server starts is a bad
 const kWanted_hz = 9;
 // More detail is taken when it promises this much: what is taken must not be given back.
 const kPromised_hz = 10;
-// Who shows four of five frames that were published is not slow, the publisher is.
+// A viewer that shows four of five published frames is not slow: the publisher is.
 const kPublishedShare = 0.8;
 // A step down that saves less is not taken: the time goes elsewhere. Share of an atlas's time.
 const kWorthShare = 0.15;
@@ -74,7 +74,7 @@ export class AutoDetail {
     this.#isSettled = false;
   }
 
-  // What is asked for from now on may take many times longer: its first atlas is to come soon.
+  // Later requests may take many times longer, so the first atlas asks for little.
   startLow() {
     this.#index = this.#steps.length - 1;
     this.#leave(performance.now());
@@ -205,7 +205,7 @@ export class AutoDetail {
     this.onChange();
   }
 
-  // What comes of the step before says nothing of this one.
+  // The result of the step before says nothing about this one.
   #leave(now_ms) {
     this.#left = {size: this.#size, until_ms: now_ms + kAnswer_ms};
     this.#shown = [];

@@ -15,7 +15,7 @@ function refuse(key, problem) {
       `${key}: ${problem}; copy LKG_calibration/visual.json from the device once more`);
 }
 
-// What came, short enough for a sentence.
+// The value that came, short enough for a sentence.
 function describe(value) {
   const text = JSON.stringify(value);
   return text.length > kShownMax ? `${text.slice(0, kShownMax)}...` : text;

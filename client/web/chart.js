@@ -45,7 +45,7 @@ export class Chart {
   }
 }
 
-// Of numbers: "3 to 7, now 5".
+// Text for a span of numbers: "3 to 7, now 5".
 export function spanText(values, digits) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   return `${low.toFixed(digits)} to ${high.toFixed(digits)}, now ${values.at(-1).toFixed(digits)}`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is watched here, as commands and addresses to watch it elsewhere.
+// Commands and addresses to watch the same stream elsewhere.
 import {askedPath, nameOf} from './address.js';
 
 const kGrpcPort = 50051;  // viewloomd's own; the page cannot know another

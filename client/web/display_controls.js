@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes the display while it is watched: focal distance, whether it follows the content,
-// view cone, reflections.
+// Controls that change the display while it is watched: focal distance, whether it follows the
+// content, view cone, reflections.
 
 const kThrottle_ms = 120;
 const kFollow_s = 1;
@@ -58,7 +58,7 @@ export class DisplayControls {
     this.#neutral_m = 0;
   }
 
-  // What the newest atlas was made with.
+  // Shows the values of the newest atlas.
   show(layout) {
     // Colour with depth has neither: its views are one.
     const isSpread = layout.view_cone_rad > 0;

@@ -116,7 +116,7 @@ export class DisplayDocument {
     this.#keep();
   }
 
-  // What sliders said of the display before.
+  // Forgets the sliders' values for the display before.
   forgetPassing() { this.#passing = {}; }
 
   // A copy of the message, as somebody else is to watch it.

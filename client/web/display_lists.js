@@ -59,7 +59,7 @@ export class DisplayLists {
     }
   }
 
-  // What the newest atlas was made with: colour with depth is sharp.
+  // Shows the values of the newest atlas: colour with depth is sharp.
   show(layout) {
     document.getElementById('lens').disabled = !(layout.view_cone_rad > 0);
   }

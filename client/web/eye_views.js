@@ -51,7 +51,7 @@ export class EyeViews {
     this.onMove();
   }
 
-  // What is wanted was asked for; nothing else is until that is answered.
+  // Marks the wanted block as asked for; nothing else is asked for until it is answered.
   noteAsked(now_ms) {
     this.#asked_ms = now_ms;
   }
@@ -68,7 +68,8 @@ export class EyeViews {
     this.#asked_ms = null;
   }
 
-  // Of what is at hand or on its way the eye looks at none soon: then the block ahead.
+  // The next block to ask for. If the eye looks at none soon that is missing and not on its way,
+  // the block ahead.
   #wanted(view) {
     const ahead = this.#clamp(view + this.#speed() * this.#ahead_ms);
     const holds = (at) => at > this.first - 0.5 && at < this.first + this.count - 0.5;

@@ -12,7 +12,7 @@ const kRefresh_ms = 250;
 const kLongLatency_ms = 10_000;  // from here on in seconds
 const kMsPerNs = 1e-6;
 
-// What each bar means, in the order in which an atlas meets them.
+// Meaning of each bar, in the order in which an atlas meets them.
 const kStages = [
   ['receive', 'receiving', 'the frame arrives at the server'],
   ['decode', 'unpacking', 'its colour and depth are unpacked'],
@@ -41,8 +41,8 @@ function element(tag, properties = {}, parent = null) {
   return made;
 }
 
-// Of arrivals, per second: by the gaps between them, or by the time since the newest when that is
-// longer.
+// Rate of arrivals, per second: by the gaps between them, or by the time since the newest when that
+// is longer.
 function rateOf(arrivals, now_ms) {
   if (arrivals.length < 2) return 0;
   const [first, last] = [arrivals[0].time_ms, arrivals.at(-1).time_ms];

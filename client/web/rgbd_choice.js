@@ -32,7 +32,7 @@ export class RgbdChoice {
       ...Object.entries(kForms).map(([form, text]) => new Option(text, kPrefix + form))];
   }
 
-  // What the picker stands at where no preset is named.
+  // Value of the picker where no preset is named.
   valueOf(form) {
     return kPrefix + (form ?? kUsualForm);
   }

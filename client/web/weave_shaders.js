@@ -33,9 +33,9 @@ void main() {
   color.rgb = levels;
 }`;
 
-// What an eye sees of a woven panel: within a lens's width, the subpixels that are sent its way.
-// eye: the view coordinate that goes to it from the panel's middle, and how it changes per px to
-// the right. blur: standard deviation of the lens, in view coordinates.
+// Light that an eye sees of a woven panel: within a lens's width, the subpixels that are sent its
+// way. eye: the view coordinate that goes to it from the panel's middle, and how it changes per px
+// to the right. blur: standard deviation of the lens, in view coordinates.
 const kEye = `
 const int kReachMax_px = 24;
 uniform sampler2D panel;

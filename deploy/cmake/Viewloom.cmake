@@ -29,9 +29,9 @@ function(viewloom_join_sources target)
   endif()
 endfunction()
 
-# Of folders that compute with vectors: with one rounding per operation, on every kind of CPU. And GCC
-# 12, for AVX-512, takes a bool that decides over whole vectors in a loop for the mask of their lanes,
-# and so over the first lane alone (few_rays_test), where it converts branches of loops.
+# Options of folders that compute with vectors: one rounding per operation, on every kind of CPU. In
+# a loop over whole vectors, GCC 12 for AVX-512 takes a deciding bool for the mask of their lanes.
+# So it looks at the first lane alone (few_rays_test) where it converts branches of loops.
 add_library(viewloom_kernel_options INTERFACE)
 target_compile_options(viewloom_kernel_options INTERFACE
   -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-if-convert>)

@@ -8,7 +8,7 @@
 
 VIEWLOOM_ABI_BEGIN
 
-// Of the specialisation constant that says which mistake is planted.
+// Id of the specialisation constant that names the planted mistake.
 VIEWLOOM_ABI_CONST uint kFaultConstantId = 31u;
 
 VIEWLOOM_ABI_CONST uint kFaultNone = 0u;

@@ -44,8 +44,8 @@ VIEWLOOM_ABI_INLINE float shadowing(float cosine, float alpha) {
   return 0.5f * (sqrt(1.0f + alpha * alpha * tangent2) - 1.0f);
 }
 
-// Of the light from a direction, by how much a visible microfacet passes it on beside its Fresnel:
-// what others do not hide, of what they let see (G2 / G1).
+// Share of the light from a direction that a visible microfacet passes on, beside its Fresnel: the
+// light that others do not hide, divided by their visible share (G2 / G1).
 VIEWLOOM_ABI_INLINE float unshadowed(float cosine_in, float cosine_out, float alpha) {
   const float seen = 1.0f + shadowing(cosine_out, alpha);
   return seen / (seen + shadowing(cosine_in, alpha));

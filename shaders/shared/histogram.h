@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a source's depth and noise are measured with: logarithmic bins over 2^-40 .. 2^24, a few
-// bits of mantissa below the exponent of a float; and how its connection tolerance follows.
+// Histograms of a source's depth and noise: logarithmic bins over 2^-40 .. 2^24, a few bits of
+// mantissa below the exponent of a float. Also the connection tolerance that follows from them.
 #ifndef VIEWLOOM_SHADERS_SHARED_HISTOGRAM_H_
 #define VIEWLOOM_SHADERS_SHARED_HISTOGRAM_H_
 
@@ -32,9 +32,9 @@ VIEWLOOM_ABI_CONST float kStepQuantile = 0.01f;
 VIEWLOOM_ABI_CONST float kFarQuantile = 0.02f;
 VIEWLOOM_ABI_CONST float kNearQuantile = 0.98f;
 
-// What is coarse is smoothed (shaders/structure.md, Coarse depth).
-// px of disparity between the far and the near percentile from the outermost eye of a wide cone. In
-// a small source it is no more than this share of the width.
+// Coarse depth is smoothed (shaders/structure.md, Coarse depth). px of disparity between the far
+// and the near percentile from the outermost eye of a wide cone. In a small source it is no more
+// than this share of the width.
 VIEWLOOM_ABI_CONST float kWideSpan_px = 190.0f;
 VIEWLOOM_ABI_CONST float kWideSpanShare = 0.5f;
 // Half a step shows when it moves a px by more than the default tolerance of 0.25 px.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of a lens are told beside what every trace is, and what they hand on.
+// Additional parameters and outputs of the kernels of a lens.
 #ifndef VIEWLOOM_SHADERS_SHARED_LENS_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_LENS_ABI_H_
 
@@ -40,8 +40,8 @@ struct MetSheet {
 VIEWLOOM_ABI_CONST uint kMetBlockSide_px = 8u;
 VIEWLOOM_ABI_CONST uint kMetSheetMax = 12u;
 
-// What the walked rays of a block met. Of one that met more sheets, the walked rays are all there
-// is: the count is kMetTooMany.
+// Sheets that the walked rays of a block met. If there are too many, only the walked rays count:
+// the count is kMetTooMany.
 struct MetList {
   uint walked_count;  // rays of each px
   uint count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of reflections are told beside what every trace is, and what they hand on.
+// Additional parameters and outputs of the kernels of reflections.
 #ifndef VIEWLOOM_SHADERS_SHARED_REFLECTION_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_REFLECTION_ABI_H_
 
@@ -59,11 +59,11 @@ struct ReflectedPath {
   vec3 share;      // of the light that it finds
   vec3 own_share;  // of that of this sample which the px's surface mirrors
   vec3 light;      // that this sample has found
-  // Of all samples before.
+  // Sum over all samples before.
   vec3 light_sum;
   vec3 share_sum;
   float closeness_sum;  // 1/m
-  // Of the px's surface, as in ReflectedLight.
+  // Reflectance of the pixel's surface, in the form of ReflectedLight.
   uint reflectance;
   uint place;
 };
@@ -73,7 +73,7 @@ struct MergePathsPush {
   Address counters;  // as in TraceExtras
   uint atlas_width_px;
   uint band_row;  // of the piece, in the band
-  // As in MergePush.
+  // The same as in MergePush.
   uint source_count;
   uint answers_stride;
   uvec2 first_walks;
@@ -93,22 +93,23 @@ VIEWLOOM_ABI_CONST uint kReflectionAssumed = 9u;
 VIEWLOOM_ABI_CONST uint kReflectionBack = 10u;
 VIEWLOOM_ABI_CONST uint kReflectionCube = 11u;
 VIEWLOOM_ABI_CONST uint kReflectionEnvironment = 12u;
-// Of all of these, those that the surface's own facet stood in the way of.
+// Rays among all of these whose way the surface's own facet blocked.
 VIEWLOOM_ABI_CONST uint kReflectionBent = 13u;
 VIEWLOOM_ABI_CONST uint kReflectionCountsEnd = 14u;
 
-// What became of a ray behind the body that it passed behind first.
+// Fate of a ray behind the body that it passed behind first.
 VIEWLOOM_ABI_CONST uint kBodyUnknown = 0u;  // none, or it is not seen from rim to rim
 VIEWLOOM_ABI_CONST uint kBodyPassed = 1u;
 VIEWLOOM_ABI_CONST uint kBodyMet = 2u;
 
-// What comes to a px by way of the surface that it shows.
+// Light that comes to a pixel by way of the surface that it shows.
 struct ReflectedLight {
   // Red, green and blue in binary16; how far what is mirrored lies behind the surface, m (of all
   // rays the harmonic mean), and what weight the light has among that of others, 8 bits each
   // (lib/mirrors/reflected_light.glsl).
   uvec2 light;
-  // Of the light so much adds to the px, as square roots: 0..255 of red, green, blue; roughness.
+  // Share of the light that adds to the pixel, as square roots: 0..255 of red, green, blue;
+  // roughness.
   uint reflectance;
   uint place;  // the surface's normal in 8 + 8 bits, and the upper half of its inv_z's bits
 };

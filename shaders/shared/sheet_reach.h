@@ -29,19 +29,19 @@ VIEWLOOM_ABI_CONST float kSheetReachOfBlur = 0.03125f;
 // much they are blurred.
 VIEWLOOM_ABI_CONST float kForwardMin = 0.05f;
 
-// Of what is in focus: in_focus, 1/m. More in proportion to its blur, which is linear in 1/Z, 0 at
-// the focus: |of_blur_inv_z inv_z - of_blur_focus|.
+// Reach of sheets in focus: in_focus, 1/m. Others have more in proportion to their blur, which is
+// linear in 1/Z and 0 at the focus: |of_blur_inv_z inv_z - of_blur_focus|.
 struct SheetReach {
   float in_focus;
   float of_blur_inv_z;
   float of_blur_focus;
 };
 
-// Of surfaces that the view meets at px `at` of the source, where its ray through the middle of the
-// lens goes direction_z m along the source's axis for a metre along the view's. A ray whose
-// eye is m (homogeneous px) meets what is d of 1/Z nearer (m.xy - at m.z) d beside. What a ray
-// through the rim meets at inv_z lies beside what that through the middle does, by what the eye is
-// moved by for a metre, times inv_z (1 + eye.z / (focus direction_z)) - 1 / (focus direction_z).
+// Reach for surfaces that the view meets at px `at` of the source. Its ray through the middle of
+// the lens goes direction_z m along the source's axis for a metre along the view's. A ray whose eye
+// is m (homogeneous px) meets a surface that is d of 1/Z nearer (m.xy - at m.z) d beside. The ray
+// through the rim meets inv_z beside the ray through the middle: by the eye's move for a metre,
+// times inv_z (1 + eye.z / (focus direction_z)) - 1 / (focus direction_z).
 VIEWLOOM_ABI_INLINE SheetReach sheetReach(ViewParams view, vec2 at, float direction_z) {
   const vec2 along_x = vec2(view.direction_dx) - at * view.direction_dx.z;
   const vec2 along_y = vec2(view.direction_dy) - at * view.direction_dy.z;

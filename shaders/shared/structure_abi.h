@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure of one frame as it lies in device memory, and what its kernels are told.
 //
-// What every px needs comes by push constants and bindings: on software devices a load through an
-// address costs five times one through a storage binding, and thirteen times a texel fetch
-// (shaders/README.md, Memory). Addresses serve what is larger than the device's bindings.
+// Values that every pixel needs come by push constants and bindings. On software devices, a load
+// through an address costs five times one through a storage binding, and thirteen times a texel
+// fetch (shaders/README.md, Memory). Addresses serve data larger than the device's bindings.
 #ifndef VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_STRUCTURE_ABI_H_
 
@@ -136,7 +136,7 @@ VIEWLOOM_ABI_CONST uint kCubeApron_px = 2u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF32 = 0u;
 VIEWLOOM_ABI_CONST uint kDepthSampleF16 = 1u;
 VIEWLOOM_ABI_CONST uint kDepthSampleU16 = 2u;
-// Of a kernel: layers differ.
+// Sample type of a kernel for layers that differ.
 VIEWLOOM_ABI_CONST uint kDepthSampleMixed = 3u;
 
 // How one depth plane becomes inv_z. The coefficients are those of frame/depth.h DepthCoefficients.
@@ -222,13 +222,13 @@ struct Measured {
   uint changing_count;  // where inv_z is not the same in all three px, layer 0
 };
 
-// What a colour plane holds on the device.
+// Contents of a colour plane on the device.
 VIEWLOOM_ABI_CONST uint kColorRgba8 = 0u;    // sRGB, opaque; one uint a px
 VIEWLOOM_ABI_CONST uint kColorRgba16f = 1u;  // linear BT.709, premultiplied; two uints a px
 VIEWLOOM_ABI_CONST uint kColorRgb16 = 2u;    // light of BT.709 to 1 / 2.4, opaque; two uints a px
 VIEWLOOM_ABI_CONST uint kColorCodes11 = 3u;  // means of others: codes of sRGB; one uint a px
 
-// What convert_color.comp is told of a plane.
+// Parameters of convert_color.comp for a plane.
 VIEWLOOM_ABI_CONST uint kPrimariesBt709 = 0u;
 VIEWLOOM_ABI_CONST uint kPrimariesDisplayP3 = 1u;
 VIEWLOOM_ABI_CONST uint kPrimariesBt2020 = 2u;

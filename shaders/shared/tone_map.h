@@ -44,7 +44,7 @@ VIEWLOOM_ABI_FUNCTION vec3 toneCurves(vec3 light) {
   return vec3(toneCurve(light.x), toneCurve(light.y), toneCurve(light.z));
 }
 
-// Of each channel `share` goes to each of the others.
+// Moves `share` of each channel to each of the others.
 VIEWLOOM_ABI_FUNCTION vec3 mixChannels(vec3 light, float share) {
   const float sum = light.x + light.y + light.z;
   const float own = 1.0f - 3.0f * share;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace kernels are told, and what they write.
+// Parameters and outputs of the trace kernels.
 #ifndef VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 #define VIEWLOOM_SHADERS_SHARED_TRACE_ABI_H_
 
@@ -24,8 +24,8 @@ struct ViewParams {
   float inv_z_tolerance;
   uint is_used;  // 0: no view stands here
   uint shows;    // kShows... flags: else the colour of the first surface
-  // Of a lens before the view: px of the tile that its rim moves a surface by for each 1/m that its
-  // 1/Z lies beside the focus, along both axes; and 1/Z of the focus, 1/m.
+  // Lens before the view: px of the tile that its rim moves a surface by for each 1/m that its 1/Z
+  // lies beside the focus, along both axes; and 1/Z of the focus, 1/m.
   vec2 lens_px_m;
   float lens_inv_focus;
 };
@@ -128,14 +128,14 @@ struct TraceExtras {
   Address records;  // RayRecord[rows][width]
   // uint[kCounterSets][kCounterStride]: rays by class, added to; the sum over the sets counts
   Address counters;
-  // Of the colour planes, when one is not the depth's size: width | height << 16, and the texels
-  // from layer to layer.
+  // Size of the colour planes, when one is not the depth's size: width | height << 16, and the
+  // texels from layer to layer.
   uint color_size_px[kLayerCountMax];
   uint color_stride;
   // The source's pinhole, px of its depth planes: for what several sources are weighed by.
   vec2 focal_px;
   vec2 principal_px;
-  // Of rays that do not come from their view's eye.
+  // Axes for rays that do not start at their view's eye.
   EyeAxes eye_axes;
   Microlenses microlenses;
   LenticularEyes lenticular;
@@ -144,8 +144,8 @@ struct TraceExtras {
   uint sample_index;       // which of the rays of each px these are
 };
 
-// What one source answers to a ray when several are asked. Places along the ray are 1/Z of the
-// view, 1/m: comparable between sources, larger is nearer.
+// Answer of one source to a ray when several are asked. Places along the ray are 1/Z of the view,
+// 1/m: comparable between sources, larger is nearer.
 struct RayAnswer {
   uint ray_class;      // kClass...
   uint layer;          // of the hit
@@ -197,22 +197,22 @@ struct TracePush {
   uint tile_grid;     // columns | rows << 16
   uint padding_top_px;
   uint fill;  // background, red in the low byte, and kFill... flags
-  // Of rays whose light is summed, to find blocks of px by.
+  // Rows of rays whose light is summed, to find blocks of px by.
   uint row_count;        // of the band
   uint first_block_row;  // as in GatherPush
   uint band_row;         // of rows that mirror, in the band
-  // Of reflected rays that several walks answer.
+  // Number of the bounce of reflected rays that several walks answer.
   uint bounce;        // of the ray's mirrors, from 0
   uint sample_index;  // of the px's rays
 };
 
 VIEWLOOM_ABI_CONST uint kFillBorder = 0x1000000u;  // the image's border goes on where it was left
 VIEWLOOM_ABI_CONST uint kFillFirst = 0x2000000u;   // sums of light begin here, or paths of mirrors
-// Of runs that are listed as unfinished alone (lib/walk/unfinished_runs.glsl).
+// For runs that are listed as unfinished alone (lib/walk/unfinished_runs.glsl).
 VIEWLOOM_ABI_CONST uint kFillUnfinished = 0x4000000u;
 
-// What of a band is still to be walked, and how many groups of kTraceGroupSize invocations that
-// takes: of blocks one invocation for each of their rows, of px one each, of runs a group each.
+// Rest of a band that is still to be walked, and its groups of kTraceGroupSize invocations: for
+// blocks one invocation for each of their rows, for px one each, for runs a group each.
 struct IncompleteHead {
   uvec3 group_count;
   uint count;  // of the uints that follow: places of blocks in the lists, of px in the band, or

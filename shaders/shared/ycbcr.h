@@ -26,7 +26,7 @@ VIEWLOOM_ABI_CONST uint kLumaOffset = 32768u;  // rounds to the nearest
 // 128, and a little less than a half: pure blue and pure red end at 255.
 VIEWLOOM_ABI_CONST uint kChromaOffset = 8388608u + 32767u;
 
-// Of whole codes, 0..255, as floats: every sum is a whole number below 2^24, so that binary32 is
+// Codes are whole, 0..255, as floats: every sum is a whole number below 2^24, so that binary32 is
 // exact, and a device multiplies faster. 0..255.
 VIEWLOOM_ABI_FUNCTION uint lumaOf(float red, float green, float blue) {
   return uint(float(kLumaOffset) + float(kLumaOfRed) * red + float(kLumaOfGreen) * green +

@@ -15,7 +15,7 @@ uniform uint is_bottom_left;   // 1: view 0 lies bottom left; 0: top left
 uniform uint is_blended;       // 1: neighbouring views are blended; 0: the nearest view
 out vec4 shown;
 
-// What a view shows at uv, from the top left of its picture.
+// Colour of a view at uv, from the top left of its picture.
 vec3 viewColor(uint view, vec2 uv) {
   uint row = view / tile_count.x;
   if (is_bottom_left != 0u) row = tile_count.y - 1u - row;

@@ -24,7 +24,7 @@ struct RowLinks {
   vec4 forward_high[kLayerCountMax];
 };
 
-// What a node is made from.
+// Children of a node.
 struct Block {
   PlaneFit fit;
   vec2 box;

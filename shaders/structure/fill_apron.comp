@@ -43,7 +43,7 @@ float minmod(float a, float b) {
   return a * b <= 0.0 ? 0.0 : abs(a) <= abs(b) ? a : b;
 }
 
-// As the slope of a facet, before it is rounded.
+// Slope as of a facet, before it is rounded.
 float slopeAlong(uint face, ivec2 sample_px, ivec2 step, float inv_z) {
   const float before = nearestIn(face, sample_px - step, inv_z);
   const float after = nearestIn(face, sample_px + step, inv_z);

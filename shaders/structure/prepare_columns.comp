@@ -138,7 +138,7 @@ void main() {
   const int x = int(gl_GlobalInvocationID.x) * kBlockPx;
   if (x >= int(pitch)) return;
   const ivec4 xs = x + ivec4(0, 1, 2, 3);
-  // Of what was uploaded; of a face of a cube map the apron around it is filled later.
+  // Size of the uploaded part; the apron around a face of a cube map is filled later.
   const int apron = int(push.apron_px);
   const ivec2 given = size - 2 * apron;
   const ivec4 given_xs = xs - apron;

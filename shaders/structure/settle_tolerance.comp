@@ -89,7 +89,7 @@ void main() {
       given > 0.0 ? given
                   : max(least, max(kKappaSteps * depth_step, kKappaSigmas * noise_sigma));
   measured.value.head.kappa_rel = given > 0.0 ? 0.0 : kKappaRelative;
-  // What is one surface is not two things.
+  // The step of one surface is not the step between two things.
   measured.value.head.deep_abs =
       max(leastStep(kDeepStep, inv_z_range), measured.value.head.kappa_abs);
   measured.value.head.inv_z_base =

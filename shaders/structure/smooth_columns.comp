@@ -46,7 +46,7 @@ void storeHalf(Extent extent, uint layer, ivec2 pixel, vec4 inv_z) {
   storeWord(push.layers, layer, extent, index + 1u, floatBitsToUint(inv_z.zw));
 }
 
-// As the pass before has left it; kNoSurface outside the image.
+// 1/Z after the pass before; kNoSurface outside the image.
 float loadAt(Extent extent, uint layer, ivec2 pixel) {
   const ivec2 inside = clamp(pixel, ivec2(0), extent.size_px - 1);
   if (inside != pixel) return kNoSurface;

@@ -22,7 +22,7 @@ layout(set = 0, binding = kBindingBand, scalar) buffer Band {
 #include "lib/mirrors/reflected_light.glsl"
 
 const int kRadiusMax_px = 3;
-// Of the blur of what is mirrored: further, px show different things.
+// Share of the blur of the mirrored light: further away, pixels show different things.
 const float kRadiusOfBlur = 0.5;
 // By how much 1/Z and roughness of two px may differ, and the cosine between their normals.
 const float kNearestShare = 0.02;
@@ -88,7 +88,7 @@ vec3 filtered(ivec2 at, Px own) {
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       const Px other = pxAt(uint(y) * push.atlas_width_px + uint(x));
-      // What is sharp reaches no further into what is blurred than its own blur.
+      // Sharp light reaches no further into blurred light than its own blur.
       const float narrower = min(radius, radiusOf(other));
       const vec2 apart = vec2(ivec2(x, y) - at) / (narrower + 0.5);
       const float near = max(1.0 - dot(apart, apart), 0.0);

@@ -62,7 +62,7 @@ Sample loadSample(Line line, uint layer, int at) {
                 loadLinks(push.layers, layer, line.extent, cell));
 }
 
-// What may be mixed counts nothing.
+// Samples that may be mixed count nothing.
 void addTap(Sample tap_sample, int tap, bool is_linked, inout Sum sum) {
   const float weight = tap < kTapCount ? 1.0 : push.last_weight;
   const float share = is_linked && !isMixed(tap_sample.links) ? weight : 0.0;
@@ -70,7 +70,8 @@ void addTap(Sample tap_sample, int tap, bool is_linked, inout Sum sum) {
   sum.weight += share;
 }
 
-// Of the sample in the middle, as far as links lead within its layer. False: one leads further.
+// Adds up around the sample in the middle, as far as links lead within its layer. False: one leads
+// further.
 bool sumInLayer(Sample window[kWindowPx], uint layer, out Sum sum) {
   sum = Sum(window[kTapCount].color, 1.0);
   bool is_whole = true;

@@ -49,7 +49,7 @@ LensRay lensRay(ViewParams view, vec3 direction, uint pattern_index, uint point)
   return makeLensRay(view, direction, view.lens_px_m * at, besideOf(point));
 }
 
-// What a ray has met so far; no layer: nothing.
+// Nearest hit of a ray so far; no layer: nothing.
 struct Nearest {
   float inv_z;
   uint layer;
@@ -90,7 +90,7 @@ void compare(MetSheet sheet, uint kinds, Extent extent, LensRay rays[kAtOnce],
   }
 }
 
-// Of the nearest texel: the blur averages over texels, so that will do.
+// Light of the nearest texel: the blur averages over texels, so that will do.
 vec3 lightOf(Nearest met, Extent extent) {
   uint index = uint(met.cell.y * extent.size_px.x + met.cell.x);
   uint count = uint(extent.size_px.x * extent.size_px.y);
@@ -136,14 +136,14 @@ vec3 exactLight(Scene scene, ViewParams view, LensRay lens_ray, Nearest met) {
   return lightOfWalk(scene, view, ray, bound);
 }
 
-// What a ray sees that has met this; negative if it is left out.
+// Light of a ray with this hit; negative if it is left out.
 vec3 lightOfRay(Scene scene, ViewParams view, LensRay ray, Nearest met, vec3 light_of_none) {
   if (kIsExact) return exactLight(scene, view, ray, met);
   return met.layer < kLayerCountMax ? lightOf(met, scene.extent) : light_of_none;
 }
 
-// What rays see that meet no sheet: the background, if that is what walked ones without a surface
-// see. Else it is not known, and they are taken to be as the walked ones of the px.
+// Light of rays that meet no sheet: the background, if the walked ones without a surface see it.
+// Otherwise it is unknown, and the mean of the pixel's walked rays stands in.
 vec3 lightOfNone(uint kinds, LightSum walked) {
   const uint both = kMetSeesBackground | kMetSeesAssumed;
   if ((kinds & both) != kMetSeesBackground) return walked.light / float(walked.count);
@@ -166,7 +166,7 @@ struct PointRange {
   uint end;
 };
 
-// Of a px of a settled block: nothing stands before the sheet, which is everywhere.
+// For a pixel of a settled block: nothing stands before the sheet, which is everywhere.
 LightSum sumOnSheet(Scene scene, ViewParams view, vec3 direction, uint pattern_index,
                     MetSheet sheet, PointRange points, LightSum sum) {
   for (uint point = points.first; point < points.end; ++point) {
@@ -217,7 +217,7 @@ vec3 lightOfPx(Scene scene, ViewParams view, uvec2 px, uint list, vec3 walked_li
   const vec3 direction =
       view.direction + middle.x * view.direction_dx + middle.y * view.direction_dy;
   LightSum sum = LightSum(walked_light, lists[list].walked_count);
-  // What is not walked is gathered.
+  // Rays that are not walked are gathered.
   const uint first = is_complete ? lists[list].walked_count : push.walked_count;
   // Exact rays of settled blocks are looked at as all others are.
   const bool gathers = sheet_count > 0u && sheet_count != kMetTooMany;

@@ -69,7 +69,7 @@ RayAnswer joinFaces() {
   float passed_inv_z = kNeverPassed;
   bool has_fill = false;
   bool ends = false;
-  // What is done stays as it is in the rounds of other lanes (shaders/README.md, Loops).
+  // A lane that is done keeps its state in the rounds of other lanes (shaders/README.md, Loops).
   for (;;) {
     const bool takes_part = stretch.face != kNoFace && !ends;
     const RayAnswer answer = loadFace(min(stretch.face, kNoFace - 1u));
@@ -85,8 +85,8 @@ RayAnswer joinFaces() {
     const bool hits = isFaceHit(answer);
     const bool is_hidden = answer.ray_class == kClassHidden;
     const bool was_behind = passed_inv_z != kNeverPassed && !hasFault(kFaultSeamForgets);
-    // What is hidden shows the far side of the last silhouette that the ray passed since it was in
-    // front of everything, on whichever face.
+    // A hidden ray shows the far side of the last silhouette that it passed since it was in front
+    // of everything, on whichever face.
     const bool passed_edge = (answer.layer & kAnswerPassedEdge) != 0u;
     const bool keeps_fill = is_hidden && has_fill && !passed_edge;
     // Beyond the seam, whether it passes behind something is said by the next face.

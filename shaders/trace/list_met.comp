@@ -51,8 +51,8 @@ void listIncomplete(uint list) {
   if (place % kBlocksPerGroup == 0u) atomicAdd(incomplete.group_count.x, 1u);
 }
 
-// What a block has met by now, and whether that is all. Gathered rays that meet nothing are taken
-// to be as the walked ones where rays are assumed to see something: of these, there cannot be
+// Ends a round: the sheets of a block so far, and whether they are all. Gathered rays that meet
+// nothing count as walked ones where rays are assumed to see something, so those blocks never have
 // enough.
 void endRound(uint list, uint count_before, uint kinds_before, uint sheet_count, uint kinds,
               bool is_empty) {

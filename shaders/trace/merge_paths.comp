@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reflected rays found, by the answers of several sources; of the last ray of a px, what comes
-// to it by way of the surface that it shows. An invocation a px of a piece of a band.
+// Merges the answers of several sources to reflected rays. After the last ray of a pixel, stores
+// the light that comes to it by way of the surface that it shows. An invocation a px of a piece of
+// a band.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -36,7 +37,7 @@ bool endsBehind(RayAnswer answer) {
   return answer.ray_class == kClassHidden && unpackHalf2x16(answer.light.y).y > 0.5;
 }
 
-// Of an answer that tells of a surface: how much that counts.
+// Weight of an answer that has a surface.
 float certaintyOf(RayAnswer answer, float mirror_inv_z) {
   if (answer.ray_class == kClassHit) return 1.0;
   // Sky, seen behind something, is infinitely far from that.
@@ -45,7 +46,7 @@ float certaintyOf(RayAnswer answer, float mirror_inv_z) {
   return certaintyOf(max(unseen_m, 0.0), mirror_inv_z);
 }
 
-// Of a surface that sources agree on: as much as the one that saw most of the way to it.
+// Weight of a surface that sources agree on: that of the one that saw most of the way to it.
 float certaintyOfHit(RayAnswer hit, float mirror_inv_z) {
   float most_certain = 0.0;
   uint source = 0u;
@@ -63,8 +64,8 @@ vec3 linearLight(vec4 codes) {
   return linearFromSrgb(codes.rgb / 255.0);
 }
 
-// What is seen where a ray's own answer is not certain: what the most certain of the other cube
-// maps has, then nothing.
+// Light where a ray's own answer is not certain: from the most certain of the other cube maps, else
+// none.
 vec3 lightAround(uint main_source, float mirror_inv_z) {
   vec3 light = push.environment;
   float most_certain = 0.0;

@@ -21,7 +21,7 @@ layout(set = 0, binding = kBindingPlanes, scalar) writeonly buffer Planes {
   uint planes[];
 };
 
-// Of px beyond the image, the last one of its row and of its column.
+// Codes beyond the image: those of the last pixel of its row and of its column.
 vec3 codesAt(uint x, uint y) {
   const uint row = min(y, push.row_count - 1u);
   const uint rgb = band[row * push.width_px + min(x, push.width_px - 1u)];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes to the px of a band by way of the surfaces that they show: rays that go on from where
-// those of walk_views.comp ended, mirrored, and end in the same structure. An invocation a px.
+// Reflected light of the pixels of a band: rays go on from where those of walk_views.comp ended,
+// mirrored, and end in the same structure. An invocation a px.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

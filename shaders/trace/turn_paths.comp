@@ -34,7 +34,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 #include "lib/mirrors/reflected_light.glsl"
 #include "lib/rays/tile_px.glsl"
 
-// What no reflected ray comes from.
+// Whether no reflected ray starts here.
 bool isBeside(TilePx at, RayRecord record, out Aim aim, out ViewParams view) {
   aim = aimOf(vec2(at.px) + 0.5);
   view = views[at.tile];
@@ -90,7 +90,7 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
     path.place = packedPlace(directionToFirst(mirror.normal), 1.0 / length(to_spot));
   }
   if (push.sample_index >= path.sample_count) return;
-  // Of a px of the view, as what it sees stands on its axis.
+  // Angle of a pixel of the view, if its surface stands on the axis.
   path.px_angle = length(metricPoint(pinhole, view.direction_dx));
   goOn(scene, pinhole, spot, mirror, came, at.px, path);
   if (push.sample_index > 0u) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one of several sources, or a face of a cube map, answers to the reflected rays of a piece of
-// a band: an invocation a px. merge_paths.comp makes one of all answers.
+// Answers of one of several sources, or of a face of a cube map, to the reflected rays of a piece
+// of a band: an invocation a px. merge_paths.comp makes one of all answers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
@@ -74,7 +74,7 @@ float placeAlong(float inv_s, bool is_start) {
   return is_start || !(inv_s >= 0.0) ? kAtEye : min(inv_s, kAtEye);
 }
 
-// As seen from where the ray starts. Px are those of the view, which stands behind the mirror.
+// View from where the ray starts. Its pixels are those of the view, which stands behind the mirror.
 ViewParams viewAlong(Pinhole pinhole, vec3 from, vec3 along, vec3 direction, float px_angle) {
   const mat3 axes = basisAround(direction);
   ViewParams view;
@@ -130,7 +130,7 @@ RayAnswer answerTo(Scene scene, Pinhole pinhole, ReflectedPath path) {
   places.passed = has_passed ? placeAlong(places.passed, passed_at_start) : kNeverPassed;
   // Nothing is unseen of a way through free space.
   if (body == kBodyPassed && walk.is_hit && !walk.is_back) places.passed = places.hit;
-  // What is as far behind the mirror as the view before it is seen in px twice as wide.
+  // A surface as far behind the mirror as the view is before it is seen in pixels twice as wide.
   const float widened = 1.0 + distance(path.start, path.eye) * places.hit;
   view.direction_dx *= widened;
   view.direction_dy *= widened;

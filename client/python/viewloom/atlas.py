@@ -20,7 +20,7 @@ from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader
 
-# Of a plane that is not a JPEG: sample type and samples a pixel.
+# Sample type and samples a pixel of planes that are not JPEGs.
 _SAMPLES = {atlas_pb2.ATLAS_PLANE_COLOR: ("u1", 3), atlas_pb2.ATLAS_PLANE_DEPTH: ("<f4", 1),
             atlas_pb2.ATLAS_PLANE_MASK: ("u1", 1), atlas_pb2.ATLAS_PLANE_DEPTH_CODES: ("<u2", 1)}
 _CHANNELS = (atlas_pb2.ATLAS_PLANE_RED, atlas_pb2.ATLAS_PLANE_GREEN, atlas_pb2.ATLAS_PLANE_BLUE)

@@ -23,7 +23,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 _JPEG_ENDINGS = (".jpg", ".jpeg")
 _REASONS = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk is full",
             errno.EFBIG: "it reached the largest size allowed"}
-# What a server may add to the name of a file, and what a stream may be called.
+# Suffix that a server may add to the name of a file, and the characters of a stream's name.
 _SUFFIX = re.compile(r"_qs\d{1,3}x\d{1,3}a\d{1,4}(\.\d{1,8})?")
 _STREAM = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]{0,63}")
 

@@ -14,8 +14,9 @@ struct LensRay {
   vec3 direction;
 };
 
-// Of a px whose middle ray goes along `direction`: through a point of the lens, as px of the tile
-// for each 1/m, and beside the middle of the px. The lens's up is up, and rows run down.
+// Ray of a pixel whose middle ray goes along `direction`. It passes through a point of the lens,
+// given as px of the tile for each 1/m, and beside the middle of the pixel. The lens's up is up,
+// and rows run down.
 LensRay makeLensRay(ViewParams view, vec3 direction, vec2 lens_px_m, vec2 beside_px) {
   const vec2 moved_px = vec2(lens_px_m.x, -lens_px_m.y);
   const vec2 step_px = beside_px - view.lens_inv_focus * moved_px;

@@ -58,7 +58,7 @@ AxisTaps tapsAlong(uint links, uint low_edge, float offset, float clean) {
 // The same for the other sample, whose links are known now.
 float shareOfOther(AxisTaps taps, uint other_links, uint low_edge, float offset, float clean) {
   const bool is_deep = isDeepEdge(other_links, taps.toward > 0 ? low_edge + 1u : low_edge);
-  // Of a surface of two px between two silhouettes, both are what there is.
+  // A surface of two pixels between two silhouettes has no others.
   const float plain = clamp(offset * float(taps.toward), 0.0, 1.0);
   return is_deep ? (taps.is_inner ? plain : plain * (1.0 - clean)) : taps.share;
 }

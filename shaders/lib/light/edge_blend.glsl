@@ -8,7 +8,7 @@
 #include "lib/structure/structure_access.glsl"
 #include "lib/walk/walk_edges.glsl"
 
-// What a px shows, and where.
+// Colour of a pixel, and its place.
 struct Seen {
   vec3 color;   // as texels have it
   float inv_z;  // of the hit; kNoSurface without one

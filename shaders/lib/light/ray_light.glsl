@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a px shows of what its ray met. Parameters that the kernel sets: `push`, a TracePush or a
-// GatherPush, and the constants of lib/walk/walk_views.glsl that it reads.
+// Colour of a pixel from the hit of its ray. Parameters that the kernel sets: `push`, a TracePush
+// or a GatherPush, and the constants of lib/walk/walk_views.glsl that it reads.
 #ifndef VIEWLOOM_LIB_LIGHT_RAY_LIGHT_GLSL_
 #define VIEWLOOM_LIB_LIGHT_RAY_LIGHT_GLSL_
 
@@ -43,7 +43,8 @@ vec3 blendOfBackground() {
   return kColorFormat == kColorRgb16 ? rootsFromLinear(light) : light;
 }
 
-// What a px shows; if nothing is known, the background. In what texels hold (lib/light/color.glsl).
+// Colour of a pixel; if nothing is known, the background. In units of texels
+// (lib/light/color.glsl).
 struct Light {
   vec4 color;  // premultiplied
   bool is_known;
@@ -74,8 +75,8 @@ Walk walkBehind(Scene scene, ViewParams view, Ray ray, Walk first) {
   return first;
 }
 
-// Of the surface that is hit. Without one, the far side of the silhouette the ray passed behind, or
-// the image's border, goes on; else there is nothing. The far side may be found only now.
+// Light of the surface that is hit. Without one, the far side of the silhouette that the ray passed
+// behind goes on, or the image's border; else there is nothing. The far side may be found only now.
 Light surfaceLight(Scene scene, Ray ray, WalkStart start, inout Walk walk) {
   findFarSide(scene, ray, start, walk);
   const vec3 point = ray.start + walk.t * ray.extent;

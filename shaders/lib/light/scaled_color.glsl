@@ -41,7 +41,7 @@ struct SurfacePlace {
   uint links;
 };
 
-// What a column lacks to be covered by a texel, px: roundings of uv are less.
+// Part of a column that a covering texel may lack, px: roundings of uv are less.
 const float kCoverRounding_px = 1.0 / kSubtexelSteps;
 
 // How far beyond a deep silhouette, on its far side, colour may be the near thing's, px: as depth
@@ -84,7 +84,7 @@ bool isMixedBetween(uint links, vec2 low, vec2 high) {
   return any(mix(bvec4(false), is_deep, is_near));
 }
 
-// What a texel holds of a facet's surface.
+// Part of a facet's surface within a texel.
 struct TexelCover {
   uint layer;     // that continues it, where the texel is next to the facet; kLayerCountMax: none
   bool is_of_it;  // holds nothing else, not even what a silhouette may have mixed with it

@@ -40,7 +40,7 @@ float depthOf(Walk walk, Ray ray, vec3 eye, vec3 direction) {
   return walk.is_hit ? viewInvZ(eye, direction, point) : 0.0;
 }
 
-// What a px of a tile shows, before edges are looked for. `inv_z`: of tiles that show depth.
+// Stores a pixel of a tile, before edges are looked for. `inv_z`: for tiles that show depth.
 void storeShown(uint index, ViewParams view, Seen seen, float inv_z) {
   const bool shows_depth = (kShownBeside & view.shows & kShowsDepth) != 0u;
   const vec3 grey = vec3(float(depthCode(inv_z, extras.depth_scale)));

@@ -15,7 +15,7 @@ vec2 albedoTexel(uvec2 at) {
   return unpackUnorm2x16(albedos[at.y * kAlbedoSteps + at.x]);
 }
 
-// Of a rough one, seen at a cosine to its normal.
+// Albedo of a rough mirror, seen at a cosine to its normal.
 vec3 albedoOf(Mirror mirror, float cosine) {
   const vec2 at =
       clamp(vec2(sqrt(max(cosine, 0.0)), mirror.roughness), 0.0, 1.0) * float(kAlbedoSteps - 1u);

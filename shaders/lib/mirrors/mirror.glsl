@@ -37,7 +37,7 @@ SurfaceTexel loadSurface(Address surfaces[kLayerCountMax], uint layer, uint coun
   return SurfaceTexel(bits.x, bits.y);
 }
 
-// Of SurfaceTexel.normal; camera space has y upwards and z to the eye.
+// Normal from SurfaceTexel.normal; camera space has y upwards and z to the eye.
 vec3 normalOfTexel(uint octahedron) {
   const vec2 uv = unpackUnorm2x16(octahedron) * 2.0 - 1.0;
   const float z = 1.0 - abs(uv.x) - abs(uv.y);
@@ -46,8 +46,8 @@ vec3 normalOfTexel(uint octahedron) {
   return normalize(vec3(across.x, -across.y, -z));
 }
 
-// Of the plane with these slopes through an image point: in homogeneous image coordinates it is
-// (slope, inv_z - slope point) P = 1, and who is in front has less.
+// Normal of the plane with these slopes through an image point. In homogeneous image coordinates
+// the plane is (slope, inv_z - slope point) P = 1; points in front of it have less.
 vec3 normalOfSlopes(Pinhole pinhole, vec2 slope, vec3 point) {
   const vec3 metric =
       vec3(slope * pinhole.focal_px, point.z + dot(slope, pinhole.principal_px - point.xy));

@@ -7,12 +7,12 @@
 #include "lib/mirrors/ggx.glsl"
 #include "lib/mirrors/mirror.glsl"
 
-// As rough as that, a surface is a mirror: what it spreads is less than px show.
+// Surfaces up to this roughness are mirrors: they spread light by less than pixels show.
 const float kMirrorRoughness = 0.02;
 // Steps of the depth samples, and sigmas of their noise, by which a surface stands out from itself.
 const float kStepsOfSurface = 1.0;
 const float kSigmasOfSurface = 4.0;
-// As seen along it, one is a mirror, too: no microfacet shows.
+// Surfaces seen along them are mirrors, too: no microfacet shows.
 const float kCosineAlong = 1e-4;
 
 struct Path {

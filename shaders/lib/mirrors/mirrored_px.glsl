@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes to the px of a band by way of the surfaces of one source: an invocation a px.
+// Reflected light of the pixels of a band, by the surfaces of one source: an invocation a px.
 // Parameters that the kernel sets: the constants of trace/reflect.comp, `push`, a TracePush, and
-// follow(), which says what a reflected ray meets.
+// follow(), which finds the hit of a reflected ray.
 #ifndef VIEWLOOM_LIB_MIRRORS_MIRRORED_PX_GLSL_
 #define VIEWLOOM_LIB_MIRRORS_MIRRORED_PX_GLSL_
 
@@ -33,7 +33,7 @@ vec3 linearOfBlend(vec3 blend) {
   return kColorFormat == kColorRgb16 ? pow(blend, vec3(2.4)) : blend;
 }
 
-// What a reflected ray found.
+// Result of a reflected ray.
 struct Found {
   vec3 light;
   uint ending;        // kReflection...
@@ -130,7 +130,7 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
   path.eye = eye;
   path.share = vec3(1.0);
   path.is_bent = false;
-  // Of a px of the view, as what it sees stands on its axis.
+  // Angle of a pixel of the view, if its surface stands on the axis.
   const float px_angle = length(metricPoint(pinhole, view.direction_dx));
   const Gathered gathered =
       gather(scene, pinhole, spot, mirror, path, px_angle, tile_px, counts);

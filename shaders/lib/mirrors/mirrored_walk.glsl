@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reflected rays meet in the source that they start in, by its walk.
+// Hits of reflected rays in the source that they start in, by its walk.
 #ifndef VIEWLOOM_LIB_MIRRORS_MIRRORED_WALK_GLSL_
 #define VIEWLOOM_LIB_MIRRORS_MIRRORED_WALK_GLSL_
 
@@ -7,7 +7,7 @@
 #include "lib/mirrors/passed_body.glsl"
 #include "lib/mirrors/settings.glsl"
 
-// Of a ray that went on unseen, or nothing where that has no end.
+// Certainty of a ray that went on unseen, or of none where that has no end.
 float certainty(Pinhole pinhole, Spot from, Ray ray, float passed_t, float hit_t) {
   const vec3 passed = ray.start + passed_t * ray.extent;
   const vec3 hit = ray.start + hit_t * ray.extent;

@@ -34,7 +34,7 @@ struct PassedBody {
   float last_inv_z;
 };
 
-// Of the first layer.
+// Body of the first layer.
 float bodyAt(Scene scene, vec2 at_px) {
   const ivec2 cell = ivec2(clamp(floor(at_px), vec2(0.0), vec2(scene.extent.size_px - 1)));
   const uvec2 facet = loadFacet(scene.layers, 0u, scene.extent, cell);
@@ -164,7 +164,7 @@ ivec2 columnOfBody(Scene scene, PassedBody body, vec2 place_px) {
   return clamp(ivec2(floor(on_body)), ivec2(0), scene.extent.size_px - 1);
 }
 
-// Of a walk that has passed behind something. A body that is met ends it, with the front's colour.
+// For a walk that has passed behind something. A body that is met ends it, with the front's colour.
 uint meetBody(Scene scene, Pinhole pinhole, Ray ray, inout Walk walk) {
   const bool has_passed = walk.passed_t > ray.t_begin && walk.passed_t < walk.t;
   if (!has_passed || hasFault(kFaultBodiesFlat)) return kBodyUnknown;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surfaces mirror, as px keep it.
+// Reflected light of surfaces, as pixels keep it.
 #ifndef VIEWLOOM_LIB_MIRRORS_REFLECTED_LIGHT_GLSL_
 #define VIEWLOOM_LIB_MIRRORS_REFLECTED_LIGHT_GLSL_
 
 #include "shared/reflection_abi.h"
 
 const ReflectedLight kNothingReflected = ReflectedLight(uvec2(0u), 0u, 0u);
-// What binary16 holds: light, and how far what is mirrored lies behind the surface, m.
+// Limit of binary16 for light, and for the distance of mirrored things behind the surface, m.
 const float kHalfMax = 65504.0;
 
 // 1/m: how close to the surface a ray found something.
@@ -34,7 +34,7 @@ uint packedPlace(vec3 normal, float inv_z) {
          (floatBitsToUint(inv_z) & 0xffff0000u);
 }
 
-// As square roots, with the roughness.
+// Packed as square roots, with the roughness.
 uint packedReflectance(vec3 reflectance, float roughness) {
   return packUnorm4x8(vec4(sqrt(reflectance), roughness));
 }
@@ -57,7 +57,7 @@ float unpackedDistance(uint packed) {
   return unpackHalf2x16(packed << 7).x;
 }
 
-// Of the light that a px's rays found: 1 in the mean, as square roots of up to so much.
+// Limit of weights for the light that a pixel's rays found: 1 in the mean, kept as square roots.
 const float kWeightMax = 64.0;
 
 uint packedWeight(float weight) {
@@ -79,8 +79,8 @@ float largestOf(vec3 light) {
   return max(light.r, max(light.g, light.b));
 }
 
-// What is mirrored, by the light that rays found, weighted by what the surface takes of each of
-// them, and by these weights; before it takes its `reflectance` of it, which is packed.
+// Reflected light: the light that rays found, weighted by the surface's share of each ray, divided
+// by these weights. The packed `reflectance` of the surface is not yet applied.
 ReflectedLight packedLight(vec3 light_sum, vec3 share_sum, uint count, uint reflectance,
                            float closeness, uint place) {
   const vec3 bounded = min(light_sum / max(share_sum, vec3(1e-12)), vec3(kHalfMax));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all rays of a walk are told.
+// Parameters of all rays of a walk.
 #ifndef VIEWLOOM_LIB_RAYS_EXTRAS_GLSL_
 #define VIEWLOOM_LIB_RAYS_EXTRAS_GLSL_
 

@@ -8,7 +8,7 @@
 #include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 
-// Of a band. Block rows are counted from the first that the band has a part of.
+// Grid of a band. Block rows are counted from the first that the band has a part of.
 struct BlockGrid {
   uvec2 tile_size_px;
   uvec2 tile_count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What several sources answered to a ray. Parameters that the kernel sets:
-// `answers`, and in `push` how they lie.
+// Answers of several sources to a ray. Parameters that the kernel sets: `answers`, and in `push`
+// how they lie.
 #ifndef VIEWLOOM_LIB_SOURCES_LOAD_ANSWER_GLSL_
 #define VIEWLOOM_LIB_SOURCES_LOAD_ANSWER_GLSL_
 

@@ -42,7 +42,7 @@ bool isRefuted(RayAnswer answer, uint source_count) {
   return is_refuted;
 }
 
-// Of answers without a hit: how much is known of the ray's end.
+// Rank of answers without a hit: how much is known of the ray's end.
 uint rankOf(uint ray_class) {
   return ray_class == kClassEmpty ? 3u : ray_class == kClassHidden ? 2u : 1u;
 }
@@ -100,7 +100,7 @@ uint nearestHit(uint source_count) {
   return nearest;
 }
 
-// What is one surface with the nearest hit blends; where some of it is certain, that alone.
+// Hits on the same surface as the nearest one blend; if some of them are certain, those alone.
 Merged mergedHit(uint nearest, uint source_count) {
   const RayAnswer near = loadAnswer(nearest);
   bool is_certain = false;

@@ -34,8 +34,8 @@ bool apronPixel(uint apron_index, int side, out ivec2 pixel) {
   return index < 4 * apron * (side + apron);
 }
 
-// Of side N, a px of the face lies in direction N forward + p.x right + p.y down, whose largest
-// part says which face it is on.
+// Place of a pixel on the other face. For side N, it lies in direction N forward + p.x right + p.y
+// down, whose largest part selects the face.
 FacePlace placeOf(CubeRef cube, uint face, ivec2 pixel) {
   const int side = int(cube.list.side_px);
   const ivec2 p = 2 * (pixel - int(kCubeApron_px)) + 1 - side;

@@ -14,7 +14,7 @@ struct EdgeSide {
   vec4 facet_high[kLayerCountMax];  // largest inv_z of the facet
 };
 
-// What links do to the facets on one side.
+// Effect of links on the facets on one side.
 struct EdgeLinks {
   uvec4 link[kLayerCountMax];  // 0 = silhouette, 1 + layer of the other side, or kind of silhouette
   vec4
@@ -55,7 +55,7 @@ bvec4 isKnownBehind(vec4 here, vec4 there, vec4 furthest, vec3 kappa) {
   return both(is_near, lessThanEqual(furthest - there, tolerance));
 }
 
-// What the edge of a layer is called if it is linked to nothing: 0, or a kind of silhouette.
+// Name of a layer's edge without a link: 0, or a kind of silhouette.
 uvec4 silhouetteOf(vec4 here, vec4 there, vec4 furthest, Steps steps) {
   const uvec4 far = mix(uvec4(0u), uvec4(kDeepEdge), isDeepBehind(here, there, steps.deep));
   return mix(far, uvec4(kKnownBehind), isKnownBehind(here, there, furthest, steps.kappa));

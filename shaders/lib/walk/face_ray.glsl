@@ -35,8 +35,8 @@ float placeInvZ(FaceStretch stretch, float t) {
   return min(stretch.inv_z_near * dot(1.0 - stretch.end_u, share) / max(along, 1e-30), kAtEye);
 }
 
-// As makeAnyRay, from where the ray enters the face's own px, to the seam beyond where it leaves
-// them.
+// The same as makeAnyRay, from where the ray enters the face's own pixels, to the seam beyond where
+// it leaves them.
 Ray makeFaceRay(vec3 near_eye, vec3 direction, vec2 size_px, float inv_z_near,
                 out FaceStretch stretch) {
   const float own_px = float(kCubeApron_px) - kSeamOverlap_px;
@@ -74,12 +74,12 @@ Ray makeFaceRay(vec3 near_eye, vec3 direction, vec2 size_px, float inv_z_near,
              end == 1.0 && direction.z > 0.0);
 }
 
-// What of an answer is meant otherwise by a face.
+// Marks the parts of an answer that have another meaning on a face.
 void markFaceAnswer(inout RayAnswer answer, FaceStretch stretch, Walk walk, vec2 size_px) {
   const vec4 inside = insideOf(vec3(answer.x_px, answer.y_px, 1.0), size_px,
                                float(kCubeApron_px) - kSeamOverlap_px);
   const bool passed_edge = walk.far_axis != kAxisNone;
-  // What is passed where something is hit is not passed before.
+  // A silhouette where something is hit is not passed before.
   const bool passes = walk.passed_t <= 1.0 && (walk.is_assumed || !walk.is_hit);
   answer.entry_inv_z = stretch.begin_inv_z;
   answer.view_inv_z = placeInvZ(stretch, walk.t);

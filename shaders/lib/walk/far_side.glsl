@@ -16,7 +16,7 @@ bool lacksFarSide(Walk walk, WalkStart start) {
   return has_none && (walk.far_axis != kAxisNone || start.behind_count > 0u);
 }
 
-// What stands a deep step before a surface: where stepAt leads to that.
+// 1/Z a deep step before a surface: from there stepAt leads to it.
 float deepBefore(vec3 deep, float inv_z) {
   return max(inv_z + deep.x, deep.z + (inv_z - deep.z) / (1.0 - deep.y));
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one source tells of a ray, so that it can be compared with what others tell
-// (shaders/walk.md, Several sources).
+// Answer of one source to a ray, comparable with those of others (shaders/walk.md, Several
+// sources).
 #ifndef VIEWLOOM_LIB_WALK_RAY_ANSWER_GLSL_
 #define VIEWLOOM_LIB_WALK_RAY_ANSWER_GLSL_
 
 #include "lib/rays/ray.glsl"
 #include "lib/walk/walk.glsl"
 
-// Of a source; px of its depth planes.
+// Pinhole of a source; px of its depth planes.
 struct Pinhole {
   vec2 focal_px;
   vec2 principal_px;
@@ -91,7 +91,7 @@ RayAnswer answerOf(Scene scene, Pinhole pinhole, ViewParams view, Ray ray, vec3 
   answer.layer = walk.layer;
   answer.visits = walk.visits;
   answer.view_inv_z = places.hit;
-  // What is off by kappa in the source's 1/Z is off by kappa Z^2 metres, and as far in the view.
+  // An error of kappa in the source's 1/Z is kappa Z^2 metres, and as far in the view.
   const float z_per_s = point.z > 0.0 ? answer.view_inv_z / point.z : abs(direction.z);
   const float kappa = stepAt(scene.kappa, point.z);
   answer.tolerance = min(kappa * z_per_s * z_per_s, kToleranceShareMax * answer.view_inv_z);

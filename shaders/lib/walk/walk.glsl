@@ -26,8 +26,8 @@
 #include "lib/walk/walk_edges.glsl"
 #include "lib/walk/walk_state.glsl"
 
-// Of the distance to a facet, as a share of the ray's own inv_z (the largest in the source may be
-// raised by the error of a plane): 16 ulp, the rounding of positions along a ray and of a few sums.
+// Rounding of the distance to a facet, as a share of the ray's own inv_z: 16 ulp, from positions
+// along a ray and a few sums. The error of a plane may raise the largest inv_z in the source.
 const float kRounding = 16.0 / 8388608.0;
 const uvec4 kLayers = uvec4(0u, 1u, 2u, 3u);
 
@@ -73,7 +73,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   // Where nothing of a layer is hit any more: the ray met the far side of it, or of a deeper one.
   vec4 over_t = vec4(2.0);
   float first_passed_t = just_left ? start.t : 2.0;
-  // Of the last visit: its level, where the ray left it, how far in front it was there and before.
+  // The last visit: its level, where the ray left it, how far in front it was there and before.
   uint own_level = 0u;
   float end_t = 0.0;
   float front_from = 0.0;
@@ -151,7 +151,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       // passes to behind must look at the links.
       const bool meets_edge = is_decided && in_front && front_from <= 0.0;
       const bool passes = is_decided && !meets_edge;
-      // Who is as far back as the far side while still behind what stands before it.
+      // Condition: as far back as the far side, while still behind the surface before it.
       const float from_far = from_inv_z - far_inv_z;
       const float far_to = far_inv_z - to_inv_z;
       const float front_at_end = is_exact ? above_to : front_from;
@@ -162,7 +162,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       const bool meets_backs = kMeetsBacks && !hasFault(kFaultBacksPassed);
       const bool comes_out = meets_backs && passes && !met_far && !in_front && !still_behind &&
                              (front_from > 0.0 || front_to > 0.0);
-      // Who comes out by less than rounding might meet the next facet as a step up.
+      // A ray that comes out by less than rounding might meet the next facet as a step up.
       const float least_front = front_from > 0.0 ? 0.0 : kRounding * max(from_inv_z, to_inv_z);
       in_front = passes && !met_far ? front_to > least_front : in_front;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a walk meets on the edges between columns: the links that the ray crosses.
+// Meetings of a walk on the edges between columns: the links that the ray crosses.
 #ifndef VIEWLOOM_LIB_WALK_WALK_EDGES_GLSL_
 #define VIEWLOOM_LIB_WALK_WALK_EDGES_GLSL_
 
@@ -7,7 +7,7 @@
 #include "lib/structure/structure_access.glsl"
 #include "shared/trace_abi.h"
 
-// What is walked through.
+// Structure that is walked through.
 struct Scene {
   Address layers[kLayerCountMax];
   uint layer_count;
@@ -19,7 +19,7 @@ struct Scene {
   bool fills_border;  // else what leaves the image takes the background
 };
 
-// What the build measured. Two of it are divisors, and never 0.
+// Measurements of the build. Two of them are divisors, and never 0.
 void addMeasured(inout Scene scene, MeasuredHead measured) {
   scene.inv_z_near = max(uintBitsToFloat(measured.inv_z_max_bits), kInvZNearMin) * kInvZNearMargin;
   scene.inv_z_range = max(measured.inv_z_near - measured.inv_z_far, kInvZNearMin);
@@ -64,13 +64,13 @@ uint edgeOfAxis(uint axis, ivec2 direction, bool leaving) {
   return first + ((along > 0) == leaving ? 1u : 0u);
 }
 
-// What a ray meets on the edge it has just crossed.
+// Meeting of a ray with the edge it has just crossed.
 struct Crossing {
   uint hit_layer;     // whose surface it hits; kNoLayer
   bool has_far_side;  // passes behind `layer`, from over a surface of it or from the beginning
   bool is_from_nothing;  // passes behind `layer`, from over no surface of it
   float far_share;    // how far up the step from that surface, 0..1; 0 if it is deep
-  // Of that surface here, if it is behind the ray, and nothing says that it ends here; else
+  // 1/Z of that surface here, if it is behind the ray, and nothing says that it ends here; else
   // kNoSurface.
   float far_inv_z;
 };

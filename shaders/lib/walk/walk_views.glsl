@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What trace/walk_views.comp is specialised to and told, and what it writes.
+// Specialisation, parameters and outputs of trace/walk_views.comp.
 #ifndef VIEWLOOM_LIB_WALK_WALK_VIEWS_GLSL_
 #define VIEWLOOM_LIB_WALK_WALK_VIEWS_GLSL_
 
@@ -24,13 +24,13 @@ layout(constant_id = kIdIsCubeFace) const bool kIsCubeFace = false;
 layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kIdShownBeside) const uint kShownBeside = 0u;  // kShows... of some tile
 layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
-// Of blocks that are not complete alone, an invocation a row of a block.
+// Only for incomplete blocks, an invocation a row of a block.
 layout(constant_id = kIdIsOfBlocks) const bool kIsOfBlocks = false;
 // Px whose ray ends behind something are listed.
 layout(constant_id = kIdListsHidden) const bool kListsHidden = false;
 // Not 0: of such px alone, an invocation each, the mean of so many rays through a lens; alpha 0.
 layout(constant_id = kIdRaysOfHidden) const uint kRaysOfHidden = 0u;
-// Of a software device, runs that were not finished are listed.
+// On a software device, unfinished runs are listed.
 layout(constant_id = kIdListsUnfinished) const bool kListsUnfinished = false;
 // Each px has an eye of its own, or several.
 const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens || kRaysOfHidden > 0u;
