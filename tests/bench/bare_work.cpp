@@ -34,7 +34,7 @@ double msSince(Clock::time_point begun) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
 }
 
-// Of several tries, the one that was disturbed least tells.
+// The least disturbed of several tries counts.
 uint64_t stepsPerPiece(double work_ms, WorkerPool& workers) {
   constexpr uint64_t kTriedSteps = 1 << 15;
   double least_ms = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all contestants of the benchmark are given: one frame, and the views that are asked of it.
+// Input of all contestants of the benchmark: one frame, and the views that are asked of it.
 #pragma once
 
 #include <cstdint>

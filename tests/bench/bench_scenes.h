@@ -12,7 +12,7 @@
 
 namespace viewloom::bench {
 
-// What a layer shows at a place.
+// Sample of a layer at a place.
 struct SceneSample {
   float inv_z = kNoSurface;  // 1/m
   glm::vec3 srgb{0.0F};

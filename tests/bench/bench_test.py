@@ -16,8 +16,8 @@ PROGRAM = ""
 DIFFER_SHARE_MAX = 0.02
 # A picture of the scene as it is; frames are small here, and their silhouettes coarse.
 PSNR_MIN_DB = 22
-# Of best above draft. A lens and reflections get rays for it: seen 4.0 and 8.4. Of a room of flat
-# walls a coarse tolerance, all that quality sets for the others, loses next to nothing: seen 0.00.
+# Gain of best above draft. A lens and reflections get rays for it: seen 4.0 and 8.4. The others get
+# a finer tolerance, which gains next to nothing in a room of flat walls: seen 0.00.
 KNOB_GAIN_MIN_DB = {"views": -0.01, "stereo": -0.01, "lens": 3, "time": -0.01, "reflections": 5}
 
 

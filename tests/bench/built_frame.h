@@ -12,7 +12,7 @@
 
 namespace viewloom::bench {
 
-// Of one source. Thread-safety: none.
+// Structure of one source. Thread-safety: none.
 class BuiltFrame {
  public:
   BuiltFrame(const Device& device, const FramePtr& frame);

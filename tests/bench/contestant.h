@@ -31,7 +31,7 @@ class Contestant {
   virtual void build() = 0;
   // All views, in colour. Returns when done.
   virtual void trace() = 0;
-  // Of the last trace; not timed, and may trace again for inv_z.
+  // Picture of the last trace; not timed, and may trace again for inv_z.
   virtual Picture picture() = 0;
 };
 

@@ -38,7 +38,7 @@ class Book final : public Subscriber {
     std::lock_guard lock(mutex_);
     ++atlas_count_;
     came_.notify_all();
-    // Of a newer frame that the same eyes see nobody has waited for since they moved.
+    // Nobody has waited for a newer frame that the same eyes see, since they moved.
     const bool is_answer =
         atlas->eye_poses_time_ns != 0 &&
         std::exchange(last_poses_ns_, atlas->eye_poses_time_ns) != atlas->eye_poses_time_ns;

@@ -24,7 +24,7 @@ struct EyeLoad {
   bool is_all_at_once = false;  // all heads move at one instant; else each at its own
   HeadMotion motion = HeadMotion::kFree;
   SizePx eye_px{960, 540};
-  // Of a quilt on the same stream, traced again and again; 0x0 = none.
+  // Size of a quilt on the same stream, traced again and again; 0x0 = none.
   SizePx quilt_px{0, 0};
   double seconds = 5;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured of a pipeline whose threads cannot go on: nothing.
+// A pipeline whose threads cannot go on ends the measurement.
 #pragma once
 
 #include <exception>

@@ -19,7 +19,7 @@ from browser import Browser  # noqa: E402  (it lies beside the tests of the page
 
 SIZES = {"desktop": (1280, 800, 1, False), "phone": (390, 844, 2, True)}
 SHARP_PX = 360  # of a view's width
-# What the page has drawn: when, of how many px a view is, and which view it is.
+# Log of the page's drawings: when, how many px a view has, and which view it is.
 WATCH = """
 window.drawn = [];
 const sample = () => {

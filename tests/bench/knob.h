@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the quality of a display buys: time over PSNR, for each application of the tracer.
+// Gain of a display's quality: time over PSNR, for each application of the tracer.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct KnobPoint {
   double psnr_db = 0;   // sRGB, of px that the frame knows
 };
 
-// Of draft, balanced and best in turn, as often as rounds say, at least once.
+// Draft, balanced and best in turn, as often as rounds say, at least once.
 std::vector<KnobPoint> knobPoints(const Device& device, const KnobLoad& load, uint32_t round_count);
 
 void addKnobCommand(const usage::Command& app);

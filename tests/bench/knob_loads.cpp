@@ -39,7 +39,7 @@ Sight sightOf(const Pose& pose, SizePx size_px, uint32_t by) {
           .size_px = small};
 }
 
-// What the views show in a row, one beside the other.
+// True views in a row, one beside the other.
 class TrueAtlas {
  public:
   TrueAtlas(SizePx view_px, size_t view_count)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What quality is set for: pictures of each application of the tracer, and how they truly look.
+// Loads for the quality: pictures of each application of the tracer, and their true pictures.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ struct NamedLoad {
   std::function<BenchLoad(const LoadMaker&)> make;
 };
 
-// What shows each property once, at 1920x1080 and a Portrait quilt unless named; 67 million rays of
-// a 32" quilt are the largest.
+// Loads that show each property once, at 1920x1080 and a Portrait quilt unless named; 67 million
+// rays of a 32" quilt are the largest.
 std::vector<NamedLoad> quickLoads();
 // Those; every scene, number of layers, span and display with each other; and 3840x2160 in four
 // layers, of which all contestants together take 11 GB of memory and minutes a round.

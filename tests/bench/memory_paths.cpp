@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a load costs on this device by address, through a storage binding and as a texel: the
-// figures behind shaders/lib/memory.glsl. Prints JSON; medians of interleaved runs.
+// Cost of a load on this device by address, through a storage binding and as a texel: the figures
+// behind shaders/lib/memory.glsl. Prints JSON; medians of interleaved runs.
 #include <array>
 #include <chrono>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server holds in memory of one stream and one display, measured on its own slots.
+// Memory of the server for one stream and one display, measured on its own slots.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace viewloom::bench {
 
-// Of what the server allocates for a frame and an atlas of it: on the device, and on the host.
+// Allocations of the server for a frame and an atlas of it: on the device, and on the host.
 struct MemoryUse {
   uint64_t structure_bytes = 0;
-  // As displays are encoded by default. The walk: a strip, as high as bands are. The sweep: the
-  // whole atlas in the form that the encoder takes, and what its threads keep.
+  // Trace target with the default encoding of displays. The walk: a strip, as high as bands are.
+  // The sweep: the whole atlas in the form that the encoder takes, and the memory of its threads.
   uint64_t trace_target_bytes = 0;
   uint64_t frame_input_bytes = 0;  // decoded planes
   // The most there was while a frame was taken in, built and traced. None under a sanitizer.
   std::optional<uint64_t> peak_bytes;
-  // What one more frame on its way holds, from its build to its last band: another structure and
-  // trace target, but not what builds take beside it. For the sweep also its planes, which it reads
-  // to the end.
+  // Memory of one more frame on its way, from its build to its last band: another structure and
+  // trace target, without the temporary memory of builds. For the sweep also its planes, which it
+  // reads to the end.
   uint64_t further_frame_bytes = 0;
 
   uint64_t totalBytes() const { return structure_bytes + trace_target_bytes + frame_input_bytes; }
@@ -31,7 +31,7 @@ struct MemoryUse {
 // Builds the frame and traces some of it, twice: only then do drivers hold what they compiled.
 MemoryUse walkMemory(const Device& device, const Frame& frame, const TraceJob& job);
 
-// What the sweep allocates is seen on the heap: not under a sanitizer.
+// Whether allocations of the sweep are seen on the heap: not under a sanitizer.
 bool canMeasureSweeps();
 
 // Prepares and sweeps a frame that can be swept.

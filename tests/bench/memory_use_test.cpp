@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream and a display cost in memory is bounded, and what is reported is what is there.
+// Memory of a stream and a display is bounded, and the reported sizes are the real ones.
 #include "bench/memory_use.h"
 
 #include <cstring>

@@ -27,14 +27,14 @@ struct MirrorDuel {
   std::vector<MirrorPoint> walks;    // by tolerance, the display's own first
   std::vector<MirrorPoint> marches;  // by knobs
 
-  // What marches make best, of all px of mirrors: in no more time than this, or at all.
+  // The best march over all px of mirrors, in no more time than this, or at all.
   const MirrorPoint* bestMarch(double time_ms_max) const;
   const MirrorPoint& bestMarch() const;
   // The fastest of those that make more than this of all px; none where none does.
   const MirrorPoint* fastestMarch(double all_db_min) const;
 };
 
-// As many of each, in turn, for the medians.
+// Duels with so many runs of each, in turn, for the medians.
 std::vector<MirrorDuel> mirrorDuels(const Device& device, const MirrorScene& mirrors,
                                     uint32_t round_count);
 

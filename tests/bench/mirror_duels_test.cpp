@@ -12,8 +12,8 @@
 namespace viewloom::bench::mirror_duels_test {
 namespace {
 
-// Of all px of mirrors, above the view without reflections: seen 28 and more of the floor, 13 and
-// more of the sphere, most of which mirrors what the source does not hold.
+// Gain over all px of mirrors, above the view without reflections: seen 28 and more on the floor,
+// 13 and more on the sphere, most of which mirrors things outside the source.
 constexpr double kGainMin_db = 10;
 
 // How far the walk is ahead of the best of marches, whatever its knobs and however long it takes,

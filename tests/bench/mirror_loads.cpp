@@ -96,7 +96,7 @@ FramePtr frameOf(const truth::Instant& instant, const Stand& stand) {
 
 HeldBy heldBy(const truth::Instant& instant, const Stand& stand, const Camera& view) {
   std::vector<truth::SourceCamera> cameras = stand.cameras;
-  // Of a cube map, the face that looks at what views look at is the first.
+  // In a cube map, the face that looks where the views look is the first.
   if (stand.has_cube && cameras.size() == kCubeFaceCount) {
     std::swap(cameras.front(), cameras[kCubeFrontFace]);
   }
@@ -120,7 +120,7 @@ MirrorPsnr mirrorPsnr(const AtlasLayout& layout, std::span<const float> linear,
   return {of_known.db(), of_elsewhere.db(), of_unknown.db(), of_all.db()};
 }
 
-// What others stand in beside the first: what it cannot see, as it lies behind it, or is hidden.
+// Scenes whose other sources see what the first cannot: things behind it, or hidden.
 std::vector<MirrorScene> mirrorScenes() {
   const truth::SourceCamera own{cameraAt(glm::dvec3(0), glm::dvec3(0), kSource_px), kSource_px};
   const auto beside = [&](const glm::dvec3& eye_m, const glm::dvec3& turn_rad) {

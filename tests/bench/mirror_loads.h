@@ -24,7 +24,7 @@ inline constexpr SizePx kMirrorView_px{400, 300};  // as fine as the sources
 // From where the first source stands, and from beside it.
 std::vector<MirrorView> mirrorViews();
 
-// What a frame is made of: pictures from these places; the last six may be those of a cube map.
+// Parts of a frame: pictures from these places; the last six may be those of a cube map.
 struct Stand {
   const char* name;
   std::vector<truth::SourceCamera> cameras;
@@ -68,7 +68,7 @@ struct MirrorPsnr {
   double all_db = 0;
 };
 
-// Of an atlas of one view. `linear`: float[height][width][4], sRGB-encoded.
+// Score of an atlas of one view. `linear`: float[height][width][4], sRGB-encoded.
 MirrorPsnr mirrorPsnr(const AtlasLayout& layout, std::span<const float> linear,
                       const std::vector<glm::vec3>& truth, const HeldBy& held);
 

@@ -31,7 +31,7 @@ bool moves(const truth::Body& body) {
   return body.velocity_mps != glm::dvec3(0) || body.spin_rad_per_s != glm::dvec3(0);
 }
 
-// Of a camera that looks at the body from the origin, and goes and turns with it.
+// Picture of a camera that looks at the body from the origin, and goes and turns with it.
 truth::Picture pictureBeside(const truth::Body& body, double time_s, uint32_t layer_count) {
   constexpr SizePx kThing_px{160, 160};
   constexpr double kThingFocal_px = 600;  // 15 degrees
@@ -60,7 +60,7 @@ constexpr double kBesideMax_px = 1;
 // the room have less from px to px, and its silhouettes more.
 constexpr double kConnectedShare = 0.04;
 
-// What came to a px of a warp.
+// Sample that came to a px of a warp.
 struct Arrival {
   double inv_z = -1;  // 1/m; below 0 = nothing
   size_t from = 0;    // px of the source
@@ -71,7 +71,7 @@ glm::dvec2 middleOf(size_t px, SizePx size_px) {
   return {double(px % size_px.width) + 0.5, double(px / size_px.width) + 0.5};
 }
 
-// Of each px the nearest.
+// The nearest sample of each px.
 std::vector<Arrival> movedTo(const truth::Picture& picture, const Pose& camera) {
   const Intrinsics& lens = picture.camera.intrinsics;
   const Pose view_from_source = compose(inverse(camera), picture.camera.pose);

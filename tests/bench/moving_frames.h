@@ -29,7 +29,8 @@ Sequence movingCamera();
 Sequence movingThings();
 // These things twice as fast.
 Sequence fastThings();
-// As movingThings, but the camera sees the room alone, and each thing is a source of its own.
+// The same as movingThings, but the camera sees the room alone, and each thing is a source of its
+// own.
 Sequence movingSources();
 
 inline constexpr SizePx kSequence_px{320, 240};
@@ -38,15 +39,15 @@ Intrinsics sequenceIntrinsics();
 
 // Frame `index` of the sequence, with so many layers, as it truly is.
 truth::Picture pictureOf(const Sequence& sequence, uint32_t index, uint32_t layer_count);
-// What a stream has of it: that picture, or the room's and the things'.
+// Frame of a stream: that picture, or the room's and the things'.
 FramePtr frameOf(const Sequence& sequence, const truth::Picture& picture, uint32_t index,
                  uint32_t layer_count);
 
 // The first layer, sRGB-encoded.
 ScoredImage imageOf(const truth::Picture& picture);
 
-// What a px of a warp takes of the source: the colour of the px that came there, or what lies
-// between px, in proportion, at the place that has come to its middle.
+// Colour that a px of a warp takes from the source: that of the px that came there, or a blend of
+// neighbours at the place that has come to its middle.
 enum class WarpedColor : uint8_t { kOfPx, kBetweenPx };
 
 // The picture's first layer, px by px moved to a camera of the same size; the nearest stays. Holes

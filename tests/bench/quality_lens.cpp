@@ -89,10 +89,10 @@ TrueView trueViewOf(const truth::Instant& instant, const LensScoring& scoring) {
       .hidden_shares = hiddenShares(instant, view, size_px, scoring.radius_m, kRaysToHidden)};
 }
 
-// Of a px's rays.
+// Share of a px's rays.
 constexpr float kHiddenShare = 0.1F;
 
-// Of what lies further in than blur reaches: beyond the image nothing is known.
+// Scores px further in than blur reaches: beyond the image nothing is known.
 void score(const RenderedAtlas& atlas, const TrueView& truth, LensScore& result) {
   const SizePx size_px = atlas.layout->size_px;
   const uint32_t margin_px = size_px.width / 20;
@@ -235,7 +235,7 @@ Json qualityOfLens(const Device& device) {
   for (const LensScore& score : lensScores(on_device, {}, gathered)) {
     rows.push_back(jsonOf({}, score, "device"));
   }
-  // What views cost that are as large as those of displays.
+  // Cost of views as large as those of displays.
   add({.view_width_px = 640, .true_ray_count = 0}, balanced);
   add({.view_width_px = 960, .true_ray_count = 0}, balanced);
   add({.source_width_px = 1920, .view_width_px = 960, .true_ray_count = 0}, balanced);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a lens is worth: its picture beside one of many exact rays, and what it costs.
+// Value of a lens: its picture beside one of many exact rays, and its cost.
 #pragma once
 
 #include <vector>

@@ -52,7 +52,7 @@ TEST_P(QualityOfLens, growsWithTheRaysAndByTheSecondStage) {
   EXPECT_LT(std::abs(scores[2].mean_error), 1e-3);
 }
 
-// What a block was found to be must not be seen in the picture, from beside the source neither.
+// The kind of a block must not show in the picture, from beside the source either.
 TEST_P(QualityOfLens, hasNoSeamsBetweenBlocks) {
   const auto scores = scoresOf({{.layer_count = 2, .walked_count = 8},
                                 {.layer_count = 2, .walked_count = 8, .gathered_count = 32}},
@@ -73,7 +73,7 @@ TEST_P(QualityOfLens, comesNearerToTheTruthTheMoreRaysFindWhatThereIs) {
   for (const uint32_t walked : {2, 4, 8, 16}) {
     ways.push_back({.layer_count = 2, .walked_count = walked, .gathered_count = 4 * walked});
   }
-  // As many gathered rays: what these lose by a single walked one is what that did not find.
+  // The same number of gathered rays: a single walked one finds less, so these lose.
   ways.push_back({.layer_count = 2, .walked_count = 1, .gathered_count = 128});
   ways.push_back({.layer_count = 2, .walked_count = 8, .gathered_count = 128});
   const auto scores = scoresOf(ways, 0, kTrueRays);
@@ -93,7 +93,7 @@ TEST_P(QualityOfLens, comesNearerToTheTruthByDeeperLayers) {
     ways.push_back({.layer_count = layers, .walked_count = 8, .gathered_count = 32});
   }
   const auto scores = scoresOf(ways, 0.05);
-  // Of all px; the rest are what one layer shows as well.
+  // Share of all px; the rest look the same with one layer.
   EXPECT_GT(scores[0].hidden_px_share, 0.05);
   EXPECT_LT(scores[0].hidden_px_share, 0.2);
   EXPECT_GT(scores[1].hidden_psnr_db, scores[0].hidden_psnr_db + 6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reflections are worth, on scenes of exact surfaces that mirror each other.
+// Value of reflections, on scenes of exact surfaces that mirror each other.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace viewloom::bench {
 
-// Of one view of a scene, by one set of sources.
+// Score of one view of a scene, by one set of sources.
 struct ReflectionScore {
   std::string scene;
   std::string sources;

@@ -24,22 +24,22 @@ const std::map<std::string, double> kAllMin_db = {{"mirror floor", 41.5},
                                                   {"rough floor", 46.0}};
 // Above the same views without reflections.
 constexpr double kGainMin_db = 20;
-// What no source holds ends in the environment, and little else does.
+// Rays to places outside all sources end in the environment, and few others do.
 constexpr double kEnvironmentBeyond = 0.02;
 
-// What others hold alone, above the first source by itself: of what is 5 % of the px of mirrors, or
-// more, seen 19 and more.
+// Gain above the first source alone, where only others hold the mirrored things: for 5 % of the px
+// of mirrors or more, seen 19 and more.
 constexpr double kElsewhereMin = 0.05;
 constexpr double kElsewhereGainMin_db = 15;
-// Of the few px of the floor, which the first source guesses well: seen 36.4 and more. A px or two
-// say nothing.
+// Limit for the few px of the floor, which the first source guesses well: seen 36.4 and more. A px
+// or two say nothing.
 constexpr double kFewMin_db = 35.5;
 constexpr double kFewLeast = 0.001;
 // And so of all px of mirrors: seen 0.89 with two sources, 14 and more with a cube map.
 constexpr double kAllGainMin_db = 0.5;
-// Of all px where others hold nothing else, below the first source by itself. A coarse cube map
-// takes part in what a finer source shows: seen 0.59. Of the floors the first source alone guesses
-// all but perfectly what its rays pass behind, and others guess, too: seen 5.1 and 3.2, and no less
+// Loss below the first source alone, over all px where others hold nothing else. A coarse cube map
+// takes part in the picture of a finer source: seen 0.59. On the floors the first source alone
+// guesses hidden surfaces all but perfectly, and others guess, too: seen 5.1 and 3.2, and no less
 // than 42.2 and 46.7.
 constexpr double kLossMax_db = 1.5;
 const std::map<std::string, double> kGuessedLossMax_db = {{"mirror floor", 6}, {"rough floor", 4}};
@@ -50,8 +50,8 @@ struct Range {
   double most = 0;
 };
 
-// Of the rays of a view, without a cube map. Both views and both sets of sources of each scene were
-// seen within these, by a fifth of the share or more.
+// Shares of the rays of a view, without a cube map. Both views and both sets of sources of each
+// scene were seen within these, by a fifth of the share or more.
 struct EndingShares {
   Range hit;
   Range assumed;

@@ -41,7 +41,7 @@ class MeanDb {
   int count_ = 0;
 };
 
-// Of both eyes and all poses.
+// Scores over both eyes and all poses.
 struct TrackScore {
   MeanDb inside, known, full, still;
   double worst_known_db = std::numeric_limits<double>::infinity();

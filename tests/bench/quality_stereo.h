@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the eyes of a head that moves are served, beside what they would truly see.
+// Pictures served to the eyes of a moving head, beside the true ones.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

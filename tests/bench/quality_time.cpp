@@ -49,7 +49,7 @@ TrueSequence takeAll(const Sequence& sequence, std::vector<truth::Picture> pictu
   return taken;
 }
 
-// What the frame says of its cameras, at once. `before`: the one that was kept before it.
+// The frame's cameras at once. `before`: the one that was kept before it.
 TrackedFrame trackedFrame(const TrueSequence& sequence, uint32_t index, uint32_t before) {
   TrackedFrame tracked = viewloom::trackedFrame(
       *sequence.frames[index], before < index ? sequence.frames[before].get() : nullptr, kInvZNear);

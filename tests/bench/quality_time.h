@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What atlases between the frames of a stream are worth, on synthetic sequences of which frames
-// were dropped.
+// Value of atlases between the frames of a stream, on synthetic sequences with dropped frames.
 #pragma once
 
 #include <cstdint>

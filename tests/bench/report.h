@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the benchmark prints.
+// Output of the benchmark.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@
 
 namespace viewloom::bench {
 
-// What only viewloom knows of itself. Its walk is a contestant of that name where it sweeps.
+// Measurements that only viewloom has of itself. Its walk is a contestant of that name where it
+// sweeps.
 struct OwnReport {
   TraceMethod method = TraceMethod::kWalk;
   Visits visits;  // of its walk

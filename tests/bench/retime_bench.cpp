@@ -28,7 +28,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr uint32_t kLayers = 2;
-// Of the frame's time, s: half way between frames of 15 Hz.
+// Time after the frame, s: half way between frames of 15 Hz.
 constexpr double kCarried_s = 1.0 / 30;
 constexpr float kSpeed_mps[3] = {0.5F, 0.25F, 0.125F};  // binary16 each
 

@@ -22,7 +22,7 @@ struct Measured {
   // Share of rays that differ from the reference: both hit, and their 1/Z is more than half a px of
   // disparity of the outermost view apart; or one hits and the other does not. None without one.
   std::optional<double> differ_share;
-  // Of some of the views, against what they truly are (true_views.h). None without either.
+  // PSNR of some of the views, against the true ones (true_views.h). None without either.
   std::optional<double> psnr_db;
 };
 

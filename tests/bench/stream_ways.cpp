@@ -52,7 +52,7 @@ class BareSending final : public MeasuredWay {
   BareSending(const WireFrame& frame, const MeasuredProcess& there)
       : MeasuredWay(there), frame_(frame), sender_(makeChannel(there.address())) {}
 
-  // As Published: the answer to a frame is awaited once the next has gone.
+  // The same order as Published: the answer to a frame is awaited once the next has gone.
   void send(int frame_count) override {
     for (int i = 0; i < frame_count; ++i) {
       sender_.send(frame_.planes);

@@ -27,7 +27,7 @@ std::unique_ptr<Way> copyWay(const WireFrame& frame);
 std::unique_ptr<Way> bareSendingWay(const WireFrame& frame, const MeasuredProcess& there);
 std::unique_ptr<Way> publishingWay(const WireFrame& frame, const MeasuredProcess& there);
 std::unique_ptr<Way> bareReceivingWay(uint64_t atlas_bytes, const MeasuredProcess& there);
-// Of atlases of so many pixels, in colour.
+// Way of atlases of so many pixels, in colour.
 std::unique_ptr<Way> watchingWay(uint32_t width_px, uint32_t height_px,
                                  const MeasuredProcess& there);
 

@@ -41,7 +41,7 @@ class ViewRays {
     const glm::dvec2 slope = glm::dvec2(point_m.x, -point_m.y) / -point_m.z;
     return (source_.focal_px * slope + source_.principal_px) / size_px_;
   }
-  // Of the point at this 1/Z of the source.
+  // Place of the point at this 1/Z of the source.
   glm::dvec2 atInvZ(const glm::dvec3& along, double inv_z) const {
     return atDepth(along, (-1 / inv_z - view_.pose.position_m.z) / along.z);
   }

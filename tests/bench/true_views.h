@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scenes of loads truly look like from anywhere, and how close a picture comes to that.
+// True pictures of the loads' scenes from anywhere, and how close a picture comes to them.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace viewloom::bench {
 
-// Of the light at the centre of each px, as the frames hold it: textures end as sharply as there,
-// even where a px of the view is larger than one of the source. Alpha is 0 where the source's
-// image, of `source_px`, ends before it reaches what is seen, else 255.
+// Light at the centre of each px, as the frames hold it: textures end as sharply as there, even
+// where a px of the view is larger than one of the source. Alpha is 0 where the source's image, of
+// `source_px`, ends before it reaches the surface, else 255.
 std::vector<uint32_t> trueClutter(const Camera& view, SizePx view_px, SizePx source_px);
 std::vector<uint32_t> trueSmooth(const Camera& view, SizePx view_px, SizePx source_px);
 std::vector<uint32_t> trueThin(const Camera& view, SizePx view_px, SizePx source_px);
@@ -21,8 +21,8 @@ std::vector<uint32_t> trueThin(const Camera& view, SizePx view_px, SizePx source
 // Places of a px, along each axis, of which a true px is the mean.
 inline constexpr uint32_t kTruePlaces = 4;
 
-// What px show that are as large as they are: the mean of the codes at kTruePlaces^2 places of
-// each. Alpha is 0 unless all of them are known.
+// Colour of px with their area: the mean of the codes at kTruePlaces^2 places of each. Alpha is 0
+// unless all of them are known.
 std::vector<uint32_t> meanView(const TrueView& true_view, const Camera& view, SizePx view_px);
 
 // The first, the middle and the last view of a load, as they truly are (meanView); none if that is

@@ -95,7 +95,7 @@ double timedMs(const std::function<void()>& work) {
   return kMsPerS * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// As the server does, on one thread.
+// Decodes like the server, on one thread.
 void decodeAll(const WireFrame& frame, PlaneDecoder& decoder) {
   for (size_t i = 0; i < frame.planes.size(); ++i) {
     const v1::Plane& plane = frame.header.sources(0).layers(static_cast<int>(i)).planes(0);

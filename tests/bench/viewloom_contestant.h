@@ -19,8 +19,8 @@ namespace viewloom::bench {
 
 class ViewloomContestant : public Contestant {
  public:
-  // As the server traces, or the walk beside it, where the server sweeps. The device must outlive
-  // it.
+  // Traces like the server; can_sweep false: the walk beside it, where the server sweeps. The
+  // device must outlive it.
   ViewloomContestant(const Device& device, bool can_sweep);
 
   std::string_view name() const override { return can_sweep_ ? "viewloom" : "walk"; }
@@ -32,7 +32,7 @@ class ViewloomContestant : public Contestant {
   void trace() override;
   Picture picture() override;
 
-  // Of the prepared load; it is walked.
+  // Visits of the prepared load; it is walked.
   Visits visits();
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a rival's figure may be off: it was given with two decimals.
+// Error of a rival's published figure: it was given with two decimals.
 constexpr double kRivalSlack_db = 0.006;
 
 class FidelityTest : public DeviceNeededTest {
@@ -79,7 +79,7 @@ TEST_F(FidelityTest, isNoWorseThanItWas) {
   }
 }
 
-// Of coarse depth, on 2026-11-22; without smoothing, noise alone costs 2 dB of antinous.
+// Floors for coarse depth, on 2026-11-22; without smoothing, noise alone costs 2 dB of antinous.
 constexpr Floor kCoarseFloors[] = {
     {"beachball, depth in 8 bits", "left", 54.6, 54.2},
     {"beachball, depth in 6 bits", "left", 54.4, 53.8},
@@ -134,7 +134,7 @@ TEST_F(FidelityTest, flickersNoMoreThanItDid) {
   EXPECT_LT(flickerOf("beachball", "row_flicker", "viewloom"), 0.045);
 }
 
-// What is known of these methods on these sets, so that a mistake in the masks, the transfer or
+// Published figures of these methods on these sets, so that a mistake in the masks, the transfer or
 // the cameras shows: full frame, and covered where their own mask is the one all are scored by.
 TEST_F(FidelityTest, findsTheRivalsAsTheyAreKnown) {
   struct Known {

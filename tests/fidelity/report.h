@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trials found, for programs and for people.
+// Results of the trials, for programs and for people.
 #pragma once
 
 #include <string>

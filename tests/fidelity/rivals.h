@@ -24,9 +24,9 @@ std::vector<Rival> rivalsOf(double mesh_cut_px);
 ScoredImage rivalView(const ScoredImage& source, const test::DataSet& set,
                       const test::TrueView& view, const Rival& rival);
 
-// What the source knows of a view, whatever method makes it: covered is what the forward map of
-// the source reaches, with neighbours connected up to `cut_px`; of the rest, what has nothing
-// covered between itself and an end of its line is outside, the others hidden.
+// Knowledge of the source about a view, whatever method makes it. Covered: reached by the forward
+// map of the source, with neighbours connected up to `cut_px`. Outside: nothing covered lies
+// between the pixel and an end of its line. The others are hidden.
 std::vector<PixelClass> classesOf(const test::DataSet& set, const test::TrueView& view,
                                   double cut_px);
 

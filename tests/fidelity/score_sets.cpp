@@ -22,7 +22,7 @@ constexpr double kAntinousCut_px = 0.15;
 constexpr double kNoisyBeachBallCut_px = 3;
 constexpr double kNoisyAntinousCut_px = 1;
 
-// What is added to every 1/Z of antinous, 0.047 .. 0.19 1/m, with the same pictures.
+// Additions to every 1/Z of antinous, 0.047 .. 0.19 1/m, with the same pictures.
 constexpr double kShifts[] = {-0.04, 0.2, 10};
 constexpr const char* kShiftedViews[] = {"036", "041", "044", "076", "080"};
 
@@ -62,7 +62,7 @@ class Judge {
   }
 
  private:
-  // Of the views from which the source is not `across` away, in the order of `along`.
+  // Flicker of the views from which the source is not `across` away, in the order of `along`.
   std::optional<double> flickerAlong(int test::TrueView::*along, int test::TrueView::*across,
                                      const std::vector<ScoredImage>& pictures) const {
     std::vector<size_t> stack;

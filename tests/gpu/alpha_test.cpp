@@ -18,7 +18,7 @@ constexpr float kColorTolerance = 0.2f / 255;
 constexpr double kTransmittanceMin = 1.0 / 255;
 constexpr double kTolerance_px = 0.05;
 
-// What the surfaces along a ray add up to; false when something would still be seen behind them.
+// Adds up the surfaces along a ray; false when something would still be seen behind them.
 bool compose(const oracle::OracleAnswer& answer, const std::vector<LinearColor>& layer_colors,
              LinearColor& srgb) {
   std::array<double, 3> light{};

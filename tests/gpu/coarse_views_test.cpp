@@ -24,7 +24,7 @@ constexpr double kNearest_m = 4;
 constexpr double kFocalDistance_m = 8;
 constexpr double kWide_px = 190;  // of disparity between what is nearest and infinity
 
-// What they may cost, away from edges. With smoothing 0.7 and 18.6 dB, without it 2.2 and 30.4.
+// Losses away from edges. With smoothing 0.7 and 18.6 dB, without it 2.2 and 30.4.
 constexpr double kLossOf8Bits_max_db = 1.2;
 constexpr double kLossOfNoise_max_db = 21;
 

@@ -89,7 +89,7 @@ TEST_F(ColorBlendTest, meansAreThoseOfTheCodes) {
   }
 }
 
-// What is not 8-bit sRGB is kept as roots of light in 11, 11 and 10 bits.
+// Colour that is not 8-bit sRGB is kept as roots of light in 11, 11 and 10 bits.
 TEST_F(ColorBlendTest, opaqueLightSurvives) {
   // In codes: half a step of blue is 0.12 of one, beyond the toe; the fit of the curve, 0.07.
   constexpr double kLightTolerance = 0.2;

@@ -42,7 +42,7 @@ Picture noise() {
   return picture;
 }
 
-// What one px of a view covers, px of the source.
+// Area that one px of a view covers, px of the source.
 struct Footprint {
   double x_px, y_px;
 };
@@ -53,7 +53,7 @@ double shareOf(int at, int of, double footprint_px) {
   return std::clamp(reach_px + 1 - std::abs(at - of), 0.0, 1.0);
 }
 
-// Of a plane, whose samples are all linked.
+// Mean on a plane, whose samples are all linked.
 Codes meanAround(const Picture& picture, int column, int row, const Footprint& footprint) {
   Codes sum{};
   double weight = 0;
@@ -220,8 +220,8 @@ struct Flicker {
   double mean_change = 0;  // of errors, from view to view
 };
 
-// What px of a view that moves by 0.7 px of the source show, against the light on all that they
-// cover: samples as they are, each over its px.
+// Colours of a view that moves by 0.7 px of the source, against the light on all that its px cover:
+// samples unchanged, each over its px.
 TEST_F(ColorMeanTest, flickersLessThanSamplesDo) {
   const Picture picture = noise();
   constexpr Footprint kFootprint{4.6, 1.9};

@@ -108,7 +108,7 @@ class ColorSideTest : public GpuTest {
 
   void expectTheWallBesideTheDisc(glm::dvec2 eye_m) {
     const TracedView view = traceFrom(eye_m, view_px_);
-    // As y grows downwards in images, an eye further up moves what it sees down.
+    // Image rows grow downwards, so an eye further up moves its picture down.
     const glm::dvec2 per_inv_z = focal_px_ * eye_m * glm::dvec2(-1, 1);
     Disc disc = discIn(view_px_);
     disc.middle += per_inv_z * kDisc;
@@ -134,7 +134,7 @@ class ColorSideTest : public GpuTest {
         hidden_count += view.records[at].ray_class == abi::kClassHidden;
         reddest = std::max(reddest, red);
         const double blue = wallAt(source_y / view_px_.height)[2];
-        // What is hidden goes on from where the ray passed the rim.
+        // Hidden light goes on from where the ray passed the rim.
         if (view.records[at].ray_class == abi::kClassHidden && eye_m.y != 0) continue;
         furthest_off = std::max(furthest_off, std::abs(255 * view.srgb[at][2] - blue));
       }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTolerance_px = 0.05;
 
-// What every plane shows: light that grows from left to right and from top to bottom.
+// Picture of every plane: light that grows from left to right and from top to bottom.
 LinearColor lightAt(double u, double v) {
   return {float(u), float(v), 0.5f, 1.0f};
 }

@@ -23,11 +23,11 @@ namespace {
 constexpr SizePx kSize_px{61, 23};
 constexpr Intrinsics kIntrinsics{{60, 63}, {28, 12}};
 
-// Of inv_z. Lengths of rays add to it: the sweep multiplies by a rounded 1 / focal.
+// Tolerance of inv_z. Lengths of rays add to it: the sweep multiplies by a rounded 1 / focal.
 constexpr int kUlps = 1;
 constexpr int kRayUlps = 3;
 constexpr int kQuotientUlps = 3;  // Vulkan allows a GPU's quotients 2.5
-// Of measured depths and steps: bins end alike, quantiles lie between by a few roundings.
+// Share of measured depths and steps: bins end alike, quantiles lie between by a few roundings.
 constexpr double kStatsShare = 4.0 / (1 << 23);
 
 int ulpsApart(float a, float b) {

@@ -13,9 +13,9 @@
 namespace viewloom::content_focus_test {
 namespace {
 
-// Of the distance. The device's range is that of its nodes: of a plane's middle they keep 14 bits
-// behind the first, and its error, as much again, is rounded up at each of five levels by a step of
-// two to an octave: 1, 1.5, 2, 3, 4, 6.
+// Share of the distance. The device's range is that of its nodes. They keep 14 bits of a plane's
+// middle behind the first, and its error, as much again, is rounded up at each of five levels by a
+// step of two to an octave: 1, 1.5, 2, 3, 4, 6.
 constexpr double kDeviceShare = (1 + 6.0) / (1 << 14);
 constexpr double kSweptShare = 1e-6;  // samples of binary32
 

@@ -19,7 +19,7 @@ void move(oracle::Random& random, double distance_m, double angle_rad, PosedScen
   posed.orientation = glm::angleAxis(angle_rad * part(), glm::normalize(axis)) * posed.orientation;
 }
 
-// What a face of the cube map sees, but for noise below the connection tolerance.
+// Source with the picture of a face of the cube map, but for noise below the connection tolerance.
 PosedScene pinholeOfFace(oracle::Random& random, const PosedScene& cube) {
   const int face = random.integer(0, oracle::kFaceCount - 1);
   PosedScene posed{.scene = faceOf(cube.scene, face),

@@ -21,10 +21,10 @@ constexpr SizePx kView_px{320, 240};
 constexpr double kFocal_px = 192;  // of a face, and of the others, so that all are as fine
 constexpr size_t kFine = 3;        // views are traced so many times finer, and averaged
 constexpr uint32_t kLayers = 2;
-// Of a full frame below what the first layers of the sources hold. Seen: 0.2 dB.
+// Loss of a full frame below the sources' first layers. Seen: 0.2 dB.
 constexpr double kGapMax_db = 1;
-// Of a full frame above the better one of those that either shows alone. Seen: 0.37 and 0.42 dB.
-// Where the farthest hit wins it loses 0.1 dB.
+// Gain of a full frame above the better one of the two sources alone. Seen: 0.37 and 0.42 dB. Where
+// the farthest hit wins it loses 0.1 dB.
 constexpr double kGainMin_db = 0.2;
 // Turned, so that an edge of its front face crosses the views.
 const Pose kCube{.position_m = {-0.15, 0, 0}, .orientation = glm::dquat(glm::dvec3(0, 0.4, 0))};

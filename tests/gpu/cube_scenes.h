@@ -11,10 +11,10 @@
 
 namespace viewloom {
 
-// What surrounds it goes on from face to face, or every face has a scene of its own.
+// Cube map whose surroundings go on from face to face, or with a scene for every face.
 oracle::Scene randomCubeScene(oracle::Random& random, uint64_t seed, int side_px, int layer_count);
 
-// What a face holds, as a source of its own.
+// Content of a face, as a source of its own.
 oracle::Scene faceOf(const oracle::Scene& cube, int face);
 
 // With what the build measured of each face.

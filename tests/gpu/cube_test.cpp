@@ -9,7 +9,7 @@
 namespace viewloom::cube_test {
 namespace {
 
-// Of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
+// Share of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
 constexpr double kExcusedMax = 0.06;
 
 JudgedCube judgeSeeds(SourcesUnderTest& tracer, uint64_t first, uint64_t count) {

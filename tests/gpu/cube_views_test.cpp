@@ -62,7 +62,7 @@ std::vector<NamedView> viewsOf(const glm::dvec3& cube_m) {
        cameraAt(cube_m + glm::dvec3(-0.05, 0.06, -0.03), {corner, 3 * quarter, 0})}};
 }
 
-// What stands across edges and corners of the faces, as well.
+// Things across edges and corners of the faces, too.
 truth::Scene roomAroundSeams(const glm::dvec3& cube_m) {
   truth::Scene scene = truth::clutteredRoom();
   const auto add = [&](const truth::Shape& shape, const glm::dvec3& from_cube_m,
@@ -102,7 +102,7 @@ std::vector<uint8_t> seenFromSeam(const truth::Instant& instant, const Camera& v
 
 struct SeamScore {
   TrueScore score;
-  // Of px away from the edges of bodies.
+  // PSNR of px away from the edges of bodies.
   double beside_db = 0;
   double around_db = 0;
 };

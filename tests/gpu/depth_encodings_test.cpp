@@ -16,7 +16,7 @@ namespace {
 // Both sides odd: planes of 2-byte samples end within a word.
 constexpr SizePx kSize_px{13, 7};
 constexpr Intrinsics kIntrinsics{{20, 21}, {6, 3}};
-// Of inv_z: sums, a quotient, a root and rounded coefficients, half an ulp each.
+// Rounding of inv_z: sums, a quotient, a root and rounded coefficients, half an ulp each.
 constexpr double kRounding = 8.0 / (1 << 23);
 
 // One layer: samples as stored, by the number of the px.
@@ -64,7 +64,7 @@ SharedBytes packed(const Layer& layer) {
   }
 }
 
-// As the encoding holds it.
+// Sample as the encoding holds it.
 double stored(const Layer& layer, uint32_t index) {
   const double sample = layer.sample(index);
   if (layer.encoding == PlaneEncoding::kDepthU16) return sample;

@@ -16,10 +16,10 @@ namespace {
 
 constexpr uint64_t kSceneCount = 60;
 constexpr double kEyeMax_px_m = 30;
-// Of px: of those whose ray goes through an edge to within what rounds, 1e-5 px of a px, one side
-// or the other is seen.
+// Share of px whose ray goes through an edge to within rounding, 1e-5 px of a px: one side or the
+// other is seen.
 constexpr double kExcusedShareMax = 1e-3;
-// Of inv_z: floats of about 1, through some ten operations.
+// Rounding of inv_z: floats of about 1, through some ten operations.
 constexpr float kRounding = 1e-5F;
 // 1/256 px, of what rounds to the next.
 constexpr int32_t kRounding_subtexels = 1;

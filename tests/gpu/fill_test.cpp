@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays show that end behind a surface: the far side of the silhouette they passed last.
+// Colours of rays that end behind a surface: the far side of the silhouette they passed last.
 #include <cmath>
 #include <functional>
 
@@ -20,7 +20,7 @@ constexpr double kFocal_px = 1.25 * kWidth;  // of the analytic scenes
 constexpr double kTolerance_px = 0.05;
 // sRGB-encoded; binary16 and the fits of the sRGB curve: half an 8-bit step.
 constexpr float kColorTolerance = 0.5f / 255;
-// Of a place between two samples: positions have 1/256 px.
+// Tolerance of a place between two samples: positions have 1/256 px.
 constexpr double kShareTolerance = 1.0 / 256;
 using ColorOf = std::function<LinearColor(int column, int row)>;  // premultiplied linear light
 

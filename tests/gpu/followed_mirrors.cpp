@@ -21,11 +21,11 @@ namespace {
 
 constexpr uint32_t kMirrorsAll = 0x00ffffff;  // abi::SurfaceTexel::light of a perfect mirror
 
-// What an error moves is seen from behind the mirror, further away than where rays start, which the
-// judge takes for their eye: there the same error is worth more px.
+// Errors are seen from behind the mirror, further away than where rays start, which the judge takes
+// for their eye: there the same error is worth more px.
 constexpr double kNearerThanEye = 10;
 
-// As shaders/lib/mirrors/mirrored_path.glsl and walk.glsl have them.
+// The same values as in shaders/lib/mirrors/mirrored_path.glsl and walk.glsl.
 constexpr double kSigmasOfSurface = 4;
 constexpr double kRoundingUlps = 16;
 constexpr double kUlp = 0x1p-23;

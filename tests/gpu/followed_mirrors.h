@@ -15,7 +15,7 @@ namespace viewloom {
 // The frame of a scene all of whose surfaces mirror, by their own slopes.
 FramePtr mirroringFrameOf(const oracle::Scene& scene);
 
-// What the rays met that px of these views send on, once: [view][row][column].
+// Hits of the rays that px of these views send on, once: [view][row][column].
 struct FollowedViews {
   SourceStats stats;
   std::vector<abi::RayRecord> records;  // of the px's own rays; as what follows
@@ -31,7 +31,7 @@ class MirrorFollower {
                        double tolerance_px);
 
  private:
-  // Of all px of an atlas.
+  // Rays of all px of an atlas.
   std::vector<abi::FollowedRay> follow(MirrorStage& stage);
 
   const Device& device_;
@@ -40,7 +40,7 @@ class MirrorFollower {
   ComputePass pass_;
 };
 
-// Of rays that passed behind something, by oracle/passed_body.h.
+// Verdict on rays that passed behind something, by oracle/passed_body.h.
 struct JudgedBodies {
   uint64_t count = 0;
   uint64_t met_count = 0;      // by what was tested; as the next
@@ -51,7 +51,7 @@ struct JudgedBodies {
   void add(const JudgedBodies& other);
 };
 
-// What the judge says of them all.
+// Verdict on all of them.
 struct JudgedMirrors {
   oracle::Verdict verdict;
   JudgedBodies bodies;

@@ -43,8 +43,8 @@ class HostLens : public ThroughLens {
   }
 };
 
-// Of 8 independent rays beside 40, noise alone would be sqrt(8 / 40) = 0.45; evenly spread as they
-// are, it is less.
+// Noise of 8 independent rays beside 40: alone it would be sqrt(8 / 40) = 0.45; with rays spread
+// evenly it is less.
 constexpr double kNoiseShare = 0.5;
 // Where much is hidden, what is assumed differs, too.
 constexpr double kAssumedShare = 0.7;
@@ -72,14 +72,14 @@ TEST_F(HostLens, looksAsManyRaysWhereAViewIsTurnedAndHasSteppedForward) {
       kAssumedShare);
 }
 
-// Of a single layer, where much is hidden and shown by few rays anyway.
+// For a single layer, where much is hidden and shown by few rays anyway.
 TEST_F(HostLens, looksAsManyRaysFarBesideTheSource) {
   expectNearerThanFew(
       withLens(QuiltSpec{.columns = 2, .rows = 1, .size_px = {420, 280}, .view_cone_rad = 0.6}), 1,
       1);
 }
 
-// What a px shows whose middle ray ends hidden is what its walked rays show.
+// A px whose middle ray ends hidden shows its walked rays.
 TEST_F(HostLens, showsWalkedRaysWhereTheMiddleOneEndsHidden) {
   renderer_->build(*test::syntheticFrame(1, kSource_px, 1));
   DisplaySpec spec =
@@ -141,7 +141,7 @@ TEST_F(HostLens, isTheSameInPieces) {
   EXPECT_NE(whole, middle);
   EXPECT_EQ(gatheredIn(8), whole);
   EXPECT_EQ(gatheredIn(13), whole);
-  // As those do it who gather a strip: all rows, once.
+  // The same order as for a strip: all rows, once.
   uint32_t row = 0;
   while (row < shared->size_px.height) {
     const BandRows rest = {row, shared->size_px.height - row};

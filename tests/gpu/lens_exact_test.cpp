@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What few walked rays of a lens miss: mode exact sees it nevertheless.
+// Things that few walked rays of a lens miss: mode exact sees them nevertheless.
 #include "gpu/gathering_places.h"
 #include "gpu/through_lens.h"
 
@@ -26,7 +26,7 @@ SyntheticLayer wallLayer(bool has_pole) {
   return layer;
 }
 
-// What the blocks of 8x8 px show of the pole that it is spread over, beside what is true.
+// Colours of the blocks of 8x8 px that the pole is spread over, beside the true ones.
 struct PoleSeen {
   double off = 0;            // root mean square, as a share of the light's
   double missing_share = 0;  // of the blocks: less than a quarter of what is true

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the CPU lists that rays through a lens may meet, and what it takes those to see that meet
-// none of it.
+// Sheets that rays through a lens may meet, as the CPU lists them, and the answer of rays that meet
+// none.
 #include "lens/sheet_list.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ struct StraightRay {
   glm::vec2 pace{0};  // and how that moves for each 1/m
 };
 
-// What the ray passes through first, found by small steps through the facets.
+// First surface that the ray passes through, found by small steps through the facets.
 struct Passed {
   uint32_t layer = 0;
   glm::vec2 place{0};
@@ -140,7 +140,7 @@ FramePtr boardFrame() {
   return test::layeredFrame(1, camera, kSource_px, {layer});
 }
 
-// What lies off a sheet by more than is let pass in focus is still that where it is blurred.
+// A surface may lie off a sheet by more than in focus where it is blurred.
 TEST_F(LensList, takesWhatIsBlurredForOneSheetMoreReadily) {
   constexpr float kWall_inv_m = 0.5F;
   constexpr float kStep_inv_m = 0.012F;

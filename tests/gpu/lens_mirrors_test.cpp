@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What mirrors show through a lens, beside the mean of single rays that mirror, too.
+// Mirrors through a lens, beside the mean of single rays that mirror, too.
 #include <memory>
 
 #include "gpu/through_lens.h"

@@ -15,7 +15,7 @@ class Lens : public ThroughLens {
   // A source that ends in the view: the second stage beside as many walked rays.
   void expectBlurredEnd(GatheringPlace place);
 
-  // Of two views beside each other.
+  // Job of two views beside each other.
   static TraceJob jobOf(uint32_t width_px, uint32_t walked_count, uint32_t gathered_count) {
     DisplaySpec spec{.kind = QuiltSpec{.columns = 2, .rows = 1, .size_px = {width_px, 64}}};
     spec.lens = walkedLens();

@@ -15,7 +15,7 @@ constexpr float kNear = 1;        // 1/m
 constexpr float kFar = 1.0F / 64;
 constexpr double kTolerance_px = 0.25;
 constexpr int kViewWidth_px = 480;
-// As many as there may be lanes of a subgroup on a software device, or more: each lane is a view.
+// The most lanes of a subgroup on a software device, or more: each lane is a view.
 constexpr int kViewCount = 8;
 
 // Rows of near teeth, with free rows between them in which nothing but facets tells that a ray

@@ -18,7 +18,7 @@ constexpr double kFocal_px = 560;
 constexpr size_t kFine = 3;       // views are traced so many times finer, and averaged
 constexpr double kApart_m = 0.3;  // of the sources: 120 px between the nearest and infinity
 constexpr uint32_t kLayers = 2;
-// Of a full frame below what the first layers of the sources hold.
+// Loss of a full frame below the sources' first layers.
 constexpr double kGapMax_db = 1;
 
 Camera cameraAt(const glm::dvec3& eye_m, const glm::dvec2& principal_px,

@@ -47,7 +47,7 @@ SeenMirrors seenBy(const Camera& camera, const truth::Scene& scene, float enviro
                           {.sample_count = kTruthRays, .environment = glm::vec3(environment)});
 }
 
-// Of the error of a mean that stops nowhere: seen 0.23 over the ridge, 0.35 over the step.
+// Share of the error of a mean that stops nowhere: seen 0.23 over the ridge, 0.35 over the step.
 constexpr double kOfMixedMax = 0.5;
 
 // Which px count.
@@ -61,7 +61,7 @@ bool isBesideMiddle(uint32_t x, uint32_t y) {
   return right_px >= -kReach_px && right_px < kReach_px && y >= kView_px.height / 2;
 }
 
-// What a mean over all px within reach would make of the truth, whatever they show.
+// The truth after a mean over all px within reach, whatever they show.
 std::vector<double> mixedCodes(const SeenMirrors& seen) {
   const int width = int(kView_px.width), height = int(kView_px.height);
   std::vector<double> apart_codes;

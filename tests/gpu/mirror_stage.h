@@ -26,7 +26,7 @@ struct MirrorKernels {
   MirroredLightPass mirrored_light;
 };
 
-// Of one source. Thread-safety: none.
+// Reflections of one source. Thread-safety: none.
 class MirrorStage {
  public:
   // `display`: complete, and asks for reflections. Throws what cannot be shown. The kernels must

@@ -134,7 +134,7 @@ double nearestForward(const StructureImage& structure, const OracleSource& sourc
   return nearest;
 }
 
-// What a box of the first level has to hold.
+// Content that a box of the first level has to hold.
 struct BlockContent {
   Bounds bounds{INFINITY, double{kNothing}};
   double raised = 0;  // how far up it must reach to what is linked in front, 1/m

@@ -72,7 +72,7 @@ int soakSources(const char* name, uint64_t first, uint64_t count, const Judge& j
   });
 }
 
-// As main() is told to.
+// Soaks in the mode that main() is given.
 int soakAs(const std::string& mode, uint64_t first, uint64_t count) {
   if (mode == "sweep") return soakSweep(first, count);
   if (mode == "cube") return soakCube(first, count);

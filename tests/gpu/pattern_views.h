@@ -38,8 +38,8 @@ class PatternViews : public GpuTest {
   // With the focal plane that it has by default.
   RenderedAtlas renderQuilt(uint32_t columns, uint32_t rows, SizePx tile_px, double aspect,
                             double focal_distance_m = 0);
-  // As large as the source, of eyes at these tangents of the focal distance, each of which frames
-  // what the source sees of the focal plane; one below the other.
+  // Atlas of eyes at these tangents of the focal distance, as large as the source and one below the
+  // other. Each eye frames the part of the focal plane that the source sees.
   RenderedAtlas renderEyes(const patterns::Pattern& pattern, const std::vector<double>& tangents);
   SourceStats stats() const { return renderer_.stats().front(); }
 

@@ -20,7 +20,7 @@ using patterns::PatternOptions;
 using patterns::PxBox;
 
 constexpr SizePx kSource_px{1280, 720};
-// Of what stands still on the focal plane: rounding of colours.
+// Tolerance for things that stand still on the focal plane: rounding of colours.
 constexpr int kCodeTolerance = 1;
 
 // Half the way between marks, nearly.
@@ -41,7 +41,7 @@ double middleOf(const PxBox& box, const Weight& weight) {
   return moment / sum;
 }
 
-// Of the red zero mark on a lighter ruler, which is looked for around x.
+// Place of the red zero mark on a lighter ruler, searched around x.
 double zeroMark(const ViewPicture& view, const PxBox& ruler, double x) {
   const PxBox around{x - kMarkReach_px, ruler.top + 0.75 * ruler.height(), x + kMarkReach_px,
                      ruler.bottom - 1};
@@ -68,21 +68,21 @@ TEST_F(PatternViews, rulersSlideByWhatTheirLabelsSay) {
     return kPatternFocus_m * options.views.eyeTangent(view);
   };
   for (const patterns::RulerRow& row : places.rows) {
-    // What is before the plane goes to the left as the eye goes to the right.
+    // Things before the plane go to the left as the eye goes to the right.
     const double px_per_m = -f_px * (row.inv_z - patterns::kFocalPlane_inv_m);
     const double middle_px = kSource_px.width / 2.0;
     const double moved_px = zeroMark(right_view, row.sliding, middle_px + px_per_m * eye_m(right)) -
                             zeroMark(left_view, row.sliding, middle_px + px_per_m * eye_m(left));
     EXPECT_NEAR(moved_px, px_per_m * (eye_m(right) - eye_m(left)), 0.05)
         << row.disparity_px << " px a view";
-    // What the label says is for views 560 px high and the mean way between eyes; those in the
-    // middle stand 4 % closer.
+    // Labels are for views 560 px high and the mean way between eyes; those in the middle stand 4 %
+    // closer.
     const double views_px = -row.disparity_px * (right - left) * kSource_px.height / 560.0;
     EXPECT_NEAR(moved_px, views_px, 0.05 * std::abs(views_px) + 0.05);
   }
 }
 
-// What lies beside the sliding rulers is on the focal plane.
+// Things beside the sliding rulers are on the focal plane.
 TEST_F(PatternViews, rulersOnTheFocalPlaneStandStill) {
   const PatternOptions options{.kind = PatternKind::kParallaxRuler, .size_px = kSource_px};
   const patterns::Pattern pattern = patternOf(options);

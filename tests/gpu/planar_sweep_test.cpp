@@ -13,8 +13,8 @@ namespace {
 constexpr SizePx kSource_px{160, 90};
 constexpr TraceOutputs kRgb{.mask = true};
 
-// Of 4x2 tiles, as smallQuilt() has them: even and odd heights of tiles, paddings above and to the
-// right, and widths.
+// Atlases of 4x2 tiles, in the layout of smallQuilt(): even and odd heights of tiles, paddings
+// above and to the right, and widths.
 const std::vector<SizePx> kAtlases_px = {{256, 128}, {260, 126}, {252, 142}, {258, 143},
                                          {263, 129}, {331, 205}, {36, 34},   {8, 2},
                                          {12, 3},    {4, 5},     {20, 6},    {1282, 11}};

@@ -15,7 +15,7 @@ namespace {
 constexpr SizePx kSource_px{160, 90};
 constexpr uint32_t kBandRows = 128;
 
-// Of 4x2 tiles: whole vectors and others, paddings, odd heights, more than one band.
+// Atlases of 4x2 tiles: whole vectors and others, paddings, odd heights, more than one band.
 constexpr SizePx kAtlases_px[] = {{416, 264}, {421, 265}, {33, 131}, {4, 3}, {255, 388}};
 
 DisplaySpec quilt(SizePx size_px) {

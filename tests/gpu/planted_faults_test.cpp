@@ -58,7 +58,7 @@ std::vector<LookedAt> everythingLookedAt() {
   return all;
 }
 
-// Of the first structure that has some. Compiles no kernel of the walk.
+// Complaints about the first structure that has some. Compiles no kernel of the walk.
 Complaints firstComplaints(WalkUnderTest& walk) {
   for (const LookedAt& looked_at : everythingLookedAt()) {
     const std::unique_ptr<StructureSlot> slot = walk.build(*frameOf(looked_at.scene));
@@ -69,7 +69,7 @@ Complaints firstComplaints(WalkUnderTest& walk) {
   return {};
 }
 
-// Of all walks up to the first scene where one differs from the oracle's.
+// Verdict on all walks up to the first scene where one differs from the oracle's.
 oracle::Verdict verdictOfWalks(WalkUnderTest& walk) {
   oracle::Verdict verdict;
   for (const LookedAt& looked_at : everythingLookedAt()) {

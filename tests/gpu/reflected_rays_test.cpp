@@ -10,10 +10,10 @@
 namespace viewloom::reflected_rays_test {
 namespace {
 
-// Of the views. The less, the less is left to the judge.
+// Tolerance of the views. The smaller it is, the less is left to the judge.
 constexpr double kTolerance_px = 0.0001;
 constexpr double kExcusedShareMax = 0.01;
-// Of what is behind bodies: whether three samples bend as an ellipse, a few ulps decide.
+// Share of the places behind bodies: a few ulps decide whether three samples bend as an ellipse.
 constexpr double kExcusedBodiesMax = 0.01;
 
 JudgedMirrors lookAt(const Device& device, uint64_t first_seed, uint64_t seed_count) {

@@ -13,7 +13,7 @@
 namespace viewloom {
 
 inline constexpr SizePx kSource_px{320, 180};
-// Of px whose rays graze a silhouette, as rays that were rounded otherwise do.
+// Share of px whose rays graze a silhouette, like rays that were rounded otherwise.
 inline constexpr double kTiedShareMax = 2e-3;
 // Codes that rounding may move a colour by inside a surface.
 inline constexpr int kCodeTolerance = 1;
@@ -42,7 +42,7 @@ inline int channelOf(uint32_t rgba, int channel) {
   return int(rgba >> (8 * channel) & 0xff);
 }
 
-// Of all channels of all px, those that are further apart than rounding takes them.
+// Share of all channels of all px that are further apart than rounding takes them.
 template <typename Expected>
 double differingShare(const RenderedAtlas& atlas, const Expected& expected) {
   size_t differing = 0;

@@ -37,7 +37,7 @@ truth::MirrorOptions whiteLight(uint32_t sample_count) {
   return {.sample_count = sample_count, .environment = glm::vec3(1)};
 }
 
-// Of the plate, seen at a cosine to its normal.
+// Albedo of the plate, seen at a cosine to its normal.
 glm::vec3 trueAlbedo(const truth::Instant& plate, double cosine, uint32_t sample_count) {
   const glm::dvec3 direction(0, -cosine, -std::sqrt(1 - cosine * cosine));
   const truth::Ray ray{.origin_m = glm::dvec3(0, -1, -6) - direction, .direction = direction};
@@ -71,7 +71,7 @@ TEST(AlbedoTable, holdsWhatAllMicrofacetsMirror) {
 
 constexpr uint32_t kTruthRays = 2048 * kView_px.width * kView_px.height;
 
-// What a camera sees of a plate. However many px it has, the source has as many.
+// Picture of a plate by a camera. The source has as many px as the view.
 SeenMirrors seenPlateBy(const Camera& camera, SizePx view_px, const truth::Scene& scene) {
   return seenBy(camera, view_px, scene, {.fineness = kFiner * kView_px.width / view_px.width},
                 whiteLight(kTruthRays / uint32_t(view_px.area())));
@@ -100,7 +100,7 @@ class RoughMirrors : public GpuTest {
     return std::ranges::max(apartCodes(renderer_, plate, frame, reflection));
   }
 
-  // Of px whose truth is light: there the plate is, and mirrors.
+  // Error over px whose truth is light: there the plate is, and mirrors.
   double rmsOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
     const std::vector<double> apart_codes = apartCodes(renderer_, plate, frame, reflection);
     double sum = 0;
@@ -113,7 +113,7 @@ class RoughMirrors : public GpuTest {
     return std::sqrt(sum / double(count));
   }
 
-  // Of all the light that the plate mirrors, how much more is shown.
+  // Surplus of the shown light over all the light that the plate mirrors.
   double surplusOf(const SeenMirrors& plate, const Frame& frame, const ReflectionSpec& reflection) {
     const RenderedAtlas atlas =
         renderInWorld(renderer_, frame, {plate.camera}, plate.view_px, 1, reflection);
@@ -140,7 +140,7 @@ class RoughMirrors : public GpuTest {
 constexpr double kWorst_codes = 1.5;
 // Root mean square of 64 rays a px: seen 1.13, and 2.5 and more by weights that are not those.
 constexpr double kUneven_codes = 1.4;
-// Of all light: seen 0.6 to 1.7 % too little, and 2.5 to 11 % too much where px count alike.
+// Share of all light: seen 0.6 to 1.7 % too little, and 2.5 to 11 % too much where px count alike.
 constexpr double kSurplusMax = 0.022;
 
 // Light that comes along a surface counts by its larger Fresnel, and by what hides it.

@@ -83,13 +83,14 @@ constexpr OnceDiffered kSeeds[] = {
     {9288, kSkims},
 };
 
-// Of the sweep. A ray passed by the end of a facet, but not by the run that stands for it, and was
-// neither in front of the one nor behind the other.
+// In the sweep: a ray passed by the end of a facet, but not by the run that stands for it. So it
+// was neither in front of the one nor behind the other.
 constexpr const char* kPassesItsRun = "passes between a facet and the end of its run";
-// What goes on in front of a far side was measured from facets, or from a run along their slope.
+// The part that goes on in front of a far side was measured from facets, or from a run along their
+// slope.
 constexpr const char* kComesOutOverARun = "comes out over a run that strays from its facets";
 
-// What is behind was taken from the middle of an edge where the far side is the nearer one.
+// The surface behind was taken from the middle of an edge where the far side is the nearer one.
 constexpr const char* kFarIsNearer = "has its far side in front, in the middle of the edge";
 
 constexpr OnceDiffered kSweptSeeds[] = {

@@ -22,7 +22,7 @@ struct MirrorSource {
   uint32_t layer_count = 1;
 };
 
-// As many times as many px of a view.
+// Camera with so many times the px of a view, each way.
 Camera finer(Camera camera, uint32_t times);
 
 SeenMirrors seenBy(const Camera& camera, SizePx view_px, const truth::Scene& scene,

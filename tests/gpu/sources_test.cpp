@@ -12,7 +12,7 @@
 namespace viewloom::sources_test {
 namespace {
 
-// Of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
+// Share of rays: random scenes are all edges, and where moved rays disagree nothing can be said.
 constexpr double kExcusedMax = 0.06;
 
 using JudgeSeed = oracle::Verdict (*)(SourcesUnderTest& tracer, uint64_t seed);

@@ -47,7 +47,7 @@ std::vector<PosedScene> randomSources(uint64_t seed, oracle::Random& random) {
   return scenes;
 }
 
-// What the oracle sees of built scenes.
+// The oracle's sources of built scenes.
 class OraclesOfScenes {
  public:
   OraclesOfScenes(const std::vector<PosedScene>& scenes,

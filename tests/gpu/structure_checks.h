@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold in every structure, checked against the oracle and the structure's own lower
-// levels.
+// Invariants of every structure, checked against the oracle and the structure's own lower levels.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace viewloom {
 
-// What does not hold, in words: the first few cases of each kind, and how many there are.
+// Violations in words: the first few cases of each kind, and how many there are.
 class Complaints {
  public:
   void add(const std::string& kind, const std::string& where);

@@ -11,7 +11,7 @@
 namespace viewloom::structure_test {
 namespace {
 
-// What walks read.
+// Compares the parts that walks read.
 bool isSame(const StructureImage& a, const StructureImage& b) {
   const auto isSameGrid = [](const NodeGrid& grid, const NodeGrid& other) {
     return grid.nodes == other.nodes;
@@ -98,7 +98,7 @@ TEST_F(StructureTest, isTheSameWhateverItsMemoryHeld) {
   }
 }
 
-// As those of a stream are.
+// The slots of a stream share memory in the same way.
 TEST_F(StructureTest, staysWhenAnotherIsBuiltInTheSameMemory) {
   const FramePtr frame = frameOf(oracle::randomScene(1000, 97, 65, 2));
   const FramePtr other_frame = frameOf(oracle::randomScene(1001, 97, 65, 2));

@@ -12,8 +12,8 @@
 namespace viewloom::sweep_test {
 namespace {
 
-// Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
-// scene.
+// Share of rays whose answer hangs on less than the tolerance; silhouettes are most of a small
+// noisy scene.
 constexpr double kExcusedShareMax = 0.1;
 
 std::vector<oracle::OutputView> viewsBeside(oracle::Random& random, int count, int width,

@@ -20,7 +20,8 @@ constexpr SizePx kSource_px{320, 180};
 constexpr uint32_t kAllRows = std::numeric_limits<uint32_t>::max();
 const TraceOutputs kOutputs{.mask = true};
 
-// Of px whose rays graze a silhouette to within a thousandth of a px, as another device rounds.
+// Share of px whose rays graze a silhouette to within a thousandth of a px, as another device
+// rounds.
 constexpr double kTiedShareMax = 1e-4;
 
 struct Swept {
@@ -89,7 +90,7 @@ struct Difference {
   double coverage_share = 0;  // of rays, the most by which a class is more or fewer
 };
 
-// Of the px that `isOf` takes, by index. Infinite where there are none.
+// Figure over the px that `isOf` takes, by index. Infinite where there are none.
 template <typename IsOf>
 double psnr(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, const IsOf& isOf) {
   Psnr psnr;
@@ -261,7 +262,7 @@ TEST_F(SweepBytes, areTheSameHoweverTheSourceIsPrepared) {
   }
 }
 
-// What a frame, a display or a row before left in memory shows nowhere.
+// Memory of a frame, a display or a row before shows nowhere.
 TEST_F(SweepBytes, areTheSameInMemoryThatIsReused) {
   const FramePtr frame = test::syntheticFrame(1, kSource_px, 2);
   source_.prepare(frame, workers_);

@@ -42,7 +42,7 @@ inline ViewCamera pinholeOf(const LensSpec& lens, const View& view, glm::dvec2 p
 
 class ThroughLens : public RenderedDisplay {
  protected:
-  // Of a px of a view, channel by channel, as codes.
+  // Mean for a px of a view, channel by channel, as codes.
   glm::dvec3 meanOfRays(const RenderedAtlas& rays, uint32_t first) {
     glm::dvec3 light(0.0);
     for (uint32_t i = 0; i < kWalked; ++i) {

@@ -36,7 +36,7 @@ TEST(ToneMap, keepsBlackAndMiddleGreyAndEndsInWhite) {
     EXPECT_NEAR(abi::toneMapped(vec3(0.18F), map).x, 0.18, 1e-5);
     EXPECT_NEAR(abi::toneMapped(vec3(abi::kToneWhite), map).y, 1, 1e-5);
     EXPECT_NEAR(abi::toneMapped(vec3(3e38F), map).z, 1, 1e-5);
-    // As steep as the scene around middle grey, in stops.
+    // The slope is that of the scene around middle grey, in stops.
     const float above = abi::toneMapped(vec3(stops(0.1)), map).x;
     const float below = abi::toneMapped(vec3(stops(-0.1)), map).x;
     EXPECT_NEAR(std::log2(above / below), 0.2, 0.01);
@@ -111,13 +111,13 @@ class ToneMapTest : public GpuTest {
       vec3 light = vec3(share(random), share(random), share(random)) * stops(stop(random));
       if (i % 5 == 0) light = vec3(light.x);
       if (i % 5 == 1) light = vec3(0, light.y, 0);
-      // As binary16 holds it.
+      // Light as binary16 holds it.
       for (int c = 0; c < 3; ++c) light[c] = glm::unpackHalf1x16(glm::packHalf1x16(light[c]));
       lights_.push_back(light);
     }
   }
 
-  // What a view from the source's own place shows, sRGB-encoded.
+  // Colours of a view from the source's own place, sRGB-encoded.
   std::vector<LinearColor> shown(ToneMap map, ColorTransfer transfer, AlphaMode alpha,
                                  float coverage) {
     // Behind what does not cover all, a black wall.

@@ -10,8 +10,8 @@
 namespace viewloom::trace_test {
 namespace {
 
-// Of rays whose answer hangs on less than the tolerance; silhouettes are most of a small noisy
-// scene.
+// Share of rays whose answer hangs on less than the tolerance; silhouettes are most of a small
+// noisy scene.
 constexpr double kExcusedShareMax = 0.1;
 
 class TraceTest : public GpuTest {

@@ -40,10 +40,10 @@ class TrueView {
   // Without the px beside an edge between two bodies, where a px more or less is what sampling
   // leaves open.
   TrueScore scoreInside(const ScoredImage& got) const;
-  // Of those of them that are also selected.
+  // Score over those of them that are also selected.
   TrueScore scoreInside(const ScoredImage& got, const std::vector<uint8_t>& selected) const;
 
-  // Of all px, by truth::Known.
+  // Share of all px, by truth::Known.
   double share(uint8_t known) const;
 
  private:

@@ -21,10 +21,10 @@ constexpr double kFocal_px = 560;
 constexpr size_t kFine = 3;  // views are traced so many times finer, and also averaged
 constexpr uint32_t kLayers = 3;
 
-// Of views averaged over the px, from a source of three layers. The target is a full frame within
-// 0.5 dB of what the source's first layer shows. The smooth scene misses it: nothing but its edges
-// is wrong there (see inside_min_db), and every edge that opens has half of its px on the hidden
-// side. Exact geometry with a ray a px, printed beside, has gaps of 0.5 to 3.4 dB in that scene.
+// Bounds for views averaged over the px, from a source of three layers. The target is a full frame
+// within 0.5 dB of the source's first layer. The smooth scene misses it: nothing but its edges is
+// wrong there (see inside_min_db), and every edge that opens has half of its px on the hidden side.
+// Exact geometry with a ray a px, printed beside, has gaps of 0.5 to 3.4 dB in that scene.
 struct Bounds {
   double gap_max_db = 0;
   double blended_gap_max_db = 0;  // edges that hold some of the near side show on the far side

@@ -70,10 +70,10 @@ class UnseenMirrors : public GpuTest {
   }
 };
 
-// Of the share: seen 0.0008. The curtain ends between two rows of px, as sources have it.
+// Difference of the share: seen 0.0008. The curtain ends between two rows of px, as in sources.
 constexpr double kApart = 0.003;
 constexpr double kLightApart = 0.003;  // seen 0.0007
-// Of rows whose rays pass under the curtain and then behind it.
+// Rows whose rays pass under the curtain and then behind it.
 constexpr double kMirrorMin_m = 2.2;
 constexpr double kMirrorMax_m = 3.5;
 

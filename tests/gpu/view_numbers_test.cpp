@@ -30,7 +30,7 @@ constexpr SizePx kTile_px{216, 288};
 
 class ViewNumbers : public PatternViews {
  protected:
-  // Of each view of a quilt of kViews.
+  // Number in each view of a quilt of kViews.
   std::vector<std::optional<uint32_t>> readQuilt(const PxBox& window) {
     const RenderedAtlas atlas = renderQuilt(kColumns, kRows, kTile_px, 0.75);
     std::vector<std::optional<uint32_t>> numbers;
@@ -77,7 +77,7 @@ TEST_F(ViewNumbers, fitInAWideFrameUpTo100) {
   }
 }
 
-// What the test is for: eyes that are not where the display says.
+// The purpose of the pattern: eyes that are not where the display says.
 TEST_F(ViewNumbers, areOthersForEyesOneViewToTheSide) {
   const PatternOptions options = numbersOf(kViews);
   const patterns::Pattern pattern = patternOf(options);

@@ -29,8 +29,8 @@ FramePtr wallAt(double z_m) {
   return test::layeredFrame(1, sourceCamera(), kSource_px, {wall});
 }
 
-// Of the px of a view's middle row, those that do not see the wall: outside; or hidden, where a ray
-// passes beside a wall before the focal plane and comes into the source's sight behind it.
+// Px of a view's middle row that do not see the wall: outside; or hidden, where a ray passes beside
+// a wall before the focal plane and comes into the source's sight behind it.
 uint32_t outsideCount(const RenderedAtlas& atlas, uint32_t view, bool is_near) {
   const TileOrigin origin = atlas.layout->tileOrigin(view);
   const SizePx tile_px = atlas.layout->tile_size_px;

@@ -33,7 +33,7 @@ TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px
 TraceJob jobOf(const std::vector<oracle::OutputView>& views, double tolerance_px,
                std::span<const SeenSource> sources);
 
-// What the oracle sees of a built scene: with the connection tolerance that the build settled on.
+// The oracle's source of a built scene: with the connection tolerance that the build settled on.
 oracle::OracleSource sourceOf(const oracle::Scene& scene, const StructureSlot& slot);
 
 // The connection tolerance that a build settled on.
@@ -51,7 +51,7 @@ struct TracedView {
   size_t index(int column, int row) const { return size_t(row) * size_t(width) + size_t(column); }
 };
 
-// Of an atlas that jobOf() made: its planes, [row][column].
+// Planes of an atlas that jobOf() made, [row][column].
 std::vector<TracedView> splitByView(const AtlasLayout& layout,
                                     std::span<const abi::RayRecord> records,
                                     std::span<const float> linear);
@@ -68,7 +68,7 @@ class WalkUnderTest {
   std::unique_ptr<StructureSlot> buildIn(BuildMemoryPtr build_memory, const Frame& frame,
                                          std::optional<uint32_t> old_word = {});
   StructureImage readBack(const StructureSlot& slot);
-  // Of one layer, as stored.
+  // Cells of one layer, as stored.
   std::vector<abi::uvec2> cells(const StructureSlot& slot, uint32_t layer);
   // Views of one size.
   std::vector<TracedView> trace(const StructureSlot& slot,

@@ -15,7 +15,7 @@ namespace {
 // Share of the seen part: far above rounding, far below the way through a column.
 constexpr double kJustBefore = 1e-9;
 
-// What is taken to go on behind a silhouette that the ray passed.
+// Surface that is assumed to go on behind a silhouette that the ray passed.
 struct FarSide {
   double inv_z = -1;  // none
   double passed_at = 0;
@@ -155,8 +155,8 @@ class AllFacets {
     return -(glm::dot(plane.normal, ray_.origin_m) + plane.distance) / per_step;
   }
 
-  // What is behind a layer once the ray has gone from column to column: as before, or what it
-  // passes.
+  // Surface behind a layer once the ray has gone from column to column: as before, or the one that
+  // it passes.
   FarSide farSideBehind(const FacetAt& before, const FacetAt& at, double distance,
                         const FarSide& far) const {
     if (!source_.exists(at) || countsFrom(at) > distance) return {};

@@ -7,7 +7,7 @@
 
 namespace viewloom::oracle {
 
-// As traceOracle with one hit; linked_facet is not filled in.
+// The same as traceOracle with one hit; linked_facet is not filled in.
 OracleAnswer traceAllFacets(const OracleSource& source, const Ray& ray);
 
 }  // namespace viewloom::oracle

@@ -27,9 +27,9 @@ CubeJudge::CubeJudge(const OracleCube& cube, double output_px)
   for (const OracleSource& face : cube.faces) tolerances_.push_back(toleranceOf(face, output_px));
 }
 
-// Of the ray, of rays that the picture moved by its tolerance sees, and where a face has rounded,
-// or its surfaces are off by what moves the picture by its tolerance: whichever face answers, it
-// may be another's surface that is off, and is hit for that or missed.
+// Answers to the ray, to the rays of a picture moved by its tolerance, and of a face with rounding,
+// or with surfaces off by an amount that moves the picture by its tolerance. Whichever face
+// answers, another's surface may be off, and is hit for that or missed.
 std::vector<CubeAnswer> CubeJudge::answersNearby(const ViewRay& ray,
                                                  const TestedCubeAnswer& tested) const {
   std::vector<CubeAnswer> nearby = {traceCube(cube_, ray.ray)};

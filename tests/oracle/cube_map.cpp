@@ -12,7 +12,7 @@
 namespace viewloom::oracle {
 namespace {
 
-// What the definition says: shaders/structure.md and shaders/walk.md.
+// Value of the definition: shaders/structure.md and shaders/walk.md.
 constexpr double kSeamOverlap_px = 1.0 / 64;
 constexpr double kSeam_px = 1 - 1.0 / 64;
 constexpr double kSeamShare = 1e-4;
@@ -39,7 +39,7 @@ void fillColumn(const FacePlanes& faces, const std::vector<OracleSource>& source
   const glm::dvec3 direction = own.forward + tangent(column) * own.right - tangent(row) * own.up;
   int other = 0;
   for (int i = 1; i < kFaceCount; ++i) {
-    // Of two at a corner, the one to the side.
+    // At a corner, the one of the two to the side.
     const double slack = glm::dot(kDirections[i].forward, own.right) != 0 ? 1e-12 : -1e-12;
     if (glm::dot(direction, kDirections[i].forward) + slack >
         glm::dot(direction, kDirections[other].forward)) {

@@ -27,7 +27,7 @@ Pinhole facePinhole(int side_px);  // of a face with its apron
 struct OracleCube {
   std::vector<OracleSource> faces;  // with their aprons
   std::vector<ConnectionTolerance> kappas;
-  // As measured before smoothing, 1/m: rays begin a little before that.
+  // Nearest 1/Z before smoothing, 1/m: rays begin a little before that.
   std::vector<double> nearest_inv_z;
 
   int sidePx() const { return faces.front().width() - 2 * kApron_px; }

@@ -14,7 +14,7 @@
 
 namespace viewloom::oracle {
 
-// What a tracer under test says about a ray; layer and position count for hits alone.
+// Answer of a tracer under test to a ray; layer and position count for hits alone.
 struct TestedAnswer {
   RayClass ray_class = RayClass::kOutside;
   int layer = -1;
@@ -62,7 +62,7 @@ class Judge {
 
   // `where` names the ray in messages.
   void consider(const ViewRay& ray, const TestedAnswer& tested, const std::string& where);
-  // Of a ray that goes on from a surface of this layer (traceFromSurface).
+  // Considers a ray that goes on from a surface of this layer (traceFromSurface).
   void considerFrom(int surface_layer, const ViewRay& ray, const TestedAnswer& tested,
                     const std::string& where);
   const Verdict& verdict() const { return verdict_; }

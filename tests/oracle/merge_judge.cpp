@@ -146,8 +146,8 @@ std::vector<SourceAnswer> MergeJudge::answersOfMoved(size_t source, const ViewRa
   return answers;
 }
 
-// Of the ray, of rays that the picture moved by its tolerance sees, and where one of the sources
-// has moved a little.
+// Answers to the ray, to the rays of a picture moved by its tolerance, and with one of the sources
+// moved a little.
 std::vector<std::vector<SourceAnswer>> MergeJudge::answersNearby(const ViewRay& ray,
                                                                  const MergedAnswer& tested) const {
   const std::vector<SourceAnswer> own = answersTo(ray);

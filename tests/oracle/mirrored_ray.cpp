@@ -18,13 +18,13 @@ glm::dvec3 flipped(const glm::dvec3& v) {
   return {v.x, -v.y, -v.z};
 }
 
-// Of a point of the image, for a Z of 1 m.
+// Line of sight of a point of the image, for a Z of 1 m.
 glm::dvec3 lineOfSight(const Pinhole& pinhole, double x_px, double y_px) {
   const glm::dvec2 at = (glm::dvec2(x_px, y_px) - pinhole.principal_px) / pinhole.focal_px;
   return flipped({at.x, at.y, 1.0});
 }
 
-// Of the plane of a facet through a place: (a x + b y + c) Z = 1, towards the camera.
+// Normal of the plane of a facet through a place: (a x + b y + c) Z = 1, towards the camera.
 glm::dvec3 normalOf(const OracleSource& source, const FacetAt& at, double x_px, double y_px,
                     double inv_z) {
   const Facet& facet = source.facet(at);
@@ -34,7 +34,7 @@ glm::dvec3 normalOf(const OracleSource& source, const FacetAt& at, double x_px, 
   return -glm::normalize(flipped({slope.x * focal_px.x, slope.y * focal_px.y, at_axis}));
 }
 
-// What a facet is linked to in a column beside it; layer -1: nothing.
+// Facet to which a facet is linked in a column beside it; layer -1: nothing.
 FacetAt linkedIn(const OracleSource& source, const FacetAt& from, int step_x, int step_y) {
   const int column = from.column + step_x, row = from.row + step_y;
   const bool is_inside =

@@ -28,8 +28,8 @@ struct MirroredRay {
   bool is_bent = false;  // along the facet, below which it would have gone
 };
 
-// Of what comes from an eye (m, the source's camera space), by the surface's own slopes. It starts
-// in front of the surface by what this may be off, seen from the eye behind the mirror.
+// Reflection of a ray from an eye (m, the source's camera space), by the surface's own slopes. It
+// starts in front of the surface by the allowed error, seen from the eye behind the mirror.
 MirroredRay mirrored(const OracleSource& source, const MirrorSpot& spot, const glm::dvec3& eye_m,
                      const MirrorTolerance& tolerance);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What judges look at around a ray, and the range of what they find there.
+// Places that judges look at around a ray, and the range of the answers there.
 #pragma once
 
 #include <algorithm>

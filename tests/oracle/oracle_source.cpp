@@ -149,8 +149,8 @@ bool OracleSource::mayBeLinked(const FacetAt& a, const FacetAt& b) const {
   return std::abs(at_a - at_b) <= kappa_.at(std::max(at_a, at_b));
 }
 
-// Of the facets in the column of `towards`, the one nearest to `from` at the shared edge among
-// those that are not linked within their own layer index.
+// The facet in the column of `towards` that is nearest to `from` at the shared edge, among those
+// that are not linked within their own layer index.
 FacetAt OracleSource::nearestUnlinked(const FacetAt& from, const FacetAt& towards) const {
   FacetAt nearest;
   float smallest = 0;

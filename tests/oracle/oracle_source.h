@@ -102,7 +102,7 @@ class OracleSource {
   }
   // inv_z of the facet's plane at an image position in px, without the bound at 0.
   double planeInvZ(const FacetAt& at, double x_px, double y_px) const;
-  // Of a facet along x (1, 0) or y (0, 1), before it is rounded.
+  // Slope of a facet along x (1, 0) or y (0, 1), before it is rounded.
   float slope(const FacetAt& at, int step_x, int step_y) const;
 
   // Whether two facets in columns that share an edge are one connected surface there.

@@ -47,7 +47,7 @@ class Travel {
   }
 
  private:
-  // Of a layer that the ray is behind.
+  // State of a layer that the ray is behind.
   struct Behind {
     // How far back the far side of the silhouette lies that it passed behind; none: nothing there.
     std::optional<double> far_inv_z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ray answers, found column by column in metric space and double precision, without a
+// Answer of a ray, found column by column in metric space and double precision, without a
 // hierarchy.
 #pragma once
 
@@ -43,13 +43,13 @@ struct OracleAnswer {
 // is assumed only where it passed behind something it did not hit.
 OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, size_t hit_limit = 1);
 OracleAnswer traceOracle(const OracleSource& source, const Ray& ray, size_t hit_limit = 1);
-// Of a part of it alone, inside the image and not empty.
+// Answer of a part of it alone, inside the image and not empty.
 OracleAnswer traceOracle(const OracleSource& source, const ProjectedRay& ray, const SeenPart& part,
                          size_t hit_limit = 1);
 
-// Of a ray that goes on from the front of a surface, as off a mirror: behind the layers before that
-// one, in front of it and of those behind. Who comes out through a surface from behind it has met
-// what no source has seen, and ends there.
+// Answer of a ray that goes on from the front of a surface, as off a mirror: behind the layers
+// before that one, in front of it and of those behind. A ray that comes out through a surface from
+// behind it has met an unseen part, and ends there.
 OracleAnswer traceFromSurface(const OracleSource& source, const ProjectedRay& ray,
                               int surface_layer);
 

@@ -20,7 +20,7 @@ bool isInImage(const OracleSource& source, const glm::dvec2& px) {
   return px.x >= 0 && px.y >= 0 && px.x < source.width() && px.y < source.height();
 }
 
-// Of the first layer; what lies beside the image is as its border. None: no surface there.
+// 1/Z of the first layer; beside the image it is that of its border. None: no surface there.
 std::optional<double> surfaceAt(const OracleSource& source, const glm::dvec2& px) {
   const FacetAt at{0, int(std::clamp(std::floor(px.x), 0.0, source.width() - 1.0)),
                    int(std::clamp(std::floor(px.y), 0.0, source.height() - 1.0))};

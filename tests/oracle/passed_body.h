@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a ray behind the body that it passes behind first, by the definition in
+// Fate of a ray behind the body that it passes behind first, by the definition in
 // shaders/reflections.md.
 #pragma once
 
@@ -20,8 +20,8 @@ struct BodyAnswer {
   bool agrees(const BodyAnswer& other, double tolerance_px) const;
 };
 
-// Of a ray from where it begins, by where it passed behind something, across an edge between two
-// columns, to where it ends: x px, y px, inv_z.
+// Answer for a ray from its beginning, by the place where it passed behind something, across an
+// edge between two columns, to its end: x px, y px, inv_z.
 BodyAnswer behindBody(const OracleSource& source, const glm::dvec3& begin, const glm::dvec3& passed,
                       const glm::dvec3& end);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// As the definition has them.
+// Values of the definition.
 constexpr double kAngleMin_rad = 1e-4;
 constexpr double kDensityMin = 1e-6;
 constexpr double kToleranceShareMax = 0.125;

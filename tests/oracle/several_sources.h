@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ray is answered by several sources together, from what the oracle says of each, in metric
-// space and double precision: shaders/walk.md, Several sources.
+// Answer of several sources together to a ray, from the oracle's answer for each, in metric space
+// and double precision: shaders/walk.md, Several sources.
 #pragma once
 
 #include <functional>
@@ -25,8 +25,8 @@ struct PosedSource {
 // The same ray as the source sees it.
 ViewRay seenFrom(const PosedSource& source, const ViewRay& ray_world);
 
-// Of one source. Places along the ray are 1/Z of the view, whose ray's direction is one metre along
-// its axis long.
+// Answer of one source. Places along the ray are 1/Z of the view, whose ray's direction is one
+// metre along its axis long.
 struct SourceAnswer {
   RayClass ray_class = RayClass::kOutside;
   double view_inv_z = 0;
@@ -35,12 +35,12 @@ struct SourceAnswer {
   double weight = 0;
 };
 
-// What a source answers to a ray, and what that is weighed by.
+// Answer of a source to a ray, and its weight.
 struct TracedSource {
   RayClass ray_class = RayClass::kOutside;
   double entry_inv_z = -1;
-  // Of a hit: the pinhole that answers, the source itself or a face of it, and the ray as that has
-  // it.
+  // For a hit: the pinhole that answers, the source itself or a face of it, and the ray in its
+  // space.
   SeenFacets facets;
   ViewRay seen;
   OracleHit hit;

@@ -13,7 +13,7 @@ struct Place {
   int row = 0;
 };
 
-// Of the surfaces there, the inv_z nearest to the given one; kNoSurface without any.
+// The inv_z of the surfaces there that is nearest to the given one; kNoSurface without any.
 float nearestAt(const InvZPlanes& planes, const Place& place, float inv_z) {
   if (place.column < 0 || place.column >= planes.width) return kNoSurface;
   if (place.row < 0 || place.row >= planes.height) return kNoSurface;
@@ -34,8 +34,7 @@ float bendOf(float a, float b, float inv_z, float reach) {
   return std::clamp(bend, -most, most);
 }
 
-// As far as a sample may move: no further than its reach, nor than a quarter of the way to the
-// next layer.
+// Limit of a sample's move: its reach, and a quarter of the way to the next layer.
 float withinReach(const InvZPlanes& samples, int layer, const Place& place, float inv_z,
                   float reach) {
   const float sample = samples.at(layer, place.column, place.row);

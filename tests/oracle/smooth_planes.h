@@ -6,7 +6,7 @@
 
 namespace viewloom::oracle {
 
-// What was measured of a source, 1/m.
+// Measurements of a source, 1/m.
 struct Coarseness {
   float reach = 0;  // 0 = fine
   float step = 0;

@@ -9,8 +9,8 @@ namespace viewloom::oracle {
 // Surfaces that a ray may go through until it meets another one.
 inline constexpr size_t kThroughMax = 64;
 
-// Of an answer with kThroughMax hits: the first that is further from the first one than what would
-// be connected to it; without such a one, the first.
+// For an answer with kThroughMax hits: the first hit that is further from the first one than a
+// connected surface would be; without such a one, the first.
 OracleAnswer behindFirst(const OracleSource& source, OracleAnswer answer);
 
 }  // namespace viewloom::oracle

@@ -53,7 +53,7 @@ void drawFacetRow(Slice& slice, const StructureImage& structure) {
   }
 }
 
-// Of a row: each run, in two shades in turn.
+// Draws the runs of a row, in two shades in turn.
 void drawRuns(Slice& slice, const SurfaceRow& row) {
   for (uint32_t layer = 0; layer < row.layer_count; ++layer) {
     const Runs& runs = row.layers[layer].runs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays of a view answer in the row to draw.
+// Answers of the rays of a view in the row to draw.
 #pragma once
 
 #include <string>

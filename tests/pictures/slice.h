@@ -13,7 +13,7 @@ class Slice {
   // With axes, and a heading; `strip_count` rows of px have room below.
   explicit Slice(std::string_view heading, int strip_count = 0);
 
-  // Of a place in the source, px and 1/m.
+  // Point for a place in the source, px and 1/m.
   Point at(double x_px, double inv_z) const;
   // Whether it lies between the first and the last column drawn.
   bool shows(double x_px) const;
@@ -25,7 +25,7 @@ class Slice {
   // The upper left corner of a px of a view, in a row of them, and its size.
   Point stripAt(int strip, double x_px) const;
   static double stripPx();
-  // What a strip shows.
+  // Names the content of a strip.
   void nameStrip(int strip, std::string_view words);
 
   Svg& svg() { return svg_; }

@@ -13,7 +13,7 @@
 namespace viewloom::pictures {
 namespace {
 
-// Of the display, output px.
+// Tolerance of the display, output px.
 constexpr double kTolerance_px = 0.25;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What points that lie behind each other show together.
+// Composite of points that lie behind each other.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one depth sample means, in double precision, as proto DepthFormat says it: the reference for
-// what kernels compute.
+// Meaning of one depth sample, in double precision, by proto DepthFormat: the reference for
+// kernels.
 #pragma once
 
 #include <cstdint>

@@ -53,7 +53,7 @@ using viewloom::test::grown_bytes;
 using viewloom::test::is_measuring;
 using viewloom::test::peak_bytes;
 
-// What a block really takes: the same when it comes and when it goes.
+// The real size of a block: the same when it comes and when it goes.
 void add(void* block) {
   if (!is_measuring.load(std::memory_order_relaxed) || block == nullptr) return;
   const auto size_bytes = int64_t(malloc_usable_size(block));
@@ -94,7 +94,7 @@ void* calloc(size_t count, size_t size_bytes) {
 void* realloc(void* block, size_t size_bytes) {
   remove(block);
   void* const moved = __libc_realloc(block, size_bytes);
-  // What cannot grow stays.
+  // A block that cannot grow stays.
   add(moved == nullptr && size_bytes > 0 ? block : moved);
   return moved;
 }

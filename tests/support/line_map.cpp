@@ -8,7 +8,7 @@
 namespace viewloom::test {
 namespace {
 
-// What is seen of a line, and how near it is.
+// The visible part of a line, and how near it is.
 struct SeenLine {
   std::vector<double> place;
   std::vector<double> disparity_px;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a view sees that stands beside its source: pixels move along lines of the image, each by a
-// multiple of its disparity, and the nearest one hides the others. The forward map of one line.
+// View that stands beside its source: pixels move along lines of the image, each by a multiple of
+// its disparity, and the nearest one hides the others. The forward map of one line.
 #pragma once
 
 #include <cstdint>

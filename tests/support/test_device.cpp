@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-// What the leak sanitizer excuses. The validation layer of Vulkan 1.3.239 leaves objects that hold
+// Leaks that the sanitizer excuses. The validation layer of Vulkan 1.3.239 leaves objects that hold
 // one another when its device is destroyed; viewloomd without it leaks nothing.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation";

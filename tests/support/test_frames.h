@@ -21,11 +21,11 @@ FramePtr movedFrame(const Frame& frame, uint64_t number);
 FramePtr layeredFrame(uint64_t number, const Camera& camera, SizePx size_px,
                       std::vector<SyntheticLayer> layers, double connection_tolerance = 0);
 
-// Of one layer, seen from so many places along x, m: a source each.
+// Frames of one layer, seen from so many places along x, m: a source each.
 FramePtr syntheticFrameFrom(uint64_t number, const std::vector<double>& places_m,
                             SizePx size_px = {160, 90});
 
-// Of two layers, as a cube map in the place that the scene is meant to be seen from.
+// Frame of two layers, as a cube map in the place that the scene is meant to be seen from.
 FramePtr syntheticCubeFrame(uint64_t number, uint32_t side_px = 48);
 
 // A small quilt of 4x2 views, complete.

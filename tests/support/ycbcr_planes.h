@@ -14,7 +14,7 @@ namespace viewloom::test {
 // kRgba.
 std::vector<uint8_t> ycbcrPlanesOf(std::span<const uint8_t> rgbx, size_t stride_bytes,
                                    SizePx size_px, ColorForm form);
-// Of rows without gaps; R in the low byte.
+// Planes of rows without gaps; R in the low byte.
 std::vector<uint8_t> ycbcrPlanesOf(std::span<const uint32_t> rgbx, SizePx size_px, ColorForm form);
 
 }  // namespace viewloom::test

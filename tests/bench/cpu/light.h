@@ -18,7 +18,7 @@ inline float codeAt(uint32_t color, uint32_t shift) {
   return float(int(color >> shift & 255U));
 }
 
-// Of the channel at `shift`.
+// Blend of the channel at `shift`.
 inline uint32_t blendChannel(uint32_t a, uint32_t b, float weight, uint32_t shift) {
   const float code_a = codeAt(a, shift);
   const float code_b = codeAt(b, shift);

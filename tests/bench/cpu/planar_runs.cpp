@@ -12,7 +12,7 @@ namespace viewloom::bench {
 namespace {
 
 constexpr uint32_t kRowsPerChunk = 4;
-// Of the outermost view, in px of the source: what a line may stray from its samples.
+// Distance that a line may stray from its samples, in px of the source, in the outermost view.
 constexpr double kTolerance_px = 0.25;
 // Columns are drawn so many at a time; rows of depths go on by as many.
 constexpr int kLanes = 16;
@@ -22,7 +22,7 @@ constexpr int kNothing = -1;  // is less than any depth
 
 }  // namespace
 
-// Of one row of the source, layer by layer, each layer from the left.
+// Runs of one row of the source, layer by layer, each layer from the left.
 struct PlanarRuns::Runs {
   std::vector<float> begin_px;
   std::vector<float> end_px;
@@ -41,7 +41,7 @@ struct PlanarRuns::Runs {
 struct PlanarRuns::Scratch {
   const Runs* runs = nullptr;
   std::vector<uint32_t> rgba;  // of the row: [layer][x]
-  // Of a view: the columns of each run, and its line over them.
+  // Runs of a view: their columns, and their lines over them.
   std::vector<int> begin;
   std::vector<int> end;
   std::vector<float> inv_z;

@@ -39,7 +39,7 @@ RayPacket::RayPacket(const BenchLoad& load, uint32_t first_view, uint32_t row) {
         (layout.padding_top_px + size_t{view / layout.columns} * layout.tile_size_px.height + row) *
             layout.size_px.width +
         size_t{view % layout.columns} * width_px + lane / view_count;
-    // What lies behind the eye is not seen.
+    // Surfaces behind the eye are invisible.
     const float from = tile.eye.z * near_inv_z > 1 ? 1 / tile.eye.z : near_inv_z;
     from_inv_z[lane] = from;
     eye_x_[lane] = tile.eye.x * from;

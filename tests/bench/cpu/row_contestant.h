@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What contestants share that make views row by row: no ray of theirs leaves its row of the source.
+// Base of contestants that make views row by row: no ray of theirs leaves its row of the source.
 #pragma once
 
 #include <cstddef>

@@ -11,8 +11,8 @@
 namespace viewloom::bench {
 namespace {
 
-// As viewloom's own (server/engine/walk/trace/walk_pass.cpp), but twice as many px: rivals gain 3
-// to 8 % by that on lavapipe.
+// The same as viewloom's (server/engine/walk/trace/walk_pass.cpp), but twice as many px: rivals
+// gain 3 to 8 % by that on lavapipe.
 constexpr uint32_t kColumnsForViewLanes = 5;
 constexpr uint32_t kPixelsWithViewLanes = 16;
 constexpr uint32_t kPixelsWithPixelLanes = 1;
@@ -118,7 +118,7 @@ void AtlasPass::bind(std::vector<Descriptor> descriptors, uint32_t box_stride) {
   push_.box_stride = box_stride;
 }
 
-// What no view covers stays black.
+// Pixels outside all views stay black.
 void AtlasPass::clear() {
   const Commands commands = recorder_.begin();
   commands.fill(atlas_.target(), kOpaqueBlack);

@@ -10,8 +10,8 @@
 
 namespace viewloom::bench {
 
-// What is read and written, in units of 16 bytes and in parts that fit the device's bindings: part
-// p of the output is part p of the input over and over again.
+// Ranges that are read and written, in units of 16 bytes and in parts that fit the device's
+// bindings: part p of the output is part p of the input over and over again.
 struct CopyShape {
   uint32_t read_count = 0;  // in all
   uint32_t part_count = 1;

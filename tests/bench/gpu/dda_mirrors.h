@@ -21,8 +21,8 @@ class DdaMirrors {
  public:
   explicit DdaMirrors(const Device& device);
 
-  // As MirrorPass::record, of rows whose structure reads by bindings, with opaque colour of the
-  // depth's size in 8 bits.
+  // The same as MirrorPass::record, for rows whose structure reads by bindings, with opaque colour
+  // of the depth's size in 8 bits.
   void record(Commands commands, const ReflectedRows& rows, const MarchOptions& options);
 
  private:

@@ -29,7 +29,7 @@ Picture pictureOf(Contestant& contestant, const BenchLoad& load) {
   return contestant.picture();
 }
 
-// Of px (x, y) of a view of a load of views side by side.
+// Index of px (x, y) of a view, for a load of views side by side.
 size_t indexOf(const BenchLoad& load, size_t view, int x, int y) {
   const AtlasLayout& layout = *load.job.layout;
   return size_t(y) * layout.size_px.width + view * layout.tile_size_px.width + size_t(x);

@@ -9,7 +9,7 @@
 namespace viewloom::bench {
 namespace {
 
-// As server/engine/walk/structure/structure_builder.cpp has it.
+// The variant that server/engine/walk/structure/structure_builder.cpp takes.
 PrepareVariant variantOf(const StructureSlot& slot) {
   const std::span planes(slot.depthPlanes().planes, slot.shape().layerCount());
   const uint32_t first_type = planes.front().sample_type;

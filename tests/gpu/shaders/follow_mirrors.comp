@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As trace/reflect.comp, and writes down what the last ray of each px met.
+// The same as trace/reflect.comp, and writes down the hit of the last ray of each px.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

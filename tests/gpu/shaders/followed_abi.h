@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests learn of a reflected ray.
+// Records of reflected rays for tests.
 #ifndef VIEWLOOM_GPU_SHADERS_FOLLOWED_ABI_H_
 #define VIEWLOOM_GPU_SHADERS_FOLLOWED_ABI_H_
 

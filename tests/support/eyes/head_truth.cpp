@@ -27,7 +27,7 @@ std::vector<uint8_t> planeOf(const EncodedAtlas& atlas, AtlasPlane plane) {
   return bytes;
 }
 
-// What a view was served, px by px.
+// A view as it was served, px by px.
 class ServedView {
  public:
   ServedView(const EncodedAtlas& atlas, uint32_t view)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What eyes that move before a scene of exact surfaces truly see, beside what they were served.
+// True pictures of eyes that move before a scene of exact surfaces, beside the served ones.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace viewloom::test {
 
-// Of one eye. PSNR in dB over sRGB codes, NaN where there is no such px.
+// Score of one eye. PSNR in dB over sRGB codes, NaN where there is no such px.
 struct EyeScore {
   double inside_db = 0;  // of px that a layer of the source holds, away from edges
   double known_db = 0;   // of px that a layer of the source holds
   double full_db = 0;    // of all
-  // Of the px away from edges: 1/Z is more than 1 % off.
+  // Share of the px away from edges whose 1/Z is more than 1 % off.
   double depth_off_share = 0;
   double outside_share = 0;          // of all px: they look past the source
   double outside_differs_share = 0;  // of all px away from edges: the mask says otherwise
 };
 
-// What one eye truly sees.
+// True picture of one eye.
 class TrueEye {
  public:
   TrueEye(truth::Picture picture, std::vector<uint8_t> known, uint32_t layer_count)
       : picture_(std::move(picture)), known_(std::move(known)), layer_count_(layer_count) {}
 
-  // Of the view with that index of an atlas of RAW colour, depth and mask.
+  // Score of the view with that index in an atlas of RAW colour, depth and mask.
   EyeScore score(const EncodedAtlas& atlas, size_t view) const;
 
  private:
@@ -46,7 +46,8 @@ class HeadTruth {
 
   // The source's layers, at time 0, of things that stand.
   FramePtr frame() const;
-  // Of a display in the source's place: the eye's camera is relative to that, as it was sent.
+  // True picture for a display in the source's place: the eye's camera is relative to that, as it
+  // was sent.
   TrueEye seenBy(const Camera& eye, SizePx eye_px) const;
 
  private:

@@ -44,7 +44,7 @@ struct Paint {
   glm::vec3 colorAt(const glm::dvec3& point_m, float contrast) const;
 };
 
-// What a surface mirrors: its share of the light head on, and how much it spreads it (the square
+// Reflection of a surface: its share of the light head on, and how much it spreads it (the square
 // root of the width of GGX).
 struct Gloss {
   glm::vec3 light{0.0F};
@@ -73,7 +73,7 @@ struct Entry {
 // beyond. A ray enters a convex shape once at most: each body is one layer at most.
 std::optional<Entry> entryInto(const Shape& shape, const Ray& ray);
 
-// Of the sphere around the body's centre that encloses it.
+// Radius of the sphere around the body's centre that encloses it.
 double boundRadius(const Shape& shape);
 
 }  // namespace viewloom::truth

@@ -18,10 +18,10 @@ enum Known : uint8_t {
   kKnownCount
 };
 
-// Of what any ray meets.
+// Knowledge about the hit of any ray.
 uint8_t knownAlong(const Instant& instant, const Camera& source, SizePx source_px, const Ray& ray);
 
-// Of what the ray through each px's centre sees: [height][width], top row first.
+// Knowledge about the hit of the ray through each px's centre: [height][width], top row first.
 std::vector<uint8_t> knownFrom(const Instant& instant, const Camera& source, SizePx source_px,
                                const Camera& view, SizePx view_px);
 

@@ -20,7 +20,7 @@ Body sheet(glm::length_t axis, double place_m, const glm::vec3& light, const Glo
   dvec3 half_m = 0.5 * (kHigh_m - kLow_m) + kOverlap_m;
   at_m[axis] = place_m;
   half_m[axis] = 0;
-  // What mirrors shows little of itself.
+  // Mirrors show little of their own colour.
   const float own = gloss.mirrors() ? 0.25F : 1.0F;
   Body body = painted(Box{half_m}, at_m, own * light, 0.4);
   body.gloss = gloss;

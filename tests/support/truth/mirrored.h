@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is truly seen of a scene whose surfaces mirror each other, and whether a source can know it.
+// True pictures of a scene whose surfaces mirror each other, and whether a source can know them.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,9 @@ struct SourceCamera {
   SizePx size_px;
 };
 
-// Of each px that shows a mirror, which layer of a source holds what that mirrors, or why none does
-// (truth::Known), the least of several; kNoMirror elsewhere, and where the first source does not
-// see the mirror.
+// For each px that shows a mirror: the layer of a source that holds the mirrored thing, or why none
+// does (truth::Known), the least of several; kNoMirror elsewhere, and where the first source does
+// not see the mirror.
 std::vector<uint8_t> mirroredKnownFrom(const Instant& instant,
                                        const std::vector<SourceCamera>& sources, const Camera& view,
                                        SizePx view_px);

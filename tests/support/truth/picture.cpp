@@ -39,7 +39,7 @@ class PixelEye {
   }
 
  private:
-  // Of the layers that have something at the px's centre.
+  // Averages the layers that have something at the px's centre.
   void averageColors(const glm::dvec2& corner_px, size_t px, uint32_t layer_count) {
     std::array<glm::vec3, kLayersMax> sums{};
     std::array<uint32_t, kLayersMax> counts{};

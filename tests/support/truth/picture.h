@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pinhole camera sees of an instant, layer by layer: the true pictures.
+// Pictures of a pinhole camera at an instant, layer by layer: the true pictures.
 #pragma once
 
 #include <cstdint>

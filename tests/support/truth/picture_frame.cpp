@@ -36,7 +36,7 @@ SharedBytes floatBytes(const std::vector<float>& samples) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
 }
 
-// Of three binary16 each.
+// Bytes of three binary16 each.
 SharedBytes halfBytes(const std::vector<glm::vec3>& vectors) {
   std::vector<uint8_t> bytes;
   for (const glm::vec3& vector : vectors) {

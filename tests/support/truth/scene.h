@@ -45,7 +45,7 @@ class Instant {
   // Up to layer_count (1..kLayersMax) surfaces.
   HitColumn peel(const Ray& ray, uint32_t layer_count) const;
 
-  // Of what the ray met. Linear light, 0..1; the same from wherever it is seen.
+  // Colour of a hit. Linear light, 0..1; the same from wherever it is seen.
   glm::vec3 color(const Ray& ray, const Hit& hit) const;
   // How what the ray met mirrors.
   Gloss gloss(const Hit& hit) const;

@@ -27,7 +27,7 @@ struct BoxRow {
   vec4 high;
 };
 
-// Of four samples: each is kappa thick. No surface is met nowhere.
+// Row of four samples: each is kappa thick. A place without a surface is met nowhere.
 BoxRow rowOfSamples(ivec2 size_px, ivec2 pixel) {
   const uint pitch = invZPitch(uint(size_px.x));
   const uint area = invZArea(uint(size_px.x), uint(size_px.y));

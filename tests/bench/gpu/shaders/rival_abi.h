@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rivals' kernels are told.
+// Parameters of the rivals' kernels.
 #ifndef VIEWLOOM_BENCH_GPU_SHADERS_RIVAL_ABI_H_
 #define VIEWLOOM_BENCH_GPU_SHADERS_RIVAL_ABI_H_
 
@@ -15,7 +15,7 @@ VIEWLOOM_ABI_CONST uint kBindingHits = 18u;      // texels of two uints: what ra
 VIEWLOOM_ABI_CONST uint kBindingFrom = 19u;      // texels of four uints: copied
 VIEWLOOM_ABI_CONST uint kBindingTo = 20u;        // storage, written: the copies
 
-// Of a dispatch that traces rows of an atlas.
+// Parameters of a dispatch that traces rows of an atlas.
 struct RivalPush {
   uint source_size_px;  // width | height << 16
   uint layer_count;
@@ -38,7 +38,7 @@ VIEWLOOM_ABI_CONST uint kHitOffsetYShift = 11u;
 
 VIEWLOOM_ABI_CONST uint kBoxLevelLast = 6u;
 
-// Of a pass that makes levels of a layer's pyramid.
+// Parameters of a pass that makes levels of a layer's pyramid.
 struct BoxesPush {
   uint source_size_px;  // width | height << 16
   uint layer;
@@ -47,7 +47,7 @@ struct BoxesPush {
   vec3 kappa;       // as RivalPush
 };
 
-// Of a copy, in units of 16 bytes.
+// Parameters of a copy, in units of 16 bytes.
 struct CopyPush {
   uint from_first;
   uint from_count;

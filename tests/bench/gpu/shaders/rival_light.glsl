@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rivals read of a source, and what a px shows of what its ray found in it.
+// Reading of a source by rivals, and the colour of a px from the hit of its ray.
 #ifndef VIEWLOOM_BENCH_RIVAL_LIGHT_GLSL_
 #define VIEWLOOM_BENCH_RIVAL_LIGHT_GLSL_
 
@@ -65,7 +65,7 @@ vec3 codesAt(uint layer, ivec2 cell, vec2 point) {
   return sum * (1.0 / (weights.x + weights.y + weights.z + weights.w));
 }
 
-// Of a hit. Without one: the place whose colour goes on.
+// Hit of a ray. Without one: the place whose colour goes on.
 struct Found {
   bool is_hit;
   bool is_hidden;  // no hit, and behind some surface at the end

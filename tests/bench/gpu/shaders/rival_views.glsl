@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels of rivals have in common: which px an invocation takes, as in
-// shaders/trace/walk_views.comp, and how they are stored. The includer has
-//   uint pixelOf(ViewParams view, Run run, uint i, float bound)    what px i of a run shows
-//   float boundOfRun(ViewParams view, Run run)                     where rays of a run may start
+// Frame of the rivals' kernels: the px of an invocation, as in shaders/trace/walk_views.comp, and
+// how they are stored. The includer has uint pixelOf(ViewParams view, Run run, uint i, float
+// bound), the colour of px i of a run; and float boundOfRun(ViewParams view, Run run), from where
+// rays of a run may start.
 #ifndef VIEWLOOM_BENCH_RIVAL_VIEWS_GLSL_
 #define VIEWLOOM_BENCH_RIVAL_VIEWS_GLSL_
 
