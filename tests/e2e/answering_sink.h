@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands for the loops where no device is needed: answers frames with atlases of known bytes.
+// Replaces the pipeline in tests without a device: answers frames with atlases of known bytes.
 #pragma once
 
 #include <map>
@@ -28,11 +28,11 @@ class AnsweringSink final : public FrameSink, public EyeSink {
 
   // Serves displays without an atlas from the resident frame.
   void demandChanged(const std::string& stream);
-  // What the server made of the newest frame that was answered; null before the first.
+  // The newest answered frame, as the server decoded it; null before the first.
   FramePtr resident(const std::string& stream);
-  // From now on frames of the stream wait unanswered, the newest replacing the older.
+  // From now on, only the newest frame of the stream waits. None is answered.
   void hold(const std::string& stream);
-  // Answers the one that waits, and those to come.
+  // Answers the waiting frame and all later ones.
   void letGo(const std::string& stream);
 
  private:

@@ -54,7 +54,7 @@ class AtlasViewer {
   Atlas waitForEyes(int64_t time_ns) {
     return waitFor([&](const Atlas& atlas) { return atlas.header.eye_poses_time_ns() == time_ns; });
   }
-  // What the poses give.
+  // The atlas rendered for these poses.
   Atlas seenBy(const v1::EyePoses& poses) {
     watcher_.sendEyePoses(poses);
     return waitForEyes(poses.time_ns());

@@ -61,7 +61,7 @@ DisplaySpec lensQuilt() {
 
 class PipelineCompileTest : public PipelineFixture {
  protected:
-  // As on a GPU, which has the walk alone.
+  // Engines as on a GPU: only the walk, compiled on its own threads.
   ServerOptions ownThreads() {
     return {.make_engines = [this](const Device& device) {
       Engines engines{.all = {}, .workers = std::make_unique<WorkerPool>()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What displays take from a stream starts anew with a publisher's session, and where depth moves.
+// Defaults of a stream are taken anew for a new session, and when depth moves far.
 #include <gmock/gmock.h>
 
 #include "e2e/pipeline_fixture.h"
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Everything of the synthetic scene shrunk or grown around the camera.
+// The synthetic scene, scaled around the camera.
 FramePtr scaled(uint64_t number, double scale) {
   auto frame =
       std::make_shared<Frame>(*syntheticFrame(number, {160, 90}, 2, 0.01 * double(number)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What eyes that move have before all others: the newest of them, and at once.
+// Priority of tracked eyes: the newest poses are rendered, before all other work.
 #include <chrono>
 #include <future>
 #include <memory>
@@ -36,7 +36,7 @@ EyePoses eyesAt(double x_m, int64_t received_ns) {
   return poses;
 }
 
-// Says when its first atlas comes, and on which thread. One thread packs all.
+// Reports the arrival of its first atlas, and the thread. One thread packs all atlases.
 class FirstAtlas final : public Subscriber {
  public:
   FirstAtlas(std::string name, std::vector<std::string>& log) : name_(std::move(name)), log_(log) {}
@@ -58,7 +58,7 @@ class FirstAtlas final : public Subscriber {
 
 class PipelineEyesFirstTest : public PipelineFixture {
  protected:
-  // The one thread that packs is held up within the first atlas of this display.
+  // Blocks the only packing thread within the first atlas of this display.
   void holdWithin(const DisplaySpec& spec, EyeTrackPtr eyes, uint32_t slot_count) {
     server_ = std::make_unique<Server>(
         device(), ServerOptions{.encode_thread_count = 1, .trace_slot_count = slot_count}, &clock_);

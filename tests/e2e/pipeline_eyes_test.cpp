@@ -40,7 +40,7 @@ class SlowSubscriber final : public Subscriber {
 
 class PipelineEyesTest : public PipelineFixture {
  protected:
-  // Of the left eye, as of what was last begun.
+  // Position x of the left eye in the newest layout, m.
   static double eyeOf(const Server& server, uint64_t display_id) {
     return server.broadcaster.layout(display_id)->views[0].camera.pose.position_m.x;
   }

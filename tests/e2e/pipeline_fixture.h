@@ -25,7 +25,7 @@ inline double tracedCount(const Metrics& metrics) {
          metrics.atlases_traced[TraceMethod::kSweep].value();
 }
 
-// As the metric says by now; `name` with its labels, if any: "viewloom_x_count{stage=\"build\"}".
+// Current value of a metric. `name` includes labels: "viewloom_x_count{stage=\"build\"}".
 inline double metricValue(const Metrics& metrics, const std::string& name) {
   const std::string text = strCat("\n", metrics.text());
   const size_t at = text.find(strCat("\n", name, " "));

@@ -22,10 +22,10 @@ constexpr double kPlateSpeed_mps = 0.9375;  // 30 px/s; a binary16
 constexpr double kPlateSpeed_px_per_s = kPlateSpeed_mps * kFocal_px / kPlate_m;
 constexpr double kPlateLeft_px = 12;  // when the server's clock is 0; a frame later it is 15
 constexpr double kPlateWidth_px = 12;
-// Of the middle of what is white: its edges are those of whole px.
+// Tolerance for the middle of the white plate, whose edges lie at whole pixels of the source.
 constexpr double kMiddleError_px = 0.55;
 
-// Where the edges are those that rays meet, at whole px of the display.
+// The same tolerance for edges that rays find, at whole pixels of the display.
 constexpr double kOwnMiddleError_px = 0.55;
 
 bool isPlate(double left_px, uint32_t x, uint32_t y) {
@@ -64,7 +64,7 @@ LayerPlanes layerAt(double left_px, uint32_t index, bool tells_motion) {
           .motion = moves ? bytesOf(motion) : SharedBytes()};
 }
 
-// As it is at the server's `now_ns`, when it arrives.
+// A frame of the plate, captured and received at the server's `now_ns`.
 FramePtr plateFrame(uint64_t number, int64_t now_ns, bool tells_motion) {
   auto frame = std::make_shared<Frame>();
   frame->format.number = number;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of every frame and every display.
+// Reports: the outcome of every frame, and of every display.
 #include <gmock/gmock.h>
 
 #include <cmath>

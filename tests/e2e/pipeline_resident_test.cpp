@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream that has sent one frame, and sends no more, still serves.
+// A stream that has sent only one frame still serves viewers from its resident frame.
 #include <gmock/gmock.h>
 
 #include "e2e/pipeline_fixture.h"

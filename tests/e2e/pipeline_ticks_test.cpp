@@ -36,7 +36,7 @@ class PipelineTicksTest : public TicksFixture {
            server.metrics.atlases_traced[TraceMethod::kSweep].value();
   }
 
-  // Of the moving camera, now.
+  // Offers a frame of the moving camera, captured now.
   static void offerMoving(Server& server, uint64_t number) {
     const int64_t now_ns = server.clock.nowNs();
     server.offer(frameAt(number, now_ns, placeAt(kStart_ns + now_ns)));
@@ -205,7 +205,7 @@ TEST_F(PipelineTicksTest, timesEachAtlasFromItsTickAndCountsTheTicksWithoutOne) 
     EXPECT_EQ(metric("delay_seconds_count"), count + i);
     EXPECT_NEAR(metric("delay_seconds_sum"), sum_s, 1e-9);
   }
-  // Of several ticks at once the newest alone can bring an atlas; each is one or the other.
+  // If several ticks are due at once, only the newest can bring an atlas. The others are skipped.
   const double before_count = metric("ticks_skipped_total");
   server.clock.advance((kMissedCount + 1) * kTick_ns);
   const auto tick_count = double((server.clock.nowNs() - begun_ns) / kTick_ns);

@@ -14,7 +14,7 @@ using testing::SizeIs;
 
 constexpr SizePx kSizePx{160, 90};
 
-// What frames have cost so far.
+// Counts of the work done for all frames so far.
 struct Work {
   double built = 0;
   double traced = 0;
@@ -93,7 +93,7 @@ TEST_F(PipelineUnchangedTest, isComparedWithTheResidentFrameAndNotWithTheLastOne
   EXPECT_EQ(outcomeOf(server, huge), FrameOutcome::kRefused);
   EXPECT_EQ(outcomeOf(server, syntheticFrame(3)), FrameOutcome::kUnchanged);
   EXPECT_EQ(outcomeOf(server, syntheticFrame(4, kSizePx, 2, 1)), FrameOutcome::kTraced);
-  // As the first, which is not resident any more.
+  // Equal to the first frame, which is no longer resident.
   EXPECT_EQ(outcomeOf(server, syntheticFrame(5)), FrameOutcome::kTraced);
   EXPECT_EQ(viewer.subscriber->waitForAtlases(3).back()->frame_number, 5u);
 }

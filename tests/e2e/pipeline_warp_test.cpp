@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A head moves for a second before a frame that stands: what it sees, and what that takes.
+// A head moves for a second while the frame stays: the pictures it gets, and their cost.
 #include <cmath>
 #include <thread>
 
@@ -23,15 +23,15 @@ constexpr int64_t kAtlases_hz = 60;
 constexpr int64_t kSteps_hz = 180;  // each pose and each atlas is due at one of these
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
-// Never before what is due at this step, which is rounded.
+// Time of a step, rounded up: whatever is due at this step is due by then.
 constexpr int64_t sinceStartNs(int64_t step) {
   return (step * kSecond_ns + kSteps_hz - 1) / kSteps_hz;
 }
 
 constexpr glm::dvec3 kSpeed_mps{0.1, 0.04, -0.08};  // of the camera of the source
 constexpr double kHalfEyeDistance_m = 0.0315;
-// Measurements further apart than this, in output px of what stands in the room's middle, make
-// pictures that tell them apart; nine of ten are.
+// Two head poses are told apart by their pictures if a point in the middle of the room moves
+// further than this, in output px. Nine of ten pairs do.
 constexpr double kTellsApart_px = 0.1;
 constexpr double kRoomMiddle_m = 3;
 constexpr double kStaleLoss_db = 2;  // measured: 3.6 and more
@@ -65,7 +65,7 @@ constexpr EncodingSpec kExact{.color = BandEncoding::kRaw,
                               .with_mask = true,
                               .planes = BandEncoding::kRaw};
 
-// As wide as the source, from where its camera is by now.
+// A view as wide as the source, from the current place of the source's camera.
 DisplaySpec atlasesBetweenFrames() {
   return *completeDisplaySpec(
       {.kind = CamerasSpec{.cameras = {{Pose{},
@@ -84,7 +84,7 @@ class PipelineWarpTest : public PipelineFixture {
     EyePoses newest;
   };
 
-  // Two measurements before the answer begins: the newer, of half a tick later, counts.
+  // Two head poses arrive before the answer begins. The newer one, half a tick later, counts.
   static Measured move(Server& server, EyeTrack& eyes, int64_t tick) {
     const auto measure = [&](int64_t half_tick) {
       EyePoses poses = eyesOf(headAt(double(half_tick) / double(2 * kPoses_hz)));
@@ -97,7 +97,7 @@ class PipelineWarpTest : public PipelineFixture {
     return {.before = before, .newest = measure(2 * tick)};
   }
 
-  // How far what stands in the room's middle, straight before one eye, is from there for the other.
+  // Distance in output px, seen by `to`, of the mid-room point straight ahead of `from`.
   static double movedPx(const TrackedEye& from, const TrackedEye& to) {
     const glm::dvec3 seen_m =
         from.pose.position_m + from.pose.orientation * glm::dvec3(0, 0, -kRoomMiddle_m);
@@ -107,7 +107,7 @@ class PipelineWarpTest : public PipelineFixture {
     return focal_px * glm::length(glm::dvec2(at_m)) / -at_m.z;
   }
 
-  // By the eyes that it names.
+  // Scores of both views, compared with the true views of these eyes.
   std::array<EyeScore, 2> scoresOf(const EncodedAtlas& atlas, const EyePoses& poses) const {
     std::array<EyeScore, 2> scores;
     for (size_t eye = 0; eye < 2; ++eye) {
@@ -126,8 +126,8 @@ class PipelineWarpTest : public PipelineFixture {
     EXPECT_LT(score.outside_differs_share, 0.01);
   }
 
-  // What the eyes saw when they were measured last, and not the time before. True where the two
-  // are far enough apart to tell.
+  // Expects the views of the newest poses, not of those before. Returns true if the two differ
+  // enough to tell them apart.
   bool expectAsMeasuredLast(const EncodedAtlas& answer, const Measured& measured) const {
     const std::array<EyeScore, 2> scores = scoresOf(answer, measured.newest);
     for (const EyeScore& score : scores) expectAsTheWorldIs(score);
@@ -140,7 +140,7 @@ class PipelineWarpTest : public PipelineFixture {
     return moved_px > kTellsApart_px;
   }
 
-  // The frame, now, of a camera that is there.
+  // Offers a frame of a camera at this place, captured now.
   void offer(Server& server, uint64_t number, const glm::dvec3& place_m) const {
     auto frame = std::make_shared<Frame>(*truth_.frame());
     frame->format.number = number;
@@ -150,7 +150,7 @@ class PipelineWarpTest : public PipelineFixture {
     server.offer(std::move(frame));
   }
 
-  // What the source's camera sees by then, having gone on as it did.
+  // Expects the view of the source's camera after it has kept its velocity.
   void expectCarriedOn(const EncodedAtlas& atlas, int64_t step) const {
     const double since_s = 1e-9 * double(atlas.shown_time_ns - atlas.capture_time_ns);
     EXPECT_NEAR(since_s, double(step) / kSteps_hz, 1e-8);
@@ -159,7 +159,7 @@ class PipelineWarpTest : public PipelineFixture {
     expectAsTheWorldIs(truth_.seenBy(seen_from, kEye_px).score(atlas, 0));
   }
 
-  // How often the stage has been timed by now: "upload" and "build" once a frame.
+  // Number of timed runs of a stage so far. "upload" and "build" run once a frame.
   static double stageCount(const Server& server, const std::string& stage) {
     return metricValue(server.metrics,
                        strCat("viewloom_stage_seconds_count{stage=\"", stage, "\"}"));

@@ -5,7 +5,7 @@
 
 namespace viewloom::test {
 
-// Of the rays that mirrors sent on, those that ended somewhere: all, or none where nothing mirrors.
+// Sum of the shares of reflected rays over all endings: 1, or 0 without mirrors.
 inline double reflectedShare(const v1::AtlasEnd& end) {
   const v1::ReflectionShares& shares = end.reflections();
   return shares.hit() + shares.assumed() + shares.back() + shares.cube() + shares.environment();

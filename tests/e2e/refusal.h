@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client learns from a refused call.
+// A refused call, as the client sees it.
 #pragma once
 
 #include <ostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// viewloom render of what lies between frames, and after them: displays with an output rate.
+// viewloom render at times between frames and after them, for displays with an output rate.
 #include <algorithm>
 #include <cstdlib>
 
@@ -14,12 +14,12 @@ namespace {
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
-// Frames are 0.1 s apart; meanwhile a camera moves by 0.1 m, or the square by 0.2, 8 px.
+// Frames are 0.1 s apart. In that time a camera moves by 0.1 m, or the square by 0.2 m (8 px).
 constexpr uint32_t kStep_px = 8;
 constexpr float kSquareSpeed_mps = 2;
-// Rows of the scene that the square is in, less one at each end: its edges are blended.
+// The middle row of the square. Its edges are blended, so rows at its ends are not tested.
 constexpr uint32_t kRow = kSquareTop + kSquareSide / 2;
-// Of two pictures that are one surface, blended as 11-bit codes and rounded once more.
+// Two pictures of one surface are blended as 11-bit codes, then rounded once more.
 constexpr int kCodeTolerance = 1;
 
 class RenderBetweenTest : public RenderTest {
@@ -45,8 +45,8 @@ class RenderBetweenTest : public RenderTest {
     return "--before " + (folder_ / file).string();
   }
 
-  // The square is the same wherever it is, and so is the wall. Both smooth, so that the light of px
-  // at their edges is told apart, and each px unlike its neighbours.
+  // The pattern moves with the square; the wall keeps its own. Both are smooth, so that pixels at
+  // their edges are recognisable, and each pixel differs from its neighbours.
   static uint8_t codeOf(uint32_t x, uint32_t y, uint32_t channel, uint32_t left) {
     return uint8_t(isSquare(x, y, left) ? 240 - 8 * (x - left) - 10 * channel
                                         : 20 + 3 * x + 10 * channel);
@@ -68,7 +68,7 @@ class RenderBetweenTest : public RenderTest {
           R"({"captureTimeNs":")" + capture_time_ns + R"(",)" +
               sourcesJson(0, layer + R"(,"motion":{"file":")" + name + R"(_motion.pfm"})") + "}");
   }
-  // The row's px [first, end) are those of a scene whose square begins at `left`.
+  // Expects the scene whose square begins at `left`, in pixels [first, end) of the row.
   void expectRow(uint32_t left, uint32_t first, uint32_t end) const {
     const std::vector<uint8_t> got = picture();
     for (uint32_t x = first; x < end; ++x) {

@@ -51,7 +51,7 @@ class RenderEffectsTest : public RenderTest {
   }
 };
 
-// Of a disc of radius 1, the share further than so far from a straight line through its middle.
+// Share of a unit disc that lies beyond a chord at this distance from its centre.
 double shareBeyond(double distance) {
   return (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) / std::numbers::pi;
 }
@@ -59,7 +59,7 @@ double shareBeyond(double distance) {
 TEST_F(RenderEffectsTest, aLensBlursWhatIsOutOfFocusAlone) {
   constexpr double kAperture_m = 0.15;
   constexpr double kRadius_px = kAperture_m * kFocal_px * (1 / kSquare_m - 1 / kWall_m);
-  // Points on the lens are spread evenly, and fewer than a hundred.
+  // The lens has fewer than a hundred points, evenly spread.
   constexpr int kSamplingTolerance = 12;  // 8-bit codes
   renderWith("");
   const std::vector<uint8_t> sharp = picture();

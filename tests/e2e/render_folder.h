@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder with a scene in it, for viewloom render: a noisy wall at 2 m with a noisy square at 1 m
-// before it, and a display that sees it from the source's own place and from 0.1 m to the right.
+// A folder with a scene for viewloom render: a noisy wall at 2 m, and a noisy square at 1 m.
+// Its display has two views: from the source's place, and from 0.1 m to the right.
 #pragma once
 
 #include <unistd.h>
@@ -92,7 +92,7 @@ class RenderTest : public testing::Test {
                        " --out " + prefix + "out " + flags);
   }
 
-  // Of one view, as it was rendered last.
+  // The newest rendered picture of one view.
   std::vector<uint8_t> picture(uint32_t view = 0) const {
     const std::string name = strCat("view_00", view, ".png");
     const auto png = files::readPngColor(folder_ / "out" / name, false);

@@ -8,7 +8,7 @@
 namespace viewloom::rpc_bad_cube_maps_test {
 namespace {
 
-// Of 6 px a side, as it should be.
+// Makes the source a valid cube map with 6 px a side.
 void makeCubeMap(v1::FrameHeader& header) {
   header.mutable_sources(0)->set_cube_map(true);
   camera(header).clear_projection();

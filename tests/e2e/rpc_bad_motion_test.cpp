@@ -10,7 +10,7 @@ namespace {
 
 const std::string kMotionPath = kSourcePath + "layers[0].planes[2].";
 
-// As it should be; colour has to be as large as depth.
+// Adds a valid motion plane. Colour must have the size of depth.
 v1::Plane& addMotion(v1::FrameHeader& header) {
   const v1::SizePx size = depth(header).size();
   setSize(color(header), size.width(), size.height());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What time it is at the server, asked beside atlases.
+// Clock probes in the call that also carries atlases.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client of StreamAtlases is promised of atlases that leave while they are being made.
+// Promises to clients of StreamAtlases about atlases that are sent while being made.
 #include <gtest/gtest.h>
 
 #include <string>

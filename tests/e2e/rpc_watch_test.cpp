@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client of StreamAtlases is promised.
+// Promises to clients of StreamAtlases.
 #include <gtest/gtest.h>
 
 #include "e2e/test_publisher.h"

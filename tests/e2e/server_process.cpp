@@ -12,7 +12,7 @@
 namespace viewloom::test {
 namespace {
 
-// Up to the end of the line, or of the output.
+// Reads to the end of the line, or of the output.
 std::string readLine(int descriptor) {
   std::string line;
   char letter = 0;
@@ -27,7 +27,7 @@ std::string valueOf(const std::string& line, const std::string& key) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
-// As exec takes them: ended by a null pointer, the first of two of a name wins.
+// Pointers for exec, ended by a null pointer. The first of two equal variables wins.
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -111,7 +111,7 @@ TEST_F(ServiceDisplaysTest, averagesSamplesOfSweptAndWalkedViewsAlike) {
   *quilt.mutable_display() = openQuilt("scene", {240, 120}).display();
   quilt.mutable_display()->mutable_filter()->set_sample_count(4);
   const Atlas swept = atlasOf(quilt);
-  // What is turned by a twentieth of a degree cannot be swept, and looks the same.
+  // A display turned by a twentieth of a degree cannot be swept. It looks the same.
   v1::Pose& pose = *quilt.mutable_display()->mutable_world_pose();
   pose.mutable_orientation()->set_z(5e-4);
   pose.mutable_orientation()->set_w(1);

@@ -76,7 +76,7 @@ void addTemporal(v1::OpenDisplay& open) {
   open.mutable_display()->mutable_effects()->mutable_temporal()->set_output_rate_hz(60);
 }
 
-// Of the px, or of the subpixels of a panel, that are so: how many look otherwise.
+// Share of changed pixels, or of changed subpixels of a panel.
 class ChangedShare {
  public:
   void add(bool is_changed) {
@@ -93,7 +93,7 @@ class ChangedShare {
 
 class ServiceEffectsTest : public ServiceFixture {
  protected:
-  // Two frames, of which the second tells how the camera moves.
+  // Publishes two frames. The second shows how the camera moves.
   void SetUp() override {
     ServiceFixture::SetUp();
     if (IsSkipped()) return;

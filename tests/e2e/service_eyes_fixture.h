@@ -55,7 +55,7 @@ inline void place(v1::Camera& camera, const Place& at) {
   position.set_z(at.z_m);
 }
 
-// Measured at time_ns, to be seen 11 ms later.
+// Eye poses measured at time_ns, for a picture shown 11 ms later.
 inline v1::EyePoses posesAt(int64_t time_ns, const Place& left, const Place& right) {
   v1::EyePoses poses;
   poses.set_time_ns(time_ns);
@@ -65,8 +65,8 @@ inline v1::EyePoses posesAt(int64_t time_ns, const Place& left, const Place& rig
   return poses;
 }
 
-// What stands at `at` sees through the rectangle, by Kooima's formula: a frustum of the eye's own
-// distance from the screen, as angles.
+// Adds an eye at `at` that sees through the screen's rectangle, by Kooima's formula. Its frustum
+// is given as angles at the eye's distance from the screen.
 inline void addWindowCamera(v1::StereoDisplay& stereo, const Place& at) {
   v1::Camera& eye = *stereo.add_eyes();
   place(eye, at);
@@ -84,7 +84,7 @@ inline std::vector<uint8_t> colorOf(const Atlas& atlas) {
   return std::move(picture->samples);
 }
 
-// What the publisher was told. Thread-safety: all methods may be called from any thread.
+// `Wanted` messages to the publisher. Thread-safety: any thread may call any method.
 class WantedLog {
  public:
   void note(const v1::Wanted& wanted) {
@@ -93,7 +93,7 @@ class WantedLog {
     came_.notify_all();
   }
 
-  // The newest, once this holds of it.
+  // Waits until the newest message fulfils `holds`, and returns it.
   v1::Wanted waitFor(const std::function<bool(const v1::Wanted&)>& holds) {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(came_.wait_for(lock, kGiveUpAfter, [&] { return holds(newest_); }));
@@ -134,7 +134,7 @@ class ServiceEyesTest : public ServiceFixture {
     return std::make_unique<AtlasViewer>(service_->grpcAddress(), waiting);
   }
 
-  // What a fixed display with such eyes shows of the resident frame.
+  // Atlas of the resident frame on a fixed display with these eyes.
   Atlas fixedAt(const Place& left, const Place& right) {
     v1::OpenDisplay open = openEyes();
     addWindowCamera(*open.mutable_display()->mutable_stereo(), left);

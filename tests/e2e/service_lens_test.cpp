@@ -60,7 +60,7 @@ WireFrame dottedFrame() {
   return frame;
 }
 
-// What the source itself sees.
+// A display with the source's own view.
 v1::OpenDisplay openDots() {
   v1::OpenDisplay open;
   open.set_stream("scene");

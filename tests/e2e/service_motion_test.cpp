@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a whole server tells of eyes that move: when, how long it took, and where they are.
+// Reports of a whole server about moving eyes: times, latency and places.
 #include <cstdint>
 #include <string>
 

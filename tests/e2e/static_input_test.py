@@ -99,7 +99,7 @@ class StaticInput(unittest.TestCase):
         self.wait_for("viewloom_frames_unchanged_total", unchanged + UNCHANGED_COUNT)
         self.assertEqual(self.work(), before)
         self.assertEqual(before["viewloom_structures_built_total"], 1)
-        # Whoever joins gets what stands.
+        # A new viewer gets the resident frame.
         self.watch()
         self.wait_for('viewloom_atlases_sent_total{transport="grpc"}', 2)
         self.assertEqual(self.work()["viewloom_structures_built_total"], 1)

@@ -13,7 +13,7 @@ inline constexpr int64_t kMs_ns = 1'000'000;
 inline constexpr int64_t kFrame_ns = 100 * kMs_ns;
 inline constexpr int64_t kTick_ns = 20 * kMs_ns;
 inline constexpr int64_t kBridge_ns = 250 * kMs_ns;
-// Of the publisher's clock, at the server's 0.
+// Time of the publisher's clock when the server's clock is 0.
 inline constexpr int64_t kStart_ns = 1'000'000 * kMs_ns;
 
 inline DisplaySpec ticking(DisplaySpec spec = smallQuilt({64, 40})) {
@@ -21,7 +21,7 @@ inline DisplaySpec ticking(DisplaySpec spec = smallQuilt({64, 40})) {
   return *completeDisplaySpec(std::move(spec));
 }
 
-// After so many without an atlas none is to be expected: more than a picture is bridged for.
+// After so many ticks without an atlas, no more will come: a frame is bridged for fewer ticks.
 inline constexpr int kTicksMax = 40;
 
 class TicksFixture : public PipelineFixture {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small displays of every kind, as they go over the wire.
+// Small displays of every kind, as messages.
 #pragma once
 
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom::test {
 
-// Of stream "scene", one atlas, exact.
+// Opens one atlas of stream "scene", with exact colours.
 inline v1::OpenDisplay openScene() {
   v1::OpenDisplay open;
   open.set_stream("scene");

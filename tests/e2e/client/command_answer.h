@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a shell command says, and how it ends.
+// Output and exit code of a shell command.
 #pragma once
 
 #include <string>

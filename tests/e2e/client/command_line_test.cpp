@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `viewloom` answers to slips on its command line, and what its commands say with a server.
+// Answers of `viewloom` to wrong command lines, and output of its commands with a server.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

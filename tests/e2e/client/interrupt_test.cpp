@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C where the server takes connections and never says a word.
+// Ctrl-C while the server accepts connections and never answers.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -14,7 +14,7 @@
 namespace viewloom::test::interrupt_test {
 namespace {
 
-// Connections wait in the queue of its socket.
+// A server that never answers: connections wait in the queue of its socket.
 class HungServer {
  public:
   HungServer() : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -46,7 +46,7 @@ double secondsUntilInterrupted(const HungServer& server, const std::string& afte
 TEST(Interrupt, endsEveryCommandWithinASecond) {
   const HungServer server;
   const std::string out = std::string(::testing::TempDir()) + "interrupt_test.vlr";
-  // What waits for the server is under way by then, and has not given up.
+  // By then, the command waits for the server and has not given up yet.
   const std::string before_s = "1.5";
   for (const std::string& arguments :
        {std::string("watch nothere"), "record nothere --out " + out, std::string("list"),
@@ -54,7 +54,7 @@ TEST(Interrupt, endsEveryCommandWithinASecond) {
         std::string("publish --synthetic --size 64x36")}) {
     double took_s = secondsUntilInterrupted(server, before_s, arguments);
     EXPECT_GE(took_s, 1.5) << arguments << " waits for the server";
-    // A machine that is busy with others may need longer once.
+    // On a busy machine, a command may take longer once.
     for (int more = 0; more < 2 && took_s > 2.5; ++more) {
       took_s = secondsUntilInterrupted(server, before_s, arguments);
     }

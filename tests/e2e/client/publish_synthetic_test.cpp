@@ -19,7 +19,7 @@ constexpr const char* kLongest_s = "120";
 
 class PublishSynthetic : public test::WithViewloomd {
  protected:
-  // Of a display of what is published with these flags.
+  // Publishes with these flags, and returns the atlases of a small quilt.
   std::vector<Atlas> published(const std::string& flags, uint32_t atlas_count) {
     v1::OpenDisplay open = test::smallQuilt(atlas_count);
     open.mutable_encoding()->set_color(v1::BAND_ENCODING_RAW);
