@@ -23,7 +23,7 @@ TEST(WorkerPool, givesEveryIndexOnce) {
   }
 }
 
-// What pieces leave per worker needs no lock: TSan sees whether that is so.
+// Sums per worker need no lock, because a worker runs one piece at a time. TSan checks that.
 TEST(WorkerPool, givesAWorkerOnePieceAtATime) {
   constexpr uint32_t kPieces = 2000;
   WorkerPool pool(4);

@@ -72,7 +72,7 @@ TEST(Calibration, readsTheModeInLowerCase) {
 }
 
 TEST(Calibration, readsTheFileAsATextInJson) {
-  // As Bridge hands it on: quotes escaped.
+  // Bridge passes the file as a JSON string, with escaped quotes.
   std::string text = "\"";
   for (const char character : kPortraitFile) {
     if (character == '"') text += '\\';

@@ -13,7 +13,7 @@
 namespace viewloom::lenticular_test {
 namespace {
 
-// What makers of players agree on, in binary64 and term by term.
+// The formula that makers of players agree on, in binary64 and term by term.
 struct Reference {
   Calibration file;
 
@@ -22,7 +22,7 @@ struct Reference {
     return cells[file.cell_pattern_mode] % static_cast<uint32_t>(file.cells.size());
   }
 
-  // Of a lens's width, [0, 1). y counts from the bottom.
+  // Place under its lens, in lens widths, [0, 1). y counts from the bottom.
   double z(uint32_t x, uint32_t y, uint32_t channel) const {
     const double width = file.screen_px.width;
     const double height = file.screen_px.height;

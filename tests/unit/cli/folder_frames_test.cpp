@@ -91,7 +91,7 @@ TEST_F(FolderFramesTest, waitsForFilesThatAreBeingWritten) {
   early.close();
   EXPECT_EQ(next(*frames), 5);
   EXPECT_THAT(takeSkips(*frames), IsEmpty());
-  // As careful writers do it.
+  // Careful programs write to another name, then rename the file.
   std::filesystem::rename(file("whole"), file("moved.exr"));
   EXPECT_EQ(next(*frames), 5);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `inspect` prints of names that come from files, and in which words it speaks.
+// Reports of `inspect`: names from foreign files, and the wording for users.
 #include "cli/inspection_report.h"
 
 #include <gmock/gmock.h>

@@ -43,7 +43,7 @@ TEST(OutsideWarnings, areSaidAgainOnlyWhenMoreIsWanted) {
       ElementsAre("display 2 sees past the edge of the source: views 0-6 by 4 %, view 47 by 7 %. "
                   "It needs a field of view of 52 x 23 degrees"));
   EXPECT_THAT(warnings.note(wantedOf(0.04)), IsEmpty());
-  // As the page asks for other views of its display whenever the pointer moves.
+  // The page asks for other views of its display whenever the pointer moves.
   v1::Wanted moved = wantedOf(0.02);
   moved.mutable_outside(0)->set_display_id(3);
   moved.mutable_fov()->set_angle_left_rad(-0.44);

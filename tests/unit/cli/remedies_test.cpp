@@ -160,7 +160,7 @@ TEST_F(RemediesTest, areToldOnceByAFeedOfFiles) {
   EXPECT_THAT(notesOf(clean), IsEmpty());
 }
 
-// What an option does nothing for is refused with the kinds that take it.
+// An option without effect is refused, and the message names the inputs that take it.
 TEST_F(RemediesTest, comeWithNoOptionInVain) {
   const FrameFiles files = pair(16, [](int x, int y) { return 1000 * double{roomAt(x, y)}; });
   const std::vector<std::pair<std::string, std::string>> refused{

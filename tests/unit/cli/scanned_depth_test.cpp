@@ -38,7 +38,7 @@ TEST_F(ScannedDepthTest, isTakenForThatOfKitti) {
     const FrameFiles files = scanned(256, seen);
     EXPECT_EQ(remedyOf(inspected(files), "scale"), "--input kitti") << seen;
     const LayerInspection mended = inspected(files, "--input kitti");
-    // What it does not see stays open, and is said without a remedy that would do nothing.
+    // Pixels without a measurement stay empty. They are reported without a useless remedy.
     EXPECT_THAT(kindsOf(mended), ElementsAre("empty")) << seen;
     EXPECT_THAT(mended.suspicions[0].sentence, HasSubstr("scattered over the picture")) << seen;
     EXPECT_EQ(mended.suspicions[0].remedy, "") << seen;

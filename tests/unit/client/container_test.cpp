@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of files that are no pictures, or no whole ones.
+// Messages about files that are no pictures, or damaged ones.
 #include "files/container.h"
 
 #include <gmock/gmock.h>

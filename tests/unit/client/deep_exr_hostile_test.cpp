@@ -93,7 +93,7 @@ size_t tableOf(const std::string& bytes, size_t chunk_count) {
   return 0;
 }
 
-// Of a chunk of scan lines.
+// Byte offsets within a chunk of scan lines.
 constexpr size_t kTableSizeAt = 4, kPackedSizeAt = 12, kUnpackedSizeAt = 20, kCountsAt = 28;
 
 TEST_F(HostileDeepExr, isRefusedAtEveryLength) {
@@ -173,7 +173,7 @@ TEST_F(HostileDeepExr, isRefusedByItsSampleCounts) {
   EXPECT_THAT(refusal(with(good, counts + 16, -1)),
               HasSubstr("row 0: px 4 is said to end at sample 4294967295"));
   EXPECT_THAT(refusal(with(good, counts + 16, 1 << 29)), HasSubstr("bytes for 536870912 samples"));
-  // As many bytes as the counts ask for: over the limit, and more than the packed ones could give.
+  // The byte count matches the counts: first over the limit, then more than the packed bytes hold.
   const uint64_t many = kDeepChunkBytesMax / 24 + 1;
   const std::string asked = with(good, counts + 16, static_cast<uint32_t>(many));
   const size_t unpacked_size = counts - kCountsAt + kUnpackedSizeAt;

@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// Of two planes; the first is longer than a chunk when it is large.
+// A frame of two planes. A large first plane is longer than a chunk.
 WireFrame makeFrame(uint64_t number, size_t first_bytes = 5000) {
   WireFrame frame;
   frame.header.set_number(number);
@@ -113,7 +113,7 @@ std::string head(uint32_t version = 1, uint32_t kind = 1) {
   return "VIEWLOOM" + number(version, 4) + number(kind, 4);
 }
 
-// As the library of Protocol Buffers writes them; no plane is longer than a chunk.
+// Messages as the Protocol Buffers library writes them. Each plane must fit in one chunk.
 std::vector<std::string> messagesOf(const WireFrame& frame) {
   v1::PublishFramesRequest header;
   *header.mutable_header() = frame.header;

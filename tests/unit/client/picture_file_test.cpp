@@ -192,7 +192,7 @@ TEST_F(PictureFileTest, readsTiffOfManyLayouts) {
 // Four px, all different: 2 wide, 2 high as stored.
 const std::vector<uint8_t> kFourPx{10, 10, 10, 90, 90, 90, 170, 170, 170, 250, 250, 250};
 
-// What each of Exif's orientations shows of the four px a b / c d.
+// The four pixels a b / c d in each of Exif's orientations.
 TEST_F(PictureFileTest, turnsByEveryOrientationInEveryContainer) {
   const uint8_t a = 10, b = 90, c = 170, d = 250;
   const std::vector<std::vector<uint8_t>> shown{{a, b, c, d}, {b, a, d, c}, {d, c, b, a},

@@ -89,7 +89,7 @@ DepthFormat asDepthFormat(const v1::DepthFormat& proto) {
   return format;
 }
 
-// What sample `i` of a depth plane says.
+// Decoded depth of sample `i` of a plane.
 DepthValue valueAt(const v1::Plane& plane, const SharedBytes& bytes, size_t i, uint32_t image_rows,
                    const Intrinsics& intrinsics) {
   const glm::uvec2 pixel_px(i % kWidth, i / kWidth % image_rows);

@@ -99,7 +99,7 @@ TEST(SyntheticFrame, moves) {
   EXPECT_NE(now[0].depth_m, later[0].depth_m);
 }
 
-// Of the ball or panel that a point lies on: where it is a little later or earlier.
+// Follows a point on a ball or panel to a slightly later or earlier time.
 std::optional<glm::dvec3> carriedPoint(const glm::dvec3& point_m, double time_s, double later_s) {
   const synthetic::Scene now = synthetic::makeScene(time_s);
   const synthetic::Scene then = synthetic::makeScene(time_s + later_s);
@@ -216,8 +216,8 @@ TEST(SyntheticFrame, findsEveryPointAgainFromAnotherCamera) {
   Camera to = from;
   to.pose.position_m = {0.06, 0.03, -0.02};
   to.pose.orientation = glm::angleAxis(0.05, glm::dvec3(0.0, 1.0, 0.0));
-  // What faces away from the other camera is legally missing: rims of balls and poles. The ground
-  // and the ridges, most of the picture, face both.
+  // Surfaces that face away from the other camera may be missing: edges of balls and poles. The
+  // ground and the ridges, most of the picture, face both cameras.
   EXPECT_GT(shareFoundAgain(size_px, from, to, 1.5), 0.99);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Of 255: what quality 95 with halved chroma leaves of a smooth picture.
+// Error in 8-bit codes of a smooth picture at quality 95 with halved chroma.
 constexpr int kJpegError = 4;
 
 class JpegPlane : public testing::Test {

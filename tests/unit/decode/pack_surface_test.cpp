@@ -21,14 +21,15 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-// Half of a step of the octahedron along both axes, where that is furthest from the sphere.
+// Half a step of the octahedron along both axes, where it lies furthest from the sphere.
 constexpr double kApart = 7e-5;
 
 SharedBytes shared(Bytes bytes) {
   return std::make_shared<const Bytes>(std::move(bytes));
 }
 
-// As proto says, by another way than the server's: the corners are folded over the edges.
+// Decodes a normal as the proto defines it, by another way than the server's: the corners are
+// folded over the edges.
 glm::dvec3 decodedNormal(uint32_t texel) {
   const double u = 2.0 * (texel & 0xffff) / 65535 - 1;
   const double v = 2.0 * (texel >> 16) / 65535 - 1;
@@ -73,7 +74,7 @@ TEST(PackSurface, keepsEveryDirection) {
   Bytes normals;
   std::vector<glm::dvec3> sent;
   for (uint32_t i = 0; i < kCount; ++i) {
-    // As long as they like.
+    // Normals may have any length.
     const glm::vec3 normal(spread(random), spread(random), spread(random));
     for (int c = 0; c < 3; ++c) addHalf(normal[c], normals);
     glm::dvec3 stored;

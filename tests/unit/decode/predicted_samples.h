@@ -8,7 +8,7 @@
 
 namespace viewloom {
 
-// What the plane's zstd frame holds. samples: [height][width].
+// Content of the plane's zstd frame. samples: [height][width].
 std::vector<uint8_t> predictedBytes(const std::vector<uint16_t>& samples, int width, int height);
 
 // The samples as a decoded plane holds them: little endian.

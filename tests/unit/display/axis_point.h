@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a point on the axis of a display looks like to its views, by a textbook pinhole.
+// Projections of a point on a display's axis into its views, by a textbook pinhole camera.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
-// Neighbours of 100 px focal length, `pitch_m` apart: so many px a 1/m are a hundred times as much.
+// Views of 100 px focal length, `pitch_m` apart: disparity is 100 * pitch_m px for each 1/m.
 AtlasLayout layoutAt(double focal_distance_m, double pitch_m = 1) {
   AtlasLayout layout;
   layout.focal_distance_m = focal_distance_m;
@@ -35,7 +35,7 @@ TEST(FocusFollower, goesAShareOfItsWayInOneOverZThatTheTimeSays) {
     FocusFollower follower;
     double focal_m = 2;
     follower.follow(layoutAt(focal_m), 10, time_constant_s, 0);
-    // In steps of any length, as in one.
+    // Several steps of any length end where one step would.
     for (const double time_s : {0.1, 0.15, 0.9, 2.0}) {
       const auto moved =
           follower.follow(layoutAt(focal_m), 10, time_constant_s, int64_t(time_s * 1e9));
@@ -62,7 +62,7 @@ TEST(FocusFollower, staysWhileNobodyWouldSeeItMove) {
   follower.follow(layout, 2, 1, 0);
   const double near_m = 1 / (0.5 + 0.04);
   EXPECT_FALSE(follower.follow(layout, near_m, 1, 100 * kSecond_ns).has_value());
-  // What it has gone unseen is not lost.
+  // Movement that was too small to show is not lost.
   const double nearer_m = 1 / (0.5 + 0.06);
   EXPECT_FALSE(follower.follow(layout, nearer_m, 1e9, 101 * kSecond_ns).has_value());
   const auto moved = follower.follow(layout, nearer_m, 1, 101 * kSecond_ns + kSecond_ns);

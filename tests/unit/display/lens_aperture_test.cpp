@@ -15,7 +15,7 @@ constexpr double kFocus_m = 2;
 // Px of some 20 that a surface moves and is blurred by: rounding of binary64.
 constexpr double kRounding_px = 1e-9;
 
-// What lies at the 2nd and at the 98th percentile of depth.
+// The 2nd and the 98th percentile of depth.
 struct Range {
   double near_m;
   double far_m;
@@ -102,7 +102,7 @@ TEST(AutomaticAperture, leavesTheGhostingLimitOfWhatStepsFurthest) {
   }
 }
 
-// What is in focus may stand before or behind the focal plane, to which no surface moves.
+// The lens may focus before or behind the focal plane. Surfaces keep their places.
 TEST(AutomaticAperture, leavesTheGhostingLimitOfWhatIsBesideAnotherFocus) {
   const auto leftOf = [](double focus_m, const Range& range) {
     DisplaySpec spec = withAutomaticLens(evenQuilt(0.7));
@@ -119,7 +119,7 @@ TEST(AutomaticAperture, leavesTheGhostingLimitOfWhatIsBesideAnotherFocus) {
   EXPECT_NEAR(leftOf(4, {.near_m = 1, .far_m = 2.2}), kGhostingLimit_px, kRounding_px);
 }
 
-// No lens hides what ghosts in focus; that is no reason for an endless one.
+// No lens hides ghosting of surfaces in focus. The aperture must stay finite in that case.
 TEST(AutomaticAperture, isNoWiderThanTheWayBetweenTwoEyes) {
   DisplaySpec spec = withAutomaticLens(evenQuilt(0.7));
   spec.lens->focus_distance_m = 1;

@@ -17,10 +17,10 @@ namespace {
 constexpr uint32_t kWalked = 8;
 constexpr uint32_t kGathered = 32;
 constexpr double kTurn_rad = 2 * std::numbers::pi;
-// Of lens radii: points are binary32, and come of some ten operations.
+// Error in lens radii: points are binary32 results of about ten operations.
 constexpr double kRounding = 1e-6;
-// Lens radii: 2560 independent points would be off by 0.5 / sqrt(2560) = 0.01 in their mean;
-// evenly spread ones by less than a third of that.
+// Error in lens radii. The mean of 2560 independent points would be off by 0.5 / sqrt(2560) =
+// 0.01; that of evenly spread points is off by less than a third of it.
 constexpr double kMomentError = 3e-3;
 
 std::vector<glm::vec2> pointsOf(uint32_t blades, double rotation_rad = 0) {
@@ -116,7 +116,7 @@ TEST_P(BladedLens, turnsCounterclockwise) {
 TEST(RoundLens, isAFullDisc) {
   const std::vector<glm::vec2> points = pointsOf(0);
   constexpr uint32_t kDirections = 32;
-  // Lens radii: the outermost of 2560 points in any direction.
+  // Gap between the edge and the outermost of 2560 points in any direction, in lens radii.
   constexpr double kRimGap = 0.03;
   for (uint32_t i = 0; i < kDirections; ++i) {
     EXPECT_GT(reachOf(points, i * kTurn_rad / kDirections), 1 - kRimGap) << i;
@@ -126,7 +126,7 @@ TEST(RoundLens, isAFullDisc) {
   EXPECT_EQ(pointsOf(0, 1), points) << "turned, it is the same";
 }
 
-// Of shapes of so many points, the rms distance of their middles from that of the lens.
+// RMS distance of the means of these point sets from the centre of the lens, in lens radii.
 double offMiddle(const std::vector<std::vector<glm::vec2>>& shapes) {
   double squares = 0;
   for (const std::vector<glm::vec2>& shape : shapes) {
@@ -136,7 +136,7 @@ double offMiddle(const std::vector<std::vector<glm::vec2>>& shapes) {
   return std::sqrt(squares);
 }
 
-// Lens radii: what it would be of independent points.
+// The same distance for independent points.
 double offMiddleByChance(uint32_t point_count) {
   return std::sqrt(0.5 / point_count);
 }
@@ -150,12 +150,12 @@ TEST(LensPattern, spreadsTheRaysOfEachPx) {
     }
     const double off = offMiddle(of_px);
     std::cout << "the first " << count << " of a px are off the middle by " << off << "\n";
-    // Evenly spread ones are so much nearer, at the least.
+    // Evenly spread points are nearer by at least this factor.
     EXPECT_LT(off, 0.75 * offMiddleByChance(count));
   }
 }
 
-// Of one ray of each px of a square.
+// Point sets: one ray of each pixel of a square.
 std::vector<std::vector<glm::vec2>> ofSquares(uint32_t side_px) {
   const uint32_t across = kLensPatternSide_px / side_px;
   const std::vector<glm::vec2> points = pointsOf(0);
@@ -169,7 +169,7 @@ std::vector<std::vector<glm::vec2>> ofSquares(uint32_t side_px) {
   return shapes;
 }
 
-// Four rays in a square's four quarters are half as far off as those by chance; more, less.
+// Four rays in a square's quarters are half as far off as random ones. More rays do better.
 TEST(LensPattern, spreadsEachRayOverTheLensFromPxToPx) {
   constexpr struct {
     uint32_t side_px;
@@ -183,7 +183,7 @@ TEST(LensPattern, spreadsEachRayOverTheLensFromPxToPx) {
   }
 }
 
-// So that noise of few rays is no pattern that is seen, and blocks meet what they can.
+// Otherwise noise of few rays would form a visible pattern, and blocks would find fewer surfaces.
 TEST(LensPattern, givesNoPxTheFirstRaysOfAnother) {
   const std::vector<glm::vec2> points = pointsOf(0);
   const uint32_t first_count = kWalked * kLensPatternArea_px;

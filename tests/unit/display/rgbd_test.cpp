@@ -35,7 +35,7 @@ absl::StatusOr<AtlasLayout> layoutOf(const RgbdSpec& rgbd, const StreamDefaults&
   return makeAtlasLayout(*spec, stream);
 }
 
-// What each tile shows, row by row from the top: c colour, d depth; capitals what lies behind.
+// Kind of each tile, row by row from the top: c colour, d depth; capitals for the layer behind.
 std::string tilesOf(const AtlasLayout& layout) {
   std::string tiles;
   for (uint32_t row = 0; row < layout.rows; ++row) {

@@ -29,7 +29,7 @@ SourceAdvice adviceFor(const DisplaySpec& spec) {
   return *advice;
 }
 
-// As the display is served a scene of that range: at the harmonic mean of its ends.
+// Layout for a scene of this range: its focal plane is the harmonic mean of both ends.
 AtlasLayout layoutFor(const DisplaySpec& spec) {
   const StreamDefaults stream{.source_intrinsics = {.focal_px = {1, 1}},
                               .source_size_px = {1, 1},
@@ -39,7 +39,7 @@ AtlasLayout layoutFor(const DisplaySpec& spec) {
   return *layout;
 }
 
-// A textbook pinhole; outside of every image for what lies behind it.
+// A textbook pinhole camera. Points behind it fall outside every image.
 glm::dvec2 project(const Camera& camera, const glm::dvec3& point_m) {
   const glm::dvec3 p = glm::inverse(camera.pose.orientation) * (point_m - camera.pose.position_m);
   if (p.z >= 0) return glm::dvec2(-1e9);
@@ -78,13 +78,13 @@ double pxOfSourceIn(const Camera& view, const Camera& source, const glm::dvec3& 
 
 struct Seen {
   uint32_t count = 0;
-  // Of the advised image: how near to its edges points come, px.
+  // Extremes of the points in the advised image, px.
   glm::dvec2 low_px{1e9};
   glm::dvec2 high_px{-1e9};
   glm::dvec2 coarsest_px{0.0};  // px of a view that a px of the source reaches
 };
 
-// What some view sees, the source must.
+// Expects the source to see every point that any view sees.
 Seen expectToServe(const AdvisedSource& source, const std::vector<Camera>& views, SizePx tile_px) {
   Seen seen;
   for (const glm::dvec3& point_m : scenePoints(source.camera)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What eyes before a tracked display see of it, judged by projecting points through them.
+// Views of eyes before a tracked display, checked by projecting points through them.
 #include "display/tracked_eyes.h"
 
 #include <cmath>

@@ -14,7 +14,7 @@ namespace {
 constexpr SizePx kSource_px{1000, 500};
 const Intrinsics kSource{.focal_px = {800, 800}, .principal_px = {500, 250}};
 
-// Of eyes at these x, m, that all frame 2 m x 1 m at 2 m; the source sees 2.5 m x 1.25 m there.
+// Eyes at these x, m, that all see 2 m x 1 m at 2 m. The source sees 2.5 m x 1.25 m there.
 AtlasLayout layoutOf(const std::vector<double>& eyes_m) {
   AtlasLayout layout;
   layout.tile_size_px = {200, 100};

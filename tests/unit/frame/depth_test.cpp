@@ -149,7 +149,7 @@ TEST(LinearizeDepth, matchesTheInvalidValueAsTheSampleHoldsIt) {
   EXPECT_EQ(decode(format, 0.1000, kF32).kind, DepthClass::kSurface);
 }
 
-// What a kernel does with the coefficients, in its precision.
+// Decodes depth with the coefficients as a kernel does, in its precision.
 DepthValue decodeAsKernel(const DepthCoefficients& c, float sample, glm::uvec2 pixel_px) {
   if (c.has_invalid != 0 && sample == c.invalid_value) {
     return {.kind = c.invalid_is_far != 0 ? DepthClass::kSurface : DepthClass::kNoSurface};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is chosen where a user says nothing of distances, white, zeros and what is too far.
+// Choices where the user gives none: distances, white, zeros, and surfaces too far away.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

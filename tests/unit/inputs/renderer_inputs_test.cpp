@@ -22,8 +22,8 @@ WrittenChannel constant(const std::string& name, float value, Imf::PixelType typ
   return {name, type, [value](int, int) { return value; }};
 }
 
-// As Blender writes a layer with the passes Combined and Z: metres grow to the right, the last
-// column hits nothing.
+// Channels as Blender writes a layer with the passes Combined and Z. Depth grows to the right,
+// and the last column hits nothing.
 std::vector<WrittenChannel> blenderChannels(const std::string& layer) {
   return {constant(layer + ".Combined.R", 0.5F),
           constant(layer + ".Combined.G", 0.25F),
@@ -79,7 +79,7 @@ TEST(BlenderInput, readsDistancesFromTheEyeWhenAsked) {
   EXPECT_NEAR(depthAt(read, 0, 3), 10 / std::sqrt(1 + (7.5 * 7.5 + 0.5 * 0.5) / 64), 1e-5);
 }
 
-// As the Movie Render Queue writes a pass of WorldDepth beside the picture.
+// Writes a picture with a WorldDepth pass as the Movie Render Queue does.
 void writeUnreal(const std::filesystem::path& path, const std::string& fov) {
   writeExr(path, kWidth, kHeight,
            {constant("FinalImage.R", 0.5F), constant("FinalImage.G", 0.5F),

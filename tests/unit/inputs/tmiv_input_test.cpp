@@ -126,7 +126,7 @@ TEST_F(TmivInputTest, refusesVideoCutShort) {
 
 TEST_F(TmivInputTest, namesTheKeyAtFault) {
   const auto refusal = [this](const std::string& more) {
-    // Of a key that comes twice, the last counts.
+    // If a key occurs twice, the last one counts.
     write(cameraJson("v1", more));
     const auto camera = inputs::readTmivCamera(settings_.camera_file, "", "v1.png");
     return camera.ok() ? "OK" : std::string(camera.status().message());

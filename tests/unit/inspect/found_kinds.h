@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is suspected in a depth plane.
+// Suspicions about a depth plane.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a block through a lens, beside the same rays one by one in binary64, on every kind of CPU
-// that this one can be.
+// Rays of a block through a lens, compared with the same rays one by one in binary64. Runs with
+// every instruction set of this CPU.
 #include "lens/gather_kernels.h"
 
 #include <gtest/gtest.h>
@@ -136,7 +136,7 @@ double codeOf(double light) {
   return 255 * srgbFrom(light);
 }
 
-// What a ray of a px sees of the sheets, one after the other, if it meets one.
+// Colour of the nearest sheet that a ray of a pixel meets. Tests the sheets one after another.
 std::optional<uint32_t> seen(const Scene& scene, const GatheredRays& rays, const LensPoint& point,
                              size_t p) {
   const abi::ViewParams& view = rays.view;
@@ -205,7 +205,7 @@ class GatherKernels : public ::testing::TestWithParam<int64_t> {
   void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
   void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
 
-  // Of a block that begins there.
+  // Rays of a block that begins at (x, y).
   GatheredRays raysAt(float x, float y, bool fills_border) const {
     return {.structure = structure_,
             .view = view_,

@@ -16,7 +16,7 @@
 namespace viewloom::sheet_reach_test {
 namespace {
 
-// Of binary32 with some ten operations, and differences of places of up to 1000 px.
+// Error of about ten operations in binary32, with differences of places up to 1000 px.
 constexpr double kRelativeError = 1e-3;
 
 abi::ViewParams someView(std::mt19937& random) {

@@ -23,7 +23,7 @@ const std::vector<uint8_t>& cardPx() {
   return card.layers.front().color;
 }
 
-// Of every px of its boxes.
+// Expects the card's colour in every pixel of its boxes.
 void expectColors(const std::vector<uint8_t>& samples, size_t channels) {
   const CardPlaces places = cardPlaces(kSize_px);
   for (size_t i = 0; i < places.colors.size(); ++i) {

@@ -90,7 +90,7 @@ void associate(Bytes& ipma, uint32_t item, size_t index) {
   throw std::runtime_error("the item has no properties");
 }
 
-// What lies in the file behind the meta box moves by `by` bytes.
+// Moves the file offsets of all data behind the meta box by `by` bytes.
 void moveExtents(Bytes& iloc, size_t by) {
   const uint8_t version = iloc.at(0);
   const size_t offset_bytes = iloc.at(4) >> 4, length_bytes = iloc.at(4) & 15;

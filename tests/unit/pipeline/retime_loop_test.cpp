@@ -33,11 +33,11 @@ AtlasJob tickOf(const std::string& picture_key, const ResidentPtr& structure, in
   return job;
 }
 
-// What was served, in this order. The first job of a picture named "held" waits until it is let go.
+// Records served jobs in order. The first job of the picture "held" waits until it is released.
 class RetimeLoopTest : public testing::Test {
  protected:
   bool offer(const AtlasJob& job) { return loop_.offer(job, display_); }
-  // Returns when it is being served.
+  // Returns once the loop serves the job.
   void offerHeld(const std::string& stream, int64_t carried_ns = 1) {
     ASSERT_TRUE(offer(tickOf("held", someStructure(stream), carried_ns)));
     is_held_.acquire();
@@ -160,7 +160,7 @@ TEST_F(RetimeLoopTest, finishesWhatIsBeingServedWhenItStopsAndForgetsTheRest) {
   EXPECT_TRUE(offer(waiting));
   waiting.ticket = nullptr;
   auto stopped = std::async(std::launch::async, [this] { loop_.stop(); });
-  // Of ever other pictures, so that none is refused but when the loop has stopped.
+  // Every job has a new picture, so the loop refuses one only after it has stopped.
   const ResidentPtr late = someStructure("late");
   for (int n = 0; offer(tickOf("late " + std::to_string(n), late, 1)); ++n) {
     std::this_thread::yield();

@@ -32,7 +32,7 @@ bool isPlate(uint32_t x, uint32_t y) {
   return x >= 10 && x < 18 && y >= 8 && y < 16;
 }
 
-// A plate that goes to the right, before a wall that stands.
+// A plate that moves to the right before a static wall.
 MovingPx plateAt(uint32_t x, uint32_t y) {
   if (!isPlate(x, y)) return wallAt(x, y);
   return {.inv_z = kNear, .color = colorOfPx(x, y, 200), .motion_mps = {1, 0, 0}};
@@ -45,8 +45,8 @@ glm::u8vec3 mixOf(const MovingPx& a, const MovingPx& b, float share_of_a) {
   return {glm::round(glm::mix(glm::vec3(b.color), glm::vec3(a.color), share_of_a))};
 }
 
-// Light that is carried on to an edge is that of half a px further, of 10 a px at most here; less
-// than that are roundings.
+// Colour at an edge comes from half a pixel further away. Here it changes by up to 10 codes a
+// pixel. The rest is rounding, which is smaller.
 constexpr int kColorError = 5;
 
 void expectNear(const glm::u8vec3& got, const glm::u8vec3& wanted) {
@@ -140,8 +140,8 @@ TEST_F(FrameRetimerTest, addsNoNoiseWhereNothingIsKnownBehindAnEdge) {
   }
 }
 
-// As antialiased: of px at the right edge, the plate has some of the one beside it; of its own at
-// the left edge it has the less.
+// The plate's shares of antialiased pixels: of the wall's pixel right of its right edge, and of
+// its own pixel at its left edge.
 constexpr float kShareBeside = 0.3F, kShareOfOwn = 0.6F;
 
 MovingPx smoothPlateAt(uint32_t x, uint32_t y) {
@@ -162,7 +162,7 @@ TEST_F(FrameRetimerTest, takesTheLightOfEdgesApartAndPutsItTogetherWhereTheyHave
       const FramePtr later = retimed(movingFrame(layers, kTolerance), gone_px * kPxTime_s);
       const auto plateOf = [](uint32_t x) { return MovingPx{.color = colorOfPx(x, 12, 200)}; };
       const auto wasAt = [&](uint32_t x) { return uint32_t(int(x) + gone_px); };
-      // What nobody knows is as beside it.
+      // An unknown background is assumed to equal its neighbour.
       const uint32_t right = !has_layer_behind && gone_px < 0 ? 18 : wasAt(18);
       expectNear(colorAt(*later, 0, wasAt(18), 12),
                  mixOf(plateOf(18), wallAt(right, 12), kShareBeside));
@@ -170,7 +170,7 @@ TEST_F(FrameRetimerTest, takesTheLightOfEdgesApartAndPutsItTogetherWhereTheyHave
         expectNear(colorAt(*later, 0, wasAt(10), 12),
                    mixOf(plateOf(10), wallAt(wasAt(10), 12), kShareOfOwn));
       }
-      // Nothing of it is left where it was.
+      // The plate leaves no trace in its old place.
       if (gone_px < 0) expectNear(colorAt(*later, 0, 18, 12), wallAt(18, 12).color);
       expectNear(colorAt(*later, 0, gone_px < 0 ? 19 : 9, 12),
                  wallAt(gone_px < 0 ? 19 : 9, 12).color);
@@ -179,7 +179,7 @@ TEST_F(FrameRetimerTest, takesTheLightOfEdgesApartAndPutsItTogetherWhereTheyHave
 }
 
 TEST_F(FrameRetimerTest, leavesEdgesOfWhatIsBeforeItAlone) {
-  // The wall goes, the plate stands: its edges stay, over another piece of the wall.
+  // The wall moves and the plate stands. Its edges stay, over another part of the wall.
   const auto front = [](uint32_t x, uint32_t y) {
     MovingPx px = smoothPlateAt(x, y);
     px.motion_mps = isPlate(x, y) ? glm::vec3(0) : glm::vec3(1, 0, 0);
@@ -200,7 +200,7 @@ TEST_F(FrameRetimerTest, leavesEdgesOfWhatIsBeforeItAlone) {
 }
 
 TEST_F(FrameRetimerTest, tearsWhatOnlyTouched) {
-  // Of one depth, side by side; one half leaves upwards, 6 px.
+  // Two halves of one depth, side by side. The right half moves up by 6 px.
   const auto layer = [](uint32_t x, uint32_t y) {
     MovingPx px = wallAt(x, y);
     px.inv_z = kNear;

@@ -29,7 +29,7 @@ Camera movedCamera();
 FramePtr movingFrame(const std::vector<MovingLayer>& layers, double connection_tolerance,
                      const Pose& pose = {}, SizePx size_px = kMovedPx);
 
-// Of the first source.
+// Inverse depth and colour of the first source.
 float invZAt(const Frame& frame, uint32_t layer, uint32_t x, uint32_t y);
 glm::u8vec3 colorAt(const Frame& frame, uint32_t layer, uint32_t x, uint32_t y);
 

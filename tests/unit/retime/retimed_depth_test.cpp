@@ -19,10 +19,10 @@ namespace {
 using glm::dvec3;
 
 constexpr double kTime_s = 0.1;
-// A place may be off by a few ulps of binary32 of 32 px, which moves the steepest surface here, of
-// 0.05 1/m a px, by as many times that.
+// Positions may be off by a few binary32 ulps at 32 px. The steepest surface here changes by
+// 0.05 1/m a pixel, so its depth is off by that much of the error.
 constexpr double kInvZError = 1e-5;
-// Of a px beside a triangle: rounding may put it on either side.
+// Tolerance at a triangle's edge, in shares: rounding may put a pixel on either side.
 constexpr double kEdge = 1e-4;
 
 dvec3 rayThrough(double x_px, double y_px) {
@@ -38,7 +38,7 @@ MovingPx waveAt(uint32_t x, uint32_t y) {
   const dvec3 point = rayThrough(x + 0.5, y + 0.5) / double{px.inv_z};
   px.motion_mps =
       glm::vec3(dvec3(0.8, -0.5, 1.5) + glm::cross(dvec3(0.4, 0.8, -1.5), point - dvec3(0, 0, -2)));
-  // As it travels.
+  // Rounded to values that the wire's encoding holds exactly.
   for (int i = 0; i < 3; ++i) px.motion_mps[i] = std::round(px.motion_mps[i] * 64) / 64;
   return px;
 }
@@ -53,8 +53,8 @@ struct Met {
   double least_share = 0;  // how far inside
 };
 
-// After Moeller and Trumbore: where the ray from the origin meets the triangle's plane, and whether
-// that is inside, or all but inside.
+// Meets a ray from the origin with a triangle, after Moeller and Trumbore. Empty if the point on
+// the triangle's plane lies outside by more than kEdge.
 std::optional<Met> meet(const dvec3& ray, const dvec3& a, const dvec3& b, const dvec3& c) {
   const dvec3 along_b = b - a, along_c = c - a;
   const dvec3 p = glm::cross(ray, along_c);
@@ -73,7 +73,8 @@ TEST(RetimedDepth, isThatOfTheTrianglesBetweenMovedSamples) {
   WorkerPool workers(3);
   const FramePtr later = FrameRetimer(workers).retime(movingFrame({waveAt}, 10), kTime_s);
   int compared = 0;
-  // At the border quarters of footprints, which are flat, may turn before the triangles.
+  // Border pixels are skipped: quarters of footprints are flat there, and may turn before the
+  // triangles do.
   for (uint32_t y = 2; y < kMovedPx.height - 2; ++y) {
     for (uint32_t x = 2; x < kMovedPx.width - 2; ++x) {
       const dvec3 ray = rayThrough(x + 0.5, y + 0.5);
@@ -142,7 +143,7 @@ TEST(RetimedDepth, isTheSameOnEveryKindOfCpu) {
   }
 }
 
-// What moved in the frame before, and how, leaves nothing in the next.
+// Motion in the previous frame leaves no trace in the next one.
 TEST(RetimedDepth, isThatOfTheFrameAlone) {
   WorkerPool workers(2);
   const auto standsAt = [](uint32_t x, uint32_t y) {

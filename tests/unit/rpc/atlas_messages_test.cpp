@@ -94,7 +94,7 @@ TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
   EXPECT_TRUE(messages.wasWhole());
 }
 
-// Of each plane so many bands of 128 rows, without their bytes.
+// A begun atlas with this many bands of 128 rows for each plane, without bytes.
 EncodedAtlas begunOf(std::vector<AtlasPlane> planes, uint32_t band_count, BandEncoding encoding) {
   EncodedAtlas atlas;
   atlas.sequence = 4;

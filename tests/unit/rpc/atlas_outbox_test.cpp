@@ -22,7 +22,7 @@ SharedBytes someBytes() {
 
 class AtlasOutboxTest : public testing::Test {
  protected:
-  // Of two bands.
+  // A begun atlas of two bands.
   EncodedAtlas begun(uint64_t sequence) const {
     EncodedAtlas atlas;
     atlas.sequence = sequence;
@@ -55,8 +55,8 @@ class AtlasOutboxTest : public testing::Test {
     outbox_.offer(growing.complete({}));
   }
 
-  // What leaves by now: "L" layout, "S2" skipped, "h1" header of atlas 1, "b" band, "e" end, "a"
-  // abandoned.
+  // Messages that leave now: "L" layout, "S2" skipped, "h1" header of atlas 1, "b" band, "e" end,
+  // "a" abandoned.
   std::string written(size_t count_max = 100) {
     std::string text;
     for (size_t i = 0; i < count_max; ++i) {

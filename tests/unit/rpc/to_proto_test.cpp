@@ -97,7 +97,7 @@ TEST(LayoutToProto, namesEverything) {
   EXPECT_EQ(proto.views_size(), 2);
 }
 
-// As seen from far away.
+// `Wanted` for surfaces at infinity.
 v1::Wanted wantedAfar(const std::vector<AtlasPtr>& atlases, uint32_t display_count) {
   return wantedToProto(atlases, std::vector<InvZRange>(atlases.size()), display_count);
 }

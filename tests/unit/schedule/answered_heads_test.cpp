@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What heads that move are answered by a server that has too few answers, in simulation.
+// Simulation of moving heads before a server that cannot answer all their poses.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace viewloom::answered_heads_test {
 namespace {
 
-// Poses of one client, at even times.
+// A client that sends poses at a fixed interval.
 struct Head {
   int64_t interval_ns = kHeadset_ns;
   int64_t phase_ns = 0;
@@ -25,7 +25,7 @@ struct Head {
 
 constexpr int64_t kServed_ns = 60 * kSecond_ns;
 
-// What heads were answered by a server that makes one answer at a time.
+// Results of a simulated server that makes one answer at a time.
 struct Served {
   std::vector<int64_t> ages_ns;  // of the poses, when their answer began
   std::vector<size_t> answers;   // of each head
@@ -39,12 +39,12 @@ struct Served {
   double answersPerSecond() const {
     return double(ages_ns.size()) * double(kSecond_ns) / double(kServed_ns);
   }
-  // Of the luckiest head for one of the unluckiest.
+  // Answers of the luckiest head, divided by those of the unluckiest.
   double unevenness() const {
     const auto [least, most] = std::minmax_element(answers.begin(), answers.end());
     return double(*most) / double(*least);
   }
-  // Of the time, so much was spent on answers.
+  // Share of the time spent on answers.
   double busyShare(int64_t answer_ns) const {
     return double(answer_ns) * double(ages_ns.size()) / double(kServed_ns);
   }
@@ -57,7 +57,7 @@ Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
   for (const Head& head : heads) next_ns.push_back(head.phase_ns);
   Served served;
   served.answers.resize(heads.size());
-  // An answer takes a little more or less each time: nothing stays in step.
+  // The duration of answers varies a little, so that nothing stays in step.
   std::mt19937 random(1);
   std::uniform_int_distribution<int64_t> more_ns(-answer_ns / 20, answer_ns / 20);
   std::vector<bool> waits(heads.size());
@@ -95,7 +95,7 @@ Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
 }
 
 constexpr size_t kHeadCount = 8;
-// So that 2.4 of eight heads at 90 Hz can be answered each time.
+// Duration of an answer: 2.4 of eight heads at 90 Hz can be answered in each interval.
 constexpr int64_t kAnswer_ns = 4'670'000;
 
 TEST(ServerOfMovingHeads, answersFreshPosesOfHeadsThatMoveEachAtItsOwnTime) {
@@ -115,7 +115,7 @@ TEST(ServerOfMovingHeads, answersHeadsThatMoveAtOnceInTurn) {
   EXPECT_LE(served.passed_count_max, kHeadCount);
 }
 
-// Who waits for the poses of some keeps the phase of these: another's need never be near it.
+// A server that waits for some heads keeps their phase. Another head's poses may never fit it.
 TEST(ServerOfMovingHeads, answersOneWhosePosesNeverComeWhenSomebodyIsNext) {
   constexpr int64_t kInterval_ns = kSecond_ns / 60;
   const Served served =
@@ -123,7 +123,7 @@ TEST(ServerOfMovingHeads, answersOneWhosePosesNeverComeWhenSomebodyIsNext) {
   EXPECT_LT(served.passed_count_max, (kRoundsPassed + 2) * 3);
 }
 
-// Heads that know nothing of one another, at 90 Hz or each at a rate of its own.
+// Independent heads, all at 90 Hz or each at a random rate.
 std::vector<Head> headsAtRandom(std::mt19937& random, bool is_any_rate) {
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<Head> heads(kHeadCount);
@@ -134,7 +134,7 @@ std::vector<Head> headsAtRandom(std::mt19937& random, bool is_any_rate) {
   return heads;
 }
 
-// Of several sets of heads.
+// Prints the distribution of a value over several sets of heads.
 void tell(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
   std::cout << name << ": half of the sets below " << values[values.size() / 2]

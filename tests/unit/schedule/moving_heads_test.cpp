@@ -131,7 +131,7 @@ TEST(JobQueueOfMovingHeads, waitsForNobodyWhosePosesAnAtlasOnItsWayHasTaken) {
   EXPECT_TRUE(queue.isBusy("sees")) << "there is a frame to show";
 }
 
-// Who is next in any case takes its own newest poses, and waits for those alone.
+// A head that was passed over for too long is next. The queue waits only for its newest poses.
 TEST(JobQueueOfMovingHeads, waitsForThePosesOfOneThatWasPassedOverForTooLong) {
   JobQueue queue;
   queue.push(jobOf("stale", {.received_ns = 0, .interval_ns = kSecond_ns}, 0));

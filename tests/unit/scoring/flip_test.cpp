@@ -98,8 +98,8 @@ TEST(Flip, seesAnEdgeThatIsNotThere) {
   const auto dark = flat(float(kDark), float(kDark), float(kDark));
   const std::vector<float> map = flipMap(step, dark, kSize);
 
-  // What the viewer sees of the light at the first bright pixel: a Gaussian of the distance in
-  // degrees with b = 0.0047, out to three deviations of the widest, b = 0.04.
+  // Perceived light at the first bright pixel: a Gaussian of the distance in degrees with
+  // b = 0.0047, out to three deviations of the widest Gaussian, b = 0.04.
   const double sigma_px = std::sqrt(0.0047 / 2) / std::numbers::pi * kFlipPxPerDegree;
   double all = 0;
   double bright = 0;

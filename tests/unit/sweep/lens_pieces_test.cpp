@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Panels, LensPiecesOf, testing::Range(size_t{0}, panels(
 
 TEST_P(LensPiecesOf, showEverySubpixelOnceFromWhereItsLensSendsIt) {
   const SizePx panel_px = job_.layout->size_px;
-  // What binary32 leaves of a thousand px.
+  // Rounding error of binary32 at a thousand px.
   constexpr double kRounding_px = 1e-3;
   const double error_max_px =
       LensPieces::kEyeErrorShare * job_.tolerance_px * pixel() + kRounding_px;

@@ -24,7 +24,7 @@ Camera sourceAt(const Pose& pose) {
   return {.pose = pose, .intrinsics = kSourceIntrinsics};
 }
 
-// Whose inverse does not cancel it to the last bit.
+// A pose that its own inverse does not cancel exactly.
 Pose slantedPose() {
   return {.position_m = {12.3, -4.56, 78.9},
           .orientation = glm::normalize(glm::dquat(0.3, -0.5, 0.7, 0.41))};

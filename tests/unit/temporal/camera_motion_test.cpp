@@ -97,7 +97,8 @@ TEST(CameraMotion, liesBetweenTwoFramesOneIntervalLater) {
   CameraTrack track;
   track.add(frameAt(1000 * kMs_ns));
   const CameraMotion motion = track.add(frameAt(1100 * kMs_ns));
-  // What is traced from when the second can be, until the third can: at the first, to the second.
+  // From the build of the second frame to that of the third, shown time runs from the first frame
+  // to the second.
   const int64_t built_ns = 1100 * kMs_ns + kDelay_ns + kBuild_ns;
   const ShownInstant start = interpolated(motion, built_ns, kBridge_ns);
   EXPECT_EQ(start.timing, Timing::kCaptured);

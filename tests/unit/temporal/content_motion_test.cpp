@@ -40,7 +40,7 @@ truth::Scene box() {
   return scene;
 }
 
-// Of a camera that stands before the box and turns with it.
+// Pose of a camera that stands before the box and turns with it.
 Pose besideBox(double time_s) {
   const truth::Scene scene = box();
   const truth::Body& body = scene.bodies.front();
