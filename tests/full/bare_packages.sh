@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# As root: makes the Debian packages, and installs them in a bare Debian 12. Proves that they name all
-# that they need. Needs debootstrap, what deploy/package.sh needs, and 3 GB.
+# Run as root. Makes the Debian packages and installs them in a bare Debian 12. Proves that they
+# name all their dependencies. Needs debootstrap, the tools of deploy/package.sh, and 3 GB.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tests/full/bare_debian.sh

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# As root: a bare Debian 12 in a folder, which gets the packages, builds the programs and shows a
-# picture. Proves that deploy/setup.sh names all that is needed. Needs debootstrap and 6 GB.
+# Run as root. Sets up a bare Debian 12 in a folder, builds the programs and saves a picture.
+# Proves that deploy/setup.sh names all needed packages. Needs debootstrap and 6 GB.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tests/full/bare_debian.sh
