@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every test of `viewloom show` does first and last."""
+"""Set-up and clean-up of every test of `viewloom show`."""
 
 import json
 import pathlib
@@ -10,7 +10,7 @@ from fake_displays import FakeDisplays
 from reference_weave import wrong_subpixels
 from screen import Screen, Show, wait_for
 
-# Of codes of 8 bits: what has to be shown, rounded.
+# Tolerance in 8-bit codes: the expected value, rounded.
 EXACT = 0.5
 
 
