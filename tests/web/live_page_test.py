@@ -151,7 +151,7 @@ class LivePage(PageTest):
     def test_mirrors_show_what_they_mirror_by_a_checkbox(self):
         self.publisher.stop()
         self.publish("--mirrors", "--seconds", "0.1").process.wait(TIMEOUT_S)
-        # What is published stands still from now on; with reflections and without.
+        # The published frame no longer changes. Take it without reflections and with.
         tiles = [self.tiles(self.still(effects))
                  for effects in ({}, {"reflection": {"bounces": 2}})]
         self.open(f"?{DISPLAY}")
@@ -198,7 +198,7 @@ class LivePage(PageTest):
         self.addCleanup(second.close)
         times = second.receive_atlas().header["times"]
         taken_s = time.monotonic() - begin
-        # What came before: the frame was received, decoded and built while nobody had asked.
+        # The frame was received, decoded and built before the request.
         later_ns = sum(times[f"{name}_ns"] for name in ("wait", "trace", "encode"))
         self.assertLess((times["wait_ns"] + times["trace_ns"]) / 1e9, taken_s)
         self.assertLess(times["total_ns"] - later_ns, 5e9)

@@ -15,7 +15,7 @@ from PIL import Image
 from page_test import LEAST_CONTRAST, PageTest, READABLE, SMALL, keep
 from web_client import Server, WebSocket, asked, decode_code, quilt
 
-# What a finger has to hit, and what of it is too small, px.
+# Touch targets that are too small: name and height in px.
 SMALL_TARGETS = """[...document.querySelectorAll(
     'button, select, input:not([type=radio]):not([type=checkbox]), #modes label, label.check')]
   .filter(e => e.checkVisibility() && !e.disabled)

@@ -54,7 +54,7 @@ Rgb flatPixel(uint32_t view, uint32_t view_count) {
 std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame, bool is_flat) {
   std::vector<uint8_t> pixels(layout.size_px.area() * 3, 0);
   const SizePx tile = layout.tile_size_px;
-  // Of the whole cone; those that share a part of it have the numbers that they have there.
+  // View count of the whole cone. Views of a part of it keep their numbers in the whole cone.
   const double part = layout.cone_end > layout.cone_begin ? layout.cone_end - layout.cone_begin : 1;
   const auto view_count =
       static_cast<uint32_t>(std::lround(static_cast<double>(layout.views.size()) / part));

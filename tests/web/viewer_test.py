@@ -26,7 +26,7 @@ THREAD_COUNT = 2  # of the web server
 
 class Viewers(unittest.TestCase):
     def setUp(self):
-        # Who answers no ping is not to go within a test, however slow the machine.
+        # Viewers that answer no ping must stay for the whole test, even on a slow machine.
         self.server = Server(PROGRAM, "--thread-count", THREAD_COUNT, "--idle-ms", 60_000)
         self.addCleanup(self.server.__exit__)
 
