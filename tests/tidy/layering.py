@@ -55,10 +55,10 @@ LAYERS = {
     # Poses come in as frames do.
     "server/eye_poses": (["base", "display"], []),
     "server/publish": (["base", "frame", "display", "eye_poses", BAND], ["absl"]),
-    # What is made when, without threads (schedule_rules.py); those are the pipeline's.
+    # Decides what to render when. It has no threads (schedule_rules.py); the pipeline has them.
     "server/schedule": (["base", "frame", "display", "picture", "eye_poses", "temporal", "publish"],
                         ["absl"]),
-    # How an engine makes a picture is nobody else's business.
+    # Only make_engines includes the inside of an engine.
     "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", ENGINE,
                          "engine/engines.h", "eye_poses", "retime", "temporal", "encode", "publish",
                          "schedule", "metrics", SHADERS_SHARED],
@@ -113,7 +113,7 @@ COMPOSITION = ("server/main.cpp", "server/service", "server/commands", "server/e
                "server/engine_checks", "server/empty_engine_room", "server/engine/make_engines",
                "client/cli/main.cpp", "client/offline")
 
-# What must stay free of what it judges.
+# Code that judges other code must not include it.
 INDEPENDENT = {
     "tests/oracle": ["server/engine", "server/picture", "server/pipeline", "server/schedule",
                      "shaders"],
