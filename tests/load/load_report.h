@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a load run says: figures for people, and facts that must hold on any machine.
+// Report of a load run: figures for people, and facts that must hold on any machine.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -31,7 +31,7 @@ struct LoadResult {
   std::vector<PublisherBook> publishers;
   std::vector<DisplayBook> displays;
   std::map<std::string, double> metrics;  // the server's, at the end; empty without a web server
-  // Of a server of our own; empty for one that ran.
+  // For a server that the run starts; empty for one that ran before.
   std::vector<ProcessUsage> server_usage;  // once a second
   ProcessUsage client_usage;               // of this process, during the run
   int server_exit_code = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a process takes from the machine.
+// Use of the machine by a process.
 #pragma once
 
 #include <sys/types.h>

@@ -24,7 +24,7 @@ class Comments(unittest.TestCase):
                            ("a.cpp", "int a;  // of no use\nint b;  // Of the reads.\n"),
                            ("a.cpp", "// The reads.\n//\n// Of them.\n"),
                            ("a.comp", "  // What is read.\n"), ("a.proto", "// As above.\n"),
-                           ("a.py", "x = 1  # Who reads.\n"), ("a.sh", "# That one.\n"),
+                           ("a.py", "x = 1  #" " Who reads.\n"), ("a.sh", "# That one.\n"),
                            ("CMakeLists.txt", "# Of the reads.\n")):
             self.assertEqual(broken(path, text), ["comment"], text)
 
