@@ -43,8 +43,7 @@ SharedBytes packed(const std::vector<Sample>& samples) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
 }
 
-// A slanted, stepped surface, 1/m, of which layer follows layer; now and then one is before the
-// last.
+// A slanted, stepped surface, 1/m: one layer behind another, now and then one before the last.
 double surfaceInvZ(oracle::Random& random, uint32_t index, uint32_t layer) {
   const uint32_t x = index % kSize_px.width;
   const double base = 0.9 + 0.004 * x + (x % 20 < 7 ? 0.3 : 0) - 0.2 * layer;
@@ -283,15 +282,12 @@ TEST_F(ColumnsTest, areTheDevicesInEveryEncodingAndMeaning) {
 TEST_F(ColumnsTest, areTheDevicesWhereEncodingsMeet) {
   oracle::Random random(6);
   for (int frame = 0; frame < 24; ++frame) {
-    SCOPED_TRACE("frame " + std::to_string(frame));
     std::vector<LayerKind> layers;
+    std::string kinds = "frame " + std::to_string(frame) + ", meaning/encoding";
     for (int layer = 0; layer < 2 + frame % 3; ++layer) {
-      layers.push_back({kMeanings[random.integer(0, 3)], kEncodings[random.integer(0, 2)]});
-    }
-    std::string kinds;
-    for (const LayerKind& kind : layers) {
-      kinds += " meaning " + std::to_string(int(kind.meaning)) + " encoding " +
-               std::to_string(int(kind.encoding));
+      const int meaning = random.integer(0, 3), encoding = random.integer(0, 2);
+      layers.push_back({kMeanings[meaning], kEncodings[encoding]});
+      kinds += " " + std::to_string(meaning) + "/" + std::to_string(encoding);
     }
     SCOPED_TRACE(kinds);
     expectTheDevices(frameOfLayers(random, layers));
