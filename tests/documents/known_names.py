@@ -10,7 +10,7 @@ import subprocess
 OPERATORS = re.compile(r"^[|&;()<>]+$")
 OPTION = re.compile(r"^--?[A-Za-z0-9][\w.-]*")
 # One line of --help begins with all the names of an option.
-HELP_LINE = re.compile(r"^ {2,4}(-{1,2}[\w.-]+(?:,-{1,2}[\w.-]+)*)", re.MULTILINE)
+HELP_LINE = re.compile(r"^ {2,4}(-{1,2}[\w.-]+(?:, ?-{1,2}[\w.-]+)*)", re.MULTILINE)
 HELP_SUBCOMMAND = re.compile(r"^  ([a-z]+) {2,}", re.MULTILINE)
 FOLDERS = ("client/", "deploy/", "proto/", "server/", "shaders/", "tests/", "build/release/")
 PATIENCE_S = 60
@@ -51,7 +51,7 @@ class Programs:
                               capture_output=True, text=True, timeout=PATIENCE_S).stdout
 
     def subcommands(self, program):
-        listed = self._help(program).partition("Subcommands:")[2]
+        listed = self._help(program).partition("Commands:\n")[2].partition("\n\n")[0]
         return set(HELP_SUBCOMMAND.findall(listed))
 
     def options(self, program, subcommand):
@@ -59,7 +59,7 @@ class Programs:
         text = self._help(program)
         if subcommand:
             text += self._help(program, subcommand)
-        return {name for names in HELP_LINE.findall(text) for name in names.split(",")}
+        return {name.strip() for names in HELP_LINE.findall(text) for name in names.split(",")}
 
     def call_of(self, words):
         """(program, subcommand, words after it) of a command that calls viewloom or viewloomd,

@@ -9,7 +9,7 @@ VIEWLOOM = r"""#!/bin/sh
 case "$*" in
   *watch*--help) echo "  --count UINT    Atlases to receive"
                  echo "  --out TEXT      Folder"; exit;;
-  *--help) echo "  --server TEXT   Address"; echo "Subcommands:"; echo "  watch       Receives"
+  *--help) echo "  --server TEXT   Address"; echo "Commands:"; echo "  watch       Receives"
            exit;;
   "watch --count 1 --out nowhere") ;;
   "watch --count 1 --out here") mkdir here; touch here/atlas.jpg;;
@@ -19,7 +19,7 @@ esac
 """
 VIEWLOOMD = r"""#!/bin/sh
 case "$*" in
-  *--help) echo "  --config TEXT   Settings file"; echo "Subcommands:"; echo "  serve       Runs"
+  *--help) echo "  --config TEXT   Settings file"; echo "Commands:"; echo "  serve       Runs"
            exit;;
 esac
 {serve}

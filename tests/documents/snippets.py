@@ -63,7 +63,11 @@ def run_python(_, text, workplace):
 
 
 def parse_javascript(_, text, workplace):
-    (workplace.root / "snippet.mjs").write_text(NODE_NAMES.format(text=text), encoding="utf-8")
+    lines = text.splitlines()
+    imports = [line for line in lines if line.startswith("import ")]
+    rest = "\n".join(line for line in lines if line not in imports)
+    (workplace.root / "snippet.mjs").write_text(
+        "\n".join([*imports, NODE_NAMES.format(text=rest)]), encoding="utf-8")
     _run("node --check snippet.mjs", workplace)
 
 
@@ -71,7 +75,7 @@ def compile_cpp(_, text, workplace):
     commands = json.loads((workplace.build / "compile_commands.json").read_text(encoding="utf-8"))
     words = next(shlex.split(entry["command"]) for entry in commands
                  if COMPILED_LIKE in entry["command"])
-    flags = []
+    flags = [f"-I{workplace.build}/client/package/include"]  # as they are installed
     for place, word in enumerate(words):
         if word == "-isystem":
             flags += [word, words[place + 1]]

@@ -139,7 +139,7 @@ class Mirrors(unittest.TestCase):
             with self.assertRaises(viewloom.ViewloomError) as refusal:
                 self.picture(sources, bounces=1)
             self.assertEqual(refusal.exception.status.name, "FAILED_PRECONDITION")
-            self.assertIn("seen through", refusal.exception.message)
+            self.assertIn("transparent colour", refusal.exception.message)
             self.assertIn("effects.reflection", str(refusal.exception))
 
 

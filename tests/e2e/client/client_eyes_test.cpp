@@ -85,7 +85,7 @@ TEST_F(ClientEyes, refusesWhatIsNoEye) {
   EXPECT_THAT(problemOf("left"),
               HasSubstr("the eyes of the standard input, line 1: is not a JSON object"));
   EXPECT_THAT(problemOf(R"({"time_ns": 1, "left": [0, 0, -1e6], "right": [0, 0, 0]})"),
-              HasSubstr("eye_poses.eyes[0].pose.position.z: is -1e+06, on or behind the focal"));
+              HasSubstr("eye_poses.eyes[0].pose.position.z: the eye is at z = -1e+06 m"));
 }
 
 }  // namespace

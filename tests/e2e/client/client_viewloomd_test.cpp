@@ -186,7 +186,7 @@ TEST_F(ClientWithViewloomd, theCommandAdvisesASource) {
   EXPECT_EQ(runCommand(command + "--preset portrait --near 1 --far 2 2>" + out), 2);
   EXPECT_THAT(text(), testing::HasSubstr("--fov is missing"));
   EXPECT_EQ(runCommand(command + "--fov 14 --near 3 --far 2 2>" + out), 1);
-  EXPECT_THAT(text(), testing::HasSubstr("far_m"));
+  EXPECT_THAT(text(), testing::HasSubstr("--far: got 2"));
 }
 
 TEST_F(ClientWithViewloomd, theCommandPublishesTestPatterns) {

@@ -135,7 +135,7 @@ TEST_F(FolderFramesTest, endsWhenTheFolderIsGone) {
   auto frames = FolderFrames::open(file("inside"), {}, "");
   ASSERT_TRUE(frames.ok()) << frames.status();
   std::filesystem::remove(file("inside"));
-  EXPECT_THAT(std::string((*frames)->next(0).status().message()), HasSubstr("is gone"));
+  EXPECT_THAT(std::string((*frames)->next(0).status().message()), HasSubstr("deleted"));
 }
 
 TEST_F(FolderFramesTest, refusesWhatIsNoFolder) {

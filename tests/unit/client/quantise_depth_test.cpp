@@ -258,14 +258,14 @@ TEST(QuantiseDepth, keepsDepthWhoseRangeIsTooWideForSixteenBits) {
 
 TEST(QuantiseDepth, keepsWhatNoServerTakes) {
   const std::vector<float> samples = samplesBetween(1, 4, 11);
-  expectKept(sourceOf(formatOf(v1::DEPTH_MEANING_UNSPECIFIED), samples), "declaration");
-  expectKept(sourceOf(formatOf(v1::DEPTH_MEANING_WINDOW), samples), "declaration");
+  expectKept(sourceOf(formatOf(v1::DEPTH_MEANING_UNSPECIFIED), samples), "incomplete");
+  expectKept(sourceOf(formatOf(v1::DEPTH_MEANING_WINDOW), samples), "incomplete");
   TestSource no_camera = sourceOf(formatOf(v1::DEPTH_MEANING_PLANAR), samples);
   no_camera.source.clear_camera();
-  expectKept(no_camera, "declaration");
+  expectKept(no_camera, "incomplete");
   TestSource short_plane = sourceOf(formatOf(v1::DEPTH_MEANING_PLANAR), samples);
   short_plane.planes[1] = bytesOf(std::vector<float>(7, 1));
-  expectKept(short_plane, "declaration");
+  expectKept(short_plane, "incomplete");
 }
 
 TEST(QuantiseDepth, leavesOtherEncodingsAlone) {

@@ -148,7 +148,7 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
   }
   write("[1, 2");
   EXPECT_THAT(refusalOf(settings_, {.color = file("a.png"), .depth = file("c.png")}),
-              HasSubstr("is no JSON"));
+              HasSubstr("is not JSON"));
   write(R"([{"Name": "a"}, {"Name": "b"}])");
   EXPECT_THAT(refusalOf(settings_, {.color = file("a.png"), .depth = file("c.png")}),
               HasSubstr("c.png; it has a, b"));

@@ -55,7 +55,7 @@ TEST(DepthSamples, refuseFormatsThatCannotBe) {
   DepthPlane made =
       depthPlane<float>(1, 1, v1::DEPTH_MEANING_WINDOW, [](uint32_t, uint32_t) { return 0.5F; });
   EXPECT_THAT(std::string(readDepthSamples(made.plane, made.bytes, {}).status().message()),
-              ::testing::HasSubstr("depth.near_z_m: is 0"));
+              ::testing::HasSubstr("depth.near_z_m: the near plane is at 0 m"));
 }
 
 // Codes of 1/Z that round a slope: what is measured is the step of the codes.
