@@ -139,7 +139,8 @@ class RgbdRoundTrip(unittest.TestCase):
             self.assertEqual(picture.size, (2 * WIDTH, HEIGHT))
 
     def test_refuses_what_does_not_fit_together(self):
-        for bad, said in ((["--depth-bits", "16", "--depth-side", "left"], "--depth-side: depth of 16 bits"),
+        for bad, said in ((["--depth-bits", "16", "--depth-side", "left"],
+                           "--depth-side: depth of 16 bits"),
                           (["--preset", "portrait"],
                            'there is no preset "portrait"; known presets: wowvx'),
                           (["--cone", "30"], "cannot be combined"),
