@@ -2,8 +2,10 @@
 #include "cli/commands.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -36,11 +38,20 @@ struct PublishOptions {
 };
 
 void addSourceOptions(const usage::Command& app, PublishOptions& options) {
-  app.addFlag("--synthetic", options.is_synthetic, "Publish the built-in moving scene")
+  app.addFlag("--synthetic", options.is_synthetic, "Publish a built-in moving scene")
+      .group("Content");
+  app.addWord(
+         "--scene", options.synthetic.setting,
+         std::map<std::string, synthetic::Setting>{{"balls", synthetic::Setting::kBalls},
+                                                   {"portrait", synthetic::Setting::kPortrait}},
+         "Which built-in scene: balls is wide and has a sky; portrait is for displays of 3:4,\n"
+         "moves for 15 s and then stands for 5 s")
+      .defaultText("balls")
+      .needs("--synthetic")
       .group("Content");
   addSizeOption(app, "--size", options.size_px, 8192,
                 "Size of the synthetic frames or of the test pattern, in pixels")
-      .defaultText("960x540, pattern 1920x1080")
+      .defaultText("960x540, scene portrait 720x960, pattern 1920x1080")
       .group("Content");
   app.add("--layers", options.layer_count,
           "Layers of the synthetic frames, or most layers of a deep file, 1 to 4")
@@ -60,7 +71,8 @@ void addSourceOptions(const usage::Command& app, PublishOptions& options) {
               "Let the camera of the synthetic scene sway")
       .group("Content");
   app.addFlag("--mirrors", options.synthetic.has_mirrors,
-              "Add a lake and metal objects to the synthetic scene, for displays with reflections")
+              "Add a shiny floor and metal objects to the synthetic scene, for displays with "
+              "reflections")
       .excludes("--sources")
       .excludes("--cube")
       .group("Content");
@@ -181,7 +193,7 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& option
   if (!options.pattern.name.empty()) return makePatternFeed(options);
   if (options.is_synthetic) {
     SyntheticFeedOptions synthetic = options.synthetic;
-    if (options.size_px.width > 0) synthetic.size_px = options.size_px;
+    synthetic.size_px = options.size_px;
     synthetic.layer_count = options.layer_count.value_or(synthetic.layer_count);
     return std::make_unique<SyntheticFrames>(synthetic);
   }

@@ -32,6 +32,14 @@ Camera cameraOf(uint32_t source, const Pose& first, SizePx size_px) {
   return camera;
 }
 
+SyntheticFeedOptions withSize(SyntheticFeedOptions options) {
+  constexpr SizePx kBalls_px{960, 540};
+  constexpr SizePx kPortrait_px{720, 960};
+  if (options.size_px.width > 0) return options;
+  options.size_px = options.setting == synthetic::Setting::kPortrait ? kPortrait_px : kBalls_px;
+  return options;
+}
+
 WireFrame cubeMapFrame(const SyntheticOptions& scene) {
   WireFrame frame;
   frame.header.set_capture_time_ns(captureTimeNs());
@@ -41,7 +49,8 @@ WireFrame cubeMapFrame(const SyntheticOptions& scene) {
 
 }  // namespace
 
-SyntheticFrames::SyntheticFrames(const SyntheticFeedOptions& options) : options_(options) {}
+SyntheticFrames::SyntheticFrames(const SyntheticFeedOptions& options)
+    : options_(withSize(options)) {}
 
 absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s) {
   if (options_.duration_s > 0 && elapsed_s >= options_.duration_s) {
@@ -52,7 +61,8 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
                          .time_s = elapsed_s,
                          .camera = {},
                          .has_mirrors = options_.has_mirrors,
-                         .has_motion = options_.has_motion};
+                         .has_motion = options_.has_motion,
+                         .setting = options_.setting};
   const Pose first = firstPose(options_.has_moving_camera, elapsed_s);
   if (options_.is_cube_map) return cubeMapFrame(scene);
   if (options_.has_moving_camera) scene.camera = cameraOf(0, first, options_.size_px);
@@ -67,7 +77,9 @@ absl::StatusOr<std::optional<WireFrame>> SyntheticFrames::next(double elapsed_s)
 std::string SyntheticFrames::description() const {
   const uint32_t side_px = options_.size_px.height;
   const SizePx size_px = options_.is_cube_map ? SizePx{side_px, side_px} : options_.size_px;
-  return strCat("synthetic scene", options_.has_mirrors ? " with mirrors, " : ", ",
+  const bool is_portrait = options_.setting == synthetic::Setting::kPortrait;
+  return strCat(is_portrait ? "portrait scene" : "synthetic scene",
+                options_.has_mirrors ? " with mirrors, " : ", ",
                 options_.is_cube_map ? "cube map of " : "", size_px.width, "x", size_px.height,
                 ", ", options_.layer_count, options_.layer_count == 1 ? " layer" : " layers",
                 options_.source_count == 1 ? "" : strCat(", ", options_.source_count, " sources"));

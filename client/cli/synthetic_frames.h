@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scene as a feed.
+// A built-in scene as a feed.
 #pragma once
 
 #include "cli/frame_feed.h"
 #include "frame/size.h"
+#include "synthetic/scene.h"
 
 namespace viewloom::cli {
 
 struct SyntheticFeedOptions {
-  SizePx size_px{960, 540};
+  SizePx size_px;  // 0 x 0 = that of the setting
+  synthetic::Setting setting = synthetic::Setting::kBalls;
   uint32_t layer_count = 2;
   uint32_t source_count = 1;
   bool has_moving_camera = false;  // the first sways; the others stand beside it

@@ -71,6 +71,10 @@ glm::dvec3 withoutY(const glm::dvec3& v) {
   return {v.x, 0.0, v.z};
 }
 
+glm::dvec3 withoutAxis(const glm::dvec3& v, const glm::dvec3& axis) {
+  return v - glm::dot(v, axis) * axis;
+}
+
 // Calls visit(x, depth_m) for every pixel whose ray enters the surface.
 template <typename Visit>
 void forEachEntry(const RoundSurface& surface, size_t width, const Visit& visit) {
@@ -81,13 +85,32 @@ void forEachEntry(const RoundSurface& surface, size_t width, const Visit& visit)
   }
 }
 
-double groundDepth(const RowRays& rays, const glm::dvec3& direction) {
+double groundDepth(const RowRays& rays, const glm::dvec3& direction, double begin_m) {
   // y = kGroundY_m + kGroundSlope z, met from above.
   const double height_m = rays.eye_m.y - kGroundY_m - kGroundSlope * rays.eye_m.z;
   const double fall = kGroundSlope * direction.z - direction.y;
   if (height_m <= 0 || fall <= 0) return kInfinity;
   const double depth_m = height_m / fall;
-  return rays.eye_m.z + depth_m * direction.z < kGroundEnd_m ? kInfinity : depth_m;
+  const double z_m = rays.eye_m.z + depth_m * direction.z;
+  return z_m < kGroundEnd_m || z_m > begin_m ? kInfinity : depth_m;
+}
+
+// Where a ray from inside meets a wall; +inf if it meets none.
+double backdropDepth(const Backdrop& backdrop, const RowRays& rays, const glm::dvec3& direction) {
+  double nearest_m = kInfinity;
+  if (direction.z < 0) {
+    const double depth_m = (backdrop.back_z_m - rays.eye_m.z) / direction.z;
+    const double x_m = rays.eye_m.x + depth_m * direction.x;
+    if (depth_m > 0 && std::abs(x_m) <= backdrop.half_width_m) nearest_m = depth_m;
+  }
+  if (direction.x != 0) {
+    const double wall_m = std::copysign(backdrop.half_width_m, direction.x);
+    const double depth_m = (wall_m - rays.eye_m.x) / direction.x;
+    const double z_m = rays.eye_m.z + depth_m * direction.z;
+    const bool is_met = depth_m > 0 && z_m <= backdrop.front_z_m && z_m >= backdrop.back_z_m;
+    if (is_met) nearest_m = std::min(nearest_m, depth_m);
+  }
+  return nearest_m;
 }
 
 void castRidges(const Scene& scene, const RowRays& rays, uint32_t layer_count,
@@ -125,13 +148,39 @@ void castPanel(const Panel& panel, const RowRays& rays, uint32_t layer_count,
   }
 }
 
-// The opaque end of each ray; what was found behind the ground is taken back.
-void endRays(const RowRays& rays, uint32_t layer_count, std::span<HitColumn> columns) {
+void castRods(const Scene& scene, const RowRays& rays, uint32_t layer_count,
+              std::span<HitColumn> columns) {
+  for (size_t i = 0; i < scene.rods.size(); ++i) {
+    const Rod& rod = scene.rods[i];
+    const double length_m = glm::length(rod.end_m - rod.start_m);
+    const glm::dvec3 axis = (rod.end_m - rod.start_m) / length_m;
+    const glm::dvec3 offset = rays.eye_m - rod.start_m;
+    const RoundSurface surface(withoutAxis(rays.first, axis), withoutAxis(rays.step, axis),
+                               withoutAxis(offset, axis), rod.radius_m);
+    forEachEntry(surface, columns.size(), [&](size_t x, double depth_m) {
+      const double along_m = glm::dot(offset + depth_m * rays.direction(x), axis);
+      if (along_m < 0 || along_m > length_m) return;
+      insertHit(columns[x], {depth_m, SurfaceKind::kRod, static_cast<uint8_t>(i)}, layer_count);
+    });
+  }
+}
+
+// The opaque end of each ray; what was found behind it is taken back.
+void endRays(const Scene& scene, const RowRays& rays, uint32_t layer_count,
+             std::span<HitColumn> columns) {
   for (size_t x = 0; x < columns.size(); ++x) {
     HitColumn& column = columns[x];
-    const double depth_m = groundDepth(rays, rays.direction(x));
+    const glm::dvec3 direction = rays.direction(x);
+    double depth_m = groundDepth(rays, direction, scene.ground_begin_m);
+    SurfaceKind kind = std::isinf(depth_m) ? SurfaceKind::kSky : SurfaceKind::kGround;
+    if (scene.backdrop) {
+      const double wall_m = backdropDepth(*scene.backdrop, rays, direction);
+      if (wall_m < depth_m) {
+        depth_m = wall_m;
+        kind = SurfaceKind::kBackdrop;
+      }
+    }
     while (column.count > 0 && column.hits[column.count - 1].depth_m >= depth_m) --column.count;
-    const SurfaceKind kind = std::isinf(depth_m) ? SurfaceKind::kSky : SurfaceKind::kGround;
     insertHit(column, {depth_m, kind, 0}, layer_count);
   }
 }
@@ -161,7 +210,8 @@ void castRow(const Scene& scene, const RowRays& rays, uint32_t layer_count,
       insertHit(columns[x], {depth_m, SurfaceKind::kPole, static_cast<uint8_t>(i)}, layer_count);
     });
   }
-  endRays(rays, layer_count, columns);
+  castRods(scene, rays, layer_count, columns);
+  endRays(scene, rays, layer_count, columns);
 }
 
 }  // namespace viewloom::synthetic

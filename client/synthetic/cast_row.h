@@ -14,7 +14,7 @@ namespace viewloom::synthetic {
 
 inline constexpr uint32_t kMaxLayers = 4;
 
-enum class SurfaceKind : uint8_t { kSphere, kPole, kPanel, kRidge, kGround, kSky };
+enum class SurfaceKind : uint8_t { kSphere, kPole, kPanel, kRidge, kGround, kSky, kRod, kBackdrop };
 
 struct Hit {
   double depth_m = 0;  // planar, along the view axis; +inf for the sky
@@ -39,7 +39,7 @@ struct RowRays {
 };
 
 // Fills one column per pixel with up to layer_count (1..kMaxLayers) surfaces. A ray ends on the
-// ground or, with a hit at +inf, in the sky.
+// ground, on the backdrop or, with a hit at +inf, in the sky.
 void castRow(const Scene& scene, const RowRays& rays, uint32_t layer_count,
              std::span<HitColumn> columns);
 

@@ -75,22 +75,23 @@ Panel panelAt(double time_s) {
 }  // namespace
 
 double Ridge::crestAt(double x_m) const {
-  return crest_m + 0.28 * std::sin(0.8 * x_m + phase_rad) + 0.12 * std::sin(2.1 * x_m - phase_rad);
+  const double x = x_m / scale;
+  return crest_m + scale * 0.28 * std::sin(0.8 * x + phase_rad) +
+         scale * 0.12 * std::sin(2.1 * x - phase_rad);
 }
 
 Scene makeScene(double time_s) {
   Scene scene;
   scene.time_s = time_s;
   for (const BallPath& path : kBalls) scene.spheres.push_back(ballAt(path, time_s));
+  for (const size_t chrome : {1, 5}) scene.spheres[chrome].finish = Finish::kChrome;
+  for (const size_t copper : {0, 4}) scene.spheres[copper].finish = Finish::kCopper;
   for (const Pole& pole : kPoles) {
     scene.poles.push_back(pole);
     scene.spheres.push_back({.center_m = {pole.center_xz_m.x, pole.top_y_m, pole.center_xz_m.y},
                              .radius_m = kLampRadius_m,
-                             .spin_rad = 0,
                              .color = kLampColor,
-                             .stripe_color = kLampColor,
-                             .velocity_mps = {},
-                             .spin_rad_per_s = 0});
+                             .stripe_color = kLampColor});
   }
   scene.panel = panelAt(time_s);
   scene.ridges = {

@@ -10,6 +10,9 @@
 #include <glm/gtc/packing.hpp>
 #include <glm/vec2.hpp>
 
+#include "synthetic/edges.h"
+#include "synthetic/portrait_textures.h"
+
 namespace viewloom::synthetic {
 namespace {
 
@@ -23,19 +26,6 @@ constexpr vec3 kGroundLight{0.16F, 0.13F, 0.10F};
 constexpr vec3 kHorizon{0.72F, 0.78F, 0.90F};
 constexpr vec3 kZenith{0.12F, 0.30F, 0.72F};
 
-// A square wave of period 2: 1 on (0, 1), 0 on (1, 2), with slopes of half width `edge`.
-float squareWave(float x, float edge) {
-  const float triangle = std::abs(x - 2.0F * std::floor(x * 0.5F) - 1.0F);  // 1 at 0, 0 at 1
-  const float from_edge = 0.5F - triangle;
-  return std::clamp(0.5F + from_edge / (2.0F * edge), 0.0F, 1.0F);
-}
-
-float checker(vec2 uv, float edge) {
-  const float u = squareWave(uv.x + 0.5F, edge);
-  const float v = squareWave(uv.y + 0.5F, edge);
-  return u + v - 2.0F * u * v;
-}
-
 vec3 groundTexture(vec2 xz, float edge_m) {
   constexpr float kTile_m = 0.4F;
   const vec2 tile = xz / kTile_m;
@@ -46,9 +36,9 @@ vec3 groundTexture(vec2 xz, float edge_m) {
 }
 
 vec3 ridgeTexture(const Ridge& ridge, vec2 xy, float edge_m) {
-  constexpr float kContour_m = 0.16F;
+  const float contour_m = 0.16F * static_cast<float>(ridge.scale);
   const float drift = 0.10F * std::sin(3.0F * xy.x) + 0.06F * std::sin(7.0F * xy.x + 1.0F);
-  const float contour = squareWave((xy.y + drift) / kContour_m, edge_m / kContour_m);
+  const float contour = squareWave((xy.y + drift) / contour_m, edge_m / contour_m);
   return ridge.color * (0.70F + 0.40F * contour);
 }
 
@@ -107,13 +97,30 @@ Material materialAt(const Scene& scene, const Hit& hit, const glm::dvec3& point_
       const glm::dvec3 offset = point_m - panel.center_m;
       const vec2 uv_m(glm::dot(offset, panel.right), glm::dot(offset, panel.up));
       const double side = glm::dot(direction, panel.normal) < 0 ? 1.0 : -1.0;
-      return {panelTexture(uv_m, vec2(panel.half_size_m), edge_m), vec3(side * panel.normal)};
+      const auto& texture = scene.setting == Setting::kPortrait ? boardTexture : panelTexture;
+      return {texture(uv_m, vec2(panel.half_size_m), edge_m), vec3(side * panel.normal)};
     }
     case SurfaceKind::kRidge:
       return {ridgeTexture(scene.ridges[hit.index], vec2(point_m.x, point_m.y), edge_m),
               vec3(0.0F, 0.0F, 1.0F)};
+    case SurfaceKind::kRod: {
+      const Rod& rod = scene.rods[hit.index];
+      const glm::dvec3 axis = glm::normalize(rod.end_m - rod.start_m);
+      const glm::dvec3 offset = point_m - rod.start_m;
+      return {rod.color, vec3((offset - glm::dot(offset, axis) * axis) / rod.radius_m)};
+    }
+    case SurfaceKind::kBackdrop: {
+      // Lit as the ridge that it continues, which faces +z.
+      const PaintedRidge painted = paintedRidge(scene, point_m);
+      const vec3 color = painted.ridge == nullptr
+                             ? vec3(0.0F)
+                             : ridgeTexture(*painted.ridge, vec2(painted.xy_m), edge_m);
+      return {color, vec3(0.0F, 0.0F, 1.0F)};
+    }
     default:
-      return {groundTexture(vec2(point_m.x, point_m.z), edge_m),
+      const auto& texture =
+          scene.setting == Setting::kPortrait ? pavedGroundTexture : groundTexture;
+      return {texture(vec2(point_m.x, point_m.z), edge_m),
               vec3(glm::normalize(glm::dvec3(0.0, 1.0, -kGroundSlope)))};
   }
 }
@@ -123,9 +130,15 @@ Material materialAt(const Scene& scene, const Hit& hit, const glm::dvec3& point_
 vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit& hit,
                   const glm::dvec3& point_m, const glm::dvec3& direction, float edge_m) {
   if (hit.kind == SurfaceKind::kSky) return skyColor(direction, scene.to_sun, scene.time_s);
+  const bool is_painted = hit.kind == SurfaceKind::kBackdrop;
+  if (is_painted && paintedRidge(scene, point_m).ridge == nullptr) {
+    return paintedSky(scene, point_m);
+  }
   const Material material = materialAt(scene, hit, point_m, direction, edge_m);
   const float facing = std::max(0.0F, glm::dot(material.normal, vec3(scene.to_sun)));
-  const float sun = facing > 0 ? facing * shadows.sunShare(hit, vec3(point_m)) : 0.0F;
+  const float sun = is_painted   ? facing
+                    : facing > 0 ? facing * shadows.sunShare(hit, vec3(point_m))
+                                 : 0.0F;
   const vec3 ambient = glm::mix(kGroundLight, kSkyLight, 0.5F + 0.5F * material.normal.y);
   // Haze by distance in the world, not from the eye: a point looks the same in every view.
   const float haze = std::clamp(static_cast<float>(-point_m.z - 3.0) * 0.04F, 0.0F, 0.18F);
@@ -137,20 +150,35 @@ vec3 surfaceNormal(const Scene& scene, const Hit& hit, const glm::dvec3& point_m
   return materialAt(scene, hit, point_m, direction, 1.0F).normal;
 }
 
-Gloss glossOf(const Hit& hit) {
+namespace {
+
+Gloss glossOfFinish(Finish finish) {
+  switch (finish) {
+    case Finish::kLake:
+      return {.light = {0.30F, 0.34F, 0.38F}, .roughness = 0, .own_share = 0.35F};
+    case Finish::kPolished:
+      return {.light = {0.22F, 0.22F, 0.22F}, .roughness = 0, .own_share = 0.75F};
+    case Finish::kMetal:
+      return {.light = {0.85F, 0.87F, 0.90F}, .roughness = 0, .own_share = 0.08F};
+    case Finish::kChrome:
+      return {.light = {0.80F, 0.80F, 0.82F}, .roughness = 0, .own_share = 0.12F};
+    case Finish::kCopper:  // brushed
+      return {.light = {0.75F, 0.45F, 0.30F}, .roughness = 0.4F, .own_share = 0.3F};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Gloss glossOf(const Scene& scene, const Hit& hit) {
   switch (hit.kind) {
     case SurfaceKind::kGround:
-      return {.light = {0.30F, 0.34F, 0.38F}, .roughness = 0, .own_share = 0.35F};
+      return glossOfFinish(scene.ground_finish);
     case SurfaceKind::kPanel:
-      return {.light = {0.85F, 0.87F, 0.90F}, .roughness = 0, .own_share = 0.08F};
+      return glossOfFinish(scene.panel_finish);
     case SurfaceKind::kSphere:
-      if (hit.index == 1 || hit.index == 5) {  // chrome
-        return {.light = {0.80F, 0.80F, 0.82F}, .roughness = 0, .own_share = 0.12F};
-      }
-      if (hit.index == 0 || hit.index == 4) {  // brushed copper
-        return {.light = {0.75F, 0.45F, 0.30F}, .roughness = 0.4F, .own_share = 0.3F};
-      }
-      return {};
+      return glossOfFinish(scene.spheres[hit.index].finish);
     default:
       return {};
   }
@@ -188,6 +216,10 @@ glm::dvec3 surfaceMotion(const Scene& scene, const Hit& hit, const glm::dvec3& p
   if (hit.kind == SurfaceKind::kPanel) {
     const Panel& panel = scene.panel;
     return motionAt(panel.velocity_mps, panel.turn_rad_per_s, point_m - panel.center_m);
+  }
+  if (hit.kind == SurfaceKind::kRod) {
+    const Rod& rod = scene.rods[hit.index];
+    return motionAt(rod.velocity_mps, rod.turn_rad_per_s, point_m - rod.pivot_m);
   }
   return glm::dvec3(0.0);
 }

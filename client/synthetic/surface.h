@@ -22,19 +22,19 @@ glm::vec3 surfaceColor(const Scene& scene, const SunShadows& shadows, const Hit&
 glm::vec3 surfaceNormal(const Scene& scene, const Hit& hit, const glm::dvec3& point_m,
                         const glm::dvec3& direction);
 
-// Where the scene has mirrors, the ground is a lake, and some balls and the panel are of metal.
+// A finish in numbers.
 struct Gloss {
   glm::vec3 light{0.0F};  // mirrored head on, linear
   float roughness = 0;    // the square root of the width of GGX
   float own_share = 1;    // that is left of its own colour
 };
 
-Gloss glossOf(const Hit& hit);
+Gloss glossOf(const Scene& scene, const Hit& hit);
 
 // PLANE_ENCODING_OCT16 of a vector of any length but 0, u in the low half.
 uint32_t octahedron(const glm::vec3& normal);
 
-// m/s in the world. The balls and the panel move; the rest stands.
+// m/s in the world. Balls, rods and the panel move; the rest stands.
 glm::dvec3 surfaceMotion(const Scene& scene, const Hit& hit, const glm::dvec3& point_m);
 
 // Bits of binary16.

@@ -13,6 +13,7 @@
 #include "base/check.h"
 #include "base/srgb.h"
 #include "synthetic/cast_row.h"
+#include "synthetic/portrait_scene.h"
 #include "synthetic/surface.h"
 
 namespace viewloom {
@@ -42,10 +43,16 @@ class SrgbTable {
   std::array<uint8_t, 8193> table_{};
 };
 
+synthetic::Scene sceneOf(const SyntheticOptions& options) {
+  return options.setting == synthetic::Setting::kPortrait
+             ? synthetic::makePortraitScene(options.time_s)
+             : synthetic::makeScene(options.time_s);
+}
+
 class FrameRenderer {
  public:
   FrameRenderer(const SyntheticOptions& options, std::vector<SyntheticLayer>& layers)
-      : scene_(synthetic::makeScene(options.time_s)),
+      : scene_(sceneOf(options)),
         size_px_(options.size_px),
         camera_(options.camera.value_or(syntheticCamera(options.size_px))),
         has_mirrors_(options.has_mirrors),
@@ -89,7 +96,8 @@ class FrameRenderer {
       const glm::dvec3 direction = rays.direction(x);
       const glm::dvec3 point_m = rays.eye_m + hit.depth_m * direction;
       const auto edge_m = static_cast<float>(0.5 * hit.depth_m / camera_.intrinsics.focal_px.x);
-      const synthetic::Gloss gloss = has_mirrors_ ? synthetic::glossOf(hit) : synthetic::Gloss{};
+      const synthetic::Gloss gloss =
+          has_mirrors_ ? synthetic::glossOf(scene_, hit) : synthetic::Gloss{};
       const glm::vec3 linear =
           gloss.own_share *
           synthetic::surfaceColor(scene_, shadows_, hit, point_m, direction, edge_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in animated scene as exact layered colour and depth from any camera, without a GPU.
+// A built-in animated scene as exact layered colour and depth from any camera, without a GPU.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "frame/camera.h"
 #include "frame/size.h"
+#include "synthetic/scene.h"
 
 namespace viewloom {
 
@@ -19,6 +20,7 @@ struct SyntheticOptions {
   uint32_t thread_count = 0;     // 0 = one per core
   bool has_mirrors = false;      // some surfaces mirror; their own colour is then darker
   bool has_motion = false;       // says how surfaces move
+  synthetic::Setting setting = synthetic::Setting::kBalls;
 };
 
 // Layer k holds, per pixel, the k-th camera-facing surface along the ray through the pixel's
@@ -34,8 +36,9 @@ struct SyntheticLayer {
   std::vector<uint16_t> motion;  // uint16_t[h][w][3]
 };
 
-// Where the scene is meant to be seen from: the origin, looking along -z, 36 degrees high. Surfaces
-// lie 1.8..8 m away, the sky behind them.
+// Where the scenes are meant to be seen from: the origin, looking along -z, 36 degrees high. The
+// surfaces of the balls lie 1.8..8 m away, the sky behind them. Those of the portrait scene lie
+// 2..3.8 m away, within a window of 3:4.
 Camera syntheticCamera(SizePx size_px);
 
 // Any other camera gives the true picture from there. `layers` is overwritten; its memory is
