@@ -44,8 +44,8 @@ void addSourceOptions(const usage::Command& app, PublishOptions& options) {
          "--scene", options.synthetic.setting,
          std::map<std::string, synthetic::Setting>{{"balls", synthetic::Setting::kBalls},
                                                    {"portrait", synthetic::Setting::kPortrait}},
-         "Which built-in scene: balls is wide and has a sky; portrait is for displays of 3:4,\n"
-         "moves for 15 s and then stands for 5 s")
+         "Which built-in scene: balls is wide, portrait is for displays of 3:4 and stands for 5 s "
+         "of each 20 s")
       .defaultText("balls")
       .needs("--synthetic")
       .group("Content");

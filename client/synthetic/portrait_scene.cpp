@@ -113,7 +113,7 @@ void addMobile(const Phase& phase, Scene& scene) {
     rod(kHub_m, rim_m, 0.009, i % 2 == 0 ? kGold : kPaintWhite);
     rod(around(angle_rad, 0.03, kRimY_m - 0.04), rim_m, 0.005, kPaintWhite);
     rod(rim_m, around(angle_rad + kStep_rad, kRim_m, kRimY_m), 0.008, kGold);
-    rod(rim_m, ball_m, 0.0035, kString);
+    rod(rim_m, ball_m, 0.0045, kString);
     const dvec3 from_hub_m = ball_m - kHub_m;
     scene.spheres.push_back(
         {.center_m = ball_m,
@@ -124,7 +124,7 @@ void addMobile(const Phase& phase, Scene& scene) {
          .velocity_mps =
              glm::cross(dvec3(0, phase.speed_rad_per_s, 0), from_hub_m) + dvec3(0, rise_mps, 0),
          .spin_rad_per_s = phase.speed_rad_per_s,
-         .finish = i % 4 == 1 ? Finish::kChrome : Finish::kMatt});
+         .finish = i % 2 == 1 ? Finish::kPearl : Finish::kMatt});
   }
   rod(kHub_m, kHub_m + dvec3(0, 1.0, 0), 0.007, kGold);
   scene.spheres.push_back({.center_m = kHub_m,

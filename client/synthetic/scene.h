@@ -15,7 +15,7 @@
 namespace viewloom::synthetic {
 
 // How a surface mirrors, in a scene that is asked for mirrors.
-enum class Finish : uint8_t { kMatt, kLake, kPolished, kMetal, kChrome, kCopper };
+enum class Finish : uint8_t { kMatt, kLake, kPolished, kPearl, kMetal, kChrome, kCopper };
 
 // Metres, world space: +x right, +y up, -z into the scene.
 struct Sphere {

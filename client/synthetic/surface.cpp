@@ -157,7 +157,9 @@ Gloss glossOfFinish(Finish finish) {
     case Finish::kLake:
       return {.light = {0.30F, 0.34F, 0.38F}, .roughness = 0, .own_share = 0.35F};
     case Finish::kPolished:
-      return {.light = {0.22F, 0.22F, 0.22F}, .roughness = 0, .own_share = 0.75F};
+      return {.light = {0.30F, 0.30F, 0.30F}, .roughness = 0, .own_share = 0.70F};
+    case Finish::kPearl:
+      return {.light = {0.42F, 0.42F, 0.42F}, .roughness = 0, .own_share = 0.60F};
     case Finish::kMetal:
       return {.light = {0.85F, 0.87F, 0.90F}, .roughness = 0, .own_share = 0.08F};
     case Finish::kChrome:
