@@ -39,7 +39,7 @@ ROWS = [
      ("rgbd: two layers", "scene", TWO_LAYERS, None, 1)],
 ]
 ROW_HEIGHT_PX = 330
-WIDTH_PX = 1200
+WIDTH_PX = 900
 
 
 def tile(studio, caption, stream, watched, box, times):
@@ -91,7 +91,7 @@ def main():
     for row in rows:
         sheet.paste(row, (0, y_px))
         y_px += row.height + GAP_PX
-    sheet.save(arguments.out, quality=80, optimize=True)
+    sheet.save(arguments.out, quality=58, optimize=True)
 
 
 if __name__ == "__main__":
