@@ -4,12 +4,46 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Size of the published frames: small, for machines without a GPU.
-size="${VIEWLOOM_DEMO_SIZE:-480x270}"
+usage() {
+  cat <<'TEXT'
+Installs, builds, serves and publishes the portrait scene, for a browser on this machine.
+
+Usage: deploy/demo.sh [--help]
+
+Environment:
+  VIEWLOOM_DEMO_SIZE     Size of the frames, such as 600x800 (default: measured at the start)
+  VIEWLOOM_DEMO_RATE     Frames a second (default 15)
+  VIEWLOOM_DEMO_MIRRORS  on or off: a polished floor, metal balls, and a page with reflections
+                         (default: on if the device is a GPU)
+TEXT
+}
+
+refuse() {
+  echo "demo: $1" >&2
+  exit 2
+}
+
+case "$#,${1:-}" in
+  0,) ;;
+  1,--help | 1,-h) usage && exit 0 ;;
+  *) refuse "unknown argument: $*. Known: --help" ;;
+esac
+
+# From small to large, all 3:4 as the display. More pixels than the largest are more than the
+# display shows.
+sizes=(300x400 360x480 480x640 600x800 720x960 960x1280 1200x1600)
+size="${VIEWLOOM_DEMO_SIZE:-}"
 rate_hz="${VIEWLOOM_DEMO_RATE:-15}"
+mirrors="${VIEWLOOM_DEMO_MIRRORS:-}"
+[[ "$mirrors" =~ ^(on|off|)$ ]] || refuse "VIEWLOOM_DEMO_MIRRORS is \"$mirrors\"; say on or off"
+
 log_folder=build/demo
+viewloom=build/release/client/cli/viewloom
 server_pid=
 publisher_pid=
+trial_pid=
+grpc_port=
+http_port=
 
 # The first port from $1 on at which nobody answers.
 free_port() {
@@ -38,7 +72,7 @@ page_answers() {
 stop() {
   trap - EXIT INT TERM
   local pid
-  for pid in $server_pid $publisher_pid; do
+  for pid in $server_pid $publisher_pid $trial_pid; do
     kill -TERM "$pid" 2>/dev/null || true
   done
   wait
@@ -51,6 +85,73 @@ give_up() {
   exit 1
 }
 
+# Starts a server with the options $2..., and waits for its page. Its log is the file $1.
+serve() {
+  local log="$1"
+  shift
+  grpc_port="$(free_port 50051)"
+  http_port="$(free_port 8080)"
+  build/release/server/viewloomd serve --grpc.address "127.0.0.1:$grpc_port" \
+    --http.address "127.0.0.1:$http_port" "$@" >"$log" 2>&1 &
+  server_pid=$!
+  until page_answers "$http_port" 2>/dev/null; do
+    kill -0 $server_pid 2>/dev/null || give_up "the server ended" "$log"
+    sleep 0.2
+  done
+}
+
+# Publishes the scene in the size $1 at the rate $2, with the options $3...
+publish() {
+  local scene_size="$1" scene_rate_hz="$2"
+  shift 2
+  exec "$viewloom" --server "127.0.0.1:$grpc_port" publish --synthetic --scene portrait \
+    --size "$scene_size" --rate "$scene_rate_hz" "$@"
+}
+
+# Whether the machine keeps frames of the size $1, with one viewer of three views. Publishes for two
+# seconds at one and a half times the rate: the rest of the time is the browser's. The viewer has to
+# get four fifths of the frames.
+keeps() {
+  local wanted begin_ns end_ns trial
+  trial=("$viewloom" --server "127.0.0.1:$grpc_port" watch trial --quiet --columns 3 --rows 1
+    --size 1440x640 --cone 2.5)
+  publish "$1" "$trial_rate_hz" --stream trial --quiet >>"$log_folder/trial.log" 2>&1 &
+  trial_pid=$!
+  wanted="$(awk -v rate="$trial_rate_hz" 'BEGIN { print int(1.2 * rate) + 2 }')"
+  # The first atlas may wait for a kernel.
+  timeout 8 "${trial[@]}" --count 2 >>"$log_folder/trial.log" 2>&1 || true
+  begin_ns="$(date +%s%N)"
+  timeout 3 "${trial[@]}" --count "$wanted" >>"$log_folder/trial.log" 2>&1 || wanted=0
+  end_ns="$(date +%s%N)"
+  kill -TERM "$trial_pid" 2>/dev/null || true
+  wait "$trial_pid" || true
+  trial_pid=
+  awk -v count="$wanted" -v rate="$trial_rate_hz" -v ns=$((end_ns - begin_ns)) \
+    'BEGIN { exit !((count - 1) * 1e9 >= 0.8 * rate * ns) }'
+}
+
+# The largest size that the machine keeps, by halving: three trials of two to three seconds. The
+# server of the trials compiles nothing beforehand, because that would take a core from them.
+choose_size() {
+  local low=0 high=$((${#sizes[@]} - 1)) middle
+  trial_rate_hz="$(awk -v rate="$rate_hz" 'BEGIN { print 1.5 * rate }')"
+  : >"$log_folder/trial.log"
+  serve "$log_folder/trial-viewloomd.log" --pipeline.warm_up false
+  while ((low < high)); do
+    middle=$(((low + high + 1) / 2))
+    if keeps "${sizes[middle]}"; then low=$middle; else high=$((middle - 1)); fi
+  done
+  kill -TERM $server_pid
+  wait $server_pid || true
+  server_pid=
+  size="${sizes[low]}"
+  if ((low == ${#sizes[@]} - 1)); then
+    reason="the largest of the demo"
+  else
+    reason="this machine does not keep ${sizes[low + 1]} at $rate_hz Hz beside a browser"
+  fi
+}
+
 deploy/setup.sh
 cmake --preset release -DVIEWLOOM_TESTS=OFF
 cmake --build build/release --parallel "$(nproc)" --target viewloomd viewloom \
@@ -61,28 +162,45 @@ trap stop EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-grpc_port="$(free_port 50051)"
-http_port="$(free_port 8080)"
-build/release/server/viewloomd serve --grpc.address "127.0.0.1:$grpc_port" \
-  --http.address "127.0.0.1:$http_port" >"$log_folder/viewloomd.log" 2>&1 &
-server_pid=$!
-until page_answers "$http_port" 2>/dev/null; do
-  kill -0 $server_pid 2>/dev/null || give_up "the server ended" "$log_folder/viewloomd.log"
-  sleep 0.2
-done
+reason="from VIEWLOOM_DEMO_SIZE"
+if [[ -z "$size" ]]; then
+  echo "demo: measures which size this machine keeps"
+  choose_size
+fi
+echo "demo: frames have $size pixels: $reason"
 
-build/release/client/cli/viewloom publish --synthetic --size "$size" --rate "$rate_hz" \
-  --server "127.0.0.1:$grpc_port" >"$log_folder/publisher.log" 2>&1 &
+serve "$log_folder/viewloomd.log"
+# With mirrors, two cores make less than one picture a second while the pointer moves.
+if [[ -z "$mirrors" ]]; then
+  if grep -Eq 'device: .*(llvmpipe|SwiftShader)' "$log_folder/viewloomd.log"; then
+    mirrors=off
+  else
+    mirrors=on
+  fi
+fi
+page="http://127.0.0.1:$http_port/"
+options=()
+if [[ "$mirrors" == on ]]; then
+  options=(--mirrors)
+  # A page with {"preset":"portrait","effects":{"reflection":{"environment_rgb":...}}}: rays that
+  # leave the scene meet the colour of its sky.
+  page+='?display=%7B%22preset%22:%22portrait%22,%22effects%22:%7B%22reflection%22:'
+  page+='%7B%22environment_rgb%22:9413304%7D%7D%7D'
+fi
+
+publish "$size" "$rate_hz" "${options[@]}" >"$log_folder/publisher.log" 2>&1 &
 publisher_pid=$!
 sleep 1
 kill -0 $publisher_pid 2>/dev/null || give_up "the publisher ended" "$log_folder/publisher.log"
 
+scene="$size at $rate_hz Hz, mirrors $mirrors"
 cat <<TEXT
 
-viewloom shows a moving scene ($size at $rate_hz Hz). Open in a browser and move the mouse:
+viewloom shows a moving scene: $scene. Open in a browser and move the mouse:
 
-    http://127.0.0.1:$http_port/
+    $page
 
+The scene moves for 15 s and stands for 5 s. While it stands, the page shows it sharp.
 Frames come in at 127.0.0.1:$grpc_port (gRPC). Logs are in $log_folder/. Ctrl-C stops both.
 TEXT
 
