@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scene of the client and this caster, each written without the other, meet the same
+// The built-in scenes of the client and this caster, each written without the other, meet the same
 // surfaces.
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "support/truth/picture.h"
 #include "synthetic/cast_row.h"
+#include "synthetic/portrait_scene.h"
 
 namespace viewloom::truth::built_in_scene_test {
 namespace {
@@ -22,6 +24,7 @@ struct SameScene {
   Scene scene;
   uint32_t first_pole = 0;
   uint32_t panel = 0;
+  uint32_t first_rod = 0;
 };
 
 SameScene bodiesOf(const synthetic::Scene& from) {
@@ -39,11 +42,19 @@ SameScene bodiesOf(const synthetic::Scene& from) {
   const synthetic::Panel& panel = from.panel;
   const glm::dquat turned = glm::quat_cast(glm::dmat3(panel.right, panel.up, panel.normal));
   same.scene.add({.shape = Box{{panel.half_size_m, 0}}, .pose = {panel.center_m, turned}});
+  same.first_rod = uint32_t(same.scene.bodies.size());
+  for (const synthetic::Rod& rod : from.rods) {
+    const glm::dvec3 along_m = rod.end_m - rod.start_m;
+    const glm::dvec3 up = glm::normalize(along_m);
+    const glm::dvec3 side = glm::normalize(glm::cross(up, glm::dvec3(0.6, 0.5, 0.7)));
+    const glm::dquat upright = glm::quat_cast(glm::dmat3(side, up, glm::cross(side, up)));
+    same.scene.add({.shape = Cylinder{rod.radius_m, 0.5 * glm::length(along_m)},
+                    .pose = {0.5 * (rod.start_m + rod.end_m), upright}});
+  }
   return same;
 }
 
-TEST(TruthAndBuiltInScene, meetTheSameSurfacesAtTheSameDepths) {
-  const synthetic::Scene built_in = synthetic::makeScene(1.7);
+void expectTheSameSurfaces(const synthetic::Scene& built_in) {
   const SameScene same = bodiesOf(built_in);
   const Instant instant(same.scene, 0);
   const Camera camera{.pose = {.position_m = {0.1, 0.05, -0.2},
@@ -64,6 +75,7 @@ TEST(TruthAndBuiltInScene, meetTheSameSurfacesAtTheSameDepths) {
         const uint32_t body = hit.kind == SurfaceKind::kSphere  ? hit.index
                               : hit.kind == SurfaceKind::kPole  ? same.first_pole + hit.index
                               : hit.kind == SurfaceKind::kPanel ? same.panel
+                              : hit.kind == SurfaceKind::kRod   ? same.first_rod + hit.index
                                                                 : kNoBody;
         if (body == kNoBody) continue;
         const Hit* const met = column.find(body);
@@ -74,6 +86,14 @@ TEST(TruthAndBuiltInScene, meetTheSameSurfacesAtTheSameDepths) {
     }
   }
   EXPECT_GT(compared_count, 1000);
+}
+
+TEST(TruthAndBuiltInScene, meetTheSameSurfacesAtTheSameDepths) {
+  expectTheSameSurfaces(synthetic::makeScene(1.7));
+}
+
+TEST(TruthAndBuiltInScene, meetTheSameSurfacesOfThePortraitScene) {
+  expectTheSameSurfaces(synthetic::makePortraitScene(4.7));
 }
 
 }  // namespace
