@@ -48,7 +48,7 @@ class Server:
              "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         line = self.process.stdout.readline()
         grpc, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
-        # The scene of deploy/demo.sh.
+        # Small frames, such as a slow machine keeps.
         self.publisher = subprocess.Popen(
             [arguments.viewloom, "--server", grpc, "publish", "--synthetic", "--stream", "demo",
              "--size", "480x270", "--fps", "15", "--quiet"])
