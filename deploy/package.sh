@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds viewloom and makes Debian packages of it, in build/package. DEBFULLNAME and DEBEMAIL name the
+# Builds viewloom and makes Debian packages of it, in build/packages. DEBFULLNAME and DEBEMAIL name the
 # maintainer, as for other tools of Debian.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<'TEXT'
 usage: deploy/package.sh
-  Makes build/package/*.deb: viewloomd, viewloom, libviewloom-client0, libviewloom-client-dev and
+  Makes build/packages/*.deb: viewloomd, viewloom, libviewloom-client0, libviewloom-client-dev and
   python3-viewloom. Needs what deploy/setup.sh installs, debhelper, dh-python and dpkg-dev. If lintian
   is installed, its errors end this script.
 TEXT
@@ -31,8 +31,8 @@ if [[ ${#missing[@]} -ne 0 ]]; then
 fi
 
 source="$PWD"
-out="$source/build/package"
-build="$out/cmake"
+out="$source/build/packages"
+build="$source/build/package"  # as deep as build/release, whose objects ccache then takes
 multiarch="$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
 # The objects are those of the preset release, which the tests run. Debian's flags are for linking.
 hardening="$(DEB_BUILD_MAINT_OPTIONS=hardening=+bindnow dpkg-buildflags --get LDFLAGS)"

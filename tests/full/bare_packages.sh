@@ -11,7 +11,7 @@ deploy/package.sh
 make_bare_debian "$root"
 rm -rf "$root/packages" "$root/external"
 mkdir -p "$root/packages"
-cp build/package/*.deb "$root/packages/"
+cp build/packages/*.deb "$root/packages/"
 cp -r tests/install/external "$root/external"
 in_bare_debian "$root" '
   apt-get -q update
