@@ -23,7 +23,7 @@ in_bare_debian "$root" '
   viewloomd doctor --config /etc/viewloom/viewloomd.toml
   viewloomd serve --config /etc/viewloom/viewloomd.toml & server=$!
   viewloom publish --synthetic --stream packaged & publisher=$!
-  trap "kill $publisher $server" EXIT
+  trap "kill $publisher $server; wait" EXIT
   viewloom watch packaged --count 1 --out /tmp/picture
   ls -l /tmp/picture
 

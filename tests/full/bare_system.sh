@@ -19,6 +19,6 @@ in_bare_debian "$root" '
   viewloomd doctor
   viewloomd serve & server=$!
   viewloom publish --synthetic & publisher=$!
-  trap "kill $publisher $server" EXIT
+  trap "kill $publisher $server; wait" EXIT
   viewloom watch --count 1 --out /tmp/picture
   ls -l /tmp/picture'
