@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 
 HEADING = re.compile(r"(\S.*):$")
 NAMES = re.compile(r"-[\w.-]+(?:, ?-[\w.-]+)*")
+WORD = r"[\w.+-]+"
+LISTED = re.compile(rf": ((?:{WORD}, )*{WORD} or {WORD})(?=$| \()")
 # Notes that may follow the names of an option in place of its value.
 NOTE = re.compile(r"(Excludes|Needs|REQUIRED|\(Env):?")
 VALUE = re.compile(r"(-|\{|\[|in \[|[A-Z]+(\.\.\.)?$)")
@@ -34,9 +36,27 @@ class Entry:
 
     @property
     def choices(self):
-        """The accepted values, where the program lists them as {a,b}."""
-        match = re.search(r"\{([^{}]+)\}", self.value)
-        return match[1].split(",") if match else []
+        """The accepted values, where the help lists them: as a|b or {a,b} in place of a value, as
+        "...: a, b or c" at the end of the text, or as a table below it."""
+        if not self.value:
+            return []
+        if named := re.fullmatch(rf"({WORD})(\|{WORD})+", self.value):
+            words = named[0].split("|")
+            return [] if any(word.isupper() for word in words) else words  # FILE|JSON names none
+        if braced := re.search(r"\{([^{}]+)\}", self.value):
+            return braced[1].split(",")
+        if told := LISTED.search(" ".join(self.lines)):
+            return re.split(", | or ", told[1])
+        return self._first_column()
+
+    def _first_column(self):
+        """The words that begin the rows of a table. A row may have its text on the next line."""
+        rows = []
+        for line, following in zip(self.lines[1:], self.lines[2:] + [""]):
+            row = re.match(rf"({WORD}(?:, {WORD})*)( {{2,}}\S|$)", line)
+            if row and (row[2] or following.startswith("  ")):
+                rows.append(row[1])
+        return [word for row in rows for word in row.split(", ")] if len(rows) > 1 else []
 
     @property
     def summary(self):

@@ -63,6 +63,7 @@ class Completion(unittest.TestCase):
         self.completes(shell, "viewloom pub\t", ["publish"])
         self.completes(shell, "viewloom publish --synth\t", ["publish", "--synthetic"])
         self.completes(shell, "viewloom publish pict\t", ["publish", "picture.exr"])
+        self.completes(shell, "viewloom publish --input blen\t", ["publish", "--input", "blender"])
         self.completes(shell, "viewloom list --serv\tHOST", ["list", "--server", "HOST"])
         self.completes(shell, "viewloomd doc\t", ["doctor"])
         self.completes(shell, "viewloomd --grpc.ad\t", ["--grpc.address"])

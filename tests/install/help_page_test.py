@@ -20,13 +20,19 @@ Arguments:
 Options:
   -q, --quiet               Prints nothing
   --side {left,right}       Side to begin with
-  --from NAME               What wrote it:
-                              blue   the blue program
-                              red    the red one
+  --from NAME               Program that
+                            wrote it
+                            blue       the blue program
+                            red, rose  one of the red ones
+                            grey, black
+                                       the others
   --a-name-that-is-long, --another LENGTH
                             In metres (default 1; not with
                             --quiet)
-  --rate HZ --quiet         A colon: is text
+  --way fast|slow           How it is sent
+  --what FILE|JSON          What is sent
+  --mood MOOD               Mood to send in: calm, glad or sad (default calm)
+  --rate HZ --quiet         A colon: is text or not
 
 Examples:
   loom send a b             sends two
@@ -50,13 +56,20 @@ class HelpPage(unittest.TestCase):
         self.assertEqual(self.page.remarks, ["More is in the manual."])
 
     def test_options_have_names_values_and_texts(self):
-        self.assertEqual(list(self.options), ["--quiet", "--side", "--from", "--another", "--rate"])
+        self.assertEqual(list(self.options), ["--quiet", "--side", "--from", "--another",
+                                              "--way", "--what", "--mood", "--rate"])
         self.assertEqual(self.options["--quiet"].names, ["-q", "--quiet"])
         self.assertEqual(self.options["--quiet"].value, "")
-        self.assertEqual(self.options["--side"].choices, ["left", "right"])
         self.assertEqual(self.options["--another"].value, "LENGTH")
         self.assertEqual(self.options["--another"].lines,
                          ["In metres (default 1; not with", "--quiet)"])
+
+    def test_values_are_listed_in_four_ways(self):
+        self.assertEqual({name: option.choices for name, option in self.options.items()
+                          if option.choices},
+                         {"--side": ["left", "right"], "--way": ["fast", "slow"],
+                          "--mood": ["calm", "glad", "sad"],
+                          "--from": ["blue", "red", "rose", "grey", "black"]})
 
     def test_the_older_form_is_read_as_well(self):
         page = help_page.parse(["loom"], "Usage: loom\n\nOptions:\n"
@@ -71,7 +84,7 @@ class HelpPage(unittest.TestCase):
 
     def test_tables_keep_their_columns_in_the_man_page(self):
         page = man_page.written(self.page, [self.page], "1", "2.0")
-        self.assertIn(".nf\n  blue   the blue program\n  red    the red one\n.fi\n", page)
+        self.assertIn("wrote it\n.nf\nblue       the blue program\nred, rose  one", page)
         self.assertIn("\\fB\\-q, \\-\\-quiet\\fR\nPrints nothing\n", page)
 
     def test_dots_and_backslashes_are_text(self):
