@@ -170,11 +170,11 @@ void BareCall::write(const grpc::ByteBuffer& message) {
   await();
 }
 
-size_t BareCall::read() {
+grpc::ByteBuffer BareCall::read() {
   grpc::ByteBuffer message;
   call_->Read(&message, this);
   await();
-  return message.Length();
+  return message;
 }
 
 void BareCall::await() {
@@ -198,14 +198,19 @@ void BareSender::send(const std::vector<SharedBytes>& planes) {
   }
 }
 
-BareReceiver::BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes)
+BareReceiver::BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes, Take take)
     : frame_bytes_(frame_bytes),
+      take_(std::move(take)),
       call_(std::move(channel), "/viewloom.v1.DisplayService/StreamAtlases") {}
 
 void BareReceiver::receive(int frame_count) {
   for (int i = 0; i < frame_count; ++i) call_.write(shortMessage());
   uint64_t rest_bytes = uint64_t(frame_count) * frame_bytes_;
-  while (rest_bytes > 0) rest_bytes -= call_.read();
+  while (rest_bytes > 0) {
+    const grpc::ByteBuffer message = call_.read();
+    rest_bytes -= message.Length();
+    take_(message);
+  }
 }
 
 }  // namespace viewloom::bench

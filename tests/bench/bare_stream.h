@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ class BareCall {
 
   // Return when the message has gone, or come. Throw std::runtime_error where the call broke off.
   void write(const grpc::ByteBuffer& message);
-  size_t read();
+  grpc::ByteBuffer read();
 
  private:
   void await();
@@ -69,15 +70,17 @@ class BareSender {
   BareCall call_;
 };
 
-// Asks for frames and drops their bytes as they come.
+// Asks for frames and gives their messages to `take` as they come.
 class BareReceiver {
  public:
-  explicit BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes);
+  using Take = std::function<void(const grpc::ByteBuffer&)>;
+  BareReceiver(std::shared_ptr<grpc::Channel> channel, uint64_t frame_bytes, Take take);
 
   void receive(int frame_count);
 
  private:
   const uint64_t frame_bytes_;
+  const Take take_;
   BareCall call_;
 };
 

@@ -204,7 +204,8 @@ class BenchTest(unittest.TestCase):
         self.assertEqual([(way["name"], way["frame_bytes"]) for way in report["ways"]],
                          [(name, 7 * 480 * 270)
                           for name in ("memcpy", into + ", gRPC alone", into)]
-                         + [(name, 3 * 480 * 270) for name in (out + ", gRPC alone", out)])
+                         + [(name, 3 * 480 * 270) for name in (
+                             out + ", gRPC alone", out + ", gRPC and one copy", out)])
         self.assertTrue(all(way["gb_per_s"] > 0 for way in report["ways"]))
         self.assertTrue(all(way["server_ms"] > 0 for way in report["ways"][1:]))
 

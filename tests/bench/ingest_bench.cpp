@@ -130,6 +130,7 @@ void measureAll(const Arguments& arguments) {
   const MeasuredProcess bare_taker = processOf<BareServer>(frame_bytes);
   const MeasuredProcess taker = processOf<TestServer>();
   const MeasuredProcess bare_giver = processOf<BareServer>(atlas_bytes);
+  const MeasuredProcess bare_keeper = processOf<BareServer>(atlas_bytes);
   const MeasuredProcess giver = processOf<EndlessAtlases>();
   std::vector<NamedWay> ways;
   const auto add = [&](const char* name, uint64_t bytes, std::unique_ptr<Way> way) {
@@ -139,6 +140,7 @@ void measureAll(const Arguments& arguments) {
   add("frames in, gRPC alone", frame_bytes, bareSendingWay(frame, bare_taker));
   add("frames in", frame_bytes, publishingWay(frame, taker));
   add("atlases out, gRPC alone", atlas_bytes, bareReceivingWay(atlas_bytes, bare_giver));
+  add("atlases out, gRPC and one copy", atlas_bytes, bareKeepingWay(atlas_bytes, bare_keeper));
   add("atlases out", atlas_bytes, watchingWay(width_px, height_px, giver));
   for (int round = 0; round < arguments.round_count; ++round) {
     for (NamedWay& way : ways) measureRound(*way.way, arguments, way.frame_bytes, way.measured);

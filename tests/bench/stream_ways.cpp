@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "bench/bare_stream.h"
 #include "lib/channel.h"
@@ -123,13 +125,39 @@ class Published final : public MeasuredWay {
 
 class BareReceiving final : public MeasuredWay {
  public:
-  BareReceiving(uint64_t atlas_bytes, const MeasuredProcess& there)
-      : MeasuredWay(there), receiver_(makeChannel(there.address()), atlas_bytes) {}
+  BareReceiving(uint64_t atlas_bytes, const MeasuredProcess& there, BareReceiver::Take take)
+      : MeasuredWay(there), receiver_(makeChannel(there.address()), atlas_bytes, std::move(take)) {}
 
   void send(int frame_count) override { receiver_.receive(frame_count); }
 
  private:
   BareReceiver receiver_;
+};
+
+// The least that a viewer does with an atlas: it holds all of it in memory of its own.
+class KeptAtlas {
+ public:
+  explicit KeptAtlas(uint64_t atlas_bytes) : atlas_bytes_(atlas_bytes) {}
+
+  void add(const grpc::ByteBuffer& message) {
+    if (byte_count_ == atlas_bytes_) {
+      bands_.clear();
+      byte_count_ = 0;
+    }
+    std::vector<grpc::Slice> slices;
+    if (!message.Dump(&slices).ok()) throw std::runtime_error("a message cannot be read");
+    std::string& band = bands_.emplace_back();
+    band.reserve(message.Length());
+    for (const grpc::Slice& slice : slices) {
+      band.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+    }
+    byte_count_ += band.size();
+  }
+
+ private:
+  const uint64_t atlas_bytes_;
+  uint64_t byte_count_ = 0;
+  std::vector<std::string> bands_;
 };
 
 class Watched final : public MeasuredWay {
@@ -181,7 +209,13 @@ std::unique_ptr<Way> publishingWay(const WireFrame& frame, const MeasuredProcess
 }
 
 std::unique_ptr<Way> bareReceivingWay(uint64_t atlas_bytes, const MeasuredProcess& there) {
-  return std::make_unique<BareReceiving>(atlas_bytes, there);
+  return std::make_unique<BareReceiving>(atlas_bytes, there, [](const grpc::ByteBuffer&) {});
+}
+
+std::unique_ptr<Way> bareKeepingWay(uint64_t atlas_bytes, const MeasuredProcess& there) {
+  const auto atlas = std::make_shared<KeptAtlas>(atlas_bytes);
+  return std::make_unique<BareReceiving>(
+      atlas_bytes, there, [atlas](const grpc::ByteBuffer& message) { atlas->add(message); });
 }
 
 std::unique_ptr<Way> watchingWay(uint32_t width_px, uint32_t height_px,

@@ -27,6 +27,8 @@ std::unique_ptr<Way> copyWay(const WireFrame& frame);
 std::unique_ptr<Way> bareSendingWay(const WireFrame& frame, const MeasuredProcess& there);
 std::unique_ptr<Way> publishingWay(const WireFrame& frame, const MeasuredProcess& there);
 std::unique_ptr<Way> bareReceivingWay(uint64_t atlas_bytes, const MeasuredProcess& there);
+// The same, and copies each message into memory that lives as long as the atlas.
+std::unique_ptr<Way> bareKeepingWay(uint64_t atlas_bytes, const MeasuredProcess& there);
 // Way of atlases of so many pixels, in colour.
 std::unique_ptr<Way> watchingWay(uint32_t width_px, uint32_t height_px,
                                  const MeasuredProcess& there);
