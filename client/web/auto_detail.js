@@ -94,7 +94,7 @@ export class AutoDetail {
     const shown = {
       time_ms: now_ms,
       frame: Number(frame_number),
-      fixed_ms: (times.upload_ns + times.build_ns) * kMsPerNs,
+      fixed_ms: (times.retime_ns + times.upload_ns + times.build_ns) * kMsPerNs,
       traced_ms: (times.trace_ns + times.encode_ns) * kMsPerNs,
     };
     const before = this.#shown.at(-1);

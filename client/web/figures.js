@@ -16,6 +16,7 @@ const kMsPerNs = 1e-6;
 const kStages = [
   ['receive', 'receiving', 'the frame arrives at the server'],
   ['decode', 'unpacking', 'its colour and depth are unpacked'],
+  ['retime', 'motion', 'things that move are set to the time shown'],
   ['upload', 'to the GPU', 'they are copied to the graphics device'],
   ['build', 'surfaces', 'surfaces are made of them'],
   ['wait', 'waiting', 'other work goes first'],

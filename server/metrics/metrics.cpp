@@ -24,7 +24,7 @@ const prometheus::Histogram::BucketBoundaries kMotionBounds = {
     0.001, 0.002, 0.004, 0.008, 0.012, 0.016, 0.02, 0.03, 0.04, 0.06, 0.1, 0.15, 0.25, 0.5, 1, 2};
 
 using LabelValues = std::vector<const char*>;
-const LabelValues kStages = {"receive", "decode", "upload", "build",
+const LabelValues kStages = {"receive", "decode", "upload", "build", "retime",
                              "wait",    "trace",  "encode", "total"};
 const LabelValues kHandOvers = {"decode", "structure", "trace", "grpc", "web"};
 const LabelValues kTransports = {"grpc", "web"};

@@ -69,6 +69,7 @@ enum class Stage : uint8_t {
   kDecode,
   kUpload,
   kBuild,
+  kRetime,
   kWait,
   kTrace,
   kEncode,

@@ -19,6 +19,7 @@ StageTimes stageTimes(const AtlasRun& run, int64_t encoded_ns) {
           .decode_ns = frame.decoded_ns - frame.last_chunk_ns,
           .upload_ns = structure.upload_ns,
           .build_ns = structure.build_ns,
+          .retime_ns = structure.retime_ns + (run.job.before ? run.job.before->retime_ns : 0),
           .wait_ns = run.begun_ns - structure.built_at_ns - stood_ns,
           .trace_ns = traced_ns - run.begun_ns,
           .encode_ns = encoded_ns - traced_ns,

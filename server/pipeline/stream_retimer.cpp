@@ -47,7 +47,7 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   carried->moving_frame = nullptr;
   carried->retimer = nullptr;
   builder_.build(*frame, std::move(slot), *carried);
-  carried->build_ns += retimed_ns - started_ns;
+  carried->retime_ns = retimed_ns - started_ns;
   // Bad samples were counted when the frame came.
   carried->stats.bad_samples_count = structure.stats.bad_samples_count;
   carried->stats.unsorted_columns_count = structure.stats.unsorted_columns_count;
@@ -55,6 +55,7 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   carried->stats.bad_motions_count = structure.stats.bad_motions_count;
   links_.metrics.structures_built.add();
   links_.metrics.structures_retimed.add();
+  links_.metrics.observeStage(Stage::kRetime, carried->retime_ns);
   links_.metrics.observeStage(Stage::kUpload, carried->upload_ns);
   links_.metrics.observeStage(Stage::kBuild, carried->build_ns);
   return carried;

@@ -65,6 +65,7 @@ v1::StageTimes timesToProto(const StageTimes& times) {
   proto.set_decode_ns(times.decode_ns);
   proto.set_upload_ns(times.upload_ns);
   proto.set_build_ns(times.build_ns);
+  proto.set_retime_ns(times.retime_ns);
   proto.set_wait_ns(times.wait_ns);
   proto.set_trace_ns(times.trace_ns);
   proto.set_encode_ns(times.encode_ns);

@@ -37,6 +37,7 @@ struct ResidentStructure {
   FrameTimes times;
   int64_t upload_ns = 0;  // duration
   int64_t build_ns = 0;   // duration
+  int64_t retime_ns = 0;  // duration; 0 = of the frame as it came
   int64_t built_at_ns = 0;
   // Where surfaces of the frame move by themselves: the frame, and who makes structures of it for
   // other times. Else nullptr.

@@ -14,8 +14,9 @@ using nlohmann::json;
 json timesJson(const StageTimes& times) {
   return {{"receive_ns", times.receive_ns}, {"decode_ns", times.decode_ns},
           {"upload_ns", times.upload_ns},   {"build_ns", times.build_ns},
-          {"wait_ns", times.wait_ns},       {"trace_ns", times.trace_ns},
-          {"encode_ns", times.encode_ns},   {"total_ns", times.total_ns}};
+          {"retime_ns", times.retime_ns},   {"wait_ns", times.wait_ns},
+          {"trace_ns", times.trace_ns},     {"encode_ns", times.encode_ns},
+          {"total_ns", times.total_ns}};
 }
 
 // Shares of all rays.

@@ -27,6 +27,7 @@ class GateClock final : public Clock {
       changed_.wait(lock, [&] { return held_ != caller; });
       is_waiting_ = false;
     }
+    now_ns_ += per_question_ns_;
     return now_ns_;
   }
 
@@ -40,6 +41,11 @@ class GateClock final : public Clock {
   void advance(int64_t by_ns) {
     std::lock_guard lock(mutex_);
     now_ns_ += by_ns;
+  }
+  // From now on each question takes so long.
+  void passAtEachQuestion(int64_t ns) {
+    std::lock_guard lock(mutex_);
+    per_question_ns_ = ns;
   }
   void hold(std::thread::id thread) {
     std::lock_guard lock(mutex_);
@@ -71,7 +77,8 @@ class GateClock final : public Clock {
   mutable std::thread::id sleeper_;
   std::thread::id holder_;
   mutable std::thread::id held_;
-  int64_t now_ns_ = 1;
+  mutable int64_t now_ns_ = 1;
+  int64_t per_question_ns_ = 0;
 };
 
 }  // namespace viewloom::test

@@ -103,6 +103,17 @@ TEST_F(PipelineRetimingTest, letsTheTicksOfOthersGoOnMeanwhile) {
       << "the tick that was taken";
 }
 
+TEST_F(PipelineRetimingTest, tellsHowLongItTook) {
+  clock_.passAtEachQuestion(1);
+  holdWithinRetiming();
+  if (HasFatalFailure()) return;
+  clock_.letGo();
+  const auto atlases = moving_.subscriber->waitForAtlases(2);
+  ASSERT_THAT(atlases, SizeIs(2));
+  EXPECT_EQ(atlases[0]->times.retime_ns, 0) << "as the frame came";
+  EXPECT_GT(atlases[1]->times.retime_ns, 0);
+}
+
 TEST_F(PipelineRetimingTest, finishesItBeforeItIsDrained) {
   holdWithinRetiming();
   if (HasFatalFailure()) return;

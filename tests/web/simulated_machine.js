@@ -57,8 +57,8 @@ function simulate(AutoDetail, machine, seconds) {
     policy.note({
       frame_number: String(shownFrame),
       layout: {size: {width: side, height: side}},
-      times: {upload_ns: 0, build_ns: state.fixed_ms * 1e6, trace_ns: traced_ms * 1e6,
-              encode_ns: 0},
+      times: {retime_ns: 0, upload_ns: 0, build_ns: state.fixed_ms * 1e6,
+              trace_ns: traced_ms * 1e6, encode_ns: 0},
     }, time_ms);
   }
   return {chosen, shown};

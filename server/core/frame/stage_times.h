@@ -52,6 +52,7 @@ struct StageTimes {
   int64_t decode_ns = 0;
   int64_t upload_ns = 0;
   int64_t build_ns = 0;
+  int64_t retime_ns = 0;  // before the build
   int64_t wait_ns = 0;
   int64_t trace_ns = 0;
   int64_t encode_ns = 0;

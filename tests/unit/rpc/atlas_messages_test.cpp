@@ -60,6 +60,7 @@ v1::StreamAtlasesResponse next(AtlasMessages& messages) {
 TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
   const auto atlas = atlasOfTwoBands();
   atlas->times.trace_ns = 5;
+  atlas->times.retime_ns = 6;
   atlas->coverage = {.hit = 3, .hidden = 1};
   AtlasMessages messages = messagesOf(atlas);
   const auto header = next(messages);
@@ -88,6 +89,7 @@ TEST(AtlasMessages, comeAsHeaderPiecesAndEnd) {
   const v1::AtlasEnd end = next(messages).end();
   EXPECT_EQ(end.sequence(), 300u);
   EXPECT_EQ(end.times().trace_ns(), 5);
+  EXPECT_EQ(end.times().retime_ns(), 6);
   EXPECT_EQ(end.coverage().hit(), 0.75);
   EXPECT_FALSE(end.has_reflections());
   EXPECT_TRUE(messages.done());

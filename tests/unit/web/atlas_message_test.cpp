@@ -69,6 +69,15 @@ TEST(AtlasMessage, holdsTheViewsThatLookPastTheSource) {
             nlohmann::json::parse(R"([{"first_view": 0, "last_view": 1, "share": 0.25}])"));
 }
 
+TEST(AtlasMessage, holdsTheTimesOfItsStages) {
+  const auto atlas = someAtlas();
+  atlas->times = {.build_ns = 4, .retime_ns = 5, .total_ns = 20};
+  const nlohmann::json times = headerOf(atlas).at("times");
+  EXPECT_EQ(times.at("build_ns"), 4);
+  EXPECT_EQ(times.at("retime_ns"), 5);
+  EXPECT_EQ(times.at("total_ns"), 20);
+}
+
 TEST(AtlasMessage, holdsTheDepthBudgetWhereThereIsOne) {
   const auto atlas = someAtlas();
   EXPECT_FALSE(headerOf(atlas).contains("depth_budget"));
