@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Age of pictures when they are shown: since the capture of
-// their frame, and since the motion of the eyes that see them.
+// SPDX-License-Identifier: Apache-2.0
+// Age of pictures when they are shown: since the capture of their frame, and since the motion of
+// the eyes that see them.
 #pragma once
 
 #include <cstdint>

@@ -24,6 +24,8 @@ LONG_FUNCTIONS = {
                              "functions they would hand all of it in and out",
 }
 
+# Alone in its line: other text beside it was joined to it by mistake.
+LICENCE = re.compile(r"SPDX-License-Identifier: Apache-2\.0\s*(-->|\*/)?\s*$")
 # Written in halves, so that this list does not find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|X" r"XX)\b")
 # Words that tell how the project was made instead of what it is.
@@ -48,8 +50,9 @@ def is_source(path):
 def check_licence(tree):
     for path in tree.text_files():
         head = tree.lines(path)[:3]
-        if is_source(path) and not any("SPDX-License-Identifier: Apache-2.0" in x for x in head):
-            yield Finding(path, 1, "licence", "SPDX-License-Identifier: Apache-2.0 is missing")
+        if is_source(path) and not any(LICENCE.search(line) for line in head):
+            yield Finding(path, 1, "licence",
+                          "a line with only SPDX-License-Identifier: Apache-2.0 is missing")
 
 
 def check_lengths(tree):

@@ -134,6 +134,9 @@ class Text(unittest.TestCase):
     def test_a_missing_licence_is_found(self):
         self.assertEqual(self.broken("server/base/a.h", "int a;\n"), ["licence"])
         self.assertEqual(self.broken("tests/CMakeLists.txt", "\n"), ["licence"])
+        self.assertEqual(self.broken(
+            "server/base/a.h", "// SPDX-License-Identifier: Apache-2.0 Counts frames.\n"),
+            ["licence"])
 
     def test_long_files_and_lines_are_found(self):
         self.assertEqual(self.broken("a.cpp", LICENCE + "\n" * 299), [])

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 A queue of fixed capacity. Producers wait while it is full.
-// Closing it releases all waiting threads.
+// SPDX-License-Identifier: Apache-2.0
+// A queue of fixed capacity. Producers wait while it is full. Closing it releases all waiting
+// threads.
 #pragma once
 
 #include <condition_variable>

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Files that viewloom writes. They are completed under another
-// name first, then moved to their place.
+// SPDX-License-Identifier: Apache-2.0
+// Files that viewloom writes. They are completed under another name first, then moved to their
+// place.
 #pragma once
 
 #include <cstdint>

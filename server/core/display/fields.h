@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Fields of displays, named as in proto Display. Each message
-// has one list of its fields.
+// SPDX-License-Identifier: Apache-2.0
+// Fields of displays, named as in proto Display. Each message has one list of its fields.
 //
 // A list is a function visitFields(Spec&, Visitor&), beside its struct. Users of all fields visit
 // it: the conversion from proto, the checks, the key, the ranges that `viewloom` and the page

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Functions of every kind of display. A kind is a struct with a
-// name (kName), a field list, and these functions (CONTRIBUTING.md shows how to add one):
+// SPDX-License-Identifier: Apache-2.0
+// Functions of every kind of display. A kind is a struct with a name (kName), a field list, and
+// these functions (CONTRIBUTING.md shows how to add one):
 //   absl::Status takePreset(Spec&)         fills what the named device gives; before the checks
 //   absl::Status settle(Spec&)             fills the rest, and checks fields against each other
 //   TileGrid tileGrid(const Spec&)         the atlas without a stream
@@ -7,7 +8,7 @@
 //   double* focalPlane(Spec&)              distance of the plane that all views frame
 //   std::optional<OpenFov> openFov(const Spec&)
 //   std::vector<KnownDevice> devicesOf(const Spec&)
-// The last five expect a completed spec, but for the last one, which expects any.
+// tileGrid, describe, focalPlane and openFov expect a completed spec.
 #pragma once
 
 #include <cstdint>

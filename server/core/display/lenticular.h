@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Lenticular panels in their own pixels. Each subpixel shows
-// what is seen from the place to which its lens directs it.
+// SPDX-License-Identifier: Apache-2.0
+// Lenticular panels in their own pixels. Each subpixel shows what is seen from the place to which
+// its lens directs it.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Bounds of the rays of a display with more than one eye a
-// view. They lie between the outermost rays.
+// SPDX-License-Identifier: Apache-2.0
+// Bounds of the rays of a display with more than one eye a view. They lie between the outermost
+// rays.
 #pragma once
 
 #include <vector>

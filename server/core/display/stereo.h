@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Stereo pairs: two off-axis eyes on a line, or two given
-// cameras. A tracked display uses these eyes until tracked ones come (tracked_eyes.h).
+// SPDX-License-Identifier: Apache-2.0
+// Stereo pairs: two off-axis eyes on a line, or two given cameras. A tracked display uses these
+// eyes until tracked ones come (tracked_eyes.h).
 #pragma once
 
 #include <vector>
