@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "usage/command_line.h"
 
@@ -18,6 +19,8 @@ enum ExitCode : int {
 
 struct CommonOptions {
   std::string server;  // "host:port" or "unix:path"
+  // Messages that were given as JSON, by their fields: "display", "encoding".
+  std::vector<std::string> messages = {};
 };
 
 // A subcommand after its options are parsed; returns the exit code.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include <optional>
+#include <string>
+
 namespace viewloom::cli {
 
 std::vector<NamedCommand> addCommands(const usage::Command& app) {
@@ -27,6 +30,15 @@ std::vector<NamedCommand> addCommands(const usage::Command& app) {
       "  viewloom watch --count 1 --out .                 save one quilt of it\n"
       "  viewloom watch --help                            options of one command");
   return commands;
+}
+
+void noteMessages(const std::vector<NamedCommand>& commands, CommonOptions& common) {
+  for (const NamedCommand& command : commands) {
+    for (const char* name : {"display", "encoding"}) {
+      const std::optional<usage::Option> option = command.syntax.find(std::string("--") + name);
+      if (option) option->onGiven([&common, name] { common.messages.emplace_back(name); });
+    }
+  }
 }
 
 }  // namespace viewloom::cli

@@ -12,6 +12,9 @@ namespace viewloom::cli {
 // Adds them all, with what each runs.
 std::vector<NamedCommand> addCommands(const usage::Command& app);
 
+// Has `common` say which messages the command line gives as JSON. Before it is parsed.
+void noteMessages(const std::vector<NamedCommand>& commands, CommonOptions& common);
+
 // One each: adds its options, and returns what runs after they are parsed.
 
 // Says which source would serve a display of a scene between two depths.

@@ -29,9 +29,9 @@ int run(int argc, char** argv) {
       .valueName("ADDRESS")
       .environment("VIEWLOOM_SERVER_ADDRESS")
       .showDefault();
-
   std::vector<NamedCommand> commands = addCommands(app);
   for (NamedCommand& command : addOfflineCommands(app)) commands.push_back(std::move(command));
+  noteMessages(commands, common);
   if (argc <= 1) {
     std::fputs(app.help().c_str(), stdout);
     return kExitDone;

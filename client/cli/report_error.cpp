@@ -82,7 +82,7 @@ class ConnectionTeller {
 
 std::string explain(const absl::Status& status, const CommonOptions& common) {
   if (const std::string broken = explainBrokenCall(status); !broken.empty()) return broken;
-  const std::string message = inUserWords(std::string(status.message()));
+  const std::string message = inUserWords(std::string(status.message()), common.messages);
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
       if (!isFromTransport(status)) return strCat("the server at ", common.server, ": ", message);
@@ -138,9 +138,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kOptions
     {"quilt.size", "--size"},
     {"quilt.size.width", "--size"},
     {"quilt.size.height", "--size"},
-    {"view_cone_rad", "--cone (radians)"},
+    {"view_cone_rad", "--cone"},
     {"focal_distance_m", "--focal-distance"},
-    {"fov_y_rad", "--fov (radians)"},
+    {"fov_y_rad", "--fov"},
     {"focus_following_s", "--focus-follow"},
     {"filter.sample_count", "--samples"},
     {"reflection.bounces", "--reflections"},
@@ -171,6 +171,16 @@ bool isPath(std::string_view text) {
     return std::isalnum(letter) != 0 || letter == '_' || letter == '.' || letter == '[' ||
            letter == ']';
   });
+}
+
+// Where a part of the path begins; npos = it has no such part.
+size_t placeOfPart(std::string_view path, std::string_view name) {
+  for (size_t begin = 0; begin < path.size();) {
+    const size_t end = std::min(path.find('.', begin), path.size());
+    if (path.substr(begin, end - begin) == name) return begin;
+    begin = end + 1;
+  }
+  return std::string_view::npos;
 }
 
 // Takes "NAME[N]." or "NAME[N]" off the front; 0 = it does not begin so. Counts from 1.
@@ -208,13 +218,17 @@ std::string placeInFrame(std::string_view path) {
 
 }  // namespace
 
-std::string inUserWords(const std::string& message) {
+std::string inUserWords(const std::string& message, std::span<const std::string> whole) {
   const size_t colon = message.find(": ");
   if (colon == std::string::npos) return message;
   const std::string_view path = std::string_view(message).substr(0, colon);
   if (!isPath(path)) return message;
   // The file's name follows.
   if (path == "deep") return message.substr(colon + 2);
+  for (const std::string& name : whole) {
+    const size_t begin = placeOfPart(path, name);
+    if (begin != std::string_view::npos) return message.substr(begin);
+  }
   for (const auto& [end, option] : kOptions) {
     const size_t before = path.size() - std::min(path.size(), end.size());
     if (path.ends_with(end) && (before == 0 || path[before - 1] == '.')) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "base/status.h"
@@ -28,7 +29,8 @@ OnConnection sayOrGiveUp(StatusLine& line, const CommonOptions& common, bool has
 
 // The message with the field that it begins with named as the user knows it: "--cone: got 400; ..."
 // for "display.quilt.view_cone_rad: got 400; ...", "layer 2, depth: ..." for
-// "sources[0].layers[1].depth: ...". Other messages stay.
-std::string inUserWords(const std::string& message);
+// "sources[0].layers[1].depth: ...". Fields of messages that the user gave whole (CommonOptions)
+// keep their names there: "display.quilt.view_cone_rad: got 7; ...". Other messages stay.
+std::string inUserWords(const std::string& message, std::span<const std::string> whole = {});
 
 }  // namespace viewloom::cli

@@ -62,7 +62,7 @@ const std::vector<BadDisplay> kQuilts = {
     {"51 columns", [](auto& o) { quilt(o).set_columns(51); }, {kInvalid, kQuilt + "columns"}},
     {"0 rows", [](auto& o) { quilt(o).set_rows(0); }, {kInvalid, kQuilt + "rows"}},
     {"4294967295 rows", [](auto& o) { quilt(o).set_rows(~0u); }, {kInvalid, kQuilt + "rows"}},
-    {"no size", [](auto& o) { quilt(o).clear_size(); }, {kInvalid, kQuilt + "size.width"}},
+    {"no size", [](auto& o) { quilt(o).clear_size(); }, {kInvalid, kQuilt + "size"}},
     {"beyond 16384",
      [](auto& o) { quilt(o).mutable_size()->set_height(16385); },
      {kInvalid, kQuilt + "size.height"}},
@@ -107,9 +107,7 @@ const std::vector<BadDisplay> kQuilts = {
 };
 
 const std::vector<BadDisplay> kOtherKinds = {
-    {"no eye size",
-     [](auto& o) { stereo(o).clear_eye_size(); },
-     {kInvalid, kStereo + "eye_size.width"}},
+    {"no eye size", [](auto& o) { stereo(o).clear_eye_size(); }, {kInvalid, kStereo + "eye_size"}},
     {"eyes 11 m apart",
      [](auto& o) { stereo(o).set_eye_distance_m(11); },
      {kInvalid, kStereo + "eye_distance_m"}},
@@ -143,7 +141,7 @@ const std::vector<BadDisplay> kOtherKinds = {
     {"1025 cameras", [](auto& o) { cameras(o, 1025); }, {kInvalid, kCameras + "cameras"}},
     {"no tile size",
      [](auto& o) { cameras(o, 1).clear_tile_size(); },
-     {kInvalid, kCameras + "tile_size.width"}},
+     {kInvalid, kCameras + "tile_size"}},
     {"4294967295 columns",
      [](auto& o) { cameras(o, 1).set_columns(~0u); },
      {kInvalid, kCameras + "columns"}},

@@ -23,7 +23,7 @@ v1::RgbdDisplay& rgbd(v1::OpenDisplay& open) {
 }
 
 const std::vector<BadDisplay> kRgbds = {
-    {"no size", [](auto& o) { rgbd(o).clear_view_size(); }, {kInvalid, kRgbd + "view_size.width"}},
+    {"no size", [](auto& o) { rgbd(o).clear_view_size(); }, {kInvalid, kRgbd + "view_size"}},
     {"a side of 8193",
      [](auto& o) { rgbd(o).mutable_view_size()->set_height(8193); },
      {kInvalid, kRgbd + "view_size.height"}},

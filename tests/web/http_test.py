@@ -149,7 +149,7 @@ class Refusals(PaintedCase):
         ("/still/none/portrait", 404, "stream"),
         ("/still/painted_qsax.jpg", 404, "url"),
         ("/still/painted_qs0x0a0.jpg", 400, "display.quilt.columns"),
-        ("/still/painted_qs4x2a1.jpg", 400, "display.quilt.size.width"),
+        ("/still/painted_qs4x2a1.jpg", 400, "display.quilt.size"),
         ("/still/" + "a/" * 2000, 404, "preset"),
     )
 

@@ -2,6 +2,7 @@
 #include "display/fields.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/str_cat.h"
 
@@ -9,6 +10,7 @@ namespace viewloom {
 namespace {
 
 constexpr uint32_t kColorMax = 0xFFFFFF;
+constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 std::string acceptedText(const Range& range) {
   if (range.min == kAnyNumber.min && range.max == kAnyNumber.max) return "a finite number";
@@ -26,7 +28,14 @@ bool accepts(const Range& range, double value) {
 
 absl::Status checkRange(double value, const Range& range, const std::string& field) {
   if (accepts(range, value)) return absl::OkStatus();
-  return invalidField(field, strCat("got ", value, "; accepted is ", acceptedText(range)));
+  // Fields of any finite number have no range to tell.
+  if (!field.ends_with("_rad") || std::isinf(range.max * kDegPerRad)) {
+    return invalidField(field, strCat("got ", value, "; accepted is ", acceptedText(range)));
+  }
+  const Range range_deg{range.min * kDegPerRad, range.max * kDegPerRad};
+  return invalidField(field,
+                      strCat("got ", value, " rad (", value * kDegPerRad, " degrees); accepted is ",
+                             acceptedText(range), " rad (", acceptedText(range_deg), " degrees)"));
 }
 
 absl::Status checkCount(size_t count, const Range& counts, const std::string& field) {
@@ -39,6 +48,12 @@ absl::Status checkCount(size_t count, const Range& counts, const std::string& fi
 }
 
 void FieldChecks::operator()(const char* name, SizePx value, const Range& range) {
+  if (value == SizePx{} && !accepts(range, 0)) {
+    take(invalidField(prefix_ + name,
+                      strCat("missing; accepted is a width and a height of ", acceptedText(range),
+                             " px, for example {\"width\": 1024, \"height\": 1024}")));
+    return;
+  }
   number((std::string(name) + ".width").c_str(), value.width, range);
   number((std::string(name) + ".height").c_str(), value.height, range);
 }

@@ -70,7 +70,8 @@ struct ViewCamera {
   std::variant<Fov, Intrinsics> projection;
 };
 
-// Refuses a number out of range, and NaN: "got 51; accepted is 1..50".
+// Refuses a number out of range, and NaN: "got 51; accepted is 1..50". Angles (fields that end in
+// "_rad") are told in degrees too, as command lines take them.
 absl::Status checkRange(double value, const Range& range, const std::string& field);
 // Refuses the length of a list: "got 3 entries; accepted is none or 2".
 absl::Status checkCount(size_t count, const Range& counts, const std::string& field);

@@ -19,6 +19,21 @@ SizePx quiltTileSize(const QuiltSpec& quilt) {
   return {quilt.size_px.width / quilt.columns, quilt.size_px.height / quilt.rows};
 }
 
+// Fields that a preset would give.
+absl::Status requireShape(const QuiltSpec& quilt) {
+  const auto missing = [](const char* field, const std::string& accepted) {
+    return invalidField(field, strCat("missing; accepted is ", accepted,
+                                      ". A quilt needs columns, rows and size, or a preset"));
+  };
+  const std::string sides = strCat("1..", kQuiltGridMax);
+  if (quilt.columns == 0) return missing("quilt.columns", sides);
+  if (quilt.rows == 0) return missing("quilt.rows", sides);
+  if (quilt.size_px != SizePx{}) return absl::OkStatus();
+  return missing("quilt.size",
+                 strCat("the width and the height of the whole quilt, 1..", kQuiltSidePxMax,
+                        " px each, for example {\"width\": 3360, \"height\": 3360}"));
+}
+
 absl::Status completeDepthiness(QuiltSpec& quilt) {
   if (quilt.depthiness == 0) quilt.depthiness = 1;
   // Each formula takes the tangent of one angle, which has to stay in front of the eyes.
@@ -43,7 +58,7 @@ double placeOfEye(const QuiltSpec& quilt, double place, double distance_m) {
 }  // namespace
 
 absl::Status takePreset(QuiltSpec& quilt) {
-  if (quilt.preset.empty()) return absl::OkStatus();
+  if (quilt.preset.empty()) return requireShape(quilt);
   VIEWLOOM_RETURN_IF_ERROR(checkPreset(quilt.preset, "quilt.preset"));
   const Preset* preset = findPreset(quilt.preset);
   const auto fill = [](auto& given, auto value) {

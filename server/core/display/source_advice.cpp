@@ -19,8 +19,8 @@ absl::Status requireOwnFov(const DisplaySpec& spec) {
   if (!fov || fov->fov_y_rad > 0) return absl::OkStatus();
   return invalidField(
       fov->field,
-      "missing: without a stream, there is no field of view to copy; accepted is the "
-      "field of view in radians, up to 2.6");
+      "missing: without a stream, there is no field of view to copy; accepted is the vertical "
+      "field of view, up to 2.6 rad (148.969 degrees)");
 }
 
 absl::Status checkRequest(const DisplaySpec& spec, double near_m, double far_m) {

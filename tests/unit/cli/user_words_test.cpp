@@ -26,6 +26,15 @@ TEST(UserWords, nameTheOptionOfAField) {
   EXPECT_EQ(inUserWords("rgbd.far_m: got 1"), "--depth-far: got 1");
 }
 
+TEST(UserWords, nameTheFieldOfAMessageThatTheUserWrote) {
+  const std::vector<std::string> whole{"display"};
+  EXPECT_EQ(inUserWords("open.display.quilt.size: missing", whole), "display.quilt.size: missing");
+  EXPECT_EQ(inUserWords("display.quilt.view_cone_rad: got 7 rad", whole),
+            "display.quilt.view_cone_rad: got 7 rad");
+  EXPECT_EQ(inUserWords("open.encoding.jpeg_quality: got 101", whole), "--quality: got 101");
+  EXPECT_EQ(inUserWords("near_m: got -1", whole), "--near: got -1");
+}
+
 TEST(UserWords, nameTheLayerOfAFrame) {
   EXPECT_EQ(inUserWords("sources[0].layers[1].depth: got 0 bytes"), "layer 2, depth: got 0 bytes");
   EXPECT_EQ(inUserWords("sources[2].camera: got nan"), "source 3, camera: got nan");
