@@ -135,9 +135,28 @@ absl::Status tune(const ShowOptions& options, StatusLine& line) {
       {.is_interrupted = &isInterrupted, .say = [&](const std::string& text) { line.say(text); }});
 }
 
+// The options given that shape a quilt: "--preset, --size".
+std::string quiltOptions(const DisplayOptions& options) {
+  const std::pair<const char*, bool> all[] = {{"--preset", !options.preset.empty()},
+                                              {"--columns", options.columns > 0},
+                                              {"--rows", options.rows > 0},
+                                              {"--size", options.size_px.width > 0}};
+  std::string names;
+  for (const auto& [name, is_given] : all) {
+    if (is_given) names += strCat(names.empty() ? "" : ", ", name);
+  }
+  return names;
+}
+
 absl::Status showOn(const ShowOptions& options, const CommonOptions& common, StatusLine& line) {
   const absl::StatusOr<show::SessionOptions> session = makeSession(options);
   if (!session.ok()) return session.status();
+  const std::string unused = quiltOptions(options.display);
+  if (session->settings.mode == show::ShowMode::kNative && !unused.empty()) {
+    line.say(strCat("mode native does not use ", unused,
+                    ": the panel's calibration says what its pixels show. For a quilt, give "
+                    "--mode weave"));
+  }
   StreamWait waiting(line, common, options.stream);
   return show::showStream(makeChannel(common.server), *session,
                           {.is_interrupted = &isInterrupted,

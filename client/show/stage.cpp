@@ -4,6 +4,9 @@
 #include <SDL.h>
 #include <epoxy/gl.h>
 
+#include <cstdlib>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -15,6 +18,26 @@ namespace {
 // SDL falls back on drivers that no eye sees.
 bool drawsNowhere(std::string_view driver) {
   return driver == "dummy" || driver == "offscreen";
+}
+
+// Wayland is found through its runtime folder. Without one, its library would print an error of
+// its own.
+bool mayHaveWayland() {
+  const char* const folder = std::getenv("XDG_RUNTIME_DIR");
+  const char* const socket = std::getenv("WAYLAND_DISPLAY");
+  return (folder != nullptr && folder[0] == '/') || (socket != nullptr && socket[0] == '/') ||
+         std::getenv("WAYLAND_SOCKET") != nullptr;
+}
+
+// SDL's drivers, in its order; SDL_VIDEODRIVER in the environment overrules it.
+void leaveWaylandOut() {
+  std::string drivers;
+  for (int number = 0; number < SDL_GetNumVideoDrivers(); ++number) {
+    const std::string_view driver = SDL_GetVideoDriver(number);
+    if (driver == "wayland" || drawsNowhere(driver)) continue;
+    drivers += strCat(drivers.empty() ? "" : ",", driver);
+  }
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, drivers.c_str());
 }
 
 void askForContext(bool is_gles) {
@@ -31,6 +54,7 @@ absl::StatusOr<std::unique_ptr<SdlVideo>> SdlVideo::start() {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   // A click on another monitor must not take the picture off the panel.
   SDL_SetHint(SDL_HINT_VIDEO_MINIMIZE_ON_FOCUS_LOSS, "0");
+  if (!mayHaveWayland()) leaveWaylandOut();
   const bool is_started = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
   std::unique_ptr<SdlVideo> video(new SdlVideo);
   if (is_started && !drawsNowhere(SDL_GetCurrentVideoDriver())) return video;

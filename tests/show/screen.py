@@ -56,7 +56,7 @@ class Show:
         self._said = tempfile.TemporaryFile("w+")
         environment = screen.environment() if screen else \
             {name: value for name, value in os.environ.items()
-             if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+             if name not in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_RUNTIME_DIR")}
         self._process = subprocess.Popen(
             [viewloom, "--server", server, "show", "known", *map(str, arguments)],
             env=environment, stdin=stdin, stderr=self._said)

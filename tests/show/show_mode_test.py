@@ -64,6 +64,12 @@ class SuitedMode(ShowTest):
         self.expect_native(server)
         self.assertNotIn("renders on a CPU", show.said())
 
+    def test_options_of_quilts_are_said_to_be_without_effect(self):
+        server = self.start_server(self.answer, traces_on_cpu=False)
+        show = self.show_on(server, "--preset", "go_p", "--columns", 5)
+        self.expect_native(server)
+        self.assertIn("mode native does not use --preset, --columns: ", show.said())
+
     def test_a_server_that_comes_later_is_asked_then(self):
         gone = self.start_server(self.answer, traces_on_cpu=True)
         gone.stop()

@@ -167,6 +167,9 @@ class Refusals(ShowTest):
 
     def test_no_screen(self):
         self.expect_refusal(None, 1, ["there is no screen to show on", "set DISPLAY"])
+        bare = self.start_show(None, None)
+        self.assertEqual(bare.exit_code(), 1)
+        self.assertEqual(bare.said().count("\n"), 1, "only viewloom speaks")
 
 
 if __name__ == "__main__":
