@@ -13,6 +13,7 @@ import include_graph
 import language_rules
 import layering
 import proto_rules
+import reference_rules
 import schedule_rules
 import text_rules
 import user_texts
@@ -26,8 +27,8 @@ def main():
         include_graph.write(tree, sys.argv[3])
         return 0
     findings = sorted(finding for rules in (build_rules, include_graph, language_rules, layering,
-                                            proto_rules, schedule_rules, text_rules, user_texts,
-                                            version_rules)
+                                            proto_rules, reference_rules, schedule_rules,
+                                            text_rules, user_texts, version_rules)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)
