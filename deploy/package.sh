@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds viewloom and makes Debian packages of it, in build/packages. DEBFULLNAME and DEBEMAIL name the
-# maintainer, as for other tools of Debian.
+# Builds viewloom and makes Debian packages of it, in build/packages. The project has no maintainer in
+# Debian: whoever passes packages on names themselves with DEBFULLNAME and DEBEMAIL, as for other
+# tools of Debian.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,7 +11,8 @@ usage() {
 usage: deploy/package.sh
   Makes build/packages/*.deb: viewloomd, viewloom, libviewloom-client0, libviewloom-client-dev and
   python3-viewloom. Needs what deploy/setup.sh installs, debhelper, dh-python and dpkg-dev. If lintian
-  is installed, its errors end this script.
+  is installed, its errors end this script. DEBFULLNAME and DEBEMAIL name the maintainer of packages
+  that you pass on.
 TEXT
 }
 case "${1:-}" in
@@ -45,7 +47,7 @@ cmake --build "$build" --parallel "$(nproc)"
 # debhelper wants a folder debian/, which has the version and the date of this tree.
 version="$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")-1"
 date="$(git log -1 --format=%cD 2>/dev/null || date -R)"
-maintainer="${DEBFULLNAME:-viewloom packagers} <${DEBEMAIL:-viewloom@example.org}>"
+maintainer="${DEBFULLNAME:-unpublished local build} <${DEBEMAIL:-nobody@example.org}>"
 tree="$out/tree"
 rm -rf "$tree" "$out"/*.deb "$out"/*.buildinfo "$out"/*.changes
 mkdir -p "$tree"
