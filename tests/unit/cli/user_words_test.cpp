@@ -5,7 +5,10 @@
 #include <grpcpp/support/status.h>
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/display_options.h"
@@ -15,6 +18,7 @@
 namespace viewloom::cli::user_words_test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -33,6 +37,16 @@ TEST(UserWords, nameTheFieldOfAMessageThatTheUserWrote) {
             "display.quilt.view_cone_rad: got 7 rad");
   EXPECT_EQ(inUserWords("open.encoding.jpeg_quality: got 101", whole), "--quality: got 101");
   EXPECT_EQ(inUserWords("near_m: got -1", whole), "--near: got -1");
+}
+
+TEST(UserWords, knowWhichMessagesTheUserWrote) {
+  const usage::CommandLine app;
+  CommonOptions common{.server = "host:5"};
+  const std::vector<NamedCommand> commands = addCommands(app);
+  noteMessages(commands, common);
+  const char* const words[] = {"viewloom", "watch", "--display", "{\"preset\": \"portrait\"}"};
+  ASSERT_FALSE(app.parse(int{std::size(words)}, words).has_value());
+  EXPECT_THAT(common.messages, ElementsAre("display"));
 }
 
 TEST(UserWords, nameTheLayerOfAFrame) {
