@@ -27,7 +27,7 @@ class Table(NamedTuple):
 TABLES = (
     Table("metric", "deploy/README.md", "## Health and metrics", "server/metrics/",
           re.compile(r'"(viewloom_[a-z_]+)"'), "viewloom_", re.compile(r"\{")),
-    Table("setting", "deploy/README.md", "## Settings", "server/config/settings.",
+    Table("setting", "deploy/README.md", "## Settings", "server/config/",
           re.compile(r'\{"([a-z][a-z_.]*)",\s*"[a-z]*",\s*"[A-Z]'), "", re.compile(r"$")),
     Table("address", "proto/README.md", "## Web addresses", "server/web/",
           re.compile(r'(?:path == |path\.starts_with\(|kWebSocketPath = )"(/[^"]*)"'),
