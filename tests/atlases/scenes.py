@@ -24,7 +24,7 @@ def published(folder):
         "cube": [*SYNTHETIC, "--cube"],
         "mirrors": [*SYNTHETIC, "--mirrors"],
         "motion": [*SYNTHETIC, "--motion"],
-        "pattern": ["--pattern", "view-numbers", "--size", "240x135", "--views", "8",
+        "pattern": ["--pattern", "view-numbers", "--size", "640x360", "--views", "8",
                     "--view-size", "120x68"],
         "coarse": [color, "--depth", str(folder / "codes.png"), "--input", "relative", *FOCAL],
         "glass": [str(folder / "glass.png"), "--depth", depth, "--alpha", "straight", *FOCAL],

@@ -37,7 +37,7 @@ class ServedBuild:
         client_help = subprocess.run([self._client, "--help"], capture_output=True, text=True,
                                      check=True).stdout
         self._renders = self._client if "\n  render " in client_help else self._server
-        self._publishers = []
+        self._publishers = {}
         self._process = subprocess.Popen(
             [self._server, "serve", "--grpc.address", "127.0.0.1:0", "--http.address",
              "127.0.0.1:0"], stdout=subprocess.PIPE, text=True)
@@ -48,12 +48,14 @@ class ServedBuild:
 
     def publish(self, stream, arguments):
         """One frame, which then stands."""
-        self._publishers.append(subprocess.Popen(
+        self._publishers[stream] = subprocess.Popen(
             [self._client, "publish", "--server", self._address, "--stream", stream, "--hold",
-             "--quiet", *arguments], stderr=subprocess.DEVNULL))
+             "--quiet", *arguments])
 
     def ask(self, stream, display, encoding, eyes=None):
         """The first atlas of the stream; with eyes, the first that shows what they see."""
+        if stream in self._publishers and self._publishers[stream].poll() is not None:
+            raise RuntimeError(f"{self._client} does not publish {stream}")
         ended = threading.Event()
         opened = {"stream": stream, "display": display, "encoding": encoding,
                   "wait_for_stream": True}
@@ -107,7 +109,7 @@ class ServedBuild:
 
     def stop(self):
         self._channel.close()
-        for process in [*self._publishers, self._process]:
+        for process in [*self._publishers.values(), self._process]:
             process.terminate()
             process.wait(PATIENCE_S)
         self._process.stdout.close()
