@@ -25,8 +25,9 @@ ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTIL
 def is_without_registry(failure):
     """True if a command failed only because npm or its registry is out of reach."""
     return (os.environ.get("VIEWLOOM_REQUIRE_NODE") != "1"
-            and re.search(r"\bnpm ci\b", failure.command)
-            and re.search(r"npm: command not found|ENOTFOUND|EAI_AGAIN|ECONN|ETIMEDOUT|network",
+            and re.search(r"\bnpm (ci|install)\b", failure.command)
+            and re.search(r"npm: command not found|ENOTFOUND|EAI_AGAIN|ECONN|ETIMEDOUT|network"
+                          "|SELF_SIGNED_CERT",
                           failure.said))
 
 

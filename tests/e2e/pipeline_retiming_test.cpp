@@ -104,9 +104,9 @@ TEST_F(PipelineRetimingTest, letsTheTicksOfOthersGoOnMeanwhile) {
 }
 
 TEST_F(PipelineRetimingTest, tellsHowLongItTook) {
-  clock_.passAtEachQuestion(1);
   holdWithinRetiming();
   if (HasFatalFailure()) return;
+  clock_.passAtEachQuestion(1);
   clock_.letGo();
   const auto atlases = moving_.subscriber->waitForAtlases(2);
   ASSERT_THAT(atlases, SizeIs(2));

@@ -10,6 +10,8 @@ make_bare_debian() {
     debootstrap --variant=minbase bookworm "$root"
   fi
   cp /etc/resolv.conf "$root/etc/resolv.conf"
+  # Debian's installer writes it, debootstrap does not.
+  echo '127.0.0.1 localhost' > "$root/etc/hosts"
   rm -f "$root/etc/apt/sources.list"
   cp -r /etc/apt/sources.list* /etc/apt/trusted.gpg.d "$root/etc/apt/"
   cp -r /usr/share/keyrings "$root/usr/share/"
