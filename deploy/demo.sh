@@ -58,15 +58,16 @@ free_port() {
   return 1
 }
 
-# Whether the page at port $1 answers with status 200.
-page_answers() {
+# Whether the page at port $1 answers with status 200. In a subshell: whoever hangs up at once ends
+# it by SIGPIPE.
+page_answers() (
   local status
   exec 3<>"/dev/tcp/127.0.0.1/$1" || return 1
   printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n' >&3
   IFS= read -r -t 5 status <&3 || status=
   exec 3>&-
   [[ "$status" == "HTTP/1.1 200"* ]]
-}
+)
 
 # Whoever stands later in the data flow stops first: the server drains while frames still come.
 stop() {
