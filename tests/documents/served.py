@@ -2,6 +2,7 @@
 """Things that a document expects beside its commands: the server with the stream demo, a screen,
 Looking Glass Bridge. Each starts when a block needs it."""
 
+import http.client
 import json
 import pathlib
 import re
@@ -92,10 +93,11 @@ class Served:
 
     @staticmethod
     def _listed(what):
+        """Nothing while the server starts or ends: it may hang up before its answer."""
         try:
             with urllib.request.urlopen(API + what, timeout=5) as answer:
                 return json.load(answer)[what]
-        except OSError:
+        except (OSError, http.client.HTTPException, json.JSONDecodeError):
             return []
 
     def received_count(self, stream):
