@@ -6,6 +6,7 @@ import io
 import os
 import socket
 import tempfile
+import threading
 import unittest
 from unittest import mock
 
@@ -158,6 +159,35 @@ class Servers(PlantedCase):
             port = one.getsockname()[1]
             with self.assertRaisesRegex(Failure, f"port {port} is taken"):
                 served.wait_for_free_ports([port], patience_s=0)
+
+
+class HalfAnswers(unittest.TestCase):
+    """A server that ends hangs up, before its answer or within it: then it has no displays."""
+
+    def counts_of(self, answer):
+        with socket.create_server(("127.0.0.1", 0)) as listener:
+            def answer_one():
+                connection, _ = listener.accept()
+                with connection:
+                    connection.recv(65536)
+                    connection.sendall(answer)
+            thread = threading.Thread(target=answer_one)
+            thread.start()
+            with mock.patch.object(served, "API", f"http://127.0.0.1:{listener.getsockname()[1]}/"):
+                counts = served.Served.atlas_counts(served.Served)
+            thread.join()
+        return counts
+
+    def test_no_displays_are_listed(self):
+        head = b"HTTP/1.1 200 OK\r\n"
+        for answer in (b"", b"HTTP/1.1 2", head + b"\r\n", head + b"\r\n{\"displays\": [",
+                       head + b"Content-Length: 99\r\n\r\n{\"displays\""):
+            with self.subTest(answer):
+                self.assertEqual(self.counts_of(answer), {})
+
+    def test_those_of_a_whole_answer_are(self):
+        body = b'{"displays": [{"id": "7", "atlas_count": 3}]}'
+        self.assertEqual(self.counts_of(b"HTTP/1.1 200 OK\r\n\r\n" + body), {"7": 3})
 
 
 class Reading(unittest.TestCase):
