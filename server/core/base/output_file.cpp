@@ -71,12 +71,13 @@ absl::Status OutputFile::failed(int error) const {
   return absl::FailedPreconditionError(strCat(path_.string(), ": cannot be written: ", reason));
 }
 
-absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(std::filesystem::path path) {
+absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(std::filesystem::path path,
+                                                               mode_t mode) {
   VIEWLOOM_RETURN_IF_ERROR(checkOutput(path));
   const std::filesystem::path partial = partialPath(path);
   unlink(partial.c_str());  // left by a command that was killed
   const int descriptor =
-      ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
   if (descriptor < 0) {
     return absl::InvalidArgumentError(strCat(path.string(), ": cannot be written (",
                                              std::strerror(errno),

@@ -3,6 +3,8 @@
 // place.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -22,8 +24,9 @@ absl::Status checkOutput(const std::filesystem::path& path);
 // none.
 class OutputFile {
  public:
-  // Opens PATH.part. Fails like checkOutput.
-  static absl::StatusOr<std::unique_ptr<OutputFile>> create(std::filesystem::path path);
+  // Opens PATH.part, with the permissions of `mode` that the umask leaves. Fails like checkOutput.
+  static absl::StatusOr<std::unique_ptr<OutputFile>> create(std::filesystem::path path,
+                                                            mode_t mode = 0666);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
