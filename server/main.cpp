@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   viewloom::RunCommand run_command = viewloom::serve;
   viewloom::addServeCommand(app, run_command);
   viewloom::addDoctorCommand(app, run_command);
+  viewloom::addTokenCommand(app, run_command);
   const std::optional<int> code = app.parse(argc, argv);
   if (code) return *code;
   const viewloom::Config config = viewloom::readConfig(sources);

@@ -21,5 +21,6 @@ int serve(const Config& config);
 void addServeCommand(const usage::Command& app, RunCommand& chosen);
 // Returns 1 when something must be put right before the server can run.
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen);
+void addTokenCommand(const usage::Command& app, RunCommand& chosen);
 
 }  // namespace viewloom

@@ -19,6 +19,15 @@ struct HttpConfig {
   std::string allowed_hosts;  // names separated by commas
 };
 
+// Without a token file and a JWKS file, everybody may do everything.
+struct AccessConfig {
+  std::string token_file;
+  std::string jwks_file;  // needs audience and issuer
+  std::string audience;
+  std::string issuer;
+  std::string audit_file;
+};
+
 struct LimitsConfig {
   uint64_t frame_bytes_max = uint64_t{3} << 29;  // 1.5 GiB
   uint32_t plane_side_px_max = 8192;
@@ -47,6 +56,7 @@ struct Config {
   bool validation = false;
   GrpcConfig grpc{};
   HttpConfig http{};
+  AccessConfig access{};
   LimitsConfig limits{};
   PipelineConfig pipeline{};
   LogConfig log{};

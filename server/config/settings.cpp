@@ -45,6 +45,7 @@ bool isOfHostNames(char c) {
 bool fits(TextSetting::Form form, std::string_view text) {
   switch (form) {
     case TextSetting::Form::kAny:
+    case TextSetting::Form::kFile:
       return true;
     case TextSetting::Form::kHostPort:
       return isHostPort(text);
@@ -135,6 +136,23 @@ std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
   };
 }
 
+std::vector<Setting> accessSettings(AccessConfig& access) {
+  using Form = TextSetting::Form;
+  return {
+      {"access.token_file", "",
+       "File of access tokens, made with `viewloomd token add`; empty needs no token",
+       TextSetting{&access.token_file, Form::kFile}},
+      {"access.jwks_file", "",
+       "File of public keys (JSON Web Key Set) whose JWTs are accepted; needs audience and issuer",
+       TextSetting{&access.jwks_file, Form::kFile}},
+      {"access.audience", "", "Audience (aud) that a JWT must name", TextSetting{&access.audience}},
+      {"access.issuer", "", "Issuer (iss) that a JWT must name", TextSetting{&access.issuer}},
+      {"access.audit_file", "",
+       "File to which each grant, refusal and change is appended, as a line of JSON; empty is none",
+       TextSetting{&access.audit_file, Form::kFile}},
+  };
+}
+
 std::vector<Setting> limitSettings(LimitsConfig& limits) {
   return {
       {"limits.frame_bytes_max", "bytes", "Largest frame, with all its planes uncompressed",
@@ -181,8 +199,8 @@ std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
 std::vector<Setting> settingsOf(Config& config) {
   std::vector<Setting> settings = machineSettings(config);
   for (const std::vector<Setting>& part :
-       {addressSettings(config.grpc, config.http), limitSettings(config.limits),
-        pipelineSettings(config.pipeline)}) {
+       {addressSettings(config.grpc, config.http), accessSettings(config.access),
+        limitSettings(config.limits), pipelineSettings(config.pipeline)}) {
     settings.insert(settings.end(), part.begin(), part.end());
   }
   settings.push_back({"log.level", "", "Lowest level of messages to log to standard error",
@@ -198,6 +216,8 @@ std::string acceptedText(const Setting& setting) {
   switch (std::get<TextSetting>(setting.target).form) {
     case TextSetting::Form::kAny:
       return "any text";
+    case TextSetting::Form::kFile:
+      return "the path of a file";
     case TextSetting::Form::kHostPort:
       return "HOST:PORT";
     case TextSetting::Form::kGrpcAddress:
@@ -220,6 +240,8 @@ std::string valueName(const Setting& setting) {
   switch (std::get<TextSetting>(setting.target).form) {
     case TextSetting::Form::kAny:
       return "NAME";
+    case TextSetting::Form::kFile:
+      return "FILE";
     case TextSetting::Form::kHostPort:
       return "HOST:PORT";
     case TextSetting::Form::kGrpcAddress:
