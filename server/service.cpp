@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_split.h"
+#include "access/access_control.h"
 #include "base/byte_pool.h"
 #include "base/host_port.h"
 #include "base/log.h"
@@ -39,6 +40,16 @@ AtlasLimits atlasLimits(const LimitsConfig& limits) {
 
 BroadcasterLimits broadcasterLimits(const LimitsConfig& limits) {
   return {.display_count_max = limits.displays_max, .subscriber_count_max = limits.subscribers_max};
+}
+
+AccessOptions accessOptions(const AccessConfig& config) {
+  AccessOptions options;
+  options.token_file = config.token_file;
+  options.jwks_file = config.jwks_file;
+  options.audience = config.audience;
+  options.issuer = config.issuer;
+  options.audit_file = config.audit_file;
+  return options;
 }
 
 // Connections of the page beside those that watch: files, stills, metrics.
@@ -75,6 +86,7 @@ struct Service::Parts {
   void drain();
 
   Metrics metrics;
+  AccessControl access;
   StreamDirectory directory;
   Broadcaster broadcaster;
   BytePool planes;
@@ -88,7 +100,8 @@ struct Service::Parts {
 
 Service::Parts::Parts(const Config& config, const Clock& clock,
                       std::function<void(const std::exception& error)> on_failure)
-    : directory(clock, config.limits.streams_max),
+    : access(accessOptions(config.access), clock),
+      directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits)),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
       engine_room(openEngineRoom(config, atlasLimits(config.limits),
@@ -152,7 +165,8 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
                        .broadcaster = broadcaster,
                        .eyes = *engine_room,
                        .clock = clock,
-                       .metrics = metrics},
+                       .metrics = metrics,
+                       .access = access},
               description);
   grpc_address = listeningAddress(config.grpc.address, rpc->port());
   open_rpc = &*rpc;

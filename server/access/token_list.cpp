@@ -2,7 +2,6 @@
 #include "access/token_list.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -111,7 +110,6 @@ std::string tokenLine(const TokenEntry& entry) {
 
 absl::StatusOr<TokenList> TokenList::parse(std::string_view text, std::string_view file_name) {
   TokenList list;
-  std::set<std::string> ids;
   for (size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
@@ -121,11 +119,11 @@ absl::StatusOr<TokenList> TokenList::parse(std::string_view text, std::string_vi
     if (!entry.ok()) {
       return absl::InvalidArgumentError(strCat(place, ": ", std::string(entry.status().message())));
     }
-    if (!ids.insert(entry->identity->id).second) {
+    if (!list.places_.emplace(entry->identity->id, list.entries_.size()).second) {
       return invalidField(
           place, strCat("the id \"", entry->identity->id, "\" is there twice; accepted is once"));
     }
-    if (ids.size() > kTokenCountMax) {
+    if (list.places_.size() > kTokenCountMax) {
       return invalidField(place, strCat("there are too many tokens; accepted are up to ",
                                         kTokenCountMax, ". Use JWTs for more"));
     }
@@ -144,9 +142,8 @@ IdentityPtr TokenList::find(std::string_view token) const {
 }
 
 const TokenEntry* TokenList::named(std::string_view id) const {
-  const auto found = std::ranges::find_if(
-      entries_, [id](const TokenEntry& entry) { return entry.identity->id == id; });
-  return found == entries_.end() ? nullptr : &*found;
+  const auto found = places_.find(id);
+  return found == places_.end() ? nullptr : &entries_[found->second];
 }
 
 }  // namespace viewloom

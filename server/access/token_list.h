@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,7 +49,8 @@ class TokenList {
   const TokenEntry* named(std::string_view id) const;
 
  private:
-  std::vector<TokenEntry> entries_;
+  std::vector<TokenEntry> entries_;                    // in the order of the file
+  std::map<std::string, size_t, std::less<>> places_;  // of entries_, by id
 };
 
 }  // namespace viewloom

@@ -6,6 +6,7 @@
 #include "display/named_display.h"
 #include "display/source_advice.h"
 #include "messages/display_from_proto.h"
+#include "rpc/call_access.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/status_to_grpc.h"
@@ -87,18 +88,24 @@ v1::AdviseSourceResponse adviceToProto(const SourceAdvice& advice) {
   return proto;
 }
 
-grpc::ServerUnaryReactor* finish(grpc::CallbackServerContext* context, const grpc::Status& status) {
+// Lets `fill` answer a caller who may ask; it returns the status of the call.
+template <typename Fill>
+grpc::ServerUnaryReactor* answer(AccessControl& access, grpc::CallbackServerContext* context,
+                                 std::string_view rpc, const Fill& fill) {
+  const absl::StatusOr<Caller> caller = admitCall(access, *context, rpc);
+  const absl::Status status = caller.ok() ? fill(*caller) : caller.status();
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(status);
+  reactor->Finish(statusToGrpc(status));
   return reactor;
 }
 
 }  // namespace
 
 CatalogService::CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                               const ServerDescription& description)
+                               AccessControl& access, const ServerDescription& description)
     : directory_(directory),
       broadcaster_(broadcaster),
+      access_(access),
       atlas_limits_(description.atlas_limits),
       info_(infoToProto(description)),
       presets_(presetsToProto()) {}
@@ -106,48 +113,60 @@ CatalogService::CatalogService(const StreamDirectory& directory, const Broadcast
 grpc::ServerUnaryReactor* CatalogService::ListStreams(grpc::CallbackServerContext* context,
                                                       const v1::ListStreamsRequest*,
                                                       v1::ListStreamsResponse* response) {
-  for (const StreamEntry& entry : directory_.list()) {
-    *response->add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
-  }
-  return finish(context, grpc::Status::OK);
+  return answer(access_, context, kListStreams, [&](const Caller& caller) {
+    for (const StreamEntry& entry : directory_.list()) {
+      if (!caller.sees(entry.name)) continue;
+      *response->add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
+    }
+    return absl::OkStatus();
+  });
 }
 
 grpc::ServerUnaryReactor* CatalogService::ListDisplays(grpc::CallbackServerContext* context,
                                                        const v1::ListDisplaysRequest*,
                                                        v1::ListDisplaysResponse* response) {
-  for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
-    v1::DisplayEntry& entry = *response->add_displays();
-    entry.set_id(display->id);
-    entry.set_stream(display->stream);
-    if (const auto layout = broadcaster_.layout(display->id)) {
-      *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
+  return answer(access_, context, kListDisplays, [&](const Caller& caller) {
+    for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
+      if (!caller.sees(display->stream)) continue;
+      v1::DisplayEntry& entry = *response->add_displays();
+      entry.set_id(display->id);
+      entry.set_stream(display->stream);
+      if (const auto layout = broadcaster_.layout(display->id)) {
+        *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
+      }
+      entry.set_subscriber_count(display->subscriber_count);
+      entry.set_atlas_count(broadcaster_.atlasCount(display->id));
     }
-    entry.set_subscriber_count(display->subscriber_count);
-    entry.set_atlas_count(broadcaster_.atlasCount(display->id));
-  }
-  return finish(context, grpc::Status::OK);
+    return absl::OkStatus();
+  });
 }
 
 grpc::ServerUnaryReactor* CatalogService::ListPresets(grpc::CallbackServerContext* context,
                                                       const v1::ListPresetsRequest*,
                                                       v1::ListPresetsResponse* response) {
-  *response = presets_;
-  return finish(context, grpc::Status::OK);
+  return answer(access_, context, kListPresets, [&](const Caller&) {
+    *response = presets_;
+    return absl::OkStatus();
+  });
 }
 
 grpc::ServerUnaryReactor* CatalogService::GetServerInfo(grpc::CallbackServerContext* context,
                                                         const v1::GetServerInfoRequest*,
                                                         v1::GetServerInfoResponse* response) {
-  *response = info_;
-  return finish(context, grpc::Status::OK);
+  return answer(access_, context, kGetServerInfo, [&](const Caller&) {
+    *response = info_;
+    return absl::OkStatus();
+  });
 }
 
 grpc::ServerUnaryReactor* CatalogService::AdviseSource(grpc::CallbackServerContext* context,
                                                        const v1::AdviseSourceRequest* request,
                                                        v1::AdviseSourceResponse* response) {
-  const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
-  if (advice.ok()) *response = adviceToProto(*advice);
-  return finish(context, statusToGrpc(advice.status()));
+  return answer(access_, context, kAdviseSource, [&](const Caller&) {
+    const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
+    if (advice.ok()) *response = adviceToProto(*advice);
+    return advice.status();
+  });
 }
 
 }  // namespace viewloom

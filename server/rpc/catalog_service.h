@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "access/access_control.h"
 #include "display/atlas_layout.h"
 #include "frame/limits.h"
 #include "publish/broadcaster.h"
@@ -29,7 +30,7 @@ struct ServerDescription {
 class CatalogService final : public v1::CatalogService::CallbackService {
  public:
   CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                 const ServerDescription& description);
+                 AccessControl& access, const ServerDescription& description);
 
  private:
   grpc::ServerUnaryReactor* ListStreams(grpc::CallbackServerContext* context,
@@ -50,6 +51,7 @@ class CatalogService final : public v1::CatalogService::CallbackService {
 
   const StreamDirectory& directory_;
   const Broadcaster& broadcaster_;
+  AccessControl& access_;
   const AtlasLimits atlas_limits_;
   const v1::GetServerInfoResponse info_;
   const v1::ListPresetsResponse presets_;

@@ -69,6 +69,7 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
   if (!stream_.empty())
     return invalidField("settings", "settings came again; accepted is once, as the first message");
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(settings.stream(), "settings.stream"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(caller_->mayUse(settings.stream()), "settings"));
   if (settings.session_id().size() > kSessionBytesMax) {
     return invalidField("settings.session_id",
                         strCat("the session id has ", settings.session_id().size(),
@@ -213,6 +214,7 @@ std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
 
 // Silence while this call itself reads nothing, for it has frames to report, is nobody's fault.
 void PublishCall::tick() {
+  if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
   {
     std::lock_guard lock(mutex_);
     if (!has_heartbeats_ || ending()) return;

@@ -16,6 +16,7 @@
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "rpc/bidi_call.h"
+#include "rpc/call_access.h"
 #include "rpc/liveness.h"
 #include "rpc/source_wants.h"
 #include "viewloom/v1/ingest_service.pb.h"
@@ -39,12 +40,13 @@ struct IngestParts {
 class PublishCall final : public BidiCall {
  public:
   // `host`: of the publisher.
-  PublishCall(const IngestParts& parts, std::string host) : parts_(parts), host_(std::move(host)) {}
+  PublishCall(const IngestParts& parts, Caller caller, std::string host)
+      : parts_(parts), host_(std::move(host)), caller_(std::move(caller)) {}
 
   // Tells the publisher what its displays want now, if that changed.
   void refreshWanted();
-  // To be called every kTick: ends the call of a publisher whose heartbeats stay away, and sends
-  // heartbeats to it.
+  // To be called every kTick: ends the call of a publisher whose heartbeats stay away, or whose
+  // identity does not hold any more, and sends heartbeats to it.
   void tick();
   // The stream it publishes; empty before its settings came.
   std::string stream();
@@ -67,6 +69,7 @@ class PublishCall final : public BidiCall {
 
   const IngestParts parts_;
   const std::string host_;
+  LiveCaller caller_;
 
   // Used only by the read callbacks.
   std::optional<FrameAssembly> assembly_;

@@ -65,14 +65,16 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                .broadcaster = parts.broadcaster,
                .clock = parts.clock,
                .metrics = parts.metrics,
-               .limits = description.frame_limits}),
+               .limits = description.frame_limits},
+              parts.access),
       display_({.directory = parts.directory,
                 .broadcaster = parts.broadcaster,
                 .eyes = parts.eyes,
                 .clock = parts.clock,
                 .metrics = parts.metrics,
-                .limits = description.atlas_limits}),
-      catalog_(parts.directory, parts.broadcaster, description) {
+                .limits = description.atlas_limits},
+               parts.access),
+      catalog_(parts.directory, parts.broadcaster, parts.access, description) {
   addLibraryServices();
   grpc::ServerBuilder builder;
   setLimits(builder, options);

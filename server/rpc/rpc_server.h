@@ -24,6 +24,7 @@ struct RpcParts {
   EyeSink& eyes;
   const Clock& clock;
   const Metrics& metrics;
+  AccessControl& access;
 };
 
 struct RpcServerOptions {

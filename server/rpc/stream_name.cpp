@@ -29,10 +29,12 @@ absl::Status validateStreamName(const std::string& name, std::string_view field)
 }
 
 absl::Status noSuchStream(const std::string& name, std::string_view field,
-                          const StreamDirectory& directory) {
+                          const StreamDirectory& directory, const Caller& caller) {
   const std::vector<StreamEntry> entries = directory.list();
   std::vector<std::string> names;
-  for (const StreamEntry& entry : entries) names.push_back(entry.name);
+  for (const StreamEntry& entry : entries) {
+    if (caller.sees(entry.name)) names.push_back(entry.name);
+  }
   return fieldError(
       absl::StatusCode::kNotFound, field,
       strCat(noSuchName("stream", name, names), names.empty() ? "; start a publisher first" : ""));

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "access/caller.h"
 #include "base/status.h"
 #include "publish/stream_directory.h"
 
@@ -13,8 +14,8 @@ namespace viewloom {
 // [A-Za-z0-9._-]{1,64}
 absl::Status validateStreamName(const std::string& name, std::string_view field);
 
-// NOT_FOUND, with the names that there are.
+// NOT_FOUND, with the names that there are for the caller.
 absl::Status noSuchStream(const std::string& name, std::string_view field,
-                          const StreamDirectory& directory);
+                          const StreamDirectory& directory, const Caller& caller);
 
 }  // namespace viewloom

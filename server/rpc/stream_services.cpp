@@ -2,12 +2,28 @@
 #include "rpc/stream_services.h"
 
 #include "rpc/peer_host.h"
+#include "rpc/status_to_grpc.h"
 
 namespace viewloom {
+namespace {
+
+using StreamReactor = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
+
+// A call of somebody who may not call: it ends at once, and takes no place among the open calls.
+class RefusedCall final : public StreamReactor {
+ public:
+  explicit RefusedCall(const absl::Status& status) { Finish(statusToGrpc(status)); }
+  void OnDone() override { delete this; }
+};
+
+}  // namespace
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
     grpc::CallbackServerContext* context) {
-  const auto call = std::make_shared<PublishCall>(parts_, peerHost(context->peer()));
+  absl::StatusOr<Caller> caller = admitCall(access_, *context, kPublishFrames);
+  if (!caller.ok()) return new RefusedCall(caller.status());
+  const auto call =
+      std::make_shared<PublishCall>(parts_, *std::move(caller), peerHost(context->peer()));
   calls_.open(call);
   return call.get();
 }
@@ -29,8 +45,10 @@ void IngestService::drain() {
 }
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::StreamAtlases(
-    grpc::CallbackServerContext*) {
-  const auto call = std::make_shared<WatchCall>(parts_);
+    grpc::CallbackServerContext* context) {
+  absl::StatusOr<Caller> caller = admitCall(access_, *context, kStreamAtlases);
+  if (!caller.ok()) return new RefusedCall(caller.status());
+  const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller));
   calls_.open(call);
   return call.get();
 }

@@ -16,7 +16,7 @@ namespace viewloom {
 class IngestService final
     : public v1::IngestService::WithRawCallbackMethod_PublishFrames<v1::IngestService::Service> {
  public:
-  explicit IngestService(const IngestParts& parts) : parts_(parts) {}
+  IngestService(const IngestParts& parts, AccessControl& access) : parts_(parts), access_(access) {}
 
   // The set of displays of a stream changed: its publisher hears what they want.
   void demandChanged(const std::string& stream);
@@ -30,6 +30,7 @@ class IngestService final
       grpc::CallbackServerContext* context) override;
 
   const IngestParts parts_;
+  AccessControl& access_;
   LiveCalls<PublishCall> calls_;
 };
 
@@ -37,7 +38,8 @@ class IngestService final
 class DisplayService final
     : public v1::DisplayService::WithRawCallbackMethod_StreamAtlases<v1::DisplayService::Service> {
  public:
-  explicit DisplayService(const DisplayParts& parts) : parts_(parts) {}
+  DisplayService(const DisplayParts& parts, AccessControl& access)
+      : parts_(parts), access_(access) {}
 
   // To be called every kTick.
   void tick();
@@ -50,6 +52,7 @@ class DisplayService final
       grpc::CallbackServerContext* context) override;
 
   const DisplayParts parts_;
+  AccessControl& access_;
   LiveCalls<WatchCall> calls_;
 };
 

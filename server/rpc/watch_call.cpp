@@ -74,11 +74,12 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
 
 absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(request.stream(), "open.stream"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(caller_->mayUse(request.stream()), "open"));
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "open"));
   encoding_proto_ = request.encoding();
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "open"));
   if (!request.wait_for_stream() && !parts_.directory.exists(request.stream())) {
-    return noSuchStream(request.stream(), "open.stream", parts_.directory);
+    return noSuchStream(request.stream(), "open.stream", parts_.directory, *caller_);
   }
   stream_ = request.stream();
   {
@@ -283,6 +284,7 @@ std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
 }
 
 void WatchCall::tick() {
+  if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
   std::lock_guard lock(mutex_);
   if (!wants_heartbeats_ || ending() || !told_.reaches(kHeartbeatTicks)) return;
   heartbeat_is_due_ = true;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/clock.h"
 #include "display/atlas_layout.h"
@@ -16,6 +17,7 @@
 #include "publish/stream_directory.h"
 #include "rpc/atlas_outbox.h"
 #include "rpc/bidi_call.h"
+#include "rpc/call_access.h"
 #include "rpc/clock_replies.h"
 #include "rpc/liveness.h"
 #include "viewloom/v1/display_service.pb.h"
@@ -35,11 +37,13 @@ struct DisplayParts {
 // Thread-safety: as BidiCall.
 class WatchCall final : public BidiCall {
  public:
-  explicit WatchCall(const DisplayParts& parts) : parts_(parts), outbox_(parts_.metrics) {}
+  WatchCall(const DisplayParts& parts, Caller caller)
+      : parts_(parts), caller_(std::move(caller)), outbox_(parts_.metrics) {}
 
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
-  // To be called every kTick: sends heartbeats to a client that wants them.
+  // To be called every kTick: sends heartbeats to a client that wants them, and ends the call of a
+  // client whose identity does not hold any more.
   void tick();
 
  private:
@@ -72,6 +76,7 @@ class WatchCall final : public BidiCall {
   std::optional<grpc::ByteBuffer> takeHeartbeat();
 
   const DisplayParts parts_;
+  LiveCaller caller_;
 
   // Used only by the reads.
   std::string stream_;  // empty before the call was opened

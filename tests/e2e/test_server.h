@@ -33,6 +33,7 @@ class TestServer {
  private:
   SteadyClock clock_;
   Metrics metrics_;
+  AccessControl access_{clock_};
   BytePool pool_;
   StreamDirectory directory_;
   Broadcaster broadcaster_;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/call_access.h"
+
+#include "access/bearer.h"
+#include "rpc/peer_host.h"
+
+namespace viewloom {
+namespace {
+
+constexpr uint32_t kCheckTicks = 4;  // 1 s
+
+}  // namespace
+
+absl::StatusOr<Caller> admitCall(AccessControl& access, const grpc::CallbackServerContext& context,
+                                 std::string_view rpc) {
+  const auto& metadata = context.client_metadata();
+  const auto found = metadata.find("authorization");
+  const std::string_view header =
+      found == metadata.end() ? std::string_view()
+                              : std::string_view(found->second.data(), found->second.size());
+  return access.admit(rpc, peerHost(context.peer()), bearerToken(header));
+}
+
+absl::Status LiveCaller::tick() {
+  if (!checked_.reaches(kCheckTicks)) return absl::OkStatus();
+  checked_.restart();
+  return caller_.recheck();
+}
+
+}  // namespace viewloom

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proves who calls, by the metadata of a call.
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include <grpcpp/server_context.h>
+
+#include "access/access_control.h"
+#include "rpc/liveness.h"
+
+namespace viewloom {
+
+// The caller of an RPC (operations.h), by its `authorization: Bearer` metadata. UNAUTHENTICATED or
+// PERMISSION_DENIED otherwise.
+absl::StatusOr<Caller> admitCall(AccessControl& access, const grpc::CallbackServerContext& context,
+                                 std::string_view rpc);
+
+// The caller of a call that stays. Thread-safety: tick() belongs to one thread.
+class LiveCaller {
+ public:
+  explicit LiveCaller(Caller caller) : caller_(std::move(caller)) {}
+
+  const Caller& operator*() const { return caller_; }
+  const Caller* operator->() const { return &caller_; }
+  // To be called every kTick. Once a second it asks whether the identity still holds;
+  // UNAUTHENTICATED if not.
+  absl::Status tick();
+
+ private:
+  const Caller caller_;
+  TicksSince checked_;
+};
+
+}  // namespace viewloom
