@@ -143,7 +143,7 @@ void Service::Parts::connect() {
 
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
   http.emplace(httpOptions(config.http, config.limits.subscribers_max), directory, broadcaster,
-               metrics, clock);
+               metrics, clock, access);
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock) {

@@ -52,17 +52,20 @@ json encodingJson(const EncodingSpec& encoding) {
           {"chroma", encoding.chroma == Chroma::k444 ? "444" : "420"}};
 }
 
-json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster) {
+json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster,
+                 const Caller& caller) {
   json entries = json::array();
   for (const StreamEntry& entry : streams.list()) {
+    if (!caller.sees(entry.name)) continue;
     entries.push_back(streamJson(entry, broadcaster.subscriberCount(entry.name)));
   }
   return {{"streams", std::move(entries)}};
 }
 
-json displaysJson(const Broadcaster& broadcaster) {
+json displaysJson(const Broadcaster& broadcaster, const Caller& caller) {
   json entries = json::array();
   for (const ActiveDisplayPtr& display : broadcaster.displays("")) {
+    if (!caller.sees(display->stream)) continue;
     const auto layout = broadcaster.layout(display->id);
     entries.push_back({{"id", display->id},
                        {"stream", display->stream},

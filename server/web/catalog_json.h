@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "access/caller.h"
 #include "display/atlas_layout.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
@@ -13,8 +14,10 @@ namespace viewloom {
 
 nlohmann::json layoutJson(const AtlasLayout& layout);
 nlohmann::json encodingJson(const EncodingSpec& encoding);
-nlohmann::json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster);
-nlohmann::json displaysJson(const Broadcaster& broadcaster);
+// Lists hold the streams that the caller sees.
+nlohmann::json streamsJson(const StreamDirectory& streams, const Broadcaster& broadcaster,
+                           const Caller& caller);
+nlohmann::json displaysJson(const Broadcaster& broadcaster, const Caller& caller);
 nlohmann::json presetsJson();
 // Ranges of the numbers of a display, by their path in proto Display.
 nlohmann::json fieldsJson();

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "base/str_cat.h"
+#include "web/admission.h"
 #include "web/multipart_stream.h"
+#include "web/session.h"
 #include "web/viewer.h"
 
 namespace viewloom {
@@ -18,13 +20,10 @@ std::string text(beast::string_view view) {
   return std::string(view.data(), view.size());
 }
 
-HttpRequest requestOf(const http::request<http::empty_body>& request) {
-  return {.method = text(request.method_string()),
-          .target = text(request.target()),
-          .host = text(request[http::field::host]),
-          .origin = text(request[http::field::origin]),
-          .if_none_match = text(request[http::field::if_none_match]),
-          .upgrade = websocket::is_upgrade(request)};
+std::string addressOf(const tcp::socket& socket) {
+  ErrorCode error;
+  const tcp::endpoint peer = socket.remote_endpoint(error);
+  return error ? "" : peer.address().to_string();
 }
 
 // The reply to bytes that are no request; none when the other side just went.
@@ -73,7 +72,10 @@ http::response<http::empty_body> headOf(const HttpReply& reply) {
 }  // namespace
 
 Connection::Connection(WebContext& context, tcp::socket socket)
-    : context_(context), strand_(socket.get_executor()), stream_(std::move(socket)) {
+    : context_(context),
+      strand_(socket.get_executor()),
+      stream_(std::move(socket)),
+      peer_(addressOf(stream_.socket())) {
   ErrorCode ignored;  // a socket that is gone already shows at the first read
   stream_.socket().set_option(tcp::no_delay(true), ignored);
   context_.metrics.http_connections.add(1);
@@ -81,6 +83,20 @@ Connection::Connection(WebContext& context, tcp::socket socket)
 
 Connection::~Connection() {
   context_.metrics.http_connections.add(-1);
+}
+
+HttpRequest Connection::requestOf(const http::request<http::empty_body>& request) const {
+  return {.method = text(request.method_string()),
+          .target = text(request.target()),
+          .peer = peer_,
+          .host = text(request[http::field::host]),
+          .origin = text(request[http::field::origin]),
+          .if_none_match = text(request[http::field::if_none_match]),
+          .authorization = text(request[http::field::authorization]),
+          .cookie = text(request[http::field::cookie]),
+          .websocket_protocols = text(request[http::field::sec_websocket_protocol]),
+          .forwarded_proto = text(request["X-Forwarded-Proto"]),
+          .upgrade = websocket::is_upgrade(request)};
 }
 
 void Connection::start() {
@@ -171,21 +187,27 @@ net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
 net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& request) {
   const absl::StatusOr<Url> url = parseUrl(request.target);
   ErrorCode error;
-  if (!url.ok() || url->path != kWebSocketPath ||
-      !makeWatchRequest(url->parameters, context_.streams).ok()) {
+  if (!url.ok() || url->path != kWebSocket) {
     const HttpReply reply = co_await answer(context_, request);
     co_await write(reply, parser, false, error);
     co_return;
   }
-  const auto viewer = std::make_shared<Viewer>(context_, std::move(stream_), url->parameters);
+  absl::StatusOr<Caller> caller = admitViewer(context_, request, *url);
+  if (!caller.ok()) {
+    co_await write(errorReply(caller.status()), parser, false, error);
+    co_return;
+  }
+  const auto viewer =
+      std::make_shared<Viewer>(context_, *std::move(caller), std::move(stream_), url->parameters);
   live_reader_ = viewer;
   if (context_.draining) viewer->leave();
-  co_await viewer->run(parser.release());
+  co_await viewer->run(parser.release(),
+                       offersProtocol(request) ? std::string(kWebSocketProtocol) : "");
 }
 
 net::awaitable<bool> Connection::play(HttpReply& reply) {
-  const auto player = std::make_shared<MultipartStream>(context_, strand_);
-  if (const absl::Status status = player->subscribe(*reply.live); !status.ok()) {
+  const auto player = std::make_shared<MultipartStream>(context_, reply.live->caller, strand_);
+  if (const absl::Status status = player->subscribe(reply.live->request); !status.ok()) {
     reply = errorReply(status);
     co_return false;
   }

@@ -41,9 +41,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   net::awaitable<void> write(const HttpReply& reply, const Parser& parser, bool keep,
                              ErrorCode& error);
 
+  HttpRequest requestOf(const http::request<http::empty_body>& request) const;
+
   WebContext& context_;
   const net::any_io_executor strand_;
   beast::tcp_stream stream_;  // until a live reader has it
+  const std::string peer_;    // address of the client; empty if it is gone already
   beast::flat_buffer buffer_;
   std::shared_ptr<LiveReader> live_reader_;
   bool idle_ = false;  // waits for a request of which nothing has come

@@ -33,6 +33,8 @@ unsigned httpStatusOf(absl::StatusCode code) {
     case absl::StatusCode::kInvalidArgument:
     case absl::StatusCode::kOutOfRange:
       return 400;
+    case absl::StatusCode::kUnauthenticated:
+      return 401;
     case absl::StatusCode::kPermissionDenied:
       return 403;
     case absl::StatusCode::kNotFound:
@@ -77,6 +79,7 @@ HttpReply errorReply(const absl::Status& status) {
 HttpReply errorReply(unsigned http_status, const absl::Status& status) {
   HttpReply reply = jsonReply(errorJson(status) + "\n");
   reply.status = http_status;
+  if (http_status == 401) reply.headers.emplace_back("WWW-Authenticate", "Bearer");
   return reply;
 }
 

@@ -23,7 +23,12 @@ struct HttpReply {
   std::string text;
   std::string_view fixed;
   std::vector<SharedBytes> shared;
-  std::optional<WatchRequest> live{};
+  // With the caller for whom it is.
+  struct Live {
+    WatchRequest request;
+    Caller caller;
+  };
+  std::optional<Live> live{};
 };
 
 unsigned httpStatusOf(absl::StatusCode code);

@@ -41,13 +41,14 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
 
 struct HttpServer::State {
   State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-        const Metrics& metrics, const Clock& clock)
+        const Metrics& metrics, const Clock& clock, AccessControl& access)
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
         endpoint(acceptor.local_endpoint()),
         context{options, HostPolicy(endpoint.address().is_loopback(), options.allowed_hosts),
                 streams, broadcaster,
-                metrics, clock} {}
+                metrics, clock,
+                access} {}
 
   net::io_context io;
   tcp::acceptor acceptor;  // used by accept() alone
@@ -106,8 +107,10 @@ std::vector<std::shared_ptr<Connection>> HttpServer::State::living() {
 }
 
 HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
-                       Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock)
-    : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock)) {
+                       Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock,
+                       AccessControl& access)
+    : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock,
+                                     access)) {
   State& state = *state_;
   net::co_spawn(state.acceptor.get_executor(), state.accept(), net::detached);
   for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {

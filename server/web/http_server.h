@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "access/access_control.h"
 #include "base/clock.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
@@ -22,7 +23,7 @@ class HttpServer {
   // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is
   // handed in outlives the server.
   HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-             const Metrics& metrics, const Clock& clock);
+             const Metrics& metrics, const Clock& clock, AccessControl& access);
   // Drains first.
   ~HttpServer();
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "web/admission.h"
 #include "web/atlas_message.h"
 #include "web/quilt_address.h"
 
@@ -34,20 +35,22 @@ void limitSilence(tcp::socket& socket, std::chrono::milliseconds limit) {
 
 }  // namespace
 
-HttpReply answerStream(const WebContext& context, const Url& url) {
-  const QuiltAddressForm form{.root = "/stream/", .extensions = {".mjpg"}};
-  absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form, context.streams);
-  if (!address.ok()) return errorReply(address.status());
-  if (!address->redirect.empty()) return redirectReply(address->redirect);
+HttpReply answerStream(const WebContext& context, const HttpRequest& request, const Url& url) {
+  absl::StatusOr<AdmittedPicture> picture = admitPicture(context, request, url, streamForm());
+  if (!picture.ok()) return errorReply(picture.status());
+  if (!picture->address.redirect.empty()) return redirectReply(picture->address.redirect);
   HttpReply reply;
   reply.type = kType;
   reply.headers = {{"Cache-Control", "no-store"}};
-  reply.live = std::move(address->request);
+  reply.live.emplace(HttpReply::Live{.request = std::move(picture->address.request),
+                                     .caller = std::move(picture->caller)});
   return reply;
 }
 
-MultipartStream::MultipartStream(WebContext& context, net::any_io_executor strand)
-    : context_(context), awake_(std::move(strand), net::steady_timer::time_point::max()) {
+MultipartStream::MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand)
+    : context_(context),
+      caller_(std::move(caller)),
+      awake_(std::move(strand), net::steady_timer::time_point::max()) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
 
@@ -116,6 +119,7 @@ net::awaitable<void> MultipartStream::writeParts(ErrorCode& error) {
   while (!error && !gone_ && !leaving_ && !inbox_->ended()) {
     auto arrival = inbox_->take();
     if (arrival || is_repeat_due) {
+      if (!caller_.recheck().ok()) co_return;
       if (arrival) shown_ = std::move(arrival->atlas);
       co_await writePart(kNextOpening, error);
       if (arrival && !error) context_.metrics.atlases_sent[Transport::kWeb].add();

@@ -9,6 +9,7 @@
 #include "web/asio.h"
 #include "web/atlas_inbox.h"
 #include "web/http_reply.h"
+#include "web/http_request.h"
 #include "web/live_reader.h"
 #include "web/url.h"
 #include "web/watch_request.h"
@@ -18,7 +19,7 @@ namespace viewloom {
 
 // Answers /stream/STREAM_qs8x6a0.75.mjpg and /stream/STREAM/PRESET (see quilt_address.h): a reply
 // whose `live` is set, or the error or redirect.
-HttpReply answerStream(const WebContext& context, const Url& url);
+HttpReply answerStream(const WebContext& context, const HttpRequest& request, const Url& url);
 
 // multipart/x-mixed-replace: each part is one whole JPEG. Players show a part when they have read
 // the header of the next one, so that header goes out with the part before it. A picture that
@@ -30,7 +31,8 @@ HttpReply answerStream(const WebContext& context, const Url& url);
 class MultipartStream final : public LiveReader,
                               public std::enable_shared_from_this<MultipartStream> {
  public:
-  MultipartStream(WebContext& context, net::any_io_executor strand);
+  // It ends once the identity of the caller does not hold any more.
+  MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand);
   ~MultipartStream() override;
 
   // Errors as Broadcaster::subscribe.
@@ -50,6 +52,7 @@ class MultipartStream final : public LiveReader,
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
+  const Caller caller_;
   net::steady_timer awake_;  // waiting for it is waiting for wake(), or until a repeat is due
   std::optional<beast::tcp_stream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "access/operations.h"
 #include "base/str_cat.h"
 #include "web/asked_display.h"
 
@@ -96,10 +97,10 @@ absl::StatusOr<AskedDisplay> askedBy(const AddressParts& parts) {
   return asked;
 }
 
-absl::StatusOr<WatchRequest> requestOf(const AddressParts& parts, const StreamDirectory& streams) {
+absl::StatusOr<WatchRequest> requestOf(const AddressParts& parts) {
   const absl::StatusOr<AskedDisplay> asked = askedBy(parts);
   VIEWLOOM_RETURN_IF_ERROR(asked.status());
-  absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked, streams);
+  absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
   if (!request.ok()) return inParameters(request.status(), parts.parameters);
   return request;
 }
@@ -112,11 +113,18 @@ std::string queryText(const QueryParameters& parameters) {
 
 }  // namespace
 
-absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form,
-                                               const StreamDirectory& streams) {
+QuiltAddressForm stillForm() {
+  return {.root = std::string(kStills), .extensions = {".jpg", std::string(kLayoutExtension)}};
+}
+
+QuiltAddressForm streamForm() {
+  return {.root = std::string(kPlayers), .extensions = {".mjpg"}};
+}
+
+absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form) {
   const absl::StatusOr<AddressParts> parts = takeApart(url, form);
   VIEWLOOM_RETURN_IF_ERROR(parts.status());
-  absl::StatusOr<WatchRequest> request = requestOf(*parts, streams);
+  absl::StatusOr<WatchRequest> request = requestOf(*parts);
   VIEWLOOM_RETURN_IF_ERROR(request.status());
   const absl::StatusOr<std::string> suffix = quiltSuffix(request->display);
   VIEWLOOM_RETURN_IF_ERROR(suffix.status());

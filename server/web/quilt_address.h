@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/status.h"
-#include "publish/stream_directory.h"
 #include "web/url.h"
 #include "web/watch_request.h"
 
@@ -20,6 +19,13 @@ struct QuiltAddressForm {
   std::string root;                     // "/still/"
   std::vector<std::string> extensions;  // ".jpg"
 };
+
+// Ends the address of the layout of a still.
+inline constexpr std::string_view kLayoutExtension = ".json";
+
+// The addresses of stills and of motion JPEG.
+QuiltAddressForm stillForm();
+QuiltAddressForm streamForm();
 
 struct QuiltAddress {
   WatchRequest request;
@@ -33,7 +39,6 @@ struct QuiltAddress {
 // columns, rows and aspect are those of the suffix. A quilt without its suffix, or with another,
 // redirects to the URL that has it. Another display is served where it is, and a suffix redirects
 // to it. Errors as makeWatchRequest(); NOT_FOUND for a path of another form.
-absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form,
-                                               const StreamDirectory& streams);
+absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form);
 
 }  // namespace viewloom

@@ -9,11 +9,12 @@
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
+#include "web/admission.h"
 #include "web/catalog_json.h"
 #include "web/multipart_stream.h"
 #include "web/page_assets.h"
+#include "web/session.h"
 #include "web/still.h"
-#include "web/watch_request.h"
 
 namespace viewloom {
 namespace {
@@ -62,9 +63,9 @@ HttpReply healthReply(const WebContext& context) {
 
 // A plain GET of the WebSocket's URL tells a browser, which does not let pages read why an upgrade
 // was refused, what is wrong with it.
-HttpReply webSocketReply(const WebContext& context, const Url& url) {
-  const absl::StatusOr<WatchRequest> request = makeWatchRequest(url.parameters, context.streams);
-  if (!request.ok()) return errorReply(request.status());
+HttpReply webSocketReply(const WebContext& context, const HttpRequest& request, const Url& url) {
+  const absl::StatusOr<Caller> caller = admitViewer(context, request, url);
+  if (!caller.ok()) return errorReply(caller.status());
   HttpReply reply =
       errorReply(426, absl::FailedPreconditionError(
                           "a plain request came to the WebSocket; accepted is an upgrade"));
@@ -72,32 +73,49 @@ HttpReply webSocketReply(const WebContext& context, const Url& url) {
   return reply;
 }
 
+// A list, or the metrics.
+HttpReply listReply(const WebContext& context, const Caller& caller, const std::string& path) {
+  if (path == kMetricsPage) return metricsReply(context);
+  if (path == kApiStreams) {
+    return jsonReply(streamsJson(context.streams, context.broadcaster, caller).dump());
+  }
+  if (path == kApiDisplays) return jsonReply(displaysJson(context.broadcaster, caller).dump());
+  if (path == kApiPresets) return jsonReply(presetsJson().dump());
+  return jsonReply(fieldsJson().dump());
+}
+
 HttpReply notFoundReply(const std::string& path) {
-  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets", "/api/fields",
+  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets",
+                                    "/api/fields",  "/api/link",     "/api/session",
                                     "/metrics",     "/healthz",      "/ws"};
   for (const PageAsset& asset : pageAssets()) known.emplace_back(asset.path);
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
-      strCat(
-          "there is no page \"", printable(path.substr(0, kShownBytesMax)),
-          "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, /metrics, "
-          "/healthz, /still/STREAM/PRESET, /stream/STREAM/PRESET, /ws?stream=STREAM",
-          suggestion.empty() ? "" : "; ", suggestion)));
+      strCat("there is no page \"", printable(path.substr(0, kShownBytesMax)),
+             "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, "
+             "/api/link, /api/session, /metrics, "
+             "/healthz, /still/STREAM/PRESET, /stream/STREAM/PRESET, /ws?stream=STREAM",
+             suggestion.empty() ? "" : "; ", suggestion)));
 }
 
 }  // namespace
 
 std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request) {
-  if (request.method != "GET" && request.method != "HEAD") {
+  const bool reads = request.method == "GET" || request.method == "HEAD";
+  const bool is_session = request.target == kApiSession;
+  const bool changes_session =
+      is_session && (request.method == "POST" || request.method == "DELETE");
+  if (!reads && !changes_session) {
     HttpReply reply =
         errorReply(405, fieldError(absl::StatusCode::kUnimplemented, "method",
-                                   strCat("got ", request.method, "; accepted is GET or HEAD")));
-    reply.headers.emplace_back("Allow", "GET, HEAD");
+                                   strCat("got ", request.method, "; accepted is GET or HEAD",
+                                          is_session ? ", POST or DELETE" : "")));
+    reply.headers.emplace_back("Allow", is_session ? "GET, HEAD, POST, DELETE" : "GET, HEAD");
     return reply;
   }
   absl::Status allowed = context.host_policy.checkHost(request.host);
-  if (allowed.ok() && request.upgrade) {
+  if (allowed.ok() && (request.upgrade || changes_session)) {
     allowed = context.host_policy.checkOrigin(request.origin, request.host);
   }
   if (!allowed.ok()) return errorReply(allowed);
@@ -110,18 +128,16 @@ net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
   for (const PageAsset& asset : pageAssets()) {
     if (url->path == asset.path) co_return assetReply(asset, request);
   }
-  if (url->path == "/api/streams") {
-    co_return jsonReply(streamsJson(context.streams, context.broadcaster).dump());
-  }
-  if (url->path == "/api/displays") co_return jsonReply(displaysJson(context.broadcaster).dump());
-  if (url->path == "/api/presets") co_return jsonReply(presetsJson().dump());
-  if (url->path == "/api/fields") co_return jsonReply(fieldsJson().dump());
-  if (url->path == "/metrics") co_return metricsReply(context);
-  if (url->path == "/healthz") co_return healthReply(context);
-  if (url->path == kWebSocketPath) co_return webSocketReply(context, *url);
-  if (url->path.starts_with("/still/")) co_return co_await answerStill(context, *url);
-  if (url->path.starts_with("/stream/")) co_return answerStream(context, *url);
-  co_return notFoundReply(url->path);
+  if (url->path == kHealthPage) co_return healthReply(context);
+  if (url->path == kApiSession) co_return answerSession(context, request);
+  if (url->path == kApiLink) co_return answerLink(context, request, *url);
+  if (url->path == kWebSocket) co_return webSocketReply(context, request, *url);
+  if (url->path.starts_with(kStills)) co_return co_await answerStill(context, request, *url);
+  if (url->path.starts_with(kPlayers)) co_return answerStream(context, request, *url);
+  if (!operationOf(url->path)) co_return notFoundReply(url->path);
+  const absl::StatusOr<Caller> caller = admitRequest(context, request, url->path);
+  if (!caller.ok()) co_return errorReply(caller.status());
+  co_return listReply(context, *caller, url->path);
 }
 
 }  // namespace viewloom

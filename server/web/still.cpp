@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/str_cat.h"
+#include "web/admission.h"
 #include "web/atlas_inbox.h"
 #include "web/atlas_message.h"
 #include "web/catalog_json.h"
@@ -14,8 +15,6 @@
 
 namespace viewloom {
 namespace {
-
-constexpr const char* kLayoutExtension = ".json";
 
 HttpReply jpegReply(const EncodedAtlas& atlas) {
   HttpReply reply;
@@ -65,12 +64,13 @@ net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
 
 }  // namespace
 
-net::awaitable<HttpReply> answerStill(WebContext& context, Url url) {
-  const QuiltAddressForm form{.root = "/still/", .extensions = {".jpg", kLayoutExtension}};
-  absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form, context.streams);
-  if (!address.ok()) co_return errorReply(address.status());
-  if (!address->redirect.empty()) co_return redirectReply(address->redirect);
-  co_return co_await takeAtlas(context, *std::move(address));
+net::awaitable<HttpReply> answerStill(WebContext& context, HttpRequest request, Url url) {
+  absl::StatusOr<AdmittedPicture> picture =
+      admitPicture(context, request, std::move(url), stillForm());
+  if (!picture.ok()) co_return errorReply(picture.status());
+  QuiltAddress& address = picture->address;
+  if (!address.redirect.empty()) co_return redirectReply(address.redirect);
+  co_return co_await takeAtlas(context, std::move(address));
 }
 
 }  // namespace viewloom

@@ -22,8 +22,10 @@ std::string pongJson(uint64_t number) {
 
 }  // namespace
 
-Viewer::Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters)
+Viewer::Viewer(WebContext& context, Caller caller, beast::tcp_stream stream,
+               QueryParameters parameters)
     : context_(context),
+      caller_(std::move(caller)),
       socket_(std::move(stream)),
       awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
       parameters_(std::move(parameters)) {
@@ -34,7 +36,7 @@ Viewer::~Viewer() {
   context_.metrics.subscribers[Transport::kWeb].add(-1);
 }
 
-net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
+net::awaitable<void> Viewer::run(http::request<http::empty_body> request, std::string protocol) {
   const auto self = shared_from_this();
   beast::get_lowest_layer(socket_).expires_never();
   socket_.set_option(
@@ -43,6 +45,12 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request) {
                                       .keep_alive_pings = true});
   socket_.auto_fragment(false);
   socket_.read_message_max(context_.options.message_bytes_max);
+  if (!protocol.empty()) {
+    socket_.set_option(
+        websocket::stream_base::decorator([protocol](websocket::response_type& response) {
+          response.set(http::field::sec_websocket_protocol, protocol);
+        }));
+  }
   ErrorCode error;
   co_await socket_.async_accept(request, into(error));
   if (error) co_return;
@@ -76,8 +84,9 @@ absl::Status Viewer::open() {
 }
 
 absl::Status Viewer::subscribe(const AskedDisplay& asked) {
-  const absl::StatusOr<WatchRequest> request = makeWatchRequest(asked, context_.streams);
+  const absl::StatusOr<WatchRequest> request = makeWatchRequest(asked);
   VIEWLOOM_RETURN_IF_ERROR(request.status());
+  VIEWLOOM_RETURN_IF_ERROR(checkStream(request->stream, caller_, context_.streams));
   const std::weak_ptr<Viewer> viewer = weak_from_this();
   const auto executor = socket_.get_executor();
   auto inbox = std::make_shared<AtlasInbox>(
@@ -166,6 +175,7 @@ net::awaitable<void> Viewer::writeMessages() {
       continue;
     }
     std::optional<absl::Status> ended = inbox_->ended();
+    if (absl::Status status = caller_.recheck(); !ended && !status.ok()) ended = std::move(status);
     if (leaving_) ended = absl::OkStatus();
     if (ended) {
       if (!ended->ok()) co_await writeText(errorJson(*ended), error);

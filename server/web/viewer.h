@@ -26,11 +26,13 @@ namespace viewloom {
 // Thread-safety: run() once, leave() from the strand of the stream; everything happens on it.
 class Viewer final : public LiveReader, public std::enable_shared_from_this<Viewer> {
  public:
-  Viewer(WebContext& context, beast::tcp_stream stream, QueryParameters parameters);
+  // `caller` may watch the stream that the parameters name. The viewer ends once the identity of
+  // the caller does not hold any more.
+  Viewer(WebContext& context, Caller caller, beast::tcp_stream stream, QueryParameters parameters);
   ~Viewer() override;
 
-  // Shakes hands and serves until either side goes.
-  net::awaitable<void> run(http::request<http::empty_body> request);
+  // Shakes hands, with a WebSocket protocol unless it is "", and serves until either side goes.
+  net::awaitable<void> run(http::request<http::empty_body> request, std::string protocol);
   // Sends a close frame (going away) as soon as the atlas under way is written.
   void leave() override;
   // Ends the connection at once.
@@ -55,6 +57,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
+  const Caller caller_;
   websocket::stream<beast::tcp_stream> socket_;
   net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
   const QueryParameters parameters_;

@@ -16,20 +16,6 @@ namespace {
 
 constexpr const char* kElsewhere = "; use `viewloom watch` or a gRPC client for the others";
 
-absl::Status checkStream(const std::string& name, const StreamDirectory& streams) {
-  if (name.empty())
-    return invalidField("stream",
-                        "the name of the stream is missing; list the streams with /api/streams");
-  if (streams.exists(name)) return absl::OkStatus();
-  std::vector<std::string> names;
-  for (const StreamEntry& entry : streams.list()) names.push_back(entry.name);
-  return fieldError(
-      absl::StatusCode::kNotFound, "stream",
-      strCat(noSuchName("stream", name, names),
-             names.empty() ? "; start a publisher first, for example `viewloom publish --synthetic`"
-                           : ""));
-}
-
 // Browsers, players and files hold a single image.
 absl::Status checkDisplay(const DisplaySpec& display) {
   if (isTracked(display)) {
@@ -70,8 +56,7 @@ absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked) {
 
 }  // namespace
 
-absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked,
-                                              const StreamDirectory& streams) {
+absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked) {
   absl::StatusOr<DisplaySpec> display = displayFromProto(asked.display);
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(display.status(), "display"));
   VIEWLOOM_RETURN_IF_ERROR(checkDisplay(*display));
@@ -83,17 +68,33 @@ absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked,
     return invalidField("display.rgbd.depth_bits",
                         strCat("the web serves no 16-bit depth; accepted here is 8", kElsewhere));
   }
-  VIEWLOOM_RETURN_IF_ERROR(checkStream(asked.stream, streams));
+  if (asked.stream.empty()) {
+    return invalidField("stream",
+                        "the name of the stream is missing; list the streams with /api/streams");
+  }
   return WatchRequest{asked.stream, *std::move(display), *encoding};
 }
 
-absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters,
-                                              const StreamDirectory& streams) {
+absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters) {
   const absl::StatusOr<AskedDisplay> asked = askedDisplay(parameters);
   VIEWLOOM_RETURN_IF_ERROR(asked.status());
-  absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked, streams);
+  absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
   VIEWLOOM_RETURN_IF_ERROR(inParameters(request.status(), parameters));
   return request;
+}
+
+absl::Status checkStream(const std::string& name, const Caller& caller,
+                         const StreamDirectory& streams) {
+  if (streams.exists(name)) return absl::OkStatus();
+  std::vector<std::string> names;
+  for (const StreamEntry& entry : streams.list()) {
+    if (caller.sees(entry.name)) names.push_back(entry.name);
+  }
+  return fieldError(
+      absl::StatusCode::kNotFound, "stream",
+      strCat(noSuchName("stream", name, names),
+             names.empty() ? "; start a publisher first, for example `viewloom publish --synthetic`"
+                           : ""));
 }
 
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "access/caller.h"
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "publish/stream_directory.h"
@@ -20,14 +21,17 @@ struct WatchRequest {
 };
 
 // The same conversion and checks as over gRPC, and those of what the web serves: one image, its
-// colour as JPEG, its depth raw. NOT_FOUND for an unknown stream or preset, INVALID_ARGUMENT for
-// anything else; errors name the field ("display.quilt.columns").
-absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked,
-                                              const StreamDirectory& streams);
+// colour as JPEG, its depth raw. NOT_FOUND for an unknown preset, INVALID_ARGUMENT for anything
+// else; errors name the field ("display.quilt.columns"). Whether there is such a stream is for
+// checkStream to say.
+absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked);
 
 // The same of what the parameters of a URL ask for; errors name the parameter.
-absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters,
-                                              const StreamDirectory& streams);
+absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters);
+
+// NOT_FOUND for an unknown stream, with the names that there are for the caller.
+absl::Status checkStream(const std::string& name, const Caller& caller,
+                         const StreamDirectory& streams);
 
 // "_qs8x6a0.75", with which the name of a quilt's still ends. "" for other displays.
 absl::StatusOr<std::string> quiltSuffix(const DisplaySpec& display);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "access/access_control.h"
 #include "base/clock.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
@@ -44,6 +45,7 @@ struct WebContext {
   Broadcaster& broadcaster;
   const Metrics& metrics;
   const Clock& clock;
+  AccessControl& access;
   std::atomic<bool> draining{false};
 };
 

@@ -29,8 +29,8 @@ TABLES = (
           re.compile(r'"(viewloom_[a-z_]+)"'), "viewloom_", re.compile(r"\{")),
     Table("setting", "deploy/README.md", "## Settings", "server/config/",
           re.compile(r'\{"([a-z][a-z_.]*)",\s*"[a-z]*",\s*"[A-Z]'), "", re.compile(r"$")),
-    Table("address", "proto/README.md", "## Web addresses", "server/web/",
-          re.compile(r'(?:path == |path\.starts_with\(|kWebSocketPath = )"(/[^"]*)"'),
+    Table("address", "proto/README.md", "## Web addresses", "server/access/operations.h",
+          re.compile(r'string_view k\w+ = "(/[a-z/]*)"'),
           "/", re.compile(r"STREAM|\?"), also=("/",)),
 )
 
@@ -68,7 +68,7 @@ def check_table(tree, table):
     for name, line in told.items():
         if name.startswith(table.name_begins) and name not in defined and name not in table.also:
             yield Finding(table.document, line, "reference",
-                          f"there is no {table.what} {name} in {table.sources}*")
+                          f"there is no {table.what} {name} in {table.sources}")
 
 
 def check_labels(tree):

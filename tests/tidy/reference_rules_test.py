@@ -14,10 +14,11 @@ SETTINGS = '''{"device", "", "Device to use", TextSetting{}},
 {"grpc.keepalive_s", "s",
  "Silence before a ping", CountSetting{}},
 '''
-ROUTES = '''if (url->path == "/healthz") return health();
-if (url->path.starts_with("/still/")) return still();
+OPERATIONS = '''inline constexpr std::string_view kList = "/viewloom.v1.CatalogService/ListStreams";
+inline constexpr std::string_view kWebSocket = "/ws";
+inline constexpr std::string_view kStills = "/still/";
+inline constexpr std::string_view kHealthPage = "/healthz";
 '''
-SOCKET = 'constexpr std::string_view kWebSocketPath = "/ws";\n'
 DEPLOY = '''# Running
 ## Settings
 | Setting | Default |
@@ -40,7 +41,7 @@ PROTO = '''## Web addresses
 | `stream` | a name |
 '''
 CLEAN = {"server/metrics/metrics.cpp": METRICS, "server/config/settings.cpp": SETTINGS,
-         "server/web/routes.cpp": ROUTES, "server/web/routes.h": SOCKET,
+         "server/access/operations.h": OPERATIONS,
          "deploy/README.md": DEPLOY, "proto/README.md": PROTO}
 
 
@@ -59,7 +60,8 @@ class References(unittest.TestCase):
                  'counter(registry, "viewloom_new_total", "New.")\n'),
                 ("server/metrics/metrics.cpp", '"back"', '"aside", '),
                 ("server/config/settings.cpp", '{"device"', '{"log.level", "", "Level"}, '),
-                ("server/web/routes.cpp", "if (url", 'if (url->path == "/new") return new();\n')):
+                ("server/access/operations.h", "inline",
+                 'inline constexpr std::string_view kNew = "/api/new";\n')):
             self.assertEqual(self.broken(path, before, more + before), [(path, "reference")], more)
 
     def test_what_a_document_leaves_out_is_found_in_the_code(self):
@@ -68,9 +70,9 @@ class References(unittest.TestCase):
                  "server/metrics/metrics.cpp"),
                 ("deploy/README.md", "| `grpc.keepalive_s` | 10 |\n", "server/config/settings.cpp"),
                 ("proto/README.md", "| `/still/STREAM/PRESET` | a picture |\n",
-                 "server/web/routes.cpp"),
+                 "server/access/operations.h"),
                 ("proto/README.md", "| `/ws?stream=STREAM&...` | atlases |\n",
-                 "server/web/routes.h")):
+                 "server/access/operations.h")):
             self.assertEqual(self.broken(document, row, ""), [(path, "reference")], row)
 
     def test_what_is_gone_is_found_in_the_document(self):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "access/access_control.h"
 #include "web/asked_display.h"
 
 namespace viewloom::watch_request_test {
@@ -16,8 +17,11 @@ class WatchRequests : public testing::Test {
     parameters.emplace("stream", "scene");
     const absl::StatusOr<AskedDisplay> asked = askedDisplay(parameters);
     if (!asked.ok()) return asked.status();
-    absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked, streams_);
+    absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
     if (!request.ok()) return inParameters(request.status(), parameters);
+    const absl::Status status =
+        checkStream(request->stream, *access_.admit("/ws", "", ""), streams_);
+    if (!status.ok()) return status;
     return request;
   }
   std::string fieldAtFault(const QueryParameters& parameters) {
@@ -28,6 +32,7 @@ class WatchRequests : public testing::Test {
   }
 
   ManualClock clock_;
+  AccessControl access_{clock_};
   StreamDirectory streams_;
   std::unique_ptr<StreamDirectory::Claim> claim_;
 };

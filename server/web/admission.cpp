@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/admission.h"
+
+#include <charconv>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "access/utc_time.h"
+#include "base/str_cat.h"
+#include "web/session.h"
+
+namespace viewloom {
+namespace {
+
+constexpr const char* kLinkParameter = "link";
+constexpr int64_t kUsualLinkSeconds = 300;
+
+LinkTarget targetOf(const WatchRequest& request) {
+  return {.stream = request.stream,
+          .display = strCat(displayKey(request.display), "\n", encodingKey(request.encoding))};
+}
+
+// Takes the parameter out; "" if there is none.
+std::string takeParameter(QueryParameters& parameters, const char* name) {
+  const auto found = parameters.find(name);
+  if (found == parameters.end()) return "";
+  std::string value = std::move(found->second);
+  parameters.erase(found);
+  return value;
+}
+
+std::string withParameter(const std::string& address, std::string_view name,
+                          std::string_view value) {
+  const bool is_first = address.find('?') == std::string::npos;
+  return strCat(address, is_first ? "?" : "&", name, "=", percentEncoded(value));
+}
+
+absl::Status admitStream(const Caller& caller, const std::string& stream,
+                         const StreamDirectory& streams) {
+  VIEWLOOM_RETURN_IF_ERROR(caller.mayUse(stream));
+  return checkStream(stream, caller, streams);
+}
+
+absl::StatusOr<int64_t> linkSeconds(const QueryParameters& parameters) {
+  const auto found = parameters.find("seconds");
+  if (found == parameters.end()) return kUsualLinkSeconds;
+  const std::string& text = found->second;
+  int64_t seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error == std::errc() && end == text.data() + text.size()) return seconds;
+  return invalidField("seconds", "is no whole number; accepted is a number of seconds");
+}
+
+// The form of addresses to which a path belongs.
+absl::StatusOr<QuiltAddressForm> formOf(const std::string& path) {
+  for (const QuiltAddressForm& form : {stillForm(), streamForm()}) {
+    if (path.starts_with(form.root)) return form;
+  }
+  return invalidField("target",
+                      "is no address of a picture; accepted are /still/... and /stream/...");
+}
+
+struct MadeLink {
+  std::string url;
+  int64_t expires_s = 0;
+};
+
+absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& request,
+                                  const QueryParameters& parameters) {
+  const absl::StatusOr<Caller> caller = admitRequest(context, request, kApiLink);
+  VIEWLOOM_RETURN_IF_ERROR(caller.status());
+  const auto target = parameters.find("target");
+  if (target == parameters.end()) {
+    return invalidField("target", "is missing; accepted are /still/... and /stream/...");
+  }
+  const absl::StatusOr<Url> url = parseUrl(target->second);
+  VIEWLOOM_RETURN_IF_ERROR(url.status());
+  const absl::StatusOr<QuiltAddressForm> form = formOf(url->path);
+  VIEWLOOM_RETURN_IF_ERROR(form.status());
+  const absl::StatusOr<QuiltAddress> address = parseQuiltAddress(*url, *form);
+  VIEWLOOM_RETURN_IF_ERROR(address.status());
+  VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, address->request.stream, context.streams));
+  const absl::StatusOr<int64_t> seconds = linkSeconds(parameters);
+  VIEWLOOM_RETURN_IF_ERROR(seconds.status());
+  const auto link = context.access.sign(*caller, targetOf(address->request), *seconds);
+  VIEWLOOM_RETURN_IF_ERROR(link.status());
+  const std::string& plain = address->redirect.empty() ? target->second : address->redirect;
+  return MadeLink{.url = withParameter(plain, kLinkParameter, link->signature),
+                  .expires_s = link->expires_s};
+}
+
+}  // namespace
+
+absl::StatusOr<Caller> admitRequest(const WebContext& context, const HttpRequest& request,
+                                    std::string_view operation) {
+  return context.access.admit(operation, request.peer, tokenOf(request));
+}
+
+absl::StatusOr<Caller> admitViewer(const WebContext& context, const HttpRequest& request,
+                                   const Url& url) {
+  absl::StatusOr<Caller> caller = admitRequest(context, request, kWebSocket);
+  VIEWLOOM_RETURN_IF_ERROR(caller.status());
+  const absl::StatusOr<WatchRequest> watched = makeWatchRequest(url.parameters);
+  VIEWLOOM_RETURN_IF_ERROR(watched.status());
+  VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, watched->stream, context.streams));
+  return caller;
+}
+
+absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const HttpRequest& request,
+                                             Url url, const QuiltAddressForm& form) {
+  const std::string link = takeParameter(url.parameters, kLinkParameter);
+  absl::StatusOr<Caller> caller = absl::UnauthenticatedError("no link came");
+  if (link.empty()) {
+    caller = admitRequest(context, request, form.root);
+    VIEWLOOM_RETURN_IF_ERROR(caller.status());
+  }
+  absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form);
+  VIEWLOOM_RETURN_IF_ERROR(address.status());
+  if (!link.empty()) {
+    caller = context.access.admitLink(form.root, request.peer, link, targetOf(address->request));
+    VIEWLOOM_RETURN_IF_ERROR(caller.status());
+    if (!address->redirect.empty()) {
+      address->redirect = withParameter(address->redirect, kLinkParameter, link);
+    }
+  }
+  VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, address->request.stream, context.streams));
+  return AdmittedPicture{.caller = *std::move(caller), .address = *std::move(address)};
+}
+
+HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url) {
+  const absl::StatusOr<MadeLink> link = makeLink(context, request, url.parameters);
+  if (!link.ok()) return errorReply(link.status());
+  return jsonReply(
+      nlohmann::json{{"url", link->url}, {"expires", utcText(link->expires_s)}}.dump());
+}
+
+}  // namespace viewloom

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A request to the web server: what its first line and its headers say.
+#pragma once
+
+#include <string>
+
+namespace viewloom {
+
+struct HttpRequest {
+  std::string method;
+  std::string target;
+  std::string peer;  // address of the client
+  // Headers; empty when not given.
+  std::string host;
+  std::string origin;
+  std::string if_none_match;
+  std::string authorization;
+  std::string cookie;
+  std::string websocket_protocols;
+  std::string forwarded_proto;
+  bool upgrade = false;  // to a WebSocket
+};
+
+}  // namespace viewloom
