@@ -66,6 +66,7 @@ HttpResponse exchangeOrThrow(const HttpAddress& address, const HttpRequest& requ
   message.set(http::field::host, address.url().substr(kScheme.size()));
   message.set(http::field::user_agent, "viewloom");
   message.keep_alive(false);
+  if (!request.token.empty()) message.set(http::field::authorization, "Bearer " + request.token);
   if (!request.json.empty()) {
     message.set(http::field::content_type, "application/json");
     message.body() = request.json;

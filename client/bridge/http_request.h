@@ -28,6 +28,7 @@ struct HttpRequest {
   std::string method;  // GET or PUT
   std::string target;  // begins with '/'
   std::string json;    // the body; empty = none
+  std::string token;   // access token; empty = none
 };
 
 struct HttpResponse {

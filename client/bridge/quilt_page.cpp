@@ -56,9 +56,9 @@ std::string withExtension(const std::string& target, std::string_view extension)
 }
 
 absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& target,
-                                 std::chrono::milliseconds timeout) {
+                                 const std::string& token, std::chrono::milliseconds timeout) {
   absl::StatusOr<HttpResponse> response =
-      exchange(page, {.method = "GET", .target = target, .json = ""}, timeout);
+      exchange(page, {.method = "GET", .target = target, .json = "", .token = token}, timeout);
   if (response.ok()) return response;
   const std::string reason(response.status().message());
   if (absl::IsDeadlineExceeded(response.status())) {
@@ -81,17 +81,30 @@ absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
              "; check that --address names the page of a viewloomd"));
 }
 
+// The address with a link, which shows the picture to those who have no token.
+absl::StatusOr<std::string> signedLink(const HttpAddress& page, const std::string& target,
+                                       const std::string& token,
+                                       std::chrono::milliseconds timeout) {
+  const absl::StatusOr<HttpResponse> response =
+      get(page, strCat("/api/link?seconds=3600&target=", percentEncoded(target)), token, timeout);
+  VIEWLOOM_RETURN_IF_ERROR(response.status());
+  const json link = json::parse(response->body, nullptr, false);
+  const json url = link.is_object() ? link.value("url", json()) : json();
+  if (!response->isOk() || !url.is_string()) return refused(page, *response);
+  return url.get<std::string>();
+}
+
 }  // namespace
 
 absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
                                          std::chrono::milliseconds timeout) {
   VIEWLOOM_RETURN_IF_ERROR(checkName("stream", query.stream));
   std::string target = targetOf(query);
-  absl::StatusOr<HttpResponse> response = get(page, target, timeout);
+  absl::StatusOr<HttpResponse> response = get(page, target, query.token, timeout);
   VIEWLOOM_RETURN_IF_ERROR(response.status());
   if (response->status == kHttpFound) {  // to the suffix as the server writes it
     target = withExtension(response->location, ".json");
-    response = get(page, target, timeout);
+    response = get(page, target, query.token, timeout);
     VIEWLOOM_RETURN_IF_ERROR(response.status());
   }
   const json layout = json::parse(response->body, nullptr, false);
@@ -108,6 +121,11 @@ absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQue
   }
   std::string shown = withExtension(target, query.is_motion ? ".mjpg" : ".jpg");
   if (query.is_motion) shown.replace(0, std::string_view("/still/").size(), "/stream/");
+  if (!query.token.empty()) {
+    const absl::StatusOr<std::string> link = signedLink(page, shown, query.token, timeout);
+    VIEWLOOM_RETURN_IF_ERROR(link.status());
+    shown = *link;
+  }
   quilt.uri = page.url() + shown;
   return quilt;
 }

@@ -16,6 +16,8 @@ struct QuiltQuery {
   std::string display;     // a quilt, as JSON of proto Display
   std::string encoding;    // JSON of proto AtlasEncoding
   bool is_motion = false;  // motion JPEG instead of a still
+  // Access token; empty = none. With one the address has a signed link, which is good for an hour.
+  std::string token;
 };
 
 // Waits until there is an atlas to show. UNAVAILABLE where nobody listens, INVALID_ARGUMENT for a

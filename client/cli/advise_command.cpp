@@ -105,7 +105,7 @@ int advise(const AdviseOptions& options, const CommonOptions& common) {
     return kExitUsage;
   }
   leaveInterrupts();  // a server that hangs keeps nobody waiting
-  const auto advice = Catalog(makeChannel(common.server)).adviseSource(*request);
+  const auto advice = Catalog(makeChannel(common.server, common.token)).adviseSource(*request);
   if (!advice.ok()) return reportError(advice.status(), common);
   if (!options.as_json) {
     print(*advice);

@@ -107,21 +107,33 @@ absl::Status checkShape(const CastOptions& options) {
              options.stream, " --preset ", options.preset, " --out FOLDER` saves this display"));
 }
 
+// The address for people: a link in it is as good as a password for an hour.
+std::string shownAddress(const std::string& uri) {
+  const size_t link = uri.find("link=");
+  return printable(link == std::string::npos ? uri : strCat(uri.substr(0, link), "link=..."));
+}
+
 // Shows the quilt, and again every so often, until it is interrupted.
-absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& to) {
+absl::Status cast(const CastOptions& options, const HttpAddress& page, const std::string& token,
+                  Bridge& to) {
   VIEWLOOM_RETURN_IF_ERROR(to.enter());
   const absl::StatusOr<std::vector<BridgeDisplay>> displays = to.displays();
   VIEWLOOM_RETURN_IF_ERROR(displays.status());
   const absl::StatusOr<BridgeDisplay> display = pick(*displays, options.display_index);
   VIEWLOOM_RETURN_IF_ERROR(display.status());
-  const absl::StatusOr<QuiltQuery> query = makeQuery(options, *display);
+  absl::StatusOr<QuiltQuery> query = makeQuery(options, *display);
   VIEWLOOM_RETURN_IF_ERROR(query.status());
-  const absl::StatusOr<AddressedQuilt> quilt =
-      bridge::findQuilt(page, *query, milliseconds(options.timeout_s));
-  VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+  query->token = token;
+  absl::StatusOr<AddressedQuilt> quilt = absl::UnknownError("not asked for yet");
   do {
+    // A link expires, other addresses stay.
+    if (!quilt.ok() || !token.empty()) {
+      quilt = bridge::findQuilt(page, *query, milliseconds(options.timeout_s));
+      VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+    }
     VIEWLOOM_RETURN_IF_ERROR(to.play(*quilt, display->index));
-    std::printf("%s shows %s\n", printable(display->name).c_str(), printable(quilt->uri).c_str());
+    std::printf("%s shows %s\n", printable(display->name).c_str(),
+                shownAddress(quilt->uri).c_str());
     std::fflush(stdout);
     const auto due = std::chrono::steady_clock::now() + milliseconds(options.every_s);
     while (!isInterrupted() && std::chrono::steady_clock::now() < due) {
@@ -131,7 +143,7 @@ absl::Status cast(const CastOptions& options, const HttpAddress& page, Bridge& t
   return absl::OkStatus();
 }
 
-int run(const CastOptions& options) {
+int run(const CastOptions& options, const std::string& token) {
   if (const absl::Status shape = checkShape(options); !shape.ok()) return fail(shape);
   const absl::StatusOr<HttpAddress> bridge_address =
       bridge::parseHttpAddress(options.bridge, kBridgePort, "--bridge");
@@ -146,7 +158,7 @@ int run(const CastOptions& options) {
                "address of the network (--http.address), and give that address with --address")));
   }
   Bridge to(*bridge_address, milliseconds(options.timeout_s));
-  const absl::Status status = cast(options, *page, to);
+  const absl::Status status = cast(options, *page, token, to);
   return status.ok() ? int{kExitDone} : fail(status);
 }
 
@@ -199,7 +211,7 @@ RunCommand addCastCommand(const usage::Command& app) {
       .valueName("SECONDS")
       .between(0.1, 600.0)
       .showDefault();
-  return [options](const CommonOptions&) -> int { return run(*options); };
+  return [options](const CommonOptions& common) -> int { return run(*options, common.token); };
 }
 
 }  // namespace viewloom::cli

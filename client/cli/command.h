@@ -18,7 +18,8 @@ enum ExitCode : int {
 };
 
 struct CommonOptions {
-  std::string server;  // "host:port" or "unix:path"
+  std::string server;      // "host:port" or "unix:path"
+  std::string token = {};  // shown to the server; empty = none
   // Messages that were given as JSON, by their fields: "display", "encoding".
   std::vector<std::string> messages = {};
 };

@@ -154,7 +154,7 @@ RunCommand addListCommand(const usage::Command& app) {
       std::fprintf(stderr, "viewloom list: %s\n", unknownList(options->what).c_str());
       return kExitUsage;
     }
-    const absl::Status status = list(*options, Catalog(makeChannel(common.server)));
+    const absl::Status status = list(*options, Catalog(makeChannel(common.server, common.token)));
     return status.ok() ? kExitDone : reportError(status, common);
   };
 }

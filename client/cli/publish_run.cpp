@@ -52,7 +52,7 @@ class PublishRun {
       const absl::Status recording = sent_.record(options_.record_file);
       if (!recording.ok()) return fail(recording, kExitUsage);
     }
-    publisher_ = std::make_unique<Publisher>(makeChannel(common_.server),
+    publisher_ = std::make_unique<Publisher>(makeChannel(common_.server, common_.token),
                                              PublisherOptions{.stream = options_.stream,
                                                               .session_id = options_.session_id,
                                                               .zstd_level = options_.zstd_level,

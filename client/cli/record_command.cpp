@@ -53,7 +53,8 @@ class RecordRun {
     *open.mutable_encoding() = *encoding;
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
-    watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    watcher_ =
+        std::make_unique<Watcher>(makeChannel(common_.server, common_.token), open, callbacks());
     while (!watcher_->waitEnded(kInterruptTick_ns) && !isInterrupted() && failure().ok() &&
            !isTimeOver()) {
       if (line_.isDue()) line_.show(status());

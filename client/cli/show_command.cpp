@@ -158,7 +158,7 @@ absl::Status showOn(const ShowOptions& options, const CommonOptions& common, Sta
                     "--mode weave"));
   }
   StreamWait waiting(line, common, options.stream);
-  return show::showStream(makeChannel(common.server), *session,
+  return show::showStream(makeChannel(common.server, common.token), *session,
                           {.is_interrupted = &isInterrupted,
                            .say = [&](const std::string& text) { line.say(text); },
                            .on_connection = waiting.toldBefore(sayConnections(line, common))});

@@ -56,7 +56,7 @@ bool StreamWait::waitUntilMissing(const std::stop_token& stop) {
 }
 
 std::optional<std::vector<std::string>> StreamWait::listNames(const std::stop_token& stop) const {
-  const auto streams = Catalog(makeChannel(common_.server)).listStreams(stop);
+  const auto streams = Catalog(makeChannel(common_.server, common_.token)).listStreams(stop);
   if (!streams.ok()) return std::nullopt;
   std::vector<std::string> names;
   for (const v1::StreamEntry& entry : streams->streams()) names.push_back(printable(entry.name()));

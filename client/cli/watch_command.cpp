@@ -74,7 +74,8 @@ class WatchRun {
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     if (!options_.folder.empty()) files_.emplace(fileOptions(options_.stream));
     waiting_.emplace(line_, common_, options_.stream);
-    watcher_ = std::make_unique<Watcher>(makeChannel(common_.server), open, callbacks());
+    watcher_ =
+        std::make_unique<Watcher>(makeChannel(common_.server, common_.token), open, callbacks());
     // Only the line says how the server's clock stands: who sees none need not ask.
     if (!options_.is_quiet) clock_ = std::make_unique<ClockFollower>(*watcher_);
     if (eyes_) eyes_->start(eyeCallbacks());

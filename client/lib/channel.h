@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/status.h"
+#include "lib/access_token.h"
 
 // Declared instead of included: gRPC's headers are slow to compile, and most users of this file
 // only pass a channel on.
@@ -23,8 +24,11 @@ inline constexpr char kDefaultAddress[] = "127.0.0.1:50051";
 // with their cameras takes less than 1 MiB.
 inline constexpr int kMessageBytesMax = 4 << 20;
 
-// Makes a channel to "host:port" or "unix:path", without encryption. It does not connect yet.
-std::shared_ptr<grpc::Channel> makeChannel(const std::string& address);
+// Makes a channel to "host:port" or "unix:path", without encryption. It does not connect yet. Each
+// call shows the access token, unless it is "". Throws std::invalid_argument if the token cannot be
+// sent (isSendableToken).
+std::shared_ptr<grpc::Channel> makeChannel(const std::string& address,
+                                           const std::string& token = tokenOfEnvironment());
 
 // Whether the address is on this machine: a Unix socket or a loopback address.
 bool staysOnMachine(const std::string& address);

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import os
 import re
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Optional
 
 from viewloom.errors import BadInput
 
@@ -21,11 +22,28 @@ CHANNEL_OPTIONS = (("grpc.use_local_subchannel_pool", 1),
                    ("grpc.http2.max_pings_without_data", 0))
 
 
+TOKEN_VARIABLE = "VIEWLOOM_TOKEN"
+
+Metadata = tuple[tuple[str, str], ...]
+
+
 class Connection(NamedTuple):
-    """A grpc.Channel, blocking or of asyncio, and the address that it goes to."""
+    """A grpc.Channel, blocking or of asyncio, the address that it goes to, and the metadata of its
+    calls."""
 
     channel: Any
     address: str
+    metadata: Metadata = ()
+
+
+def token_metadata(token: Optional[str]) -> Metadata:
+    """What each call shows. None: the token in VIEWLOOM_TOKEN; "": none. Raises BadInput, without
+    the token."""
+    text = os.environ.get(TOKEN_VARIABLE, "").strip() if token is None else token
+    if not isinstance(text, str) or not re.fullmatch(r"[!-~]{0,8192}", text):
+        raise BadInput("token", "is no access token; it must be one line, as `viewloomd token add` "
+                       "prints it")
+    return (("authorization", f"Bearer {text}"),) if text else ()
 
 
 def checked_address(address: Any) -> str:

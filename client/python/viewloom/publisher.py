@@ -106,7 +106,8 @@ class Publisher:
                 outbox.put(None)
             self._outbox = outbox
             self._call = IngestServiceStub(self._connection.channel).PublishFrames(
-                self._requests(outbox, silence), wait_for_ready=bool(self._ledger.accepted))
+                self._requests(outbox, silence), wait_for_ready=bool(self._ledger.accepted),
+                metadata=self._connection.metadata)
         try:
             for response in self._call:
                 silence.hears(response.HasField("heartbeat"))

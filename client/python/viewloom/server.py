@@ -11,7 +11,7 @@ import grpc
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
 from viewloom.connection import (CHANNEL_OPTIONS, DEFAULT_ADDRESS, Connection,
-                                 checked_address)
+                                 checked_address, token_metadata)
 from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.frame_messages import settings_message
@@ -27,10 +27,11 @@ IN_FLIGHT_MAX = 4  # one is decoded, one built, one traced: more would only be r
 class Server:
     """A viewloomd. Thread-safety: all methods may be called from any thread."""
 
-    def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> None:
+    def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
+                 token: Optional[str] = None) -> None:
         self._address = checked_address(address)
         self._channel = grpc.insecure_channel(self._address, options=CHANNEL_OPTIONS)
-        self._connection = Connection(self._channel, self._address)
+        self._connection = Connection(self._channel, self._address, token_metadata(token))
         self._reconnects = reconnect
         self._catalog = CatalogServiceStub(self._channel)
 
@@ -66,8 +67,8 @@ class Server:
         request = open_request(stream, display, encoding, count=1, wait_for_stream=wait_for_stream)
         inbox = AtlasInbox(stream)
         try:
-            call = DisplayServiceStub(self._channel).StreamAtlases(iter([request]),
-                                                                   timeout=timeout_s)
+            call = DisplayServiceStub(self._channel).StreamAtlases(
+                iter([request]), timeout=timeout_s, metadata=self._connection.metadata)
             for response in call:
                 inbox.add(response)
         except grpc.RpcError as problem:
@@ -109,7 +110,7 @@ class Server:
 
     def _ask(self, method: Any, request: Any) -> Any:
         try:
-            return method(request)
+            return method(request, metadata=self._connection.metadata)
         except grpc.RpcError as problem:
             raise error_from_rpc(problem, self._address) from None
 
@@ -128,10 +129,13 @@ class Server:
         self.close()
 
 
-def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> Server:
+def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
+            token: Optional[str] = None) -> Server:
     """A connection to the viewloomd at HOST:PORT. Connects when first used.
 
     reconnect: when the server restarts or the line breaks, publishers and watchers call again until
                it is back: publishers send what stands once more. False: they raise instead.
+    token:     access token for the server; None is the one in VIEWLOOM_TOKEN, "" is none. It
+               crosses the network as it is.
     """
-    return Server(address, reconnect=reconnect)
+    return Server(address, reconnect=reconnect, token=token)

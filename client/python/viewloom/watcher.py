@@ -58,7 +58,8 @@ class Watcher(Iterator[Atlas]):
         self._call_count += 1
         self._is_heard = False
         self._call = DisplayServiceStub(self._connection.channel).StreamAtlases(
-            self._outgoing(self._requests, self._silence), wait_for_ready=self._call_count > 1)
+            self._outgoing(self._requests, self._silence), wait_for_ready=self._call_count > 1,
+            metadata=self._connection.metadata)
 
     def _outgoing(self, requests: queue.SimpleQueue[Optional[StreamAtlasesRequest]],
                   silence: SilenceWatch) -> Iterator[StreamAtlasesRequest]:

@@ -68,7 +68,7 @@ class Publisher:
 
         frames = self._ledger.unreported()
         call = IngestServiceStub(self._connection.channel).PublishFrames(
-            wait_for_ready=bool(self._ledger.accepted))
+            wait_for_ready=bool(self._ledger.accepted), metadata=self._connection.metadata)
         line = self._line = Line(call, self._connection.address,
                                  [self._settings, *itertools.chain.from_iterable(frames)])
         closer = asyncio.create_task(line.end_writing()) if self._is_closing else None

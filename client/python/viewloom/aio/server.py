@@ -15,7 +15,7 @@ from viewloom.aio.watcher import Watcher
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
 from viewloom.connection import (CHANNEL_OPTIONS, DEFAULT_ADDRESS, Connection,
-                                 checked_address)
+                                 checked_address, token_metadata)
 from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.frame_messages import settings_message
@@ -28,10 +28,11 @@ from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
 class Server:
     """A viewloomd; arguments and errors as of the blocking Server."""
 
-    def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> None:
+    def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
+                 token: Optional[str] = None) -> None:
         self._address = checked_address(address)
         self._channel = grpc.aio.insecure_channel(self._address, options=CHANNEL_OPTIONS)
-        self._connection = Connection(self._channel, self._address)
+        self._connection = Connection(self._channel, self._address, token_metadata(token))
         self._reconnects = reconnect
         self._catalog = CatalogServiceStub(self._channel)
 
@@ -53,7 +54,8 @@ class Server:
         """One atlas, of the newest frame."""
         request = open_request(stream, display, encoding, count=1, wait_for_stream=wait_for_stream)
         inbox = AtlasInbox(stream)
-        call = DisplayServiceStub(self._channel).StreamAtlases(iter([request]), timeout=timeout_s)
+        call = DisplayServiceStub(self._channel).StreamAtlases(
+            iter([request]), timeout=timeout_s, metadata=self._connection.metadata)
         inbox.end(await read_all(call, inbox.add, self._address))
         atlas = inbox.take()
         if atlas is None:
@@ -91,7 +93,7 @@ class Server:
 
     async def _ask(self, method: Any, request: Any) -> Any:
         try:
-            return await method(request)
+            return await method(request, metadata=self._connection.metadata)
         except grpc.RpcError as problem:
             raise error_from_rpc(problem, self._address) from None
 
@@ -110,6 +112,7 @@ class Server:
         await self.close()
 
 
-def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True) -> Server:
+def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
+            token: Optional[str] = None) -> Server:
     """As the blocking connect(), within the running event loop."""
-    return Server(address, reconnect=reconnect)
+    return Server(address, reconnect=reconnect, token=token)

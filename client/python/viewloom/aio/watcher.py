@@ -67,7 +67,7 @@ class Watcher(AsyncIterator[Atlas]):
         self._is_heard = False
         self._call_count += 1
         call = DisplayServiceStub(self._connection.channel).StreamAtlases(
-            wait_for_ready=self._call_count > 1)
+            wait_for_ready=self._call_count > 1, metadata=self._connection.metadata)
         self._line = Line(call, self._connection.address, self._opening.requests())
         self._changed.set()
         return await self._line.read(take)
