@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The display that is watched: a message of proto Display as JSON, kept in the page's address.
 import {keepInAddress, kParameters, nameOf, pageParameters} from './address.js';
+import {enter} from './sign_in.js';
 
 const kDefaultPreset = 'portrait';
 
@@ -43,8 +44,9 @@ export class DisplayDocument {
   #passing = {};  // by path: what nobody keeps
 
   // The document, or null where the address does not say a display: then onProblem(sentence).
-  // Throws where the server does not answer.
+  // Throws where the server does not answer. Waits until the page has signed in, if it must.
   static async ofAddress(onProblem) {
+    await enter();
     const ask = async (path) => (await fetch(path)).json();
     const [{presets}, {fields}] = await Promise.all([ask('/api/presets'), ask('/api/fields')]);
     try {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which streams there are, asked for again and again.
+import {enter} from './sign_in.js';
 
 const kPoll_ms = 1000;
 const kAnswer_ms = 5000;
+const kUnauthorized = 401;
 
 const byId = (id) => document.getElementById(id);
 const label = ({name, live}) => live ? name : `${name} (still)`;
@@ -26,6 +28,10 @@ export class StreamList {
     try {
       const signal = AbortSignal.timeout(kAnswer_ms);
       const reply = await fetch('/api/streams', {cache: 'no-store', signal});
+      if (reply.status === kUnauthorized) {
+        await enter();
+        return;
+      }
       const {streams} = await reply.json();
       const found = streams.find(({name}) => name === this.handlers.asked()) ??
           streams.find(({live}) => live) ?? streams[0];
@@ -37,8 +43,9 @@ export class StreamList {
       this.#notePublisher(streams.find(({name}) => name === this.handlers.watching()));
     } catch {
       this.handlers.onSilence();
+    } finally {
+      setTimeout(() => this.poll(), kPoll_ms);
     }
-    setTimeout(() => this.poll(), kPoll_ms);
   }
 
   #show(streams) {

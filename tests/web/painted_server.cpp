@@ -15,6 +15,7 @@
 
 namespace {
 
+// Access tokens are those of the file in the variable PAINTED_TOKEN_FILE.
 // Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
 // --idle-ms 20000 --flat 0 (1: a view is one grey, black the first and white the last).
 std::map<std::string, int> readOptions(int argc, char** argv) {
@@ -63,7 +64,9 @@ int main(int argc, char** argv) {
                   std::chrono::milliseconds(options.at("--ms-per-megapixel")),
                   options.at("--flat") != 0);
   const auto silent = streams.claim("silent", "", [] {});
-  viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock);
+  const char* const token_file = std::getenv("PAINTED_TOKEN_FILE");
+  viewloom::AccessControl access({.token_file = token_file == nullptr ? "" : token_file}, clock);
+  viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock, access);
   std::cout << server.url() << std::endl;
 
   const int rate_hz = options.at("--rate-hz");
