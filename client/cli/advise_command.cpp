@@ -12,8 +12,8 @@
 #include "cli/interrupt.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
+#include "cli/server_options.h"
 #include "lib/catalog.h"
-#include "lib/channel.h"
 
 namespace viewloom::cli {
 namespace {
@@ -105,7 +105,7 @@ int advise(const AdviseOptions& options, const CommonOptions& common) {
     return kExitUsage;
   }
   leaveInterrupts();  // a server that hangs keeps nobody waiting
-  const auto advice = Catalog(makeChannel(common.server, common.token)).adviseSource(*request);
+  const auto advice = Catalog(channelTo(common)).adviseSource(*request);
   if (!advice.ok()) return reportError(advice.status(), common);
   if (!options.as_json) {
     print(*advice);

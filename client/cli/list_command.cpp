@@ -13,8 +13,8 @@
 #include "cli/interrupt.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
+#include "cli/server_options.h"
 #include "lib/catalog.h"
-#include "lib/channel.h"
 
 namespace viewloom::cli {
 namespace {
@@ -154,7 +154,7 @@ RunCommand addListCommand(const usage::Command& app) {
       std::fprintf(stderr, "viewloom list: %s\n", unknownList(options->what).c_str());
       return kExitUsage;
     }
-    const absl::Status status = list(*options, Catalog(makeChannel(common.server, common.token)));
+    const absl::Status status = list(*options, Catalog(channelTo(common)));
     return status.ok() ? kExitDone : reportError(status, common);
   };
 }

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,8 +11,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
-#include "lib/access_token.h"
-#include "lib/channel.h"
+#include "cli/server_options.h"
 #include "offline/offline_commands.h"
 #include "usage/command_line.h"
 
@@ -26,16 +24,9 @@ int run(int argc, char** argv) {
       "viewloom");
   app.version(VIEWLOOM_VERSION);
   app.requireCommand();
-  CommonOptions common{.server = kDefaultAddress, .token = ""};
-  app.add("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
-      .valueName("ADDRESS")
-      .environment("VIEWLOOM_SERVER_ADDRESS")
-      .showDefault();
-  std::string token_file;
-  app.add("--token-file", token_file,
-          "File with the access token for the server; VIEWLOOM_TOKEN may hold the token instead")
-      .valueName("FILE")
-      .defaultText("none");
+  CommonOptions common;
+  addServerOptions(app, common);
+
   std::vector<NamedCommand> commands = addCommands(app);
   for (NamedCommand& command : addOfflineCommands(app)) commands.push_back(std::move(command));
   noteMessages(commands, common);
@@ -44,16 +35,6 @@ int run(int argc, char** argv) {
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
-  common.token = tokenOfEnvironment();
-  if (!token_file.empty()) {
-    const absl::StatusOr<std::string> token = readAccessToken(token_file);
-    if (!token.ok()) {
-      std::fprintf(stderr, "viewloom: --token-file %s\n",
-                   std::string(token.status().message()).c_str());
-      return kExitUsage;
-    }
-    common.token = *token;
-  }
   catchInterrupts();
   for (const NamedCommand& command : commands) {
     if (command.syntax.wasNamed()) return command.run(common);

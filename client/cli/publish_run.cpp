@@ -13,8 +13,8 @@
 #include "cli/outside_text.h"
 #include "cli/report_error.h"
 #include "cli/sent_frames.h"
+#include "cli/server_options.h"
 #include "cli/status_line.h"
-#include "lib/channel.h"
 #include "lib/publisher.h"
 
 namespace viewloom::cli {
@@ -52,7 +52,7 @@ class PublishRun {
       const absl::Status recording = sent_.record(options_.record_file);
       if (!recording.ok()) return fail(recording, kExitUsage);
     }
-    publisher_ = std::make_unique<Publisher>(makeChannel(common_.server, common_.token),
+    publisher_ = std::make_unique<Publisher>(channelTo(common_),
                                              PublisherOptions{.stream = options_.stream,
                                                               .session_id = options_.session_id,
                                                               .zstd_level = options_.zstd_level,

@@ -11,9 +11,9 @@
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/report_error.h"
+#include "cli/server_options.h"
 #include "cli/status_line.h"
 #include "cli/stream_wait.h"
-#include "lib/channel.h"
 #include "lib/watcher.h"
 #include "recording/atlas_recording.h"
 
@@ -53,8 +53,7 @@ class RecordRun {
     *open.mutable_encoding() = *encoding;
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
-    watcher_ =
-        std::make_unique<Watcher>(makeChannel(common_.server, common_.token), open, callbacks());
+    watcher_ = std::make_unique<Watcher>(channelTo(common_), open, callbacks());
     while (!watcher_->waitEnded(kInterruptTick_ns) && !isInterrupted() && failure().ok() &&
            !isTimeOver()) {
       if (line_.isDue()) line_.show(status());

@@ -11,9 +11,9 @@
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/report_error.h"
+#include "cli/server_options.h"
 #include "cli/status_line.h"
 #include "cli/stream_wait.h"
-#include "lib/channel.h"
 #include "show/find_calibration.h"
 #include "show/show_session.h"
 #include "show/tune_session.h"
@@ -158,7 +158,7 @@ absl::Status showOn(const ShowOptions& options, const CommonOptions& common, Sta
                     "--mode weave"));
   }
   StreamWait waiting(line, common, options.stream);
-  return show::showStream(makeChannel(common.server, common.token), *session,
+  return show::showStream(channelTo(common), *session,
                           {.is_interrupted = &isInterrupted,
                            .say = [&](const std::string& text) { line.say(text); },
                            .on_connection = waiting.toldBefore(sayConnections(line, common))});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stream_wait.h"
+#include "cli/server_options.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +10,6 @@
 #include "base/printable.h"
 #include "base/str_cat.h"
 #include "lib/catalog.h"
-#include "lib/channel.h"
 
 namespace viewloom::cli {
 namespace {
@@ -56,7 +56,7 @@ bool StreamWait::waitUntilMissing(const std::stop_token& stop) {
 }
 
 std::optional<std::vector<std::string>> StreamWait::listNames(const std::stop_token& stop) const {
-  const auto streams = Catalog(makeChannel(common_.server, common_.token)).listStreams(stop);
+  const auto streams = Catalog(channelTo(common_)).listStreams(stop);
   if (!streams.ok()) return std::nullopt;
   std::vector<std::string> names;
   for (const v1::StreamEntry& entry : streams->streams()) names.push_back(printable(entry.name()));

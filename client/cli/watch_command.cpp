@@ -17,11 +17,11 @@
 #include "cli/outside_text.h"
 #include "cli/recorded_atlases.h"
 #include "cli/report_error.h"
+#include "cli/server_options.h"
 #include "cli/status_line.h"
 #include "cli/stream_wait.h"
 #include "cli/watch_words.h"
 #include "eyes/eye_feed.h"
-#include "lib/channel.h"
 #include "lib/latency.h"
 #include "lib/watcher.h"
 #include "usage/command_line.h"
@@ -74,8 +74,7 @@ class WatchRun {
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     if (!options_.folder.empty()) files_.emplace(fileOptions(options_.stream));
     waiting_.emplace(line_, common_, options_.stream);
-    watcher_ =
-        std::make_unique<Watcher>(makeChannel(common_.server, common_.token), open, callbacks());
+    watcher_ = std::make_unique<Watcher>(channelTo(common_), open, callbacks());
     // Only the line says how the server's clock stands: who sees none need not ask.
     if (!options_.is_quiet) clock_ = std::make_unique<ClockFollower>(*watcher_);
     if (eyes_) eyes_->start(eyeCallbacks());

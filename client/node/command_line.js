@@ -17,7 +17,7 @@ async function loadViewloom() {
   }
 }
 
-// Options of every example. The access token comes from the environment variable VIEWLOOM_TOKEN: the
+// Options of every example. The access token comes from the environment (VIEWLOOM_TOKEN): the
 // command line of a process is open to all users of a machine.
 const kCommonOptions = {
   server: {type: 'string', default: '127.0.0.1:50051'},

@@ -39,8 +39,8 @@ std::string joined(const std::vector<std::string>& addresses, const char* before
   return text;
 }
 
-// Says how other machines get here, and that nothing keeps them out.
-void sayReach(const std::string& grpc_address, const std::string& http_url) {
+// Says how other machines get here, and what keeps them out.
+void sayReach(const std::string& grpc_address, const std::string& http_url, bool is_open) {
   constexpr std::string_view kScheme = "http://";
   const InterfaceAddresses interfaces = interfaceAddresses();
   const std::vector<std::string> grpc = reachableAddresses(grpc_address, interfaces);
@@ -50,7 +50,9 @@ void sayReach(const std::string& grpc_address, const std::string& http_url) {
           : std::vector<std::string>();
   if (!grpc.empty()) std::printf("Other machines: --server %s\n", joined(grpc, "").c_str());
   if (!http.empty()) std::printf("Page for other machines: %s\n", joined(http, "http://").c_str());
-  if (!grpc.empty()) {
+  if (!is_open && !(grpc.empty() && http.empty())) {
+    std::printf("Access tokens decide who can publish and watch. Nothing is encrypted.\n");
+  } else if (!grpc.empty()) {
     std::printf("There is no password: anybody who reaches %s can publish and watch streams.\n",
                 grpc.front().c_str());
   } else if (!http.empty()) {
@@ -75,7 +77,7 @@ int serve(const Config& config) {
   });
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
               service.httpUrl().c_str());
-  sayReach(service.grpcAddress(), service.httpUrl());
+  sayReach(service.grpcAddress(), service.httpUrl(), config.access.isOpen());
   std::fflush(stdout);
 
   int signal = 0;

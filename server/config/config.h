@@ -26,6 +26,8 @@ struct AccessConfig {
   std::string audience;
   std::string issuer;
   std::string audit_file;
+
+  bool isOpen() const { return token_file.empty() && jwks_file.empty(); }
 };
 
 struct LimitsConfig {

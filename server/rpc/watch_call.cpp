@@ -78,9 +78,8 @@ absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "open"));
   encoding_proto_ = request.encoding();
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "open"));
-  if (!request.wait_for_stream() && !parts_.directory.exists(request.stream())) {
+  if (!request.wait_for_stream() && !parts_.directory.exists(request.stream()))
     return noSuchStream(request.stream(), "open.stream", parts_.directory, *caller_);
-  }
   stream_ = request.stream();
   {
     std::lock_guard lock(mutex_);

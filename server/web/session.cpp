@@ -27,7 +27,7 @@ std::vector<std::string> listOf(const std::string& text, char separator) {
   return parts;
 }
 
-// What follows `begin` in the first part that begins so.
+// The rest of the first part that begins with `begin`.
 std::string valueOf(const std::string& list, char separator, std::string_view begin) {
   for (const std::string& part : listOf(list, separator)) {
     if (part.starts_with(begin)) return part.substr(begin.size());

@@ -10,9 +10,10 @@ PROGRAM = sys.argv.pop(1)
 
 
 class Viewloomd:
-    def __init__(self, address="127.0.0.1:0"):
+    def __init__(self, address="127.0.0.1:0", options=()):
         self.process = subprocess.Popen(
-            [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0"],
+            [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0",
+             *options],
             stdout=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         self.address, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Access tokens on the web port: headers, cookies, WebSockets, links, and the page that signs in."""
+"""Access tokens on the web port: headers, cookies, WebSockets, links, and the page's form."""
 import hashlib
 import json
 import os
