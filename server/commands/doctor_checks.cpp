@@ -16,6 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "access/key_set.h"
+#include "access/token_list.h"
+#include "access/watched_file.h"
 #include "base/host_port.h"
 #include "base/str_cat.h"
 
@@ -24,6 +27,7 @@ namespace {
 
 // A connection and a socket each; hundreds of viewers shall fit.
 constexpr uint64_t kComfortableFileCount = 4096;
+constexpr uint64_t kAccessFileBytesMax = uint64_t{8} << 20;
 
 std::string whyNotBind(const addrinfo& candidate) {
   const int probe = socket(candidate.ai_family, candidate.ai_socktype, candidate.ai_protocol);
@@ -65,7 +69,8 @@ bool isForThisMachine(const std::string& address) {
   return address.starts_with("unix:") || (parsed && isLoopbackHost(parsed->host));
 }
 
-std::vector<Finding> checkPort(const std::string& address, const std::string& setting) {
+std::vector<Finding> checkPort(const std::string& address, const std::string& setting,
+                               bool has_tokens) {
   std::vector<Finding> findings;
   const std::string refusal = whyNotListen(address);
   if (refusal.empty()) {
@@ -77,9 +82,8 @@ std::vector<Finding> checkPort(const std::string& address, const std::string& se
   }
   if (!isForThisMachine(address)) {
     findings.push_back({Verdict::kAdvice, "port",
-                        strCat(setting, " ", address,
-                               " is open to the network, without encryption "
-                               "or passwords"),
+                        strCat(setting, " ", address, " is open to the network, without encryption",
+                               has_tokens ? "" : " and access tokens"),
                         "use it in a trusted network only, or listen on 127.0.0.1"});
   }
   return findings;
@@ -93,10 +97,35 @@ bool hasProblem(const std::vector<Finding>& findings) {
 }
 
 std::vector<Finding> checkPorts(const Config& config) {
-  std::vector<Finding> findings = checkPort(config.grpc.address, "grpc.address");
+  std::vector<Finding> findings =
+      checkPort(config.grpc.address, "grpc.address", !config.access.isOpen());
   if (!config.http.enabled) return findings;
-  for (Finding& finding : checkPort(config.http.address, "http.address")) {
+  for (Finding& finding : checkPort(config.http.address, "http.address", !config.access.isOpen())) {
     findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+std::vector<Finding> checkAccess(const Config& config) {
+  const AccessConfig& access = config.access;
+  if (access.isOpen()) return {{Verdict::kFine, "access", "no token is needed", ""}};
+  std::vector<Finding> findings;
+  const auto check = [&](const std::string& file, const char* setting, const auto& parse) {
+    if (file.empty()) return;
+    const absl::StatusOr<std::string> text = readSmallFile(file, kAccessFileBytesMax);
+    const absl::Status status = text.ok() ? parse(*text, file).status() : text.status();
+    if (status.ok()) {
+      findings.push_back({Verdict::kFine, "access", strCat(setting, " can be used"), ""});
+    } else {
+      findings.push_back({Verdict::kProblem, "access", std::string(status.message()),
+                          strCat("correct the file, or name another with --", setting)});
+    }
+  };
+  check(access.token_file, "access.token_file", TokenList::parse);
+  check(access.jwks_file, "access.jwks_file", parseKeySet);
+  if (!access.jwks_file.empty() && (access.audience.empty() || access.issuer.empty())) {
+    findings.push_back({Verdict::kProblem, "access", "access.jwks_file needs audience and issuer",
+                        "set access.audience and access.issuer"});
   }
   return findings;
 }

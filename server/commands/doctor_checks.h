@@ -28,6 +28,8 @@ bool hasProblem(const std::vector<Finding>& findings);
 std::vector<Finding> checkEngines(const Config& config);
 // Whether each listening address can be taken, and whether it is for this machine alone.
 std::vector<Finding> checkPorts(const Config& config);
+// Whether the files of access.* can be used.
+std::vector<Finding> checkAccess(const Config& config);
 // Cores, and how many connections the system lets a process have.
 std::vector<Finding> checkHost();
 

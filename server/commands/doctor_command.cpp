@@ -38,6 +38,7 @@ int doctor(const Config& config) {
   tell(checkHost());
   tell(checkEngines(config));
   tell(checkPorts(config));
+  tell(checkAccess(config));
   std::cout << (has_problem ? "viewloomd cannot run yet\n" : "viewloomd can run\n");
   return has_problem ? kExitProblem : 0;
 }

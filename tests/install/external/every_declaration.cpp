@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names every function that the public headers declare, so that the library must have all of them.
+#include <viewloom/access_token.h>
 #include <viewloom/atlas.h>
 #include <viewloom/atlas_assembler.h>
 #include <viewloom/broken_call.h>
@@ -33,11 +34,12 @@ bool areThere(Functions... functions) {
 }
 
 bool functionsAreThere() {
-  return areThere(&hasWholePlane, &joinJpegBands, &decodePlane, &placeOfView, &cutView,
-                  &explainBrokenCall, &connectionProblem, &staysOnMachine, &statusFromGrpc,
-                  &isFromServer, &isFromTransport, &predictPlane, &compressFrame, &quantiseDepth,
-                  &motionLatency, &makeRandom, &isPassing, &steadyNowNs, &fieldError, &invalidField,
-                  &fieldOf, &withFieldPrefix);
+  return areThere(&tokenOfEnvironment, &readAccessToken, &isSendableToken, &hasWholePlane,
+                  &joinJpegBands, &decodePlane, &placeOfView, &cutView, &explainBrokenCall,
+                  &connectionProblem, &staysOnMachine, &statusFromGrpc, &isFromServer,
+                  &isFromTransport, &predictPlane, &compressFrame, &quantiseDepth, &motionLatency,
+                  &makeRandom, &isPassing, &steadyNowNs, &fieldError, &invalidField, &fieldOf,
+                  &withFieldPrefix);
 }
 
 bool methodsAreThere() {
