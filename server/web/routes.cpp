@@ -73,17 +73,6 @@ HttpReply webSocketReply(const WebContext& context, const HttpRequest& request, 
   return reply;
 }
 
-// A list, or the metrics.
-HttpReply listReply(const WebContext& context, const Caller& caller, const std::string& path) {
-  if (path == kMetricsPage) return metricsReply(context);
-  if (path == kApiStreams) {
-    return jsonReply(streamsJson(context.streams, context.broadcaster, caller).dump());
-  }
-  if (path == kApiDisplays) return jsonReply(displaysJson(context.broadcaster, caller).dump());
-  if (path == kApiPresets) return jsonReply(presetsJson().dump());
-  return jsonReply(fieldsJson().dump());
-}
-
 HttpReply notFoundReply(const std::string& path) {
   std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets",
                                     "/api/fields",  "/api/link",     "/api/session",
@@ -94,9 +83,21 @@ HttpReply notFoundReply(const std::string& path) {
       absl::StatusCode::kNotFound, "url",
       strCat("there is no page \"", printable(path.substr(0, kShownBytesMax)),
              "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, "
-             "/api/link, /api/session, /metrics, "
-             "/healthz, /still/STREAM/PRESET, /stream/STREAM/PRESET, /ws?stream=STREAM",
+             "/api/link, /api/session, /metrics, /healthz, /still/STREAM/PRESET, "
+             "/stream/STREAM/PRESET, /ws?stream=STREAM",
              suggestion.empty() ? "" : "; ", suggestion)));
+}
+
+// A list, or the metrics.
+HttpReply listReply(const WebContext& context, const Caller& caller, const std::string& path) {
+  if (path == kMetricsPage) return metricsReply(context);
+  if (path == kApiStreams) {
+    return jsonReply(streamsJson(context.streams, context.broadcaster, caller).dump());
+  }
+  if (path == kApiDisplays) return jsonReply(displaysJson(context.broadcaster, caller).dump());
+  if (path == kApiPresets) return jsonReply(presetsJson().dump());
+  if (path == kApiFields) return jsonReply(fieldsJson().dump());
+  return notFoundReply(path);  // operations of gRPC have paths, too
 }
 
 }  // namespace
