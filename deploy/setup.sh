@@ -17,7 +17,7 @@ TEXT
 runtime_packages=(
   ca-certificates fonts-dejavu-core libabsl20220623 libepoxy0 libgl1 libgrpc++1.51 libheif1 libhwy1
   libjpeg62-turbo libopenexr-3-1-30 libpng16-16 libprometheus-cpp-core1.0 libprotobuf32 libsdl2-2.0-0
-  libsdl2-ttf-2.0-0 libspdlog1.10 libssl3 libtiff6 libtomlplusplus3 libturbojpeg0 libvulkan1 libwebp7 libwebpdemux2 libzstd1
+  libseccomp2 libsdl2-ttf-2.0-0 libspdlog1.10 libssl3 libtiff6 libtomlplusplus3 libturbojpeg0 libvulkan1 libwebp7 libwebpdemux2 libzstd1
   mesa-vulkan-drivers zlib1g
 )
 build_packages=(
@@ -27,7 +27,7 @@ build_packages=(
   libheif-dev libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libpng-dev libtiff-dev libwebp-dev
   libzstd-dev zlib1g-dev
   libboost-dev libcli11-dev libspdlog-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev
-  prometheus-cpp-dev
+  libseccomp-dev prometheus-cpp-dev
   fonts-dejavu-core libepoxy-dev libsdl2-dev libsdl2-ttf-dev
 )
 test_packages=(

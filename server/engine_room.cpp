@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine_room.h"
 
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "base/str_cat.h"
+#include "config/kernel_folder.h"
 #include "engine/make_engines.h"
 #include "gpu/device.h"
 #include "gpu/device_error.h"
@@ -14,15 +13,6 @@
 
 namespace viewloom {
 namespace {
-
-// Where compiled kernels stay: what the service manager or the user's session has for that.
-std::string kernelFolder(const std::string& setting) {
-  if (setting != "auto") return setting;
-  if (const char* folder = std::getenv("CACHE_DIRECTORY")) return folder;
-  if (const char* folder = std::getenv("XDG_CACHE_HOME")) return strCat(folder, "/viewloom");
-  if (const char* folder = std::getenv("HOME")) return strCat(folder, "/.cache/viewloom");
-  return "";
-}
 
 using OnFailure = std::function<void(const std::exception& error)>;
 

@@ -77,12 +77,13 @@ std::string listeningAddress(const std::string& configured, uint16_t port) {
 // In the order of construction; each part uses those above it.
 struct Service::Parts {
   Parts(const Config& config, const Clock& clock,
-        std::function<void(const std::exception& error)> on_failure);
+        std::function<void(const std::exception& error)> on_failure,
+        const std::function<std::string()>& contain);
   ~Parts() { drain(); }
 
   void connect();
   void openHttp(const Config& config, const Clock& clock);
-  void openRpc(const Config& config, const Clock& clock);
+  void openRpc(const Config& config, const Clock& clock, const std::string& containment);
   void drain();
 
   Metrics metrics;
@@ -99,7 +100,8 @@ struct Service::Parts {
 };
 
 Service::Parts::Parts(const Config& config, const Clock& clock,
-                      std::function<void(const std::exception& error)> on_failure)
+                      std::function<void(const std::exception& error)> on_failure,
+                      const std::function<std::string()>& contain)
     : access(accessOptions(config.access), clock),
       directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits)),
@@ -121,8 +123,9 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
     log(LogLevel::kInfo, "device: ", made.device, " (", made.driver, ")");
   }
   connect();
+  const std::string containment = contain();
   if (config.http.enabled) openHttp(config, clock);
-  openRpc(config, clock);
+  openRpc(config, clock, containment);
 }
 
 // Connections against the data's direction: demand, and room for new streams.
@@ -146,7 +149,8 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
                metrics, clock, access);
 }
 
-void Service::Parts::openRpc(const Config& config, const Clock& clock) {
+void Service::Parts::openRpc(const Config& config, const Clock& clock,
+                             const std::string& containment) {
   const EngineRoomDescription made = engine_room->description();
   const ServerDescription description{.version = VIEWLOOM_VERSION,
                                       .device = made.device,
@@ -156,7 +160,8 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock) {
                                       .atlas_limits = atlasLimits(config.limits),
                                       .stream_count_max = config.limits.streams_max,
                                       .broadcaster_limits = broadcasterLimits(config.limits),
-                                      .http_address = http ? http->url() : ""};
+                                      .http_address = http ? http->url() : "",
+                                      .containment = containment};
   rpc.emplace(RpcServerOptions{.address = config.grpc.address,
                                .keepalive = std::chrono::seconds(config.grpc.keepalive_s)},
               RpcParts{.intake = intake,
@@ -184,8 +189,9 @@ void Service::Parts::drain() {
 }
 
 Service::Service(const Config& config, const Clock& clock,
-                 std::function<void(const std::exception& error)> on_failure)
-    : parts_(std::make_unique<Parts>(config, clock, std::move(on_failure))) {}
+                 std::function<void(const std::exception& error)> on_failure,
+                 const std::function<std::string()>& contain)
+    : parts_(std::make_unique<Parts>(config, clock, std::move(on_failure), contain)) {}
 
 Service::~Service() = default;
 

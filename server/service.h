@@ -22,9 +22,12 @@ class EngineRoom;
 class Service {
  public:
   // `on_failure`: the server cannot go on (device lost, out of memory) and should be drained.
-  // `clock` outlives the service.
-  Service(const Config& config, const Clock& clock,
-          std::function<void(const std::exception& error)> on_failure);
+  // `clock` outlives the service. `contain` is called once, when devices are open and nobody can
+  // connect yet; it returns what contains the process, for GetServerInfo.
+  Service(
+      const Config& config, const Clock& clock,
+      std::function<void(const std::exception& error)> on_failure,
+      const std::function<std::string()>& contain = [] { return "none"; });
   // Drains.
   ~Service();
 

@@ -103,6 +103,8 @@ void print(const v1::GetServerInfoResponse& info) {
               info.atlas_side_px_max());
   if (!info.http_address().empty())
     std::printf("page: %s\n", printable(info.http_address()).c_str());
+  if (!info.containment().empty())
+    std::printf("containment: %s\n", printable(info.containment()).c_str());
 }
 
 template <typename Response>

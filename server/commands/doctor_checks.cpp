@@ -21,6 +21,7 @@
 #include "access/watched_file.h"
 #include "base/host_port.h"
 #include "base/str_cat.h"
+#include "containment/landlock.h"
 
 namespace viewloom {
 namespace {
@@ -128,6 +129,23 @@ std::vector<Finding> checkAccess(const Config& config) {
                         "set access.audience and access.issuer"});
   }
   return findings;
+}
+
+std::vector<Finding> checkContainment(const Config& config) {
+  const auto advice = [](std::string what, std::string remedy) {
+    return std::vector<Finding>{
+        {Verdict::kAdvice, "containment", std::move(what), std::move(remedy)}};
+  };
+  if (!config.containment.enabled) {
+    return advice("is off: a fault in the server reaches all files of its user",
+                  "set containment.enabled to true");
+  }
+  const int version = landlockVersion();
+  if (version == 0) {
+    return advice("this kernel has no landlock: the server can use all files of its user",
+                  "use Linux 5.13 or newer, or a container");
+  }
+  return {{Verdict::kFine, "containment", strCat("files by landlock ", version), ""}};
 }
 
 std::vector<Finding> checkHost() {

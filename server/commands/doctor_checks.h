@@ -30,6 +30,8 @@ std::vector<Finding> checkEngines(const Config& config);
 std::vector<Finding> checkPorts(const Config& config);
 // Whether the files of access.* can be used.
 std::vector<Finding> checkAccess(const Config& config);
+// Whether this kernel can refuse files and system calls that a server does not need.
+std::vector<Finding> checkContainment(const Config& config);
 // Cores, and how many connections the system lets a process have.
 std::vector<Finding> checkHost();
 

@@ -36,6 +36,7 @@ int doctor(const Config& config) {
     has_problem |= hasProblem(findings);
   };
   tell(checkHost());
+  tell(checkContainment(config));
   tell(checkEngines(config));
   tell(checkPorts(config));
   tell(checkAccess(config));

@@ -14,7 +14,9 @@
 #include "base/heap.h"
 #include "base/log.h"
 #include "commands/command.h"
+#include "commands/contained_serve.h"
 #include "commands/reachable_addresses.h"
+#include "containment/containment.h"
 #include "service.h"
 #include "usage/command_line.h"
 
@@ -40,9 +42,9 @@ std::string joined(const std::vector<std::string>& addresses, const char* before
 }
 
 // Says how other machines get here, and what keeps them out.
-void sayReach(const std::string& grpc_address, const std::string& http_url, bool is_open) {
+void sayReach(const std::string& grpc_address, const std::string& http_url, bool is_open,
+              const InterfaceAddresses& interfaces) {
   constexpr std::string_view kScheme = "http://";
-  const InterfaceAddresses interfaces = interfaceAddresses();
   const std::vector<std::string> grpc = reachableAddresses(grpc_address, interfaces);
   const std::vector<std::string> http =
       http_url.starts_with(kScheme)
@@ -68,16 +70,23 @@ int serve(const Config& config) {
   setenv("GRPC_VERBOSITY", "NONE", 0);
   keepFreedMemory();
   const sigset_t stop_signals = blockStopSignals();
+  Containment containment(containmentOf(config));  // before the first thread
+  const InterfaceAddresses interfaces = interfaceAddresses();
   const SteadyClock clock;
   std::atomic<bool> has_failed = false;
-  Service service(config, clock, [&](const std::exception& error) {
+  const auto on_failure = [&has_failed](const std::exception& error) {
     has_failed = true;
     log(LogLevel::kError, "the server cannot go on: ", error.what());
     kill(getpid(), SIGTERM);  // wakes the wait below
-  });
+  };
+  const auto contain = [&containment] {
+    containment.refuseCalls();
+    return containment.description();
+  };
+  Service service(config, clock, on_failure, contain);
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
               service.httpUrl().c_str());
-  sayReach(service.grpcAddress(), service.httpUrl(), config.access.isOpen());
+  sayReach(service.grpcAddress(), service.httpUrl(), config.access.isOpen(), interfaces);
   std::fflush(stdout);
 
   int signal = 0;

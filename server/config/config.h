@@ -48,6 +48,12 @@ struct PipelineConfig {
   bool warm_up = true;  // compile kernels of likely displays before they are asked for
 };
 
+struct ContainmentConfig {
+  bool enabled = true;
+  bool core_dumps = false;
+  std::string readable;  // absolute paths separated by commas
+};
+
 struct LogConfig {
   std::string level = "info";
 };
@@ -61,6 +67,7 @@ struct Config {
   AccessConfig access{};
   LimitsConfig limits{};
   PipelineConfig pipeline{};
+  ContainmentConfig containment{};
   LogConfig log{};
 };
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "absl/strings/str_split.h"
 #include "base/host_port.h"
 #include "base/str_cat.h"
 
@@ -42,6 +43,11 @@ bool isOfHostNames(char c) {
          c == '-' || c == ',';
 }
 
+bool areAbsolutePaths(const std::string& text) {
+  const std::vector<std::string> paths = absl::StrSplit(text, ',', absl::SkipEmpty());
+  return std::ranges::all_of(paths, [](const std::string& path) { return path.starts_with('/'); });
+}
+
 bool fits(TextSetting::Form form, std::string_view text) {
   switch (form) {
     case TextSetting::Form::kAny:
@@ -53,6 +59,8 @@ bool fits(TextSetting::Form form, std::string_view text) {
       return isHostPort(text) || (text.starts_with("unix:") && text.size() > 5);
     case TextSetting::Form::kHostNames:
       return std::all_of(text.begin(), text.end(), isOfHostNames);
+    case TextSetting::Form::kPaths:
+      return areAbsolutePaths(std::string(text));
     case TextSetting::Form::kLogLevel:
       return std::find(kLogLevels.begin(), kLogLevels.end(), text) != kLogLevels.end();
   }
@@ -194,13 +202,28 @@ std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
   };
 }
 
+std::vector<Setting> containmentSettings(ContainmentConfig& containment) {
+  return {
+      {"containment.enabled", "",
+       "Let the kernel refuse files and system calls that a server does not need",
+       BoolSetting{&containment.enabled}},
+      {"containment.core_dumps", "",
+       "Allow images of the memory after a crash, and debuggers; both show pictures and secrets",
+       BoolSetting{&containment.core_dumps}},
+      {"containment.readable", "",
+       "Further files and folders that the server may read, such as drivers in unusual places",
+       TextSetting{&containment.readable, TextSetting::Form::kPaths}},
+  };
+}
+
 }  // namespace
 
 std::vector<Setting> settingsOf(Config& config) {
   std::vector<Setting> settings = machineSettings(config);
   for (const std::vector<Setting>& part :
        {addressSettings(config.grpc, config.http), accessSettings(config.access),
-        limitSettings(config.limits), pipelineSettings(config.pipeline)}) {
+        limitSettings(config.limits), pipelineSettings(config.pipeline),
+        containmentSettings(config.containment)}) {
     settings.insert(settings.end(), part.begin(), part.end());
   }
   settings.push_back({"log.level", "", "Lowest level of messages to log to standard error",
@@ -224,6 +247,8 @@ std::string acceptedText(const Setting& setting) {
       return "HOST:PORT or unix:PATH";
     case TextSetting::Form::kHostNames:
       return "host names, separated by commas";
+    case TextSetting::Form::kPaths:
+      return "absolute paths, separated by commas";
     case TextSetting::Form::kLogLevel:
       return "trace, debug, info, warn, error or off";
   }
@@ -248,6 +273,8 @@ std::string valueName(const Setting& setting) {
       return "HOST:PORT|unix:PATH";
     case TextSetting::Form::kHostNames:
       return "HOST,HOST";
+    case TextSetting::Form::kPaths:
+      return "PATH,PATH";
     case TextSetting::Form::kLogLevel:
       return "LEVEL";
   }

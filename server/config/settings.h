@@ -24,7 +24,7 @@ struct CountSetting {
 };
 
 struct TextSetting {
-  enum class Form : uint8_t { kAny, kFile, kHostPort, kGrpcAddress, kHostNames, kLogLevel };
+  enum class Form : uint8_t { kAny, kFile, kHostPort, kGrpcAddress, kHostNames, kPaths, kLogLevel };
   std::string* value;
   Form form = Form::kAny;
 };

@@ -28,6 +28,7 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   proto.set_display_count_max(description.broadcaster_limits.display_count_max);
   proto.set_subscriber_count_max(description.broadcaster_limits.subscriber_count_max);
   proto.set_http_address(description.http_address);
+  proto.set_containment(description.containment);
   return proto;
 }
 

@@ -24,6 +24,7 @@ struct ServerDescription {
   uint32_t stream_count_max = 0;
   BroadcasterLimits broadcaster_limits;
   std::string http_address;  // of the viewer page; empty = none
+  std::string containment;   // what contains the process, in words; "none"
 };
 
 // Thread-safety: all methods may be called from any thread.

@@ -10,11 +10,11 @@ PROGRAM = sys.argv.pop(1)
 
 
 class Viewloomd:
-    def __init__(self, address="127.0.0.1:0", options=()):
+    def __init__(self, address="127.0.0.1:0", options=(), log=None):
+        """options: further ones of `viewloomd serve`. log: a file for what it logs."""
         self.process = subprocess.Popen(
             [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0",
-             *options],
-            stdout=subprocess.PIPE, text=True)
+             *options], stdout=subprocess.PIPE, stderr=log, text=True)
         line = self.process.stdout.readline()
         self.address, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
 

@@ -33,6 +33,8 @@ LAYERS = {
     "server/config": (["base", "usage"], ["absl", "toml++"]),
     # Knows neither door, and no stream but by its name.
     "server/access": (["base"], ["absl", "nlohmann", "openssl"]),
+    # Takes rights from the process; the kernel's interface and libseccomp only.
+    "server/containment": (["base"], ["absl", "nlohmann", "seccomp"]),
     "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
     "server/picture": (["base", "frame", "calibration", "display", SHADERS_SHARED],
                        ["absl", "glm"]),
@@ -129,6 +131,7 @@ THIRD_PARTY = [
     ("openexr", r"OpenEXR/|Imath/|Imf|Imath"), ("cli11", r"CLI/"),
     ("vulkan", r"vulkan/"), ("boost", r"boost/"), ("zlib", r"zlib\.h"),
     ("highway", r"hwy/"), ("openssl", r"openssl/"), ("sdl", r"SDL\w*\.h"), ("epoxy", r"epoxy/"),
+    ("seccomp", r"seccomp\.h"),
     ("grpc", r"grpcpp/|grpc/|.*\.grpc\.pb\.h"),
     ("protobuf", r"google/protobuf/|.*\.pb\.h"),
     ("gtest", r"gtest/|gmock/"), ("benchmark", r"benchmark/"),

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/contained_serve.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "absl/strings/str_split.h"
+#include "base/host_port.h"
+#include "config/kernel_folder.h"
+
+namespace viewloom {
+namespace {
+
+constexpr std::string_view kUnix = "unix:";
+
+// The port of an address, or the folder in which its socket is made.
+void addAddress(const std::string& address, ContainmentOptions& options) {
+  if (address.starts_with(kUnix)) {
+    std::error_code error;
+    const auto path = std::filesystem::absolute(address.substr(kUnix.size()), error);
+    options.files.push_back({path.parent_path(), FileAccess::kSockets});
+    return;
+  }
+  const std::optional<HostPort> parsed = parseHostPort(address);
+  if (parsed && parsed->port) options.listen_ports.push_back(*parsed->port);
+}
+
+}  // namespace
+
+ContainmentOptions containmentOf(const Config& config) {
+  ContainmentOptions options{.is_enabled = config.containment.enabled,
+                             .may_dump_core = config.containment.core_dumps};
+  // gRPC tries a free port to find out whether there is IPv6.
+  options.listen_ports.push_back(0);
+  addAddress(config.grpc.address, options);
+  if (config.http.enabled) addAddress(config.http.address, options);
+  const std::string kernels = kernelFolder(config.kernel_folder);
+  if (!kernels.empty()) options.files.push_back({kernels, FileAccess::kKeep});
+  const std::vector<std::string> readable =
+      absl::StrSplit(config.containment.readable, ',', absl::SkipEmpty());
+  for (const std::string& path : readable) options.files.push_back({path, FileAccess::kRead});
+  return options;
+}
+
+}  // namespace viewloom
