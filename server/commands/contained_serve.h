@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `viewloomd serve` needs of the machine, from its settings.
+// Rights that `viewloomd serve` keeps, from its settings.
 #pragma once
 
 #include "config/config.h"

@@ -18,8 +18,8 @@ struct ContainmentOptions {
   std::vector<uint16_t> listen_ports;  // TCP; 0 = any free one
 };
 
-// What a kernel does not offer is left out, with a line in the log. Nothing is given back when the
-// object dies. Thread-safety: none.
+// Skips measures that the kernel does not offer, with a line in the log. Nothing is given back when
+// the object dies. Thread-safety: none.
 class Containment {
  public:
   // First half: files, new rights, core dumps. Holds for the calling thread and those that it
@@ -30,7 +30,8 @@ class Containment {
   // connect.
   void refuseCalls();
 
-  // What holds, in words: "files (landlock 7), system calls (seccomp), no core dumps"; "none".
+  // The measures that hold, in words: "files (landlock 7), system calls (seccomp), no core dumps";
+  // "none".
   std::string description() const;
 
  private:

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kReadable[] = {
     "/usr", "/lib", "/lib32", "/lib64", "/opt", "/run/opengl-driver",
-    // Of /etc only what libraries read: as root, all of it would be readable.
+    // Not all of /etc: root could read all of it.
     "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d", "/etc/vulkan", "/etc/glvnd",
     "/etc/drirc", "/etc/nvidia", "/etc/amd", "/etc/fonts", "/etc/ssl", "/etc/ca-certificates",
     "/etc/pki", "/etc/hosts", "/etc/host.conf", "/etc/resolv.conf", "/etc/nsswitch.conf",

@@ -28,8 +28,8 @@ struct FileGrant {
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> processVariable(const char* name);
 
-// What libraries of the server read and write on any system: shared libraries, drivers of GPUs and
-// their devices, certificates, fonts, names of hosts, the kernel's view of this process.
+// Files that libraries of the server read and write on any system: shared libraries, drivers of
+// GPUs and their devices, certificates, fonts, names of hosts, the kernel's view of this process.
 std::vector<FileGrant> librariesGrants(const Environment& environment);
 
 // Folders in which drivers of this machine keep compiled kernels. A driver makes its folder at its

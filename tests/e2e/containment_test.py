@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A contained server: it makes pictures of all kinds and is refused nothing that it needs; what holds is
-in its log, in its answers, and in what the kernel says. Arguments: viewloomd, viewloom."""
+"""A contained server makes pictures of all kinds and is refused nothing that it needs. Its log, its
+answers and the kernel say what holds. Arguments: viewloomd, viewloom."""
 import json
 import pathlib
 import signal

@@ -25,7 +25,7 @@
 namespace viewloom::call_filter_test {
 namespace {
 
-// What a child does with its calls filtered; ends it.
+// Filters the calls of a child, tells whether `holds`, and ends the child.
 [[noreturn]] void whenFiltered(const std::function<bool()>& holds) {
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   const absl::Status filtered = refuseOtherCalls();
