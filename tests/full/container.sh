@@ -25,7 +25,8 @@ trap '"$engine" rm --force "$image" >/dev/null; "$engine" rmi "$image" >/dev/nul
 user="$("$engine" run --rm --entrypoint id "$image" --user)"
 [[ "$user" -ne 0 ]] || { echo "container: the server runs as root" >&2; exit 1; }
 "$engine" run --rm "$image" doctor
-"$engine" run --detach --name "$image" "$image"
+"$engine" run --detach --name "$image" --read-only --cap-drop ALL \
+  --security-opt no-new-privileges "$image"
 for _ in $(seq 30); do
   health="$("$engine" inspect --format '{{.State.Health.Status}}' "$image")"
   if [[ "$health" == healthy ]]; then

@@ -3,6 +3,7 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -75,6 +76,11 @@ class InstalledTree(unittest.TestCase):
         unit = (PREFIX / "lib/systemd/system/viewloomd.service").read_text(encoding="utf-8")
         self.assertIn(f"\nExecStart={PREFIX}/bin/viewloomd serve ", unit)
         self.assertTrue((PREFIX / "share/viewloom/viewloomd.example.toml").is_file())
+
+    @unittest.skipUnless(shutil.which("systemd-analyze"), "there is no systemd-analyze")
+    def test_the_unit_leaves_the_server_few_rights(self):
+        unit = PREFIX / "lib/systemd/system/viewloomd.service"
+        run("systemd-analyze", "security", "--offline=true", "--threshold=20", str(unit))
 
     def test_the_python_package_is_imported_from_there(self):
         package = only("lib/python3*/dist-packages")
