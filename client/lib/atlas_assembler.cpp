@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/atlas_assembler.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -8,6 +9,27 @@
 namespace viewloom {
 
 namespace {
+
+constexpr uint32_t kSideMax_px = 16384;  // as display.proto
+
+// A layout of which views can be cut. Sizes in 64 bits: the products of foreign ones fit.
+absl::Status checkLayout(const v1::AtlasLayout& layout) {
+  const uint64_t width = layout.size().width();
+  const uint64_t height = layout.size().height();
+  if (std::min(width, height) == 0 || std::max(width, height) > kSideMax_px) {
+    return absl::DataLossError(strCat("the layout has an atlas of ", width, "x", height,
+                                      " px; accepted is 1..", kSideMax_px, " px a side"));
+  }
+  const bool has_room =
+      uint64_t{layout.columns()} * layout.tile_size().width() <= width &&
+      uint64_t{layout.rows()} * layout.tile_size().height() + layout.padding_top_px() <= height &&
+      layout.view_count() <= uint64_t{layout.columns()} * layout.rows();
+  if (!has_room) return absl::DataLossError("the layout has an atlas without room for its views");
+  if (layout.image_count() > height) {
+    return absl::DataLossError("the layout has an atlas of more images than it has rows");
+  }
+  return absl::OkStatus();
+}
 
 // Older servers, and recordings of them, say it before the bands.
 void takeOutcomeOf(v1::AtlasHeader& header, v1::AtlasEnd& end) {
@@ -44,6 +66,7 @@ void AtlasAssembler::discard() {
 
 absl::StatusOr<std::optional<Atlas>> AtlasAssembler::add(v1::StreamAtlasesResponse message) {
   if (message.has_layout()) {
+    VIEWLOOM_RETURN_IF_ERROR(checkLayout(message.layout()));
     discard();
     last_sequence_ = 0;
     layout_ = std::make_shared<const v1::AtlasLayout>(std::move(*message.mutable_layout()));

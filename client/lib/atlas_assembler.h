@@ -27,7 +27,7 @@ class AtlasAssembler {
   // Begins a new call: an unfinished atlas is discarded, and the sequence starts again.
   void restart();
   // Takes a message and returns the atlas that it completes, if any. DATA_LOSS if messages of the
-  // server are out of order.
+  // server are out of order, or if a layout does not add up: views can be cut out of all others.
   absl::StatusOr<std::optional<Atlas>> add(v1::StreamAtlasesResponse message);
   // The newest layout; null before the first.
   std::shared_ptr<const v1::AtlasLayout> layout() const { return layout_; }

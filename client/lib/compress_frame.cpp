@@ -19,7 +19,8 @@ constexpr size_t kSampleBytes = sizeof(uint16_t);
 
 // 0, -1, 1, -2, ... to 0, 1, 2, 3, ..., modulo 65536.
 uint16_t zigzag(uint16_t difference) {
-  return static_cast<uint16_t>((difference << 1) ^ (0U - (difference >> 15)));
+  const uint32_t wide = difference;
+  return static_cast<uint16_t>((wide << 1) ^ (0U - (wide >> 15)));
 }
 
 }  // namespace

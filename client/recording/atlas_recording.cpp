@@ -1,38 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/atlas_recording.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
-#include "base/str_cat.h"
 #include "lib/file_name_part.h"
 
 namespace viewloom {
-namespace {
-
-constexpr uint32_t kSideMax_px = 16384;  // as display.proto
-
-// The sentence that is wrong with it, or nothing. Sizes in 64 bits: the products of foreign ones
-// fit.
-std::string problemOf(const v1::AtlasLayout& layout) {
-  const uint64_t width = layout.size().width();
-  const uint64_t height = layout.size().height();
-  if (std::min(width, height) == 0 || std::max(width, height) > kSideMax_px) {
-    return strCat("has an atlas of ", width, "x", height, " px, accepted are 1..", kSideMax_px,
-                  " a side,");
-  }
-  const bool has_room =
-      uint64_t{layout.columns()} * layout.tile_size().width() <= width &&
-      uint64_t{layout.rows()} * layout.tile_size().height() + layout.padding_top_px() <= height &&
-      layout.view_count() <= uint64_t{layout.columns()} * layout.rows();
-  if (!has_room) return "has an atlas without room for its views";
-  if (layout.image_count() > height) return "has an atlas of more images than it has rows";
-  if (!isFileNamePart(layout.suffix())) return "has a suffix that is no part of a file name";
-  return "";
-}
-
-}  // namespace
 
 AtlasRecorder::AtlasRecorder(std::unique_ptr<RecordingWriter> writer, const Clock& clock)
     : writer_(std::move(writer)), clock_(clock) {}
@@ -79,10 +53,8 @@ absl::StatusOr<std::optional<RecordedAtlas>> AtlasRecordingReader::next() {
     if (!response.ParseFromString((*message)->bytes)) {
       return reader_->refuse("has a message that does not parse");
     }
-    if (response.has_layout()) {
-      if (std::string problem = problemOf(response.layout()); !problem.empty()) {
-        return reader_->refuse(problem);
-      }
+    if (response.has_layout() && !isFileNamePart(response.layout().suffix())) {
+      return reader_->refuse("has a suffix that is no part of a file name");
     }
     absl::StatusOr<std::optional<Atlas>> atlas = assembler_.add(std::move(response));
     if (!atlas.ok()) return reader_->refuse(std::string(atlas.status().message()));

@@ -4,16 +4,16 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
-#include "fuzz/fuzz_decode.h"
-#include "fuzz/seeds.h"
+#include "fuzz/fuzz_target.h"
 
 namespace viewloom::mutated_bytes_test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
-constexpr int kRounds = 4000;
+constexpr int kRounds = 2000;
 
 // Flips, replaces, removes or repeats a few bytes.
 Bytes mutated(Bytes bytes, std::mt19937& random) {
@@ -40,33 +40,24 @@ Bytes mutated(Bytes bytes, std::mt19937& random) {
   return bytes;
 }
 
+class MutatedBytes : public testing::TestWithParam<FuzzTarget> {};
+
 // Seeds are accepted as they are; spoilt they are accepted or refused. A broken promise aborts.
-void walk(bool (*fuzz)(std::span<const uint8_t>), const SeedBytes& seeds) {
-  for (const Bytes& seed : seeds) EXPECT_TRUE(fuzz(seed));
+TEST_P(MutatedBytes, keepEveryPromise) {
+  const FuzzTarget& target = GetParam();
+  const SeedBytes seeds = target.seeds();
+  for (size_t i = 0; i < seeds.size(); ++i) EXPECT_TRUE(target.reads(seeds[i])) << "seed " << i;
   std::mt19937 random(7);
   int accepted_count = 0;
   for (int round = 0; round < kRounds; ++round) {
-    accepted_count += fuzz(mutated(seeds[random() % seeds.size()], random));
+    accepted_count += target.reads(mutated(seeds[random() % seeds.size()], random));
   }
   EXPECT_GT(accepted_count, 0);
   EXPECT_LT(accepted_count, kRounds);
 }
 
-TEST(MutatedBytes, keepTheJpegDecoderWithinItsPlane) {
-  walk(fuzzJpeg, jpegSeeds());
-}
-TEST(MutatedBytes, keepTheInflaterWithinItsPlane) {
-  walk(fuzzZstd, zstdSeeds());
-}
-TEST(MutatedBytes, keepPredictedPlanesWhole) {
-  walk(fuzzPredicted, predictedSeeds());
-}
-TEST(MutatedBytes, leaveFramesWholeOrRefused) {
-  walk(fuzzFrame, frameSeeds());
-}
-TEST(MutatedBytes, leavePicturesWholeOrRefused) {
-  walk(fuzzPicture, pictureSeeds());
-}
+INSTANTIATE_TEST_SUITE_P(Fuzz, MutatedBytes, testing::ValuesIn(fuzzTargets()),
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace viewloom::mutated_bytes_test

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <initializer_list>
+
 namespace viewloom::atlas_assembler_test {
 namespace {
 
@@ -10,6 +13,7 @@ using Message = v1::StreamAtlasesResponse;
 
 Message layoutMessage() {
   Message message;
+  message.mutable_layout()->mutable_size()->set_width(4);
   message.mutable_layout()->mutable_size()->set_height(4);
   return message;
 }
@@ -155,6 +159,29 @@ TEST_F(AtlasAssemblerTest, refusesMessagesOutOfOrder) {
   EXPECT_EQ(codeOf(endMessage(1)), absl::StatusCode::kDataLoss) << "a band is missing";
   EXPECT_EQ(codeOf(bandMessage(2, 2, "x")), absl::StatusCode::kDataLoss) << "another atlas's band";
   EXPECT_EQ(codeOf(bandMessage(1, 2, "x", 5)), absl::StatusCode::kDataLoss) << "a piece is missing";
+}
+
+TEST_F(AtlasAssemblerTest, refusesLayoutsOfWhichNoViewCanBeCut) {
+  const auto codeWith = [this](const std::function<void(v1::AtlasLayout&)>& spoil) {
+    Message message = layoutMessage();
+    v1::AtlasLayout& layout = *message.mutable_layout();
+    layout.mutable_tile_size()->set_width(2);
+    layout.mutable_tile_size()->set_height(4);
+    layout.set_columns(2);
+    layout.set_rows(1);
+    layout.set_view_count(2);
+    spoil(layout);
+    return codeOf(message);
+  };
+  EXPECT_EQ(codeWith([](auto&) {}), absl::StatusCode::kOk);
+  for (const auto& spoil : std::initializer_list<std::function<void(v1::AtlasLayout&)>>{
+           [](auto& l) { l.mutable_size()->set_width(0); },
+           [](auto& l) { l.mutable_size()->set_height(4'000'000'000); },
+           [](auto& l) { l.mutable_tile_size()->set_width(3); },
+           [](auto& l) { l.set_padding_top_px(1); }, [](auto& l) { l.set_columns(0); },
+           [](auto& l) { l.set_image_count(5); }}) {
+    EXPECT_EQ(codeWith(spoil), absl::StatusCode::kDataLoss);
+  }
 }
 
 TEST_F(AtlasAssemblerTest, refusesAPieceOfAnotherBandInside) {
