@@ -35,7 +35,7 @@ test_packages=(
   chromium curl python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   python3-pip python3-setuptools python3-venv python3-wheel
   man-db xdotool xvfb zsh
-  clang clang-format clang-tidy libembree-dev
+  clang clang-format clang-tidy libembree-dev llvm
 )
 # Node from elsewhere is as good, and Debian's npm cannot be installed beside it.
 command -v node >/dev/null || test_packages+=(nodejs)

@@ -3,15 +3,19 @@
 
 import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
 
-from long_run import Part, Step
+from long_run import Part, Step, source_of
 
 JOBS = str(os.cpu_count())
-FUZZERS = ("jpeg", "zstd", "predicted", "frame", "picture")
-FUZZ_STEP_S, FUZZ_STEPS = 60, 30
+TARGETS = pathlib.Path(__file__).parents[1] / "fuzz/fuzz_targets.cpp"
+FUZZERS = re.findall(r'^ +FuzzTarget\{"([a-z_]+)"', TARGETS.read_text(), re.MULTILINE)
+# Enough for two hours of CPU time where others use the machine, too. Once a target was searched
+# enough, its other steps pass at once.
+FUZZ_STEP_S, FUZZ_STEPS = 60, 150
 # Beyond those of the suite. A seed of several sources takes longer than one of a single source.
 SOAKS = {"walk": ([], 200, 40), "sweep": (["sweep"], 2000, 20), "cube": (["cube"], 100, 20),
          "sources": (["sources"], 100, 20), "beside": (["beside"], 100, 20)}
@@ -44,13 +48,14 @@ def each_ctest(preset, label):
 
 def fuzz(name):
     folder = "build/fuzz"
-    corpus = f"{folder}/corpus/{name}"
-    seeds = Step("seeds", [f"{folder}/tests/fuzz/write_seeds", name, corpus])
-    command = [f"{folder}/tests/fuzz/{name}_fuzzer", f"-max_total_time={FUZZ_STEP_S}",
-               "-timeout=30", "-rss_limit_mb=4096", f"-artifact_prefix={folder}/{name}-", corpus]
-    return Part(f"fuzz-{name}", f"libFuzzer on what {name}_fuzzer reads; the corpus is kept", "s",
-                lambda: [Step(f"minute {i + 1}", command, FUZZ_STEP_S) for i in range(FUZZ_STEPS)],
-                build("fuzz", "write_seeds", f"{name}_fuzzer") + [seeds])
+    seeds = Step("seeds", [f"{folder}/tests/fuzz/write_seeds", name, f"{folder}/corpus/{name}"])
+
+    def steps():
+        command = [sys.executable, "tests/full/fuzz_step.py", folder, name, source_of("."),
+                   str(FUZZ_STEP_S)]
+        return [Step(f"minute {i + 1}", command, FUZZ_STEP_S) for i in range(FUZZ_STEPS)]
+    return Part(f"fuzz-{name}", "libFuzzer: 10 million executions or 2 CPU hours; keeps the corpus",
+                "s", steps, build("fuzz", "fuzzers") + [seeds])
 
 
 def soak(name):
@@ -90,6 +95,10 @@ PARTS = [
     Part("threads", "unit tests under the thread sanitizer", "runs", ctest("tsan", "unit"),
          build("tsan", "unit_tests")),
     *map(fuzz, FUZZERS),
+    Part("fuzz-coverage", "lines of parsers and checks that the corpora reach; after the others",
+         "runs", lambda: [Step("all corpora", [sys.executable, "tests/full/fuzz_coverage.py",
+                                               "build/fuzz-coverage", "build/fuzz/corpus"])],
+         build("fuzz-coverage", "fuzzers")),
     *map(soak, SOAKS),
     Part("lint", "clang-tidy over server and client", "runs",
          lambda: [Step("clang-tidy", ["cmake", "--build", "build/lint", "--target", "clang_tidy"])],

@@ -53,7 +53,7 @@ bool isServed(const absl::StatusOr<WatchRequest>& request) {
   return isTaken(request.status()) && isTaken(stream.check(request->stream));
 }
 
-// What is written as JSON is read as the same message.
+// A text of JSON is read as the message that it was written from.
 void checkRoundTrip(const google::protobuf::Message& message, google::protobuf::Message& again) {
   std::string json;
   VIEWLOOM_CHECK(google::protobuf::util::MessageToJsonString(message, &json).ok());
@@ -69,7 +69,7 @@ std::string lineAt(const std::vector<std::string>& lines, size_t index) {
   return index < lines.size() ? lines[index] : "";
 }
 
-// As Viewer does with a message of its client.
+// Reads a message of a client, like Viewer.
 bool takeMessage(const std::string& text, AskedDisplay& asked) {
   v1::ViewerMessage message;
   if (!isTaken(messageFromJson(text, kJsonBytesMax, message))) return false;
@@ -84,7 +84,7 @@ bool takeMessage(const std::string& text, AskedDisplay& asked) {
   return true;
 }
 
-// As the routes read what a URL asks for.
+// Reads a URL, like the routes of the server.
 bool asksForPicture(const Url& url) {
   const QuiltAddressForm form{.root = "/still/", .extensions = {".jpg"}};
   if (url.path.starts_with(form.root)) {
