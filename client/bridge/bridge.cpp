@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/str_cat.h"
+#include "bridge/json_answer.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -41,7 +42,7 @@ double number(const json& object, const char* name, const char* other_name) {
 // another version; a text of JSON.
 std::optional<QuiltShape> readQuiltShape(const json& text) {
   if (!text.is_string()) return std::nullopt;
-  const json quilt = json::parse(text.get<std::string>(), nullptr, false);
+  const json quilt = parseAnswer(text.get<std::string>());
   constexpr double kCountMax = 65536;
   const double width_px = number(quilt, "quiltX", "quiltWidth");
   const double height_px = number(quilt, "quiltY", "quiltHeight");
@@ -125,7 +126,7 @@ absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
                "answered with an empty body, as to all it does not know; update Looking "
                "Glass Bridge"));
   }
-  const json answer = json::parse(response->body, nullptr, false);
+  const json answer = parseAnswer(response->body);
   if (!answer.is_object()) {
     return absl::FailedPreconditionError(strCat(asked(endpoint), "answered ",
                                                 quoted(response->body),

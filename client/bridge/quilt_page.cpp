@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/str_cat.h"
+#include "bridge/json_answer.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -72,7 +73,7 @@ absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& tar
 }
 
 absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
-  const json answer = json::parse(response.body, nullptr, false);
+  const json answer = parseAnswer(response.body);
   const json path = answer.is_object() ? answer.value("error", json()) : json();
   const json message = path.is_object() ? path.value("message", json()) : json();
   if (message.is_string()) return absl::FailedPreconditionError(message.get<std::string>());
@@ -107,7 +108,7 @@ absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQue
     response = get(page, target, query.token, timeout);
     VIEWLOOM_RETURN_IF_ERROR(response.status());
   }
-  const json layout = json::parse(response->body, nullptr, false);
+  const json layout = parseAnswer(response->body);
   if (!response->isOk() || !layout.is_object()) return refused(page, *response);
   AddressedQuilt quilt;
   try {

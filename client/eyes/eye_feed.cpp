@@ -18,6 +18,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <nlohmann/json.hpp>
 
+#include "base/json_nesting.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -73,6 +74,10 @@ bool isFile(int descriptor) {
 }  // namespace
 
 absl::StatusOr<v1::EyePoses> parseEyePoses(const std::string& line) {
+  if (isNestedDeeply(line)) {
+    return absl::InvalidArgumentError(
+        strCat("nests lists or objects deeper than ", kJsonDepthMax, " levels; accepted is less"));
+  }
   const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) {
     return absl::InvalidArgumentError(

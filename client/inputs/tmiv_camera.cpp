@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/str_join.h"
+#include "base/json_nesting.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
@@ -192,6 +193,10 @@ absl::StatusOr<TmivCamera> readTmivCamera(const std::filesystem::path& path,
                                           const std::string& name, const std::string& depth_file) {
   const absl::StatusOr<std::vector<uint8_t>> bytes = files::readFileBytes(path, kCameraBytesMax);
   if (!bytes.ok()) return bytes.status();
+  if (isNestedDeeply({reinterpret_cast<const char*>(bytes->data()), bytes->size()})) {
+    return files::refuseFile(path.string(), strCat("nests lists or objects deeper than ",
+                                                   kJsonDepthMax, " levels; accepted is less"));
+  }
   const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
   if (json.is_discarded()) {
     return files::refuseFile(path.string(),

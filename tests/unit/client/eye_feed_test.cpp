@@ -82,6 +82,12 @@ TEST(EyeFeed, givesTheLinesOfAFileInOrderAndSaysWhichIsBad) {
   EXPECT_THAT(std::string(EyeFeed::open(file).status().message()), HasSubstr("No such file"));
 }
 
+TEST(EyePoses, refuseALineThatNestsDeeply) {
+  const absl::StatusOr<v1::EyePoses> poses =
+      parseEyePoses("{\"time_ns\": 1, \"left\": {\"a\": " + std::string(60'000, '['));
+  EXPECT_THAT(std::string(poses.status().message()), HasSubstr("deeper than 64 levels"));
+}
+
 TEST(EyeFeed, refusesALineWithoutEnd) {
   const std::string file = testing::TempDir() + "eye_feed_long.jsonl";
   std::ofstream(file) << std::string(100'000, ' ');

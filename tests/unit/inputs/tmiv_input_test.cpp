@@ -143,6 +143,7 @@ TEST_F(TmivInputTest, namesTheKeyAtFault) {
   EXPECT_THAT(refusal(R"(, "BitDepthDepth": 40)"), HasSubstr("BitDepthDepth is 40; accepted"));
   EXPECT_THAT(refusal(R"(, "Projection": "Equirectangular")"), HasSubstr("Perspective"));
   EXPECT_THAT(refusal(R"(, "HasInvalidDepth": 3)"), HasSubstr("true or false"));
+  EXPECT_THAT(refusal(R"(, "Focal": )" + std::string(1'000'000, '[')), HasSubstr("deeper than 64"));
   for (const char* name : {"a.png", "c.png"}) {
     writePng(file(name), kWidth, kHeight, 1, 16, std::vector<uint16_t>(8, 50));
   }
