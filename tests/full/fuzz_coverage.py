@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fuzz_coverage.py BUILD CORPORA: which lines of parsers and checks the corpora of all fuzzers reach.
+"""fuzz_coverage.py BUILD CORPORA: lines of parsers and checks that the corpora of all targets reach.
 Fails below 90 %. Needs llvm-profdata and llvm-cov.
 
 BUILD has fuzzers that count (the preset fuzz-coverage), CORPORA a folder for each of them.
@@ -40,7 +40,7 @@ def is_reader(path):
 
 
 def shares(report):
-    """(file, covered lines, lines) of each reader in a report of llvm-cov, the least share first."""
+    """(file, covered lines, lines) of each reader in a report of llvm-cov; least share first."""
     rows = [(file["filename"], file["summary"]["lines"]["covered"],
              file["summary"]["lines"]["count"])
             for file in report["data"][0]["files"] if is_reader(file["filename"])]

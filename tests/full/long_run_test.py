@@ -148,7 +148,8 @@ class FuzzCoverage(unittest.TestCase):
     def test_the_least_covered_file_comes_first(self):
         def file(name, covered):
             return {"filename": name, "summary": {"lines": {"covered": covered, "count": 10}}}
-        url, other, policy = (f"/x/server/web/{name}.cpp" for name in ("url", "routes", "host_policy"))
+        url, other, policy = (f"/x/server/web/{name}.cpp"
+                              for name in ("url", "routes", "host_policy"))
         report = {"data": [{"files": [file(url, 9), file(other, 0), file(policy, 8)]}]}
         self.assertEqual(fuzz_coverage.shares(report), [(policy, 8, 10), (url, 9, 10)])
 
