@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fuzz_coverage.py BUILD CORPORA: lines of parsers and checks that the corpora of all targets reach.
+"""fuzz_coverage.py BUILD CORPORA: lines of parsers and checks that the corpora reach.
 Fails below 90 %. Needs llvm-profdata and llvm-cov.
 
 BUILD has fuzzers that count (the preset fuzz-coverage), CORPORA a folder for each of them.
