@@ -17,6 +17,14 @@ namespace {
 
 constexpr std::string_view kUnix = "unix:";
 
+// At the end of a program, a sanitizer looks for leaks: it starts a process that looks into this
+// one.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
 // The port of an address, or the folder in which its socket is made.
 void addAddress(const std::string& address, ContainmentOptions& options) {
   if (address.starts_with(kUnix)) {
@@ -32,8 +40,8 @@ void addAddress(const std::string& address, ContainmentOptions& options) {
 }  // namespace
 
 ContainmentOptions containmentOf(const Config& config) {
-  ContainmentOptions options{.is_enabled = config.containment.enabled,
-                             .may_dump_core = config.containment.core_dumps};
+  ContainmentOptions options{.is_enabled = config.containment.enabled && !kIsSanitized,
+                             .may_dump_core = config.containment.core_dumps || kIsSanitized};
   // gRPC tries a free port to find out whether there is IPv6.
   options.listen_ports.push_back(0);
   addAddress(config.grpc.address, options);

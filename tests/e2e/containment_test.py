@@ -33,6 +33,8 @@ class Containment(unittest.TestCase):
         with self.log.open("wb") as errors:
             server = viewloomd.Viewloomd(address, more, errors)
         self.addCleanup(server.stop)
+        if "containment is off" in self.log.read_text(encoding="utf-8") and not more:
+            self.skipTest("a build with sanitizers does not contain itself")
         return server
 
     def publish(self, server):
