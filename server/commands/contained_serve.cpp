@@ -15,7 +15,7 @@
 namespace viewloom {
 namespace {
 
-constexpr std::string_view kUnix = "unix:";
+constexpr std::string_view kUnixScheme = "unix:";
 
 // At the end of a program, a sanitizer looks for leaks: it starts a process that looks into this
 // one.
@@ -27,9 +27,9 @@ constexpr bool kIsSanitized = false;
 
 // The port of an address, or the folder in which its socket is made.
 void addAddress(const std::string& address, ContainmentOptions& options) {
-  if (address.starts_with(kUnix)) {
+  if (address.starts_with(kUnixScheme)) {
     std::error_code error;
-    const auto path = std::filesystem::absolute(address.substr(kUnix.size()), error);
+    const auto path = std::filesystem::absolute(address.substr(kUnixScheme.size()), error);
     options.files.push_back({path.parent_path(), FileAccess::kSockets});
     return;
   }

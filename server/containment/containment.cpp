@@ -76,11 +76,11 @@ void Containment::confineFiles(const ContainmentOptions& options) {
 
 void Containment::refuseCalls() {
   if (!is_enabled_) return;
-  const absl::Status refused = refuseOtherCalls();
-  if (refused.ok()) {
+  const absl::Status filtered = refuseOtherCalls();
+  if (filtered.ok()) {
     parts_.emplace_back("system calls (seccomp)");
   } else {
-    log(LogLevel::kWarning, "containment: system calls are not filtered: ", refused.message());
+    log(LogLevel::kWarning, "containment: system calls are not filtered: ", filtered.message());
   }
   log(LogLevel::kInfo, "containment: ", description());
 }
