@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -11,10 +12,12 @@
 #include "frame/limits.h"
 #include "fuzz/script.h"
 #include "fuzz/targets.h"
+#include "lib/atlas_assembler.h"
 #include "messages/display_from_proto.h"
 #include "messages/wire_message.h"
 #include "rpc/eye_poses_from_proto.h"
 #include "rpc/frame_from_proto.h"
+#include "rpc/layout_to_proto.h"
 #include "rpc/read_chunk.h"
 #include "viewloom/v1/display_service.pb.h"
 #include "viewloom/v1/ingest_service.pb.h"
@@ -100,7 +103,12 @@ bool fuzzDisplay(FuzzBytes bytes) {
   if (!isAccepted(layout.status())) return false;
   VIEWLOOM_CHECK(std::max(layout->size_px.width, layout->size_px.height) <=
                  kSmallAtlases.side_px_max);
-  return encoding.ok();
+  if (!encoding.ok()) return false;
+  // Clients take it.
+  v1::StreamAtlasesResponse response;
+  *response.mutable_layout() = layoutToProto(*layout, *encoding);
+  VIEWLOOM_CHECK(AtlasAssembler().add(std::move(response)).ok());
+  return true;
 }
 
 bool fuzzEyePoses(FuzzBytes bytes) {
