@@ -33,7 +33,8 @@ std::string prefixOf(absl::string_view xml, absl::string_view uri) {
 std::string valueOf(absl::string_view xml, const std::string& prefix, const char* name) {
   const std::string full = strCat(prefix, ":", name);
   for (size_t at = xml.find(full); at != absl::string_view::npos; at = xml.find(full, at + 1)) {
-    const bool begins = at > 0 && (xml[at - 1] == '<' || absl::ascii_isspace(xml[at - 1]));
+    const bool begins = at > 0 && (xml[at - 1] == '<' ||
+                                   absl::ascii_isspace(static_cast<unsigned char>(xml[at - 1])));
     absl::string_view rest = absl::StripLeadingAsciiWhitespace(xml.substr(at + full.size()));
     if (!begins || rest.empty()) continue;
     char end = '<';

@@ -84,7 +84,7 @@ scmp_arg_cmp argument(unsigned index, uint64_t value, uint64_t mask = kLow32) {
 // Streams that others connect to, on the network or this machine.
 void addSockets(Filter& filter) {
   constexpr uint64_t kKind = 0xf;  // without SOCK_CLOEXEC and SOCK_NONBLOCK
-  for (const uint64_t family : {AF_INET, AF_INET6, AF_UNIX}) {
+  for (const uint64_t family : {uint64_t{AF_INET}, uint64_t{AF_INET6}, uint64_t{AF_UNIX}}) {
     filter.add(SCMP_ACT_ALLOW, "socket", {argument(0, family), argument(1, SOCK_STREAM, kKind)});
   }
   filter.add(SCMP_ACT_ALLOW, "socketpair", {argument(0, AF_UNIX)});
