@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_split.h"
@@ -37,6 +38,19 @@ void addAddress(const std::string& address, ContainmentOptions& options) {
   if (parsed && parsed->port) options.listen_ports.push_back(*parsed->port);
 }
 
+// A file of the settings that is read again when it has changed.
+void addReloaded(const std::string& file, ContainmentOptions& options) {
+  if (file.empty()) return;
+  for (FileGrant& grant : replaceableFile(file)) options.files.push_back(std::move(grant));
+}
+
+// A log that is opened anew once its file was moved away: the folder, for the new file.
+void addLog(const std::string& file, ContainmentOptions& options) {
+  if (file.empty()) return;
+  std::error_code error;
+  options.files.push_back({std::filesystem::absolute(file, error).parent_path(), FileAccess::kLog});
+}
+
 }  // namespace
 
 ContainmentOptions containmentOf(const Config& config) {
@@ -46,6 +60,10 @@ ContainmentOptions containmentOf(const Config& config) {
   options.listen_ports.push_back(0);
   addAddress(config.grpc.address, options);
   if (config.http.enabled) addAddress(config.http.address, options);
+  for (const std::string& file : {config.access.token_file, config.access.jwks_file}) {
+    addReloaded(file, options);
+  }
+  addLog(config.access.audit_file, options);
   const std::string kernels = kernelFolder(config.kernel_folder);
   if (!kernels.empty()) options.files.push_back({kernels, FileAccess::kKeep});
   const std::vector<std::string> readable =

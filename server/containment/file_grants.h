@@ -16,6 +16,7 @@ enum class FileAccess : uint8_t {
   kKeep,     // also write, make, rename and remove files and folders
   kDevice,   // read, write and control devices (ioctl)
   kSockets,  // make and remove Unix sockets
+  kLog       // make files and write them; neither read nor remove them
 };
 
 // One right. It holds for the path and, if that is a folder, for everything below.

@@ -62,6 +62,8 @@ uint64_t rightsOf(FileAccess access) {
              LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_REMOVE_FILE;
     case FileAccess::kSockets:
       return LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_REMOVE_FILE;
+    case FileAccess::kLog:
+      return LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_WRITE_FILE;
   }
   return 0;
 }

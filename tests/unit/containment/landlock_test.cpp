@@ -104,6 +104,15 @@ TEST_F(Landlock, keepsFilesWhereItMay) {
   });
 }
 
+TEST_F(Landlock, writesLogsThatItCannotReadOrRemove) {
+  expectWith({.files = {{folder_ / "in", FileAccess::kLog}}}, [this] {
+    const fs::path log = folder_ / "in" / "log";
+    return errorOfOpen(log, O_WRONLY | O_APPEND | O_CREAT) == 0 &&
+           errorOfOpen(log, O_RDONLY) == EACCES && unlink(log.c_str()) != 0 &&
+           errorOfOpen(folder_ / "out" / "log", O_WRONLY | O_CREAT) == EACCES;
+  });
+}
+
 TEST_F(Landlock, leavesOutWhatDoesNotExist) {
   expectWith({.files = {{folder_ / "none", FileAccess::kRead},
                         {folder_ / "in" / "file", FileAccess::kKeep}}},
