@@ -20,16 +20,34 @@ constexpr double kOffsetMax_px = 16;
 constexpr double kSlopeMin = 0.01;
 constexpr double kSlopeMax = 1e6;
 
+// Deepest nesting that is read; real files have three levels. What walks a value in depth would
+// overflow the stack of a thread with the nesting that fits into a file.
+constexpr int kDepthMax = 16;
+
+absl::StatusOr<json> parseShallow(std::string_view text) {
+  bool is_too_deep = false;
+  json value = json::parse(text, [&](int depth, json::parse_event_t, const json&) {
+    is_too_deep |= depth > kDepthMax;
+    return !is_too_deep;
+  });
+  if (!is_too_deep) return value;
+  return refuseKey("calibration", strCat("nests lists or objects deeper than ", kDepthMax,
+                                         "; accepted are up to ", kDepthMax, " levels"));
+}
+
 absl::StatusOr<json> parseObject(std::string_view text) {
   if (text.size() > kCalibrationBytesMax) {
     return refuseKey("calibration", strCat("has ", text.size(), " bytes; accepted are up to ",
                                            kCalibrationBytesMax));
   }
   try {
-    json value = json::parse(text);
-    if (value.is_string()) value = json::parse(value.get_ref<const std::string&>());
-    if (value.is_object()) return value;
-    return refuseKey("calibration", strCat("is ", describeJson(value),
+    absl::StatusOr<json> value = parseShallow(text);
+    if (value.ok() && value->is_string()) {
+      const std::string inner = value->get<std::string>();  // the value goes while it is parsed
+      value = parseShallow(inner);
+    }
+    if (!value.ok() || value->is_object()) return value;
+    return refuseKey("calibration", strCat("is ", describeJson(*value),
                                            "; accepted is one JSON object with pitch, slope, "
                                            "center, DPI, screenW and screenH"));
   } catch (const json::exception& error) {

@@ -170,6 +170,18 @@ TEST(Calibration, refusesWhatIsNoObjectInJson) {
   for (const Broken& broken : files) expectRefused(broken);
 }
 
+// Printing nested values takes stack for each level.
+TEST(Calibration, refusesDeepNesting) {
+  const std::string deep = std::string(30000, '[') + std::string(30000, ']');
+  for (const std::string& file :
+       {deep, "{\"pitch\":" + deep + "}", edited(kPortraitFile, "324", deep),
+        "{\"a\":" + std::string(17, '[') + std::string(17, ']') + "}"}) {
+    expectRefused({file, "calibration", "nests lists or objects deeper than 16"});
+  }
+  const std::string allowed = std::string(10, '[') + std::string(10, ']');
+  expectRefused({edited(kPortraitFile, "324", allowed), "DPI", "is [[[[[[[[[["});
+}
+
 TEST(Calibration, quotesLongValuesInPart) {
   const std::string file = edited(kPortraitFile, "324", '"' + std::string(5000, 'y') + '"');
   const std::string said(parseCalibration(file).status().message());
