@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_join.h"
 #include "base/nearest_name.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 #include "display/named_display.h"
 #include "messages/message_from_json.h"
@@ -32,11 +33,11 @@ absl::Status checkKnown(const QueryParameters& parameters) {
   for (const auto& [name, value] : parameters) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     const std::string nearest = didYouMean(name, names);
-    return invalidField(
-        name, strCat("there is no such parameter; known parameters: ", absl::StrJoin(names, ", "),
-                     nearest.empty() ? "" : strCat("; ", nearest),
-                     ". Write the fields of a display as JSON: "
-                     "display={\"quilt\":{\"preset\":\"portrait\"}}"));
+    return invalidField(quotable(name), strCat("there is no such parameter; known parameters: ",
+                                               absl::StrJoin(names, ", "),
+                                               nearest.empty() ? "" : strCat("; ", nearest),
+                                               ". Write the fields of a display as JSON: "
+                                               "display={\"quilt\":{\"preset\":\"portrait\"}}"));
   }
   return absl::OkStatus();
 }
@@ -56,7 +57,8 @@ absl::StatusOr<uint32_t> readSide(const QueryParameters& parameters, const char*
   uint32_t side_px = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side_px);
   if (error == std::errc() && end == text.data() + text.size()) return side_px;
-  return invalidField(name, strCat("got \"", text, "\"; accepted is a whole number of pixels"));
+  return invalidField(name,
+                      strCat("got \"", quotable(text), "\"; accepted is a whole number of pixels"));
 }
 
 // The field of a kind that says how large it is.

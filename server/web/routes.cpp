@@ -25,8 +25,6 @@ constexpr const char* kContentSecurityPolicy =
     "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
 
-constexpr size_t kShownBytesMax = 128;  // of a path that does not exist
-
 HttpReply assetReply(const PageAsset& asset, const HttpRequest& request) {
   HttpReply reply;
   reply.type = asset.type;
@@ -81,7 +79,7 @@ HttpReply notFoundReply(const std::string& path) {
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
-      strCat("there is no page \"", printable(path.substr(0, kShownBytesMax)),
+      strCat("there is no page \"", quotable(path),
              "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, "
              "/api/link, /api/session, /metrics, /healthz, /still/STREAM/PRESET, "
              "/stream/STREAM/PRESET, /ws?stream=STREAM",

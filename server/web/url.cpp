@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "absl/strings/ascii.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
 
 namespace viewloom {
@@ -51,7 +52,7 @@ absl::Status parseParameters(std::string_view query, QueryParameters& parameters
                Plus::kSpace);
     VIEWLOOM_RETURN_IF_ERROR(value.status());
     if (!parameters.emplace(*key, *value).second)
-      return invalidField(*key, "the parameter is given twice; accepted is once");
+      return invalidField(quotable(*key), "the parameter is given twice; accepted is once");
   }
   return absl::OkStatus();
 }

@@ -13,7 +13,6 @@ namespace viewloom {
 namespace {
 
 constexpr size_t kNamesMax = 3;
-constexpr size_t kShownMax = 128;    // bytes of a wrong name
 constexpr size_t kListedMax = 32;    // names of a list
 constexpr size_t kBeginningMin = 3;  // letters that say enough about the rest of a name
 
@@ -98,7 +97,7 @@ std::string noSuchName(std::string_view noun, std::string_view word,
   if (names.size() > kListedMax) list += strCat(" and ", names.size() - kListedMax, " more");
   const std::string meant = didYouMean(word, names);
   return strCat(
-      "there is no ", std::string(noun), " \"", printable(word.substr(0, kShownMax)), "\"; ",
+      "there is no ", std::string(noun), " \"", quotable(word), "\"; ",
       names.empty() ? strCat("there are no ", nouns, " yet") : strCat("known ", nouns, ": ", list),
       meant.empty() ? "" : "; ", meant);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/printable.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace viewloom {
@@ -44,7 +45,7 @@ std::string printable(std::string_view text, bool keeps_lines) {
   shown.reserve(text.size());
   while (!text.empty()) {
     const size_t length = utf8Length(text);
-    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
+    const std::string_view character = firstCharacter(text);
     text.remove_prefix(character.size());
     const bool is_line = keeps_lines && (character == "\n" || character == "\t");
     if (is_line || (length != 0 && !isControl(character))) {
@@ -56,6 +57,27 @@ std::string printable(std::string_view text, bool keeps_lines) {
       shown += {'\\', 'x', kDigits[code >> 4U], kDigits[code & 15U]};
     }
   }
+  return shown;
+}
+
+std::string_view firstCharacter(std::string_view text) {
+  return text.substr(0, std::max<size_t>(utf8Length(text), 1));
+}
+
+std::string_view wholeCharacters(std::string_view text, size_t bytes_max) {
+  size_t end = 0;
+  while (end < text.size()) {
+    const size_t length = firstCharacter(text.substr(end)).size();
+    if (end + length > bytes_max) break;
+    end += length;
+  }
+  return text.substr(0, end);
+}
+
+std::string quotable(std::string_view text, size_t bytes_max) {
+  const std::string_view begin = wholeCharacters(text, bytes_max);
+  std::string shown = printable(begin);
+  if (begin.size() < text.size()) shown += "...";
   return shown;
 }
 

@@ -25,12 +25,10 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using nlohmann::json;
 
-constexpr size_t kQuotedBytesMax = 40;
+constexpr size_t kValueBytesMax = 40;  // of a value that an error quotes
 
 std::string inQuotes(std::string_view text) {
-  const bool is_long = text.size() > kQuotedBytesMax;
-  const std::string begin = printable(std::string(text.substr(0, kQuotedBytesMax)));
-  return strCat("\"", begin, is_long ? "...\"" : "\"");
+  return strCat("\"", quotable(text, kValueBytesMax), "\"");
 }
 
 bool isWhole(const FieldDescriptor& field) {
@@ -244,7 +242,7 @@ class FieldWalk final : public nlohmann::json_sax<json> {
       names.push_back(frame.type->field(i)->name());
     }
     const std::string nearest = didYouMean(name, names);
-    return refuse(frame.path + printable(name.substr(0, kQuotedBytesMax)),
+    return refuse(frame.path + quotable(name, kValueBytesMax),
                   strCat("there is no such field; known fields: ", absl::StrJoin(names, ", "),
                          nearest.empty() ? "" : strCat("; ", nearest)));
   }

@@ -77,6 +77,14 @@ TEST(NearestName, listsNoMoreThanSomeOfManyNames) {
   EXPECT_LT(text.size(), 32 * 70U);
 }
 
+TEST(NearestName, quotesTheBeginOfALongWord) {
+  std::string word;
+  while (word.size() < 1500) word += "光";
+  const std::string text = noSuchName("preset", word, {});
+  EXPECT_LT(text.size(), 200U);
+  EXPECT_NE(text.find("光光...\""), std::string::npos) << text;
+}
+
 TEST(NearestName, isFastForALongWord) {
   EXPECT_EQ(didYouMean(std::string(size_t{1} << 20, 'x'), kPresets), "");
 }

@@ -30,5 +30,14 @@ TEST(Printable, keepsLinesWhereTheyAreWanted) {
   EXPECT_EQ(printable("a\n\tb\033", true), "a\n\tb\\x1b");
 }
 
+TEST(Printable, quotesTheBeginOfALongTextInWholeCharacters) {
+  EXPECT_EQ(quotable("short"), "short");
+  EXPECT_EQ(quotable("abcdef", 4), "abcd...");
+  EXPECT_EQ(quotable("日本語", 7), "日本...");
+  EXPECT_EQ(quotable("日本語", 9), "日本語");
+  EXPECT_EQ(quotable("a\xff\xff\xff", 2), "a\\xff...");
+  EXPECT_LE(quotable(std::string(100000, 'x')).size(), kQuotationBytesMax + 3);
+}
+
 }  // namespace
 }  // namespace viewloom::printable_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
 #include "base/retry_delay.h"
 #include "base/status.h"
@@ -76,11 +77,26 @@ TEST(StatusToGrpc, saysWhenToAskAgain) {
   EXPECT_EQ(retry.retry_delay().nanos(), 250'000'000);
 }
 
+// Bytes of a message in the headers: three for each that is not printable ASCII.
+size_t codedBytes(std::string_view message) {
+  size_t bytes = 0;
+  for (const char c : message) bytes += c < ' ' || c > '~' || c == '%' ? 3 : 1;
+  return bytes;
+}
+
 // Message, details and the message in base64 within them travel as one block of HTTP/2 headers, of
 // which peers take 8 KiB by default.
 TEST(StatusToGrpc, fitsIntoTheHeadersOfAnyPeer) {
-  const grpc::Status status = statusToGrpc(invalidField("name", std::string(100000, 'x')));
-  EXPECT_LE(status.error_message().size() + status.error_details().size() * 4 / 3, 8192u);
+  // A letter of each kind: plain, and of two, three and four bytes, which the headers write as
+  // codes.
+  for (const char* letter : {"x", "%", "\u00e9", "\u5149", "\U0001f30d"}) {
+    std::string text;
+    while (text.size() < 100000) text += letter;
+    const grpc::Status status = statusToGrpc(invalidField(text, text));
+    EXPECT_LE(codedBytes(status.error_message()) + status.error_details().size() * 4 / 3, 8000u);
+    EXPECT_GT(status.error_message().size(), 1000u);
+    EXPECT_EQ(status.error_message().size() % std::string(letter).size(), 0u) << "a torn letter";
+  }
 }
 
 }  // namespace
