@@ -9,6 +9,7 @@
 #include "absl/strings/str_split.h"
 #include "access/access_control.h"
 #include "base/byte_pool.h"
+#include "base/descriptors.h"
 #include "base/host_port.h"
 #include "base/log.h"
 #include "decode/frame_intake.h"
@@ -55,14 +56,30 @@ AccessOptions accessOptions(const AccessConfig& config) {
 // Connections of the page beside those that watch: files, stills, metrics.
 constexpr uint32_t kOtherHttpConnections = 256;
 
+// Connections that the settings ask for, or less if the system allows fewer open files.
+ConnectionShares connectionShares(const Config& config) {
+  const ConnectionShares wanted{.grpc = config.grpc.connections_max,
+                                .http = config.limits.subscribers_max + kOtherHttpConnections};
+  const uint64_t limit = descriptorLimit();
+  const ConnectionShares shares = shareDescriptors(limit, wanted);
+  if (shares != wanted) {
+    log(LogLevel::kWarning, "the system allows ", limit, " open files: at most ", shares.grpc,
+        " gRPC and ", shares.http, " HTTP connections, instead of ", wanted.grpc, " and ",
+        wanted.http, "; raise the limit (ulimit -Hn, LimitNOFILE), or lower ",
+        "grpc.connections_max and limits.subscribers_max");
+  }
+  return shares;
+}
+
 // The address is "127.0.0.1:8080" or "[::1]:8080", as the settings have checked.
-HttpOptions httpOptions(const HttpConfig& config, uint32_t subscribers_max) {
+HttpOptions httpOptions(const HttpConfig& config, uint32_t connection_count_max) {
   const HostPort address = parseHostPort(config.address).value();
   HttpOptions options;
   options.address = address.host == "localhost" ? "127.0.0.1" : address.host;
   options.port = address.port.value();
   options.allowed_hosts = absl::StrSplit(config.allowed_hosts, ',', absl::SkipEmpty());
-  options.connection_count_max = subscribers_max + kOtherHttpConnections;
+  options.allowed_origins = absl::StrSplit(config.allowed_origins, ',', absl::SkipEmpty());
+  options.connection_count_max = connection_count_max;
   return options;
 }
 
@@ -82,10 +99,12 @@ struct Service::Parts {
   ~Parts() { drain(); }
 
   void connect();
+  absl::Status grpcHealth();
   void openHttp(const Config& config, const Clock& clock);
   void openRpc(const Config& config, const Clock& clock, const std::string& containment);
   void drain();
 
+  const ConnectionShares connection_shares;
   Metrics metrics;
   AccessControl access;
   StreamDirectory directory;
@@ -102,7 +121,8 @@ struct Service::Parts {
 Service::Parts::Parts(const Config& config, const Clock& clock,
                       std::function<void(const std::exception& error)> on_failure,
                       const std::function<std::string()>& contain)
-    : access(accessOptions(config.access), clock),
+    : connection_shares(connectionShares(config)),
+      access(accessOptions(config.access), clock),
       directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits)),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
@@ -145,8 +165,14 @@ void Service::Parts::connect() {
 }
 
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
-  http.emplace(httpOptions(config.http, config.limits.subscribers_max), directory, broadcaster,
-               metrics, clock, access);
+  http.emplace(httpOptions(config.http, connection_shares.http), directory, broadcaster, metrics,
+               clock, access, [this] { return grpcHealth(); });
+}
+
+absl::Status Service::Parts::grpcHealth() {
+  const RpcServer* const server = open_rpc;
+  if (server == nullptr) return absl::UnavailableError("it is not open yet");
+  return server->health();
 }
 
 void Service::Parts::openRpc(const Config& config, const Clock& clock,
@@ -163,6 +189,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock,
                                       .http_address = http ? http->url() : "",
                                       .containment = containment};
   rpc.emplace(RpcServerOptions{.address = config.grpc.address,
+                               .connection_count_max = connection_shares.grpc,
                                .keepalive = std::chrono::seconds(config.grpc.keepalive_s)},
               RpcParts{.intake = intake,
                        .pool = planes,

@@ -30,7 +30,7 @@ function watchCommand({stream, display, encoding}) {
 function stillCommand({stream, display, encoding}) {
   const name = nameOf(display);
   const path = name ? `/${encodeURIComponent(name)}` : '.jpg';
-  const url = new URL(`/still/${encodeURIComponent(stream)}${path}`, location.href);
+  const url = new URL(`still/${encodeURIComponent(stream)}${path}`, location.href);
   if (!name) url.searchParams.set('display', JSON.stringify(display));
   if (Object.keys(encoding).length > 0) {
     url.searchParams.set('encoding', JSON.stringify(encoding));

@@ -29,7 +29,7 @@ export class Decoder {
     this.onDecoded = onDecoded;
     this.onDropped = onDropped;
     try {
-      this.#worker = new Worker('/decode_worker.js');
+      this.#worker = new Worker('decode_worker.js');
       this.#worker.onmessage = ({data}) => this.#finish(data);
       this.#worker.onerror = (event) => {  // no workers here: decode on this thread
         event.preventDefault();

@@ -48,7 +48,7 @@ export class DisplayDocument {
   static async ofAddress(onProblem) {
     await enter();
     const ask = async (path) => (await fetch(path)).json();
-    const [{presets}, {fields}] = await Promise.all([ask('/api/presets'), ask('/api/fields')]);
+    const [{presets}, {fields}] = await Promise.all([ask('api/presets'), ask('api/fields')]);
     try {
       return new DisplayDocument(presets, fields);
     } catch (error) {

@@ -27,7 +27,7 @@ export class StreamList {
   async poll() {
     try {
       const signal = AbortSignal.timeout(kAnswer_ms);
-      const reply = await fetch('/api/streams', {cache: 'no-store', signal});
+      const reply = await fetch('api/streams', {cache: 'no-store', signal});
       if (reply.status === kUnauthorized) {
         await enter();
         return;

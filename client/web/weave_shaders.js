@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fragment shaders of the woven panel, around the text that the server's own shaders include.
 
-const kShared = ['/gpu_types.h', '/lenticular.h'];
+const kShared = ['gpu_types.h', 'lenticular.h'];
 
 // Which view each subpixel shows, and its colour there.
 const kWeave = `

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/descriptors.h"
 #include "base/heap.h"
 #include "base/log.h"
 #include "commands/command.h"
@@ -69,6 +70,7 @@ int serve(const Config& config) {
   // gRPC's log is for its developers: what matters to users comes as an error.
   setenv("GRPC_VERBOSITY", "NONE", 0);
   keepFreedMemory();
+  raiseDescriptorLimit();
   const sigset_t stop_signals = blockStopSignals();
   Containment containment(containmentOf(config));  // before the first thread
   const InterfaceAddresses interfaces = interfaceAddresses();

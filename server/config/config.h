@@ -11,12 +11,14 @@ namespace viewloom {
 struct GrpcConfig {
   std::string address = "127.0.0.1:50051";
   uint32_t keepalive_s = 10;
+  uint32_t connections_max = 1024;
 };
 
 struct HttpConfig {
   bool enabled = true;
   std::string address = "127.0.0.1:8080";
-  std::string allowed_hosts;  // names separated by commas
+  std::string allowed_hosts;    // names separated by commas
+  std::string allowed_origins;  // "https://studio.example", separated by commas
 };
 
 // Without a token file and a JWKS file, everybody may do everything.

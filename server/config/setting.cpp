@@ -42,6 +42,25 @@ bool isOfHostNames(char c) {
          c == '-' || c == ',';
 }
 
+// "https://studio.example", "http://10.0.0.7:3000": scheme and host, as browsers send them.
+bool isOrigin(std::string_view text) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!text.starts_with(scheme)) continue;
+    const std::string_view host = text.substr(scheme.size());
+    return host.find_first_of("/?#@ ") == std::string_view::npos && parseHostPort(host);
+  }
+  return false;
+}
+
+bool areOrigins(std::string_view list) {
+  while (!list.empty()) {
+    const std::string_view origin = list.substr(0, list.find(','));
+    if (!isOrigin(origin)) return false;
+    list.remove_prefix(std::min(origin.size() + 1, list.size()));
+  }
+  return true;
+}
+
 bool areAbsolutePaths(const std::string& text) {
   const std::vector<std::string> paths = absl::StrSplit(text, ',', absl::SkipEmpty());
   return std::ranges::all_of(paths, [](const std::string& path) { return path.starts_with('/'); });
@@ -58,6 +77,8 @@ bool fits(TextSetting::Form form, std::string_view text) {
       return isHostPort(text) || (text.starts_with("unix:") && text.size() > 5);
     case TextSetting::Form::kHostNames:
       return std::all_of(text.begin(), text.end(), isOfHostNames);
+    case TextSetting::Form::kOrigins:
+      return areOrigins(text);
     case TextSetting::Form::kPaths:
       return areAbsolutePaths(std::string(text));
     case TextSetting::Form::kLogLevel:
@@ -123,6 +144,8 @@ std::string acceptedText(const Setting& setting) {
       return "HOST:PORT or unix:PATH";
     case TextSetting::Form::kHostNames:
       return "host names, separated by commas";
+    case TextSetting::Form::kOrigins:
+      return "addresses as https://HOST or http://HOST:PORT, separated by commas";
     case TextSetting::Form::kPaths:
       return "absolute paths, separated by commas";
     case TextSetting::Form::kLogLevel:
@@ -149,6 +172,8 @@ std::string valueName(const Setting& setting) {
       return "HOST:PORT|unix:PATH";
     case TextSetting::Form::kHostNames:
       return "HOST,HOST";
+    case TextSetting::Form::kOrigins:
+      return "ORIGIN,ORIGIN";
     case TextSetting::Form::kPaths:
       return "PATH,PATH";
     case TextSetting::Form::kLogLevel:

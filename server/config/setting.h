@@ -20,7 +20,16 @@ struct CountSetting {
 };
 
 struct TextSetting {
-  enum class Form : uint8_t { kAny, kFile, kHostPort, kGrpcAddress, kHostNames, kPaths, kLogLevel };
+  enum class Form : uint8_t {
+    kAny,
+    kFile,
+    kHostPort,
+    kGrpcAddress,
+    kHostNames,
+    kOrigins,
+    kPaths,
+    kLogLevel
+  };
   std::string* value;
   Form form = Form::kAny;
 };

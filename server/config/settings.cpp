@@ -33,6 +33,9 @@ std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
        "Silence after which a connection is tested; it is closed if no answer comes in half that "
        "time",
        CountSetting{&grpc.keepalive_s, 1, 3600}},
+      {"grpc.connections_max", "",
+       "Most gRPC connections at once; fewer if the system allows fewer open files",
+       CountSetting{&grpc.connections_max, 1, 65536}},
       {"http.enabled", "", "Serve the viewer page, stills, motion JPEG and /metrics over HTTP",
        BoolSetting{&http.enabled}},
       {"http.address", "",
@@ -40,8 +43,11 @@ std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
        "port",
        TextSetting{&http.address, Form::kHostPort}},
       {"http.allowed_hosts", "",
-       "Further host names that a page on loopback accepts, such as the name of a proxy",
+       "Further host names that requests may use, such as the name of a proxy",
        TextSetting{&http.allowed_hosts, Form::kHostNames}},
+      {"http.allowed_origins", "",
+       "Pages of others that may watch and show pictures, such as https://studio.example",
+       TextSetting{&http.allowed_origins, Form::kOrigins}},
   };
 }
 

@@ -165,7 +165,13 @@ Metrics::Metrics()
       http_connections(gauge(store_->registry, "viewloom_http_connections",
                              "HTTP and WebSocket connections open now.")),
       stage(stageHistograms(store_->registry)),
-      output_delay(outputDelayHistogram(store_->registry)) {}
+      output_delay(outputDelayHistogram(store_->registry)),
+      grpc_connections(
+          gauge(store_->registry, "viewloom_grpc_connections", "gRPC connections open now.")),
+      connections_refused(
+          counters<Transport>(store_->registry, "viewloom_connections_refused_total",
+                              "Connections closed at once, because their port had too many.",
+                              "transport", kTransports)) {}
 
 Metrics::~Metrics() = default;
 

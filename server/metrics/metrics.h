@@ -126,6 +126,9 @@ class Metrics {
   Histogram
       output_delay;  // viewloom_output_delay_seconds; from tick to atlas: jitter is its spread
 
+  Gauge grpc_connections;                            // open now
+  Labelled<Transport, Counter> connections_refused;  // {transport}; over the limit of their port
+
   void observeOutputDelay(int64_t duration_ns) const;
   void observeStage(Stage which, int64_t duration_ns) const;
 };

@@ -7,7 +7,6 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
-#include <grpcpp/server_builder.h>
 
 namespace viewloom {
 namespace {
@@ -25,6 +24,11 @@ constexpr int kConnectionCallsMax = 1024;
 constexpr int kWriteBufferBytes = 1 << 20;
 // Clients may ping this often.
 constexpr int kClientPingMsMin = 5000;
+// A connection that opens no call for that long is closed; clients open another when they need it.
+constexpr int kIdleMsMax = 60'000;
+// Time to send the first bytes of HTTP/2.
+constexpr int kHandshakeMsMax = 10'000;
+constexpr uint32_t kProbeTicks = 4;  // 1 s
 
 void addLibraryServices() {
   // Both are settings of the process and take effect on servers built later.
@@ -50,8 +54,13 @@ void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
                              kClientPingMsMin);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_WRITE_BUFFER_SIZE, kWriteBufferBytes);
-  // Without it a second server would silently share the port and take half of the clients.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdleMsMax);
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMsMax);
+  // Pictures are compressed already. A compressed message of 1 MB would take 1 GB before anything
+  // could refuse it; UNIMPLEMENTED comes before it is unpacked.
+  for (const auto algorithm : {GRPC_COMPRESS_DEFLATE, GRPC_COMPRESS_GZIP}) {
+    builder.SetCompressionAlgorithmSupportStatus(algorithm, false);
+  }
 }
 
 }  // namespace
@@ -59,6 +68,11 @@ void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
 RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                      const ServerDescription& description)
     : drain_time_(options.drain_time),
+      metrics_(parts.metrics),
+      listener_({.address = options.address,
+                 .connection_count_max = options.connection_count_max,
+                 .acknowledge_time = std::chrono::milliseconds(options.keepalive) / 2},
+                parts.metrics),
       ingest_({.intake = parts.intake,
                .pool = parts.pool,
                .directory = parts.directory,
@@ -78,23 +92,24 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
   addLibraryServices();
   grpc::ServerBuilder builder;
   setLimits(builder, options);
-  int port = 0;
-  builder.AddListeningPort(options.address, grpc::InsecureServerCredentials(), &port);
+  constexpr auto kFromFd = grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD;
+  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(
+      kFromFd, grpc::InsecureServerCredentials());
+  probe_.emplace(builder.experimental().AddExternalConnectionAcceptor(
+                     kFromFd, grpc::InsecureServerCredentials()),
+                 parts.clock);
   builder.RegisterService(&ingest_);
   builder.RegisterService(&display_);
   builder.RegisterService(&catalog_);
   server_ = builder.BuildAndStart();
-  if (server_ == nullptr || port == 0) {
-    throw std::runtime_error(
-        "cannot listen on " + options.address +
-        " for gRPC: another program has the port, or the address is not of this "
-        "machine; choose another with --grpc.address");
-  }
-  port_ = static_cast<uint16_t>(port);
-  ticker_.emplace(kTick, [this] {
-    ingest_.tick();
-    display_.tick();
+  if (server_ == nullptr) throw std::runtime_error("the gRPC library did not start its server");
+  listener_.start([this](int listener_fd, int fd) {
+    grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+    connection.listener_fd = listener_fd;
+    connection.fd = fd;
+    acceptor_->HandleNewConnection(&connection);
   });
+  ticker_.emplace(kTick, [this] { tick(); });
   // Beside the whole server, which the library knows by itself.
   for (const char* service :
        {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
@@ -109,12 +124,27 @@ RpcServer::~RpcServer() {
 }
 
 void RpcServer::drain() {
+  is_draining_ = true;
   server_->GetHealthCheckService()->SetServingStatus(false);
   ingest_.drain();
   display_.drain();
 }
 
+absl::Status RpcServer::health() const {
+  const absl::Status status = listener_.status();
+  return status.ok() ? probe_->status() : status;
+}
+
+void RpcServer::tick() {
+  ingest_.tick();
+  display_.tick();
+  if (tick_count_++ % kProbeTicks != 0 || is_draining_) return;
+  probe_->ask();
+  metrics_.grpc_connections.set(static_cast<double>(listener_.connectionCount()));
+}
+
 void RpcServer::shutdown() {
+  listener_.stop();
   server_->Shutdown(std::chrono::system_clock::now() + drain_time_);
   server_->Wait();
   ticker_.reset();

@@ -2,15 +2,19 @@
 // The gRPC server: the three services, health and reflection on one port.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <grpcpp/server.h>
+#include <grpcpp/server_builder.h>
 
 #include "rpc/catalog_service.h"
 #include "rpc/liveness.h"
+#include "rpc/rpc_listener.h"
+#include "rpc/rpc_probe.h"
 #include "rpc/stream_services.h"
 
 namespace viewloom {
@@ -29,6 +33,7 @@ struct RpcParts {
 
 struct RpcServerOptions {
   std::string address = "127.0.0.1:50551";          // host:port; port 0 = any free one
+  uint32_t connection_count_max = 1024;             // further ones are closed at once
   uint64_t memory_bytes_max = uint64_t{256} << 20;  // of messages inside the gRPC library
   // How long a receiver may take to read what it was given before it is cancelled.
   std::chrono::milliseconds drain_time{2000};
@@ -37,7 +42,7 @@ struct RpcServerOptions {
   std::chrono::seconds keepalive{10};
 };
 
-// Thread-safety: demandChanged may be called from any thread; the rest from one.
+// Thread-safety: demandChanged and health may be called from any thread; the rest from one.
 class RpcServer {
  public:
   // Listens. Throws std::runtime_error when the address cannot be had.
@@ -46,7 +51,10 @@ class RpcServer {
   // Drains and shuts down.
   ~RpcServer();
 
-  uint16_t port() const { return port_; }
+  uint16_t port() const { return listener_.port(); }
+  // Whether a further client would get in and be answered. RESOURCE_EXHAUSTED or UNAVAILABLE
+  // otherwise.
+  absl::Status health() const;
 
   // To be told by Broadcaster::onDemandChange.
   void demandChanged(const std::string& stream) { ingest_.demandChanged(stream); }
@@ -59,13 +67,20 @@ class RpcServer {
   void shutdown();
 
  private:
+  void tick();
+
   const std::chrono::milliseconds drain_time_;
+  const Metrics& metrics_;
+  RpcListener listener_;
   IngestService ingest_;
   DisplayService display_;
   CatalogService catalog_;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> server_;  // after the services it calls
-  std::optional<Ticker> ticker_;          // likewise
-  uint16_t port_ = 0;
+  std::optional<RpcProbe> probe_;
+  std::atomic<bool> is_draining_ = false;
+  uint32_t tick_count_ = 0;       // of the ticker's thread
+  std::optional<Ticker> ticker_;  // after all that it uses
 };
 
 }  // namespace viewloom

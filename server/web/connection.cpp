@@ -64,6 +64,7 @@ http::response<http::empty_body> headOf(const HttpReply& reply) {
   http::response<http::empty_body> head(http::int_to_status(reply.status), kHttpVersion11);
   head.set(http::field::server, "viewloom");
   head.set("X-Content-Type-Options", "nosniff");
+  head.set("Cross-Origin-Resource-Policy", "same-origin");
   if (!reply.type.empty()) head.set(http::field::content_type, reply.type);
   for (const auto& [name, value] : reply.headers) head.set(name, value);
   return head;
@@ -71,8 +72,9 @@ http::response<http::empty_body> headOf(const HttpReply& reply) {
 
 }  // namespace
 
-Connection::Connection(WebContext& context, tcp::socket socket)
+Connection::Connection(WebContext& context, tcp::socket socket, Admission admission)
     : context_(context),
+      admission_(admission),
       strand_(socket.get_executor()),
       stream_(std::move(socket)),
       peer_(addressOf(stream_.socket())) {
@@ -90,12 +92,15 @@ HttpRequest Connection::requestOf(const http::request<http::empty_body>& request
           .target = text(request.target()),
           .peer = peer_,
           .host = text(request[http::field::host]),
-          .origin = text(request[http::field::origin]),
           .if_none_match = text(request[http::field::if_none_match]),
           .authorization = text(request[http::field::authorization]),
           .cookie = text(request[http::field::cookie]),
           .websocket_protocols = text(request[http::field::sec_websocket_protocol]),
           .forwarded_proto = text(request["X-Forwarded-Proto"]),
+          .page = {.origin = text(request[http::field::origin]),
+                   .referer = text(request[http::field::referer]),
+                   .fetch_site = text(request["Sec-Fetch-Site"]),
+                   .fetch_mode = text(request["Sec-Fetch-Mode"])},
           .upgrade = websocket::is_upgrade(request)};
 }
 
@@ -103,12 +108,6 @@ void Connection::start() {
   const auto self = shared_from_this();
   net::co_spawn(
       strand_, [self] { return self->serve(); }, net::detached);
-}
-
-void Connection::startRefused() {
-  const auto self = shared_from_this();
-  net::co_spawn(
-      strand_, [self] { return self->refuse(); }, net::detached);
 }
 
 void Connection::leave() {
@@ -122,6 +121,7 @@ void Connection::leave() {
 }
 
 void Connection::cut() {
+  awaits_request_ = false;
   net::post(strand_, [self = shared_from_this()] {
     if (self->live_reader_) {
       self->live_reader_->cut();
@@ -144,7 +144,7 @@ net::awaitable<void> Connection::serve() {
       break;
     }
     const HttpRequest request = requestOf(parser.get());
-    std::optional<HttpReply> reply = refusal(context_, request);
+    std::optional<HttpReply> reply = refusalOf(request);
     if (!reply && request.upgrade) {
       co_await watch(parser, request);
       co_return;
@@ -152,7 +152,7 @@ net::awaitable<void> Connection::serve() {
     if (!reply) reply = co_await answer(context_, request);
     const bool is_played = reply->live && parser.get().method() != http::verb::head;
     if (is_played && co_await play(*reply)) co_return;
-    keep = parser.get().keep_alive() && !context_.draining;
+    keep = parser.get().keep_alive() && !context_.draining && admission_ != Admission::kStatus;
     co_await write(*reply, parser, keep, error);
     if (error) break;
   }
@@ -160,13 +160,13 @@ net::awaitable<void> Connection::serve() {
   stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
 }
 
-net::awaitable<void> Connection::refuse() {
-  const auto self = shared_from_this();
-  const HttpReply reply = errorReply(
-      absl::ResourceExhaustedError("too many connections; close some, or try again later"));
-  const Parser unread;
-  ErrorCode error;
-  co_await write(reply, unread, false, error);
+std::optional<HttpReply> Connection::refusalOf(const HttpRequest& request) const {
+  if (admission_ == Admission::kStatus && !isStatusTarget(request.target)) {
+    context_.metrics.connections_refused[Transport::kWeb].add();
+    return errorReply(
+        absl::ResourceExhaustedError("too many connections; close some, or try again later"));
+  }
+  return refusal(context_, request);
 }
 
 net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
@@ -177,11 +177,13 @@ net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
     error = net::error::operation_aborted;
     co_return;
   }
-  stream_.expires_after(context_.options.request_timeout);
+  stream_.expires_after(admission_ == Admission::kStatus ? context_.options.status_timeout
+                                                         : context_.options.request_timeout);
+  awaits_request_ = true;
   co_await http::async_read_header(stream_, buffer_, parser, into(error));
   idle_ = false;
-  if (error) co_return;
-  co_await http::async_read(stream_, buffer_, parser, into(error));
+  if (!error) co_await http::async_read(stream_, buffer_, parser, into(error));
+  awaits_request_ = false;
 }
 
 net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& request) {

@@ -2,7 +2,10 @@
 // One connection of the web server, from its first request to its end.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "web/asio.h"
@@ -13,28 +16,35 @@
 
 namespace viewloom {
 
-// Thread-safety: start(), leave() and cut() may be called from any thread; the rest happens on the
-// strand of its socket.
+// Requests that a connection may make.
+enum class Admission : uint8_t {
+  kEverything,
+  kStatus,  // one request: /healthz and /metrics; the rest is answered "too many connections"
+};
+
+// Thread-safety: start(), leave(), cut() and awaitsRequest() may be called from any thread; the
+// rest happens on the strand of its socket.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(WebContext& context, tcp::socket socket);
+  Connection(WebContext& context, tcp::socket socket, Admission admission);
   ~Connection();
 
   // Serves requests until either side goes; stays alive by itself until then.
   void start();
-  // Answers "too many connections", and ends.
-  void startRefused();
   // The server drains: ends as soon as what is under way is answered.
   void leave();
-  // Ends at once.
+  // Ends at once, and awaits nothing any more.
   void cut();
+  // Whether the client has to send something next: it holds a place and gets nothing for it.
+  bool awaitsRequest() const { return awaits_request_; }
 
  private:
   using Parser = http::request_parser<http::empty_body>;
 
   net::awaitable<void> serve();
-  net::awaitable<void> refuse();
   net::awaitable<void> read(Parser& parser, ErrorCode& error);
+  // Refuses what the client is not admitted to.
+  std::optional<HttpReply> refusalOf(const HttpRequest& request) const;
   net::awaitable<void> watch(Parser& parser, const HttpRequest& request);
   // True when the connection went to the player; else nothing was written, and `reply` says why.
   net::awaitable<bool> play(HttpReply& reply);
@@ -44,12 +54,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   HttpRequest requestOf(const http::request<http::empty_body>& request) const;
 
   WebContext& context_;
+  const Admission admission_;
   const net::any_io_executor strand_;
   beast::tcp_stream stream_;  // until a live reader has it
   const std::string peer_;    // address of the client; empty if it is gone already
   beast::flat_buffer buffer_;
   std::shared_ptr<LiveReader> live_reader_;
   bool idle_ = false;  // waits for a request of which nothing has come
+  std::atomic<bool> awaits_request_ = true;
 };
 
 }  // namespace viewloom

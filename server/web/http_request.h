@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "web/host_policy.h"
+
 namespace viewloom {
 
 struct HttpRequest {
@@ -12,12 +14,12 @@ struct HttpRequest {
   std::string peer;  // address of the client
   // Headers; empty when not given.
   std::string host;
-  std::string origin;
   std::string if_none_match;
   std::string authorization;
   std::string cookie;
   std::string websocket_protocols;
   std::string forwarded_proto;
+  PageHeaders page{};
   bool upgrade = false;  // to a WebSocket
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/http_server.h"
 
+#include <algorithm>
 #include <condition_variable>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "base/str_cat.h"
@@ -17,6 +19,13 @@ namespace {
 
 // Handles left for the rest of the program when accepting fails: how long until it is tried again.
 constexpr std::chrono::milliseconds kAcceptPause{100};
+
+struct HeldConnection {
+  std::weak_ptr<Connection> connection;
+  Admission admission;
+};
+
+using ConnectionList = std::vector<std::shared_ptr<Connection>>;
 
 tcp::endpoint endpointOf(const HttpOptions& options) {
   ErrorCode error;
@@ -41,13 +50,18 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
 
 struct HttpServer::State {
   State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-        const Metrics& metrics, const Clock& clock, AccessControl& access)
+        const Metrics& metrics, const Clock& clock, AccessControl& access,
+        std::function<absl::Status()> grpc_health)
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
         endpoint(acceptor.local_endpoint()),
-        context{options, HostPolicy(endpoint.address().is_loopback(), options.allowed_hosts),
-                streams, broadcaster,
-                metrics, clock,
+        context{options,
+                HostPolicy(machineNames(), options.allowed_hosts, options.allowed_origins),
+                std::move(grpc_health),
+                streams,
+                broadcaster,
+                metrics,
+                clock,
                 access} {}
 
   net::io_context io;
@@ -57,14 +71,19 @@ struct HttpServer::State {
 
   std::mutex mutex;
   std::condition_variable fewer;
-  std::unordered_map<uint64_t, std::weak_ptr<Connection>> connections;
+  std::map<uint64_t, HeldConnection> connections;  // oldest first
   uint64_t connection_id = 0;
 
   std::vector<std::jthread> threads;
 
   net::awaitable<void> accept();
   void take(tcp::socket socket);
-  std::vector<std::shared_ptr<Connection>> living();
+  // To what a further connection is admitted; none when it has to go. Under the mutex.
+  // `seen` is to be let go after it: the end of a connection takes the mutex.
+  std::optional<Admission> admit(ConnectionList& seen);
+  bool cutOldestIdle(Admission admission, ConnectionList& seen);
+  size_t countOf(Admission admission) const;
+  ConnectionList living();
 };
 
 net::awaitable<void> HttpServer::State::accept() {
@@ -82,35 +101,70 @@ net::awaitable<void> HttpServer::State::accept() {
 }
 
 void HttpServer::State::take(tcp::socket socket) {
+  ConnectionList seen;
   std::unique_lock lock(mutex);
+  const std::optional<Admission> admission = admit(seen);
+  if (!admission) {
+    context.metrics.connections_refused[Transport::kWeb].add();
+    return;  // closes the socket
+  }
   const uint64_t id = ++connection_id;
-  const bool full = connections.size() >= context.options.connection_count_max;
-  const std::shared_ptr<Connection> connection(new Connection(context, std::move(socket)),
-                                               [this, id](Connection* ended) {
-                                                 delete ended;
-                                                 std::lock_guard relock(mutex);
-                                                 connections.erase(id);
-                                                 fewer.notify_all();
-                                               });
-  connections.emplace(id, connection);
+  const std::shared_ptr<Connection> connection(
+      new Connection(context, std::move(socket), *admission), [this, id](Connection* ended) {
+        delete ended;
+        std::lock_guard relock(mutex);
+        connections.erase(id);
+        fewer.notify_all();
+      });
+  connections.emplace(id, HeldConnection{connection, *admission});
   lock.unlock();
-  full ? connection->startRefused() : connection->start();
+  connection->start();
 }
 
-std::vector<std::shared_ptr<Connection>> HttpServer::State::living() {
-  std::vector<std::shared_ptr<Connection>> living;
+std::optional<Admission> HttpServer::State::admit(ConnectionList& seen) {
+  const HttpOptions& options = context.options;
+  const size_t status_max = options.status_connection_count_max;
+  const size_t most = options.connection_count_max;
+  if (connections.size() < most || countOf(Admission::kEverything) < most) {
+    return Admission::kEverything;
+  }
+  // Those that were cut are still there for a moment.
+  if (connections.size() >= most + 2 * status_max) return std::nullopt;
+  if (cutOldestIdle(Admission::kEverything, seen)) return Admission::kEverything;
+  if (countOf(Admission::kStatus) >= status_max) cutOldestIdle(Admission::kStatus, seen);
+  return Admission::kStatus;
+}
+
+bool HttpServer::State::cutOldestIdle(Admission admission, ConnectionList& seen) {
+  for (const auto& [id, held] : connections) {
+    if (held.admission != admission) continue;
+    seen.push_back(held.connection.lock());
+    if (!seen.back() || !seen.back()->awaitsRequest()) continue;
+    seen.back()->cut();
+    return true;
+  }
+  return false;
+}
+
+size_t HttpServer::State::countOf(Admission admission) const {
+  return static_cast<size_t>(std::ranges::count(
+      connections, admission, [](const auto& entry) { return entry.second.admission; }));
+}
+
+ConnectionList HttpServer::State::living() {
+  ConnectionList living;
   std::lock_guard lock(mutex);
-  for (const auto& [id, connection] : connections) {
-    if (auto alive = connection.lock()) living.push_back(std::move(alive));
+  for (const auto& [id, held] : connections) {
+    if (auto alive = held.connection.lock()) living.push_back(std::move(alive));
   }
   return living;
 }
 
 HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
                        Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock,
-                       AccessControl& access)
+                       AccessControl& access, std::function<absl::Status()> grpc_health)
     : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock,
-                                     access)) {
+                                     access, std::move(grpc_health))) {
   State& state = *state_;
   net::co_spawn(state.acceptor.get_executor(), state.accept(), net::detached);
   for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "access/access_control.h"
 #include "base/clock.h"
+#include "base/status.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
@@ -17,13 +19,17 @@
 namespace viewloom {
 
 // Serves from its construction to its end, on a fixed number of threads however many viewers there
-// are. Thread-safety: all methods may be called from any thread.
+// are. Where all connections are taken, a new one takes the place of the oldest that awaits a
+// request; if none does, it gets /healthz and /metrics alone.
+// Thread-safety: all methods may be called from any thread.
 class HttpServer {
  public:
   // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is
   // handed in outlives the server.
+  // `grpc_health`: whether gRPC clients would get in, for /healthz; is called from any thread.
   HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-             const Metrics& metrics, const Clock& clock, AccessControl& access);
+             const Metrics& metrics, const Clock& clock, AccessControl& access,
+             std::function<absl::Status()> grpc_health);
   // Drains first.
   ~HttpServer();
 

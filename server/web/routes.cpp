@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/routes.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,12 @@ HttpReply metricsReply(const WebContext& context) {
 HttpReply healthReply(const WebContext& context) {
   HttpReply reply;
   reply.type = "text/plain; charset=utf-8";
-  reply.status = context.draining ? 503 : 200;
+  const absl::Status grpc = context.grpc_health();
+  reply.status = context.draining || !grpc.ok() ? 503 : 200;
   reply.text = context.draining ? "draining\n" : "serving\n";
+  if (!context.draining && !grpc.ok()) {
+    reply.text = strCat("the gRPC port takes no clients: ", grpc.message(), "\n");
+  }
   return reply;
 }
 
@@ -98,30 +103,22 @@ HttpReply listReply(const WebContext& context, const Caller& caller, const std::
   return notFoundReply(path);  // operations of gRPC have paths, too
 }
 
-}  // namespace
-
-std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request) {
-  const bool reads = request.method == "GET" || request.method == "HEAD";
-  const bool is_session = request.target == kApiSession;
-  const bool changes_session =
-      is_session && (request.method == "POST" || request.method == "DELETE");
-  if (!reads && !changes_session) {
-    HttpReply reply =
-        errorReply(405, fieldError(absl::StatusCode::kUnimplemented, "method",
-                                   strCat("got ", request.method, "; accepted is GET or HEAD",
-                                          is_session ? ", POST or DELETE" : "")));
-    reply.headers.emplace_back("Allow", is_session ? "GET, HEAD, POST, DELETE" : "GET, HEAD");
-    return reply;
-  }
-  absl::Status allowed = context.host_policy.checkHost(request.host);
-  if (allowed.ok() && (request.upgrade || changes_session)) {
-    allowed = context.host_policy.checkOrigin(request.origin, request.host);
-  }
-  if (!allowed.ok()) return errorReply(allowed);
-  return std::nullopt;
+// A redirect that also holds where a proxy serves this server below a path of its own.
+std::string relativeLocation(std::string_view target, std::string_view location) {
+  const std::string_view path = target.substr(0, target.find('?'));
+  std::string relative;
+  for (auto depth = std::ranges::count(path, '/'); depth > 1; --depth) relative += "../";
+  return relative + std::string(location.substr(1));
 }
 
-net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
+// Lets pages of an allowed origin read and show the reply.
+void addressTo(const std::string& origin, HttpReply& reply) {
+  reply.headers.emplace_back("Access-Control-Allow-Origin", origin);
+  reply.headers.emplace_back("Cross-Origin-Resource-Policy", "cross-origin");
+  reply.headers.emplace_back("Vary", "Origin, Referer");
+}
+
+net::awaitable<HttpReply> route(WebContext& context, HttpRequest request) {
   const absl::StatusOr<Url> url = parseUrl(request.target);
   if (!url.ok()) co_return errorReply(url.status());
   for (const PageAsset& asset : pageAssets()) {
@@ -137,6 +134,45 @@ net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
   const absl::StatusOr<Caller> caller = admitRequest(context, request, url->path);
   if (!caller.ok()) co_return errorReply(caller.status());
   co_return listReply(context, *caller, url->path);
+}
+
+}  // namespace
+
+bool isStatusTarget(std::string_view target) {
+  return target == kHealthPage || target == kMetricsPage;
+}
+
+std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request) {
+  const bool reads = request.method == "GET" || request.method == "HEAD";
+  const bool is_session = request.target == kApiSession;
+  const bool changes_session =
+      is_session && (request.method == "POST" || request.method == "DELETE");
+  if (!reads && !changes_session) {
+    HttpReply reply =
+        errorReply(405, fieldError(absl::StatusCode::kUnimplemented, "method",
+                                   strCat("got ", request.method, "; accepted is GET or HEAD",
+                                          is_session ? ", POST or DELETE" : "")));
+    reply.headers.emplace_back("Allow", is_session ? "GET, HEAD, POST, DELETE" : "GET, HEAD");
+    return reply;
+  }
+  absl::Status allowed = context.host_policy.checkHost(request.host);
+  if (allowed.ok()) {
+    allowed = request.upgrade || changes_session
+                  ? context.host_policy.checkWebSocket(request.page, request.host)
+                  : context.host_policy.checkPage(request.page);
+  }
+  if (!allowed.ok()) return errorReply(allowed);
+  return std::nullopt;
+}
+
+net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
+  HttpReply reply = co_await route(context, request);
+  for (auto& [name, value] : reply.headers) {
+    if (name == "Location") value = relativeLocation(request.target, value);
+  }
+  const std::string origin = context.host_policy.allowedOrigin(request.page);
+  if (!origin.empty()) addressTo(origin, reply);
+  co_return reply;
 }
 
 }  // namespace viewloom

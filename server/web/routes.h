@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "web/asio.h"
 #include "web/http_reply.h"
@@ -11,7 +12,10 @@
 
 namespace viewloom {
 
-// Whether host, origin and method are accepted; the refusal otherwise.
+// Whether the target is one of those that watch over the server: /healthz, /metrics.
+bool isStatusTarget(std::string_view target);
+
+// Whether host, page and method are accepted; the refusal otherwise.
 std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request);
 
 // Answers everything but WebSockets. Runs on the caller's strand.

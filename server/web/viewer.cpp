@@ -28,6 +28,8 @@ Viewer::Viewer(WebContext& context, Caller caller, beast::tcp_stream stream,
       caller_(std::move(caller)),
       socket_(std::move(stream)),
       awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
+      next_read_(socket_.get_executor()),
+      pace_(context.options.message_rate),
       parameters_(std::move(parameters)) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
@@ -74,6 +76,7 @@ void Viewer::leave() {
 }
 
 void Viewer::cut() {
+  next_read_.cancel();
   beast::get_lowest_layer(socket_).close();
 }
 
@@ -116,7 +119,16 @@ net::awaitable<void> Viewer::readMessages() {
     buffer.consume(bytes.size());
     if (!status.ok()) pending_error_ = errorJson(status);
     wake();
+    co_await keepPace(bytes.size(), error);
+    if (error) co_return;
   }
+}
+
+net::awaitable<void> Viewer::keepPace(size_t message_bytes, ErrorCode& error) {
+  const int64_t delay_ns = pace_.delayNs(context_.clock.nowNs(), message_bytes);
+  if (delay_ns == 0) co_return;
+  next_read_.expires_after(std::chrono::nanoseconds(delay_ns));
+  co_await next_read_.async_wait(into(error));
 }
 
 absl::Status Viewer::takeMessage(std::string_view text) {

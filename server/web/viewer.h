@@ -12,6 +12,7 @@
 #include "web/asked_display.h"
 #include "web/atlas_inbox.h"
 #include "web/live_reader.h"
+#include "web/message_pace.h"
 #include "web/url.h"
 #include "web/watch_request.h"
 #include "web/web_context.h"
@@ -47,6 +48,8 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   absl::Status open();
   absl::Status subscribe(const AskedDisplay& asked);
   net::awaitable<void> readMessages();
+  // Waits until the next message may be read.
+  net::awaitable<void> keepPace(size_t message_bytes, ErrorCode& error);
   net::awaitable<void> writeMessages();
   net::awaitable<void> writeText(std::string text, ErrorCode& error);
   net::awaitable<void> writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error);
@@ -60,6 +63,8 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   const Caller caller_;
   websocket::stream<beast::tcp_stream> socket_;
   net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
+  net::steady_timer next_read_;
+  MessagePace pace_;
   const QueryParameters parameters_;
   AskedDisplay asked_;  // as it is served
   std::shared_ptr<AtlasInbox> inbox_;

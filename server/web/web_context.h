@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "web/host_policy.h"
+#include "web/message_pace.h"
 
 namespace viewloom {
 
@@ -23,14 +25,17 @@ struct HttpOptions {
   uint16_t port = 0;                  // 0 = any free one
   uint32_t thread_count = 2;
   uint32_t connection_count_max = 1024;
-  // Names a request may call this server by, beside localhost and numeric loopback addresses.
-  // Checked on loopback only: it keeps web pages from reading streams by DNS rebinding.
-  std::vector<std::string> allowed_hosts;
+  // Further connections that get /healthz and /metrics, and "too many connections" for the rest.
+  uint32_t status_connection_count_max = 16;
+  std::vector<std::string> allowed_hosts;    // beside those of HostPolicy
+  std::vector<std::string> allowed_origins;  // of pages that may watch
 
   uint32_t header_bytes_max = 8192;
   uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits
+  MessageRate message_rate{};              // of a viewer; a flood is read no faster
   std::chrono::milliseconds request_timeout{
       10'000};  // to send a request, from the one before; to shake hands
+  std::chrono::milliseconds status_timeout{2'000};     // the same, beyond connection_count_max
   std::chrono::milliseconds idle_timeout{20'000};      // of a viewer that answers no ping
   std::chrono::milliseconds transfer_timeout{60'000};  // to take one reply
   std::chrono::milliseconds still_timeout{10'000};     // until a still's atlas is there
@@ -41,6 +46,8 @@ struct HttpOptions {
 struct WebContext {
   const HttpOptions options;
   const HostPolicy host_policy;
+  // Whether gRPC clients would get in, for /healthz.
+  const std::function<absl::Status()> grpc_health;
   const StreamDirectory& streams;
   Broadcaster& broadcaster;
   const Metrics& metrics;

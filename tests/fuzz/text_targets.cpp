@@ -122,9 +122,11 @@ bool fuzzViewer(FuzzBytes bytes) {
 
 bool fuzzHttp(FuzzBytes bytes) {
   const std::vector<std::string> lines = linesOf(bytes);
-  const HostPolicy policy(true, {"proxy.example"});
+  const HostPolicy policy({"render7"}, {"proxy.example"}, {"https://show.example"});
   bool is_accepted = isTaken(policy.checkHost(lineAt(lines, 1)));
-  is_accepted &= isTaken(policy.checkOrigin(lineAt(lines, 2), lineAt(lines, 1)));
+  const PageHeaders page{.origin = lineAt(lines, 2)};
+  is_accepted &=
+      isTaken(policy.checkWebSocket(page, lineAt(lines, 1))) && isTaken(policy.checkPage(page));
   const absl::StatusOr<Url> url = parseUrl(lineAt(lines, 0));
   if (!isTaken(url.status())) return false;
   VIEWLOOM_CHECK(url->path.starts_with('/'));

@@ -237,7 +237,7 @@ class Page(PageTest):
     def test_says_how_to_start_a_stream_when_there_is_none(self):
         self.browser.open(self.server.url + "icon.svg")  # the page's origin, before the page
         self.browser.call("Page.addScriptToEvaluateOnNewDocument", source=(
-            "const real = fetch; window.fetch = (url, ...more) => url === '/api/streams' ? "
+            "const real = fetch; window.fetch = (url, ...more) => url === 'api/streams' ? "
             "Promise.resolve(new Response('{\"streams\": []}')) : real(url, ...more);"))
         self.browser.open(self.server.url)
         self.browser.wait_for("document.documentElement.dataset.state === 'no-stream'")

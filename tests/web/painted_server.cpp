@@ -9,11 +9,16 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "web/http_server.h"
 #include "web/painted_stream.h"
 
 namespace {
+
+// An option with text; the others are numbers.
+constexpr const char* kAllowOrigin = "--allow-origin";
 
 // Access tokens are those of the file in the variable PAINTED_TOKEN_FILE.
 // Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
@@ -27,8 +32,18 @@ std::map<std::string, int> readOptions(int argc, char** argv) {
                                         {"--idle-ms", 20'000},
                                         {"--ms-per-megapixel", 0},
                                         {"--flat", 0}};
-  for (int i = 1; i + 1 < argc; i += 2) options.at(argv[i]) = std::atoi(argv[i + 1]);
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (argv[i] != std::string(kAllowOrigin)) options.at(argv[i]) = std::atoi(argv[i + 1]);
+  }
   return options;
+}
+
+std::vector<std::string> allowedOrigins(int argc, char** argv) {
+  std::vector<std::string> origins;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (argv[i] == std::string(kAllowOrigin)) origins.emplace_back(argv[i + 1]);
+  }
+  return origins;
 }
 
 viewloom::HttpOptions httpOptions(const std::map<std::string, int>& options) {
@@ -66,7 +81,10 @@ int main(int argc, char** argv) {
   const auto silent = streams.claim("silent", "", [] {});
   const char* const token_file = std::getenv("PAINTED_TOKEN_FILE");
   viewloom::AccessControl access({.token_file = token_file == nullptr ? "" : token_file}, clock);
-  viewloom::HttpServer server(httpOptions(options), streams, broadcaster, metrics, clock, access);
+  viewloom::HttpOptions http_options = httpOptions(options);
+  http_options.allowed_origins = allowedOrigins(argc, argv);
+  viewloom::HttpServer server(std::move(http_options), streams, broadcaster, metrics, clock, access,
+                              [] { return absl::OkStatus(); });
   std::cout << server.url() << std::endl;
 
   const int rate_hz = options.at("--rate-hz");

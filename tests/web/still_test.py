@@ -24,7 +24,7 @@ class Stills(PaintedCase):
     def test_serves_a_still_whose_url_says_how_its_views_lie(self):
         reply = fetch(self.port, f"/still/painted_qs4x2a1.jpg?{SMALL}")
         if reply.status == 302:  # the suffix as the server writes it
-            reply = fetch(self.port, reply.headers["location"])
+            reply = fetch(self.port, reply.location)
         self.assertEqual(reply.status, 200, reply.body)
         self.assertEqual(reply.headers["content-type"], "image/jpeg")
         image = Image.open(io.BytesIO(reply.body))
@@ -42,10 +42,11 @@ class Stills(PaintedCase):
     def test_redirects_a_short_still_to_the_one_with_the_suffix(self):
         reply = fetch(self.port, "/still/painted/portrait")
         self.assertEqual(reply.status, 302)
-        self.assertEqual(reply.headers["location"],
+        self.assertEqual(reply.location,
                          "/still/painted_qs8x6a0.75.jpg?preset=portrait")
+        self.assertTrue(reply.headers["location"].startswith("../"), "a proxy may add a path")
         wrong = fetch(self.port, "/still/painted_qs5x9a1.6.jpg?preset=portrait")
-        self.assertEqual(wrong.headers["location"], reply.headers["location"])
+        self.assertEqual(wrong.location, reply.location)
 
     def test_a_display_that_is_no_quilt_is_found_by_its_name(self):
         size = "width=64&height=36"
@@ -56,7 +57,7 @@ class Stills(PaintedCase):
         layout = fetch(self.port, f"/still/painted/wowvx.json?{size}").json()
         self.assertEqual(layout["size"], {"width": 128, "height": 36})
         suffix = fetch(self.port, f"/still/painted_qs8x6a0.75.jpg?preset=wowvx&{size}")
-        self.assertEqual((suffix.status, suffix.headers["location"]),
+        self.assertEqual((suffix.status, suffix.location),
                          (302, "/still/painted/wowvx.jpg?height=36&width=64"))
 
     def test_names_the_file_that_a_still_is_to_be_saved_as(self):
@@ -69,7 +70,7 @@ class Stills(PaintedCase):
             with self.subTest(target):
                 reply = fetch(self.port, target)
                 if reply.status == 302:
-                    reply = fetch(self.port, reply.headers["location"])
+                    reply = fetch(self.port, reply.location)
                 self.assertEqual(reply.status, 200, reply.body)
                 self.assertEqual(reply.headers["content-disposition"],
                                  f'inline; filename="{name}"')
@@ -90,7 +91,7 @@ class Stills(PaintedCase):
                 self.assertEqual(json.load(layout)["view_count"], 48)
 
     def test_gives_up_on_a_still_that_does_not_come(self):
-        location = fetch(self.port, "/still/silent/portrait").headers["location"]
+        location = fetch(self.port, "/still/silent/portrait").location
         reply = fetch(self.port, location)
         self.assertEqual(reply.status, 504)
         self.assertIn("was ready within 3000 ms", reply.json()["error"]["message"])

@@ -233,7 +233,7 @@ class Streams(unittest.TestCase):
         for target in ("/stream/painted/portrait", "/stream/painted/portrait.mjpg",
                        "/stream/painted_qs5x9a1.6.mjpg?preset=portrait"):
             reply = fetch(self.server.port, target)
-            self.assertEqual((reply.status, reply.headers["location"]),
+            self.assertEqual((reply.status, reply.location),
                              (302, "/stream/painted_qs8x6a0.75.mjpg?preset=portrait"))
 
     def test_targets_that_name_no_stream(self):

@@ -8,7 +8,7 @@ import os
 import socket
 import struct
 import subprocess
-from urllib.parse import urlencode, urlsplit
+from urllib.parse import urlencode, urljoin, urlsplit
 
 TIMEOUT_S = 60  # of any single wait; a test that reaches it has failed
 
@@ -66,6 +66,8 @@ class Server:
 
 
 class Reply:
+    location = None  # of a redirect, as a path from the root
+
     def __init__(self, status, headers, body):
         self.status = status
         self.headers = headers
@@ -121,6 +123,8 @@ def fetch(port, target, method="GET", headers=None):
     stream = Stream(port)
     stream.send(request_bytes(port, target, method, {"Connection": "close", **(headers or {})}))
     reply = stream.read_reply(has_body=method != "HEAD")
+    if "location" in reply.headers:
+        reply.location = urljoin(target, reply.headers["location"])
     stream.close()
     return reply
 

@@ -114,6 +114,17 @@ TEST_F(ReadConfig, takesHostNamesWithoutSpaces) {
               HasSubstr("must be host names, separated by commas"));
 }
 
+TEST_F(ReadConfig, takesOriginsAsBrowsersSendThem) {
+  const char* good = "https://a.example,http://10.0.0.7:3000,http://[::1]:80";
+  EXPECT_EQ(errorOf({.flags = {{"http.allowed_origins", good}}}), "no error");
+  for (const char* bad : {"a.example", "*", "https://", "https://a.example/", "ftp://a.example",
+                          "https://a.example, https://b.example", "https://u@a.example"}) {
+    EXPECT_THAT(errorOf({.flags = {{"http.allowed_origins", bad}}}),
+                HasSubstr("addresses as https://HOST"))
+        << bad;
+  }
+}
+
 TEST_F(ReadConfig, saysWhereAFileIsNoToml) {
   EXPECT_THAT(errorOf(file("device = \"a\"\n[grpc\n")), HasSubstr(path_ + ":2: "));
   EXPECT_THAT(errorOf({.file = "/nonexistent/viewloomd.toml"}),

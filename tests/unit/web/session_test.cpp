@@ -53,8 +53,9 @@ class Session : public testing::Test {
                                                               .expires_s = {}});
     EXPECT_TRUE(addToTokenFile(path_, {.identity = identity, .note = ""}).ok());
     access_.emplace(AccessOptions{.token_file = path_}, clock_);
-    context_.emplace(HttpOptions{}, HostPolicy(true, {}), streams_, broadcaster_, metrics_, clock_,
-                     *access_);
+    const auto healthy = [] { return absl::OkStatus(); };
+    context_.emplace(HttpOptions{}, HostPolicy({}, {}, {}), healthy, streams_, broadcaster_,
+                     metrics_, clock_, *access_);
     for (const char* name : {"room.1", "hall"}) claims_.push_back(*streams_.claim(name, "", [] {}));
   }
   ~Session() override { std::filesystem::remove(path_); }

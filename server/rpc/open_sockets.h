@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of the sockets that were given away are still open.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace viewloom {
+
+// The gRPC library closes the connections that it is given, and tells nobody. A socket's inode
+// tells it: no other file has the same, whatever descriptor it gets. Thread-safety: none.
+class OpenSockets {
+ public:
+  // A socket that is open now.
+  void add(int fd);
+  // Looks at each, with a system call: 1,000 sockets take about 0.2 ms.
+  size_t count();
+  // At least as many as are open: those of the last count(), and what came since.
+  size_t countMax() const { return sockets_.size(); }
+
+ private:
+  struct Socket {
+    int fd;
+    ino_t inode;
+  };
+  std::vector<Socket> sockets_;
+};
+
+}  // namespace viewloom
