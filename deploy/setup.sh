@@ -34,7 +34,7 @@ test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium curl python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
   python3-pip python3-setuptools python3-venv python3-wheel
-  man-db xdotool xvfb zsh
+  haproxy man-db nginx-light openssl xdotool xvfb zsh
   clang clang-format clang-tidy libembree-dev llvm
 )
 # Node from elsewhere is as good, and Debian's npm cannot be installed beside it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -72,6 +73,16 @@ absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& tar
              "); start `viewloomd serve`, or name its page with --address http://HOST:PORT"));
 }
 
+// Where a redirect leads: the server names an address relative to the one that was asked for, which
+// also holds below a proxy's path (RFC 3986, section 5.2).
+std::string followed(std::string_view target, std::string_view location) {
+  const std::filesystem::path asked(target.substr(0, target.find('?')));
+  const size_t path_size = std::min(location.find('?'), location.size());
+  const std::filesystem::path path =
+      asked.parent_path() / std::filesystem::path(location.substr(0, path_size));
+  return strCat(path.lexically_normal().generic_string(), std::string(location.substr(path_size)));
+}
+
 absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
   const json answer = parseAnswer(response.body);
   const json path = answer.is_object() ? answer.value("error", json()) : json();
@@ -104,7 +115,7 @@ absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQue
   absl::StatusOr<HttpResponse> response = get(page, target, query.token, timeout);
   VIEWLOOM_RETURN_IF_ERROR(response.status());
   if (response->status == kHttpFound) {  // to the suffix as the server writes it
-    target = withExtension(response->location, ".json");
+    target = withExtension(followed(target, response->location), ".json");
     response = get(page, target, query.token, timeout);
     VIEWLOOM_RETURN_IF_ERROR(response.status());
   }
