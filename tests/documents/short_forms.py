@@ -37,6 +37,8 @@ FORMS = (
     Short(("tests/README.md",), r"^tests/full.sh ([a-z].*)$",
           r'for part in \1; do tests/full.sh --list | grep "^$part " || exit 1; done',
           "these parts take hours; here they have to be in the list"),
+    Short(("tests/README.md",), r"attack/main.py (\S+) --suite$",
+          r"attack/main.py \1 --suite dns_rebinding ping", "all attacks take a minute"),
     Short(("client/publish.md", "client/watch.md"), r"--seconds 10\b", "--seconds 1",
           "one second is enough"),
     Short(("client/effects.md",), r"(--preset portrait) (--a.*|--reflections .*) --out",

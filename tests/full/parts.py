@@ -68,6 +68,18 @@ def soak(name):
                 build("release", "viewloom-oracle-soak"))
 
 
+def attack():
+    """Each form is a step; the fronts have to be installed."""
+    words = ["env", "PYTHONPATH=build/release/client/python", sys.executable,
+             "tests/attack/main.py", "build/release/server/viewloomd"]
+    return Part("attack", "attacks beside a healthy pair, at their full length; needs haproxy and "
+                "nginx", "forms",
+                lambda: [Step("the server alone", words),
+                         *(Step(f"behind {front}", [*words, "--front", front])
+                           for front in ("haproxy", "nginx"))],
+                build("release", "viewloomd", "viewloom_python"))
+
+
 def compare():
     """Builds the commit VIEWLOOM_COMPARE_WITH beside this one."""
     before = os.path.abspath("build/before")
@@ -103,6 +115,7 @@ PARTS = [
     Part("lint", "clang-tidy over server and client", "runs",
          lambda: [Step("clang-tidy", ["cmake", "--build", "build/lint", "--target", "clang_tidy"])],
          build("lint", "generated_headers")),
+    attack(),
     compare(),
     Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),
