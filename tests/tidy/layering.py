@@ -21,6 +21,7 @@ LIB_ROOT = [LIB + "/fault.glsl", LIB + "/memory.glsl"]
 LAYERS = {
     # Libraries that server and client share.
     "server/core/base": ([], ["absl", "spdlog"]),
+    "server/core/certificates": (["base"], ["absl", "openssl"]),
     "server/core/jpeg": ([], ["jpeg"]),
     "server/core/frame": (["base"], ["absl", "glm"]),
     "server/core/calibration": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "nlohmann"]),
@@ -35,6 +36,7 @@ LAYERS = {
     "server/access": (["base"], ["absl", "nlohmann", "openssl"]),
     # Takes rights from the process; the kernel's interface and libseccomp only.
     "server/containment": (["base"], ["absl", "nlohmann", "seccomp"]),
+    "server/tls": (["base", "certificates"], ["absl", "openssl"]),
     "server/decode": (["base", "jpeg", "frame", SHADERS_SHARED], ["absl", "glm", "jpeg", "zstd"]),
     "server/picture": (["base", "frame", "calibration", "display", SHADERS_SHARED],
                        ["absl", "glm"]),
