@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "lib/credentials.h"
 #include "usage/command_line.h"
 
 namespace viewloom::cli {
@@ -18,8 +20,10 @@ enum ExitCode : int {
 };
 
 struct CommonOptions {
-  std::string server;      // "host:port" or "unix:path"
-  std::string token = {};  // shown to the server; empty = none
+  std::string server;  // "host:port", "unix:path" or "https://host:port"
+  TlsOptions tls;
+  std::shared_ptr<grpc::ChannelCredentials> credentials;  // made of both
+  std::string token = {};                                 // shown to the server; empty = none
   // Messages that were given as JSON, by their fields: "display", "encoding".
   std::vector<std::string> messages = {};
 };

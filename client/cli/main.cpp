@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ int run(int argc, char** argv) {
       "viewloom");
   app.version(VIEWLOOM_VERSION);
   app.requireCommand();
-  CommonOptions common;
+  CommonOptions common{};
   addServerOptions(app, common);
 
   std::vector<NamedCommand> commands = addCommands(app);
@@ -35,6 +36,11 @@ int run(int argc, char** argv) {
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
+  if (const absl::Status status = readServerOptions(common); !status.ok()) {
+    const std::string problem(status.message());
+    std::fprintf(stderr, "viewloom: %s\n", printable(problem, true).c_str());
+    return kExitUsage;
+  }
   catchInterrupts();
   for (const NamedCommand& command : commands) {
     if (command.syntax.wasNamed()) return command.run(common);

@@ -15,6 +15,7 @@
 #include "cli/sent_frames.h"
 #include "cli/server_options.h"
 #include "cli/status_line.h"
+#include "lib/channel.h"
 #include "lib/publisher.h"
 
 namespace viewloom::cli {

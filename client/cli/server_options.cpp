@@ -2,29 +2,71 @@
 #include "cli/server_options.h"
 
 #include <string>
+#include <utility>
 
 #include "lib/access_token.h"
+#include "lib/channel.h"
 
 namespace viewloom::cli {
+namespace {
 
-void addServerOptions(const usage::Command& app, CommonOptions& common) {
-  common = {.server = kDefaultAddress, .token = tokenOfEnvironment()};
-  app.add("--server", common.server, "Address of the server: HOST:PORT or unix:PATH")
-      .valueName("ADDRESS")
-      .environment("VIEWLOOM_SERVER_ADDRESS")
-      .showDefault();
-  const auto take = [&common](const std::string& file) {
-    const absl::StatusOr<std::string> token = readAccessToken(file);
-    if (!token.ok()) throw usage::BadValue(std::string(token.status().message()));
-    common.token = *token;
+void addTlsOptions(const usage::Command& app, TlsOptions& tls) {
+  app.add("--fingerprint", tls.fingerprint,
+          "SHA-256 fingerprint that the server prints, by which it is known instead of by its name")
+      .valueName("HEX")
+      .environment("VIEWLOOM_SERVER_FINGERPRINT")
+      .defaultText("not pinned");
+  app.add("--tls-ca", tls.authorities_file,
+          "Certificates in PEM of the authorities that the server's certificate comes from")
+      .valueName("FILE")
+      .environment("VIEWLOOM_SERVER_CA")
+      .defaultText("those of the system");
+  const usage::Option certificate =
+      app.add("--tls-cert", tls.certificate_file,
+              "Certificate in PEM of this client, if the server asks for one")
+          .valueName("FILE")
+          .environment("VIEWLOOM_CLIENT_CERTIFICATE")
+          .defaultText("none");
+  app.add("--tls-key", tls.key_file, "Private key in PEM of --tls-cert")
+      .valueName("FILE")
+      .environment("VIEWLOOM_CLIENT_KEY")
+      .needs(certificate);
+}
+
+void addTokenOption(const usage::Command& app, std::string& token) {
+  token = tokenOfEnvironment();
+  const auto take = [&token](const std::string& file) {
+    const absl::StatusOr<std::string> read = readAccessToken(file);
+    if (!read.ok()) throw usage::BadValue(std::string(read.status().message()));
+    token = *read;
   };
   app.addTaken("--token-file", take, "File with the access token for the server")
       .valueName("FILE")
       .defaultText("the token in VIEWLOOM_TOKEN");
 }
 
+}  // namespace
+
+void addServerOptions(const usage::Command& app, CommonOptions& common) {
+  common.server = kDefaultAddress;
+  app.add("--server", common.server,
+          "Address of the server: HOST:PORT, unix:PATH, or https://HOST:PORT for TLS")
+      .valueName("ADDRESS")
+      .environment("VIEWLOOM_SERVER_ADDRESS")
+      .showDefault();
+  addTlsOptions(app, common.tls);
+  addTokenOption(app, common.token);
+}
+
+absl::Status readServerOptions(CommonOptions& common) {
+  auto credentials = makeCredentials(common.server, common.tls);
+  VIEWLOOM_RETURN_IF_ERROR(credentials.status());
+  common.credentials = *std::move(credentials);
+  return absl::OkStatus();
+}
+
 std::shared_ptr<grpc::Channel> channelTo(const CommonOptions& common) {
-  return makeChannel(common.server, common.token);
+  return makeChannel(common.server, common.token, common.credentials);
 }
 
 }  // namespace viewloom::cli

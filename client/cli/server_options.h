@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that name the server and show it an access token, and the channel that they mean.
+// Where the server of a command is, and how the two know each other.
 #pragma once
 
 #include <memory>
 
+#include "base/status.h"
 #include "cli/command.h"
-#include "lib/channel.h"
 #include "usage/command_line.h"
+
+namespace grpc {
+class Channel;
+}  // namespace grpc
 
 namespace viewloom::cli {
 
-// Adds --server and --token-file. Sets `common` to their defaults: the server of this machine, and
-// the token of the environment. `common` must live until the command line is parsed.
+// Adds --server, the options of its encryption and --token-file. Sets `common` to their defaults:
+// the server of this machine, and the token of the environment. `common` must live until the
+// command line is parsed.
 void addServerOptions(const usage::Command& app, CommonOptions& common);
 
-// Does not connect yet.
+// Reads the files that the options name. Call it once they are parsed. INVALID_ARGUMENT says what
+// is wrong with them.
+absl::Status readServerOptions(CommonOptions& common);
+
+// A channel to the server; it does not connect yet.
 std::shared_ptr<grpc::Channel> channelTo(const CommonOptions& common);
 
 }  // namespace viewloom::cli

@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
+#include "cli/server_options.h"
 #include "lib/catalog.h"
 
 namespace viewloom::cli {

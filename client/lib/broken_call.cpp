@@ -37,6 +37,12 @@ constexpr std::array kCauses = {
           "start the server, or correct the address that the proxy passes calls to"},
     Cause{absl::StatusCode::kUnavailable, "status: 429", "a proxy limits the rate of calls",
           "raise that limit"},
+    Cause{absl::StatusCode::kUnavailable, "wrong version number", "the server speaks no TLS",
+          "write its address without https://"},
+    Cause{absl::StatusCode::kUnavailable, ": Socket closed",
+          "the server closed the connection before the call",
+          "if it speaks TLS, write its address as https://HOST:PORT; if it asks for certificates, "
+          "give --tls-cert and --tls-key"},
     Cause{absl::StatusCode::kUnimplemented, "status: 404", "no viewloomd answers at this address",
           "give the address of gRPC, which is not that of the page (50051 is usual)"},
     Cause{absl::StatusCode::kInternal, "RST_STREAM", "a proxy or the network broke the call off",
@@ -53,6 +59,10 @@ constexpr std::array kCauses = {
           "a proxy or the server's network library has reached a limit",
           "publish fewer or smaller frames, or raise the limit"},
 };
+
+// Stands in gRPC's message before a refusal of lib/credentials.
+constexpr std::string_view kRefusedCertificate =
+    "Custom verification check failed with error: UNAUTHENTICATED: ";
 
 // Signs in gRPC's words, and what they mean.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kConnections{{
@@ -85,6 +95,10 @@ std::string connectionProblem(const absl::Status& status) {
 
 std::string explainBrokenCall(const absl::Status& status) {
   if (!isFromTransport(status)) return "";
+  const std::string message(status.message());
+  if (const size_t refusal = message.find(kRefusedCertificate); refusal != std::string::npos) {
+    return message.substr(refusal + kRefusedCertificate.size());
+  }
   const auto* cause = std::find_if(kCauses.begin(), kCauses.end(), [&](const Cause& candidate) {
     const absl::string_view sign(candidate.sign.data(), candidate.sign.size());
     return candidate.code == status.code() && absl::StrContains(status.message(), sign);

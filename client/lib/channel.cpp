@@ -18,8 +18,10 @@
 #include "absl/strings/cord.h"
 #include "base/host_port.h"
 #include "base/retry_delay.h"
+#include "certificates/server_address.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "lib/credentials.h"
 
 namespace viewloom {
 namespace {
@@ -65,9 +67,17 @@ class TokenInterceptors final : public grpc::experimental::ClientInterceptorFact
   const std::string header_;
 };
 
+// Whatever is wrong with the address or with the system's authorities shows in the first call.
+std::shared_ptr<grpc::ChannelCredentials> credentialsByAddress(const std::string& address) {
+  const auto credentials = makeCredentials(address, {});
+  return credentials.ok() ? *credentials : nullptr;
+}
+
 }  // namespace
 
-std::shared_ptr<grpc::Channel> makeChannel(const std::string& address, const std::string& token) {
+std::shared_ptr<grpc::Channel> makeChannel(
+    const std::string& address, const std::string& token,
+    const std::shared_ptr<grpc::ChannelCredentials>& credentials) {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kMessageBytesMax);
   arguments.SetMaxSendMessageSize(kMessageBytesMax);
@@ -81,8 +91,9 @@ std::shared_ptr<grpc::Channel> makeChannel(const std::string& address, const std
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // Two clients of one process do not share a connection, and with it its flow control.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  const auto credentials = grpc::InsecureChannelCredentials();
-  if (token.empty()) return grpc::CreateCustomChannel(address, credentials, arguments);
+  const std::string target = parseServerAddress(address).target;
+  const auto known_by = credentials != nullptr ? credentials : credentialsByAddress(address);
+  if (token.empty()) return grpc::CreateCustomChannel(target, known_by, arguments);
   if (!isSendableToken(token)) {
     throw std::invalid_argument(
         "the access token (VIEWLOOM_TOKEN) has characters that cannot be sent; accepted is one "
@@ -90,13 +101,13 @@ std::shared_ptr<grpc::Channel> makeChannel(const std::string& address, const std
   }
   std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(std::make_unique<TokenInterceptors>(token));
-  return grpc::experimental::CreateCustomChannelWithInterceptors(address, credentials, arguments,
+  return grpc::experimental::CreateCustomChannelWithInterceptors(target, known_by, arguments,
                                                                  std::move(interceptors));
 }
 
 bool staysOnMachine(const std::string& address) {
   if (address.rfind("unix:", 0) == 0 || address.rfind("unix-abstract:", 0) == 0) return true;
-  const std::optional<HostPort> parsed = parseHostPort(address);
+  const std::optional<HostPort> parsed = parseHostPort(parseServerAddress(address).target);
   return parsed && isLoopbackHost(parsed->host);
 }
 

@@ -12,6 +12,7 @@
 // only pass a channel on.
 namespace grpc {
 class Channel;
+class ChannelCredentials;
 class Status;
 }  // namespace grpc
 
@@ -24,11 +25,14 @@ inline constexpr char kDefaultAddress[] = "127.0.0.1:50051";
 // with their cameras takes less than 1 MiB.
 inline constexpr int kMessageBytesMax = 4 << 20;
 
-// Makes a channel to "host:port" or "unix:path", without encryption. It does not connect yet. Each
-// call shows the access token, unless it is "". Throws std::invalid_argument if the token cannot be
-// sent (isSendableToken).
-std::shared_ptr<grpc::Channel> makeChannel(const std::string& address,
-                                           const std::string& token = tokenOfEnvironment());
+// Makes a channel to "host:port" or "unix:path" without encryption, or to "https://host:port" with
+// TLS. It does not connect yet. Each call shows the access token, unless it is "". `credentials` of
+// makeCredentials say how server and client know each other; without them, the server is known by
+// the authorities of the system. Throws std::invalid_argument if the token cannot be sent
+// (isSendableToken).
+std::shared_ptr<grpc::Channel> makeChannel(
+    const std::string& address, const std::string& token = tokenOfEnvironment(),
+    const std::shared_ptr<grpc::ChannelCredentials>& credentials = nullptr);
 
 // Whether the address is on this machine: a Unix socket or a loopback address.
 bool staysOnMachine(const std::string& address);

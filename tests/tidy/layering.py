@@ -85,7 +85,7 @@ LAYERS = {
                       ["absl", "glm", "nlohmann", "openexr", "protobuf"]),
     "client/inspect": (["base", "frame", "messages", "files", SHADERS_SHARED],
                        ["absl", "glm", "protobuf"]),
-    "client/lib": (["base", "frame", "messages"],
+    "client/lib": (["base", "certificates", "frame", "messages"],
                    ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/eyes": (["base"], ["absl", "nlohmann", "protobuf"]),
     "client/recording": (["base", "lib"], ["absl", "protobuf"]),

@@ -36,8 +36,8 @@ std::string remedyOf(int error) {
     case X509_V_ERR_INVALID_PURPOSE:
       return "the server needs a certificate made for servers";
     default:
-      return "name the certificate of its authority with --tls-ca, or pin the server's own "
-             "certificate with --fingerprint";
+      return "name the certificate of its authority with --tls-ca, or pin with --fingerprint what "
+             "the server itself prints";
   }
 }
 
@@ -105,8 +105,8 @@ absl::Status Authorities::checkServer(const std::vector<Certificate>& chain,
   return absl::UnauthenticatedError(
       strCat("the certificate of ", host, " is made for ",
              names.empty() ? "no host" : absl::StrJoin(names, ", "),
-             "; connect by a name that it has, or pin it with --fingerprint ",
-             shown.fingerprint().text()));
+             "; connect by a name that it has, or pin with --fingerprint what the server itself "
+             "prints"));
 }
 
 }  // namespace viewloom

@@ -16,7 +16,7 @@ struct ServerAddress {
   std::string text() const;
 };
 
-// Reads an address. http:// is accepted, too, and means no encryption.
+// Reads an address; whatever has no https:// before it has no TLS.
 ServerAddress parseServerAddress(std::string_view text);
 
 }  // namespace viewloom

@@ -8,6 +8,7 @@
 #include <viewloom/catalog.h>
 #include <viewloom/channel.h>
 #include <viewloom/compress_frame.h>
+#include <viewloom/credentials.h>
 #include <viewloom/latency.h>
 #include <viewloom/publisher.h>
 #include <viewloom/quantise_depth.h>
@@ -36,10 +37,10 @@ bool areThere(Functions... functions) {
 bool functionsAreThere() {
   return areThere(&tokenOfEnvironment, &readAccessToken, &isSendableToken, &hasWholePlane,
                   &joinJpegBands, &decodePlane, &placeOfView, &cutView, &explainBrokenCall,
-                  &connectionProblem, &staysOnMachine, &statusFromGrpc, &isFromServer,
-                  &isFromTransport, &predictPlane, &compressFrame, &quantiseDepth, &motionLatency,
-                  &makeRandom, &isPassing, &steadyNowNs, &fieldError, &invalidField, &fieldOf,
-                  &withFieldPrefix);
+                  &connectionProblem, &makeCredentials, &staysOnMachine, &statusFromGrpc,
+                  &isFromServer, &isFromTransport, &predictPlane, &compressFrame, &quantiseDepth,
+                  &motionLatency, &makeRandom, &isPassing, &steadyNowNs, &fieldError, &invalidField,
+                  &fieldOf, &withFieldPrefix);
 }
 
 bool methodsAreThere() {

@@ -21,8 +21,6 @@ TEST(ServerAddress, takesOthersForUnencrypted) {
     EXPECT_EQ(address.target, text);
     EXPECT_EQ(address.text(), text);
   }
-  EXPECT_EQ(parseServerAddress("http://127.0.0.1:50051/").target, "127.0.0.1:50051");
-  EXPECT_FALSE(parseServerAddress("http://127.0.0.1:50051/").has_tls);
 }
 
 }  // namespace
