@@ -20,7 +20,8 @@ int run(int argc, char** argv) {
       "Examples:\n"
       "  viewloomd                                        serve on this machine\n"
       "  viewloomd doctor                                 check this machine first\n"
-      "  viewloomd serve --grpc.address 0.0.0.0:50051 --http.address 0.0.0.0:8080\n"
+      "  viewloomd certificate                            make a certificate for a local network\n"
+      "  viewloomd serve --open --grpc.address 0.0.0.0:50051 --http.address 0.0.0.0:8080\n"
       "\n"
       "`viewloomd --help` lists all settings. Give them before or after the command, in the file "
       "of\n"
@@ -32,6 +33,7 @@ int run(int argc, char** argv) {
   viewloom::addSettingOptions(app, sources);
   viewloom::RunCommand run_command = viewloom::serve;
   viewloom::addServeCommand(app, run_command);
+  viewloom::addCertificateCommand(app, run_command);
   viewloom::addDoctorCommand(app, run_command);
   viewloom::addTokenCommand(app, run_command);
   const std::optional<int> code = app.parse(argc, argv);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -12,11 +13,13 @@
 #include "base/descriptors.h"
 #include "base/host_port.h"
 #include "base/log.h"
+#include "certificates/server_address.h"
 #include "decode/frame_intake.h"
 #include "engine_room.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "rpc/rpc_server.h"
+#include "tls/tls_watch.h"
 #include "web/http_server.h"
 
 namespace viewloom {
@@ -84,12 +87,47 @@ HttpOptions httpOptions(const HttpConfig& config, uint32_t connection_count_max)
 }
 
 // The address as configured, with the port that was taken.
-std::string listeningAddress(const std::string& configured, uint16_t port) {
+std::string listeningAddress(const std::string& configured, uint16_t port, bool has_tls) {
   if (configured.starts_with("unix:")) return configured;
-  return HostPort{.host = parseHostPort(configured).value().host, .port = port}.text();
+  const HostPort address{.host = parseHostPort(configured).value().host, .port = port};
+  return ServerAddress{.target = address.text(), .has_tls = has_tls}.text();
+}
+
+// Nothing where no file of TLS is named.
+std::unique_ptr<TlsWatch> watchTls(const TlsConfig& config, const Metrics& metrics) {
+  if (config.certificate.empty() && config.key.empty() && config.client_ca.empty()) return nullptr;
+  const TlsFiles files{.certificate = config.certificate,
+                       .key = config.key,
+                       .client_authorities = config.client_ca,
+                       .is_client_required = config.client_required};
+  return std::make_unique<TlsWatch>(files, [&metrics](const auto& found, int64_t end_s) {
+    metrics.certificate_end.set(static_cast<double>(end_s));
+    if (!found.ok()) metrics.certificate_changes[CertificateChange::kRefused].add();
+    if (found.ok() && *found == TlsStore::Found::kTaken) {
+      metrics.certificate_changes[CertificateChange::kTaken].add();
+    }
+  });
+}
+
+// Throws where the server must not listen.
+const Config& allowed(const Config& config) {
+  const std::optional<std::string> refusal = refusalToListen(exposureOf(config));
+  if (refusal) throw std::runtime_error(*refusal);
+  return config;
 }
 
 }  // namespace
+
+Exposure exposureOf(const Config& config) {
+  Exposure exposure{
+      .addresses = {config.grpc.address},
+      .has_tls = !config.tls.certificate.empty(),
+      .has_access_control = !config.access.isOpen() ||
+                            (!config.tls.client_ca.empty() && config.tls.client_required),
+      .is_open_wanted = config.open};
+  if (config.http.enabled) exposure.addresses.push_back(config.http.address);
+  return exposure;
+}
 
 // In the order of construction; each part uses those above it.
 struct Service::Parts {
@@ -104,9 +142,14 @@ struct Service::Parts {
   void openRpc(const Config& config, const Clock& clock, const std::string& containment);
   void drain();
 
+  // Gives new connections the certificate in use; empty without TLS.
+  std::function<TlsMaterialPtr()> material() const;
+
   const ConnectionShares connection_shares;
+
   Metrics metrics;
   AccessControl access;
+  const std::unique_ptr<TlsWatch> tls;  // null = no encryption
   StreamDirectory directory;
   Broadcaster broadcaster;
   BytePool planes;
@@ -123,6 +166,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
                       const std::function<std::string()>& contain)
     : connection_shares(connectionShares(config)),
       access(accessOptions(config.access), clock),
+      tls(watchTls(config.tls, metrics)),
       directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits)),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
@@ -164,9 +208,16 @@ void Service::Parts::connect() {
   });
 }
 
+std::function<TlsMaterialPtr()> Service::Parts::material() const {
+  if (tls == nullptr) return {};
+  return [watch = tls.get()] { return watch->current(); };
+}
+
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
-  http.emplace(httpOptions(config.http, connection_shares.http), directory, broadcaster, metrics,
-               clock, access, [this] { return grpcHealth(); });
+  HttpOptions options = httpOptions(config.http, connection_shares.http);
+  options.tls = material();
+  http.emplace(std::move(options), directory, broadcaster, metrics, clock, access,
+               [this] { return grpcHealth(); });
 }
 
 absl::Status Service::Parts::grpcHealth() {
@@ -187,10 +238,12 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock,
                                       .stream_count_max = config.limits.streams_max,
                                       .broadcaster_limits = broadcasterLimits(config.limits),
                                       .http_address = http ? http->url() : "",
+                                      .reach = reachOf(exposureOf(config)),
                                       .containment = containment};
   rpc.emplace(RpcServerOptions{.address = config.grpc.address,
                                .connection_count_max = connection_shares.grpc,
-                               .keepalive = std::chrono::seconds(config.grpc.keepalive_s)},
+                               .keepalive = std::chrono::seconds(config.grpc.keepalive_s),
+                               .tls = material()},
               RpcParts{.intake = intake,
                        .pool = planes,
                        .directory = directory,
@@ -200,7 +253,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock,
                        .metrics = metrics,
                        .access = access},
               description);
-  grpc_address = listeningAddress(config.grpc.address, rpc->port());
+  grpc_address = listeningAddress(config.grpc.address, rpc->port(), tls != nullptr);
   open_rpc = &*rpc;
 }
 
@@ -218,7 +271,7 @@ void Service::Parts::drain() {
 Service::Service(const Config& config, const Clock& clock,
                  std::function<void(const std::exception& error)> on_failure,
                  const std::function<std::string()>& contain)
-    : parts_(std::make_unique<Parts>(config, clock, std::move(on_failure), contain)) {}
+    : parts_(std::make_unique<Parts>(allowed(config), clock, std::move(on_failure), contain)) {}
 
 Service::~Service() = default;
 
@@ -227,6 +280,9 @@ const std::string& Service::grpcAddress() const {
 }
 std::string Service::httpUrl() const {
   return parts_->http ? parts_->http->url() : "";
+}
+TlsMaterialPtr Service::tls() const {
+  return parts_->tls ? parts_->tls->current() : nullptr;
 }
 const Metrics& Service::metrics() const {
   return parts_->metrics;

@@ -11,14 +11,19 @@
 #include "base/clock.h"
 #include "config/config.h"
 #include "metrics/metrics.h"
+#include "tls/exposure.h"
+#include "tls/tls_material.h"
 
 namespace viewloom {
 
 class EngineRoom;
 
+// Addresses and protection of a server with these settings.
+Exposure exposureOf(const Config& config);
+
 // Serves from its construction on. Throws std::runtime_error, with the remedy, when it cannot
-// start. Thread-safety: none but that of const methods; failures are told from the thread that
-// fails.
+// start, or must not (refusalToListen). Thread-safety: none but that of const methods; failures are
+// told from the thread that fails.
 class Service {
  public:
   // `on_failure`: the server cannot go on (device lost, out of memory) and should be drained.
@@ -31,10 +36,12 @@ class Service {
   // Drains.
   ~Service();
 
-  // "127.0.0.1:50051", with the port in use.
+  // "127.0.0.1:50051", with the port in use; with TLS "https://127.0.0.1:50051".
   const std::string& grpcAddress() const;
-  // "http://127.0.0.1:8080/"; empty = no web server.
+  // "http://127.0.0.1:8080/", with TLS "https://..."; empty = no web server.
   std::string httpUrl() const;
+  // The certificate in use; null without TLS.
+  TlsMaterialPtr tls() const;
   const Metrics& metrics() const;
   const EngineRoom& engineRoom() const;
 

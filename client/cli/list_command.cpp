@@ -93,6 +93,20 @@ void print(const v1::ListPresetsResponse& response) {
   }
 }
 
+// A line; empty for an older server.
+const char* reachText(v1::Reach reach) {
+  switch (reach) {
+    case v1::REACH_MACHINE:
+      return "reach: this machine alone\n";
+    case v1::REACH_PROTECTED:
+      return "reach: other machines, encrypted, for those who are let in\n";
+    case v1::REACH_OPEN:
+      return "reach: OPEN to anybody on the network (viewloomd --open)\n";
+    default:
+      return "";
+  }
+}
+
 void print(const v1::GetServerInfoResponse& info) {
   std::printf("viewloomd %s on %s (%s)%s\n", printable(info.version()).c_str(),
               printable(info.device()).c_str(), printable(info.driver()).c_str(),
@@ -105,6 +119,7 @@ void print(const v1::GetServerInfoResponse& info) {
     std::printf("page: %s\n", printable(info.http_address()).c_str());
   if (!info.containment().empty())
     std::printf("containment: %s\n", printable(info.containment()).c_str());
+  std::printf("%s", reachText(info.reach()));
 }
 
 template <typename Response>

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,11 +35,7 @@ int run(int argc, char** argv) {
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
-  if (const absl::Status status = readServerOptions(common); !status.ok()) {
-    const std::string problem(status.message());
-    std::fprintf(stderr, "viewloom: %s\n", printable(problem, true).c_str());
-    return kExitUsage;
-  }
+  if (const std::optional<int> code = readServerOptions(common)) return *code;
   catchInterrupts();
   for (const NamedCommand& command : commands) {
     if (command.syntax.wasNamed()) return command.run(common);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/server_options.h"
 
+#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "base/printable.h"
 #include "lib/access_token.h"
 #include "lib/channel.h"
 
@@ -58,11 +60,15 @@ void addServerOptions(const usage::Command& app, CommonOptions& common) {
   addTokenOption(app, common.token);
 }
 
-absl::Status readServerOptions(CommonOptions& common) {
+std::optional<int> readServerOptions(CommonOptions& common) {
   auto credentials = makeCredentials(common.server, common.tls);
-  VIEWLOOM_RETURN_IF_ERROR(credentials.status());
-  common.credentials = *std::move(credentials);
-  return absl::OkStatus();
+  if (credentials.ok()) {
+    common.credentials = *std::move(credentials);
+    return std::nullopt;
+  }
+  const std::string problem(credentials.status().message());
+  std::fprintf(stderr, "viewloom: %s\n", printable(problem, true).c_str());
+  return kExitUsage;
 }
 
 std::shared_ptr<grpc::Channel> channelTo(const CommonOptions& common) {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "base/status.h"
 #include "cli/command.h"
 #include "usage/command_line.h"
 
@@ -19,9 +19,9 @@ namespace viewloom::cli {
 // command line is parsed.
 void addServerOptions(const usage::Command& app, CommonOptions& common);
 
-// Reads the files that the options name. Call it once they are parsed. INVALID_ARGUMENT says what
-// is wrong with them.
-absl::Status readServerOptions(CommonOptions& common);
+// Reads the files that the options name, once they are parsed. Nothing when all is right; else the
+// exit code, after an error was printed.
+std::optional<int> readServerOptions(CommonOptions& common);
 
 // A channel to the server; it does not connect yet.
 std::shared_ptr<grpc::Channel> channelTo(const CommonOptions& common);

@@ -19,6 +19,8 @@ int serve(const Config& config);
 
 // Each adds its subcommand and options to `app`; `chosen` is set when the command line names it.
 void addServeCommand(const usage::Command& app, RunCommand& chosen);
+// Returns 1 when a file cannot be written.
+void addCertificateCommand(const usage::Command& app, RunCommand& chosen);
 // Returns 1 when something must be put right before the server can run.
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen);
 void addTokenCommand(const usage::Command& app, RunCommand& chosen);

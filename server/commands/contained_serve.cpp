@@ -60,7 +60,8 @@ ContainmentOptions containmentOf(const Config& config) {
   options.listen_ports.push_back(0);
   addAddress(config.grpc.address, options);
   if (config.http.enabled) addAddress(config.http.address, options);
-  for (const std::string& file : {config.access.token_file, config.access.jwks_file}) {
+  for (const std::string& file : {config.tls.certificate, config.tls.key, config.tls.client_ca,
+                                  config.access.token_file, config.access.jwks_file}) {
     addReloaded(file, options);
   }
   addLog(config.access.audit_file, options);

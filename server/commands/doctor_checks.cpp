@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,12 +17,16 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_join.h"
 #include "access/key_set.h"
 #include "access/token_list.h"
 #include "access/watched_file.h"
 #include "base/host_port.h"
 #include "base/str_cat.h"
 #include "containment/landlock.h"
+#include "service.h"
+#include "tls/exposure.h"
+#include "tls/tls_material.h"
 
 namespace viewloom {
 namespace {
@@ -65,13 +70,7 @@ std::string whyNotListen(const std::string& address) {
   return whyNotBind(*found);
 }
 
-bool isForThisMachine(const std::string& address) {
-  const std::optional<HostPort> parsed = parseHostPort(address);
-  return address.starts_with("unix:") || (parsed && isLoopbackHost(parsed->host));
-}
-
-std::vector<Finding> checkPort(const std::string& address, const std::string& setting,
-                               bool has_tokens) {
+std::vector<Finding> checkPort(const std::string& address, const std::string& setting) {
   std::vector<Finding> findings;
   const std::string refusal = whyNotListen(address);
   if (refusal.empty()) {
@@ -81,13 +80,27 @@ std::vector<Finding> checkPort(const std::string& address, const std::string& se
         {Verdict::kProblem, "port", strCat(setting, " ", address, " cannot be taken: ", refusal),
          strCat("stop the program that uses it, or choose another address with --", setting)});
   }
-  if (!isForThisMachine(address)) {
-    findings.push_back({Verdict::kAdvice, "port",
-                        strCat(setting, " ", address, " is open to the network, without encryption",
-                               has_tokens ? "" : " and access tokens"),
-                        "use it in a trusted network only, or listen on 127.0.0.1"});
-  }
   return findings;
+}
+
+Finding checkCertificate(const TlsConfig& tls) {
+  const absl::StatusOr<TlsMaterialPtr> read =
+      readTlsMaterial({.certificate = tls.certificate,
+                       .key = tls.key,
+                       .client_authorities = tls.client_ca,
+                       .is_client_required = tls.client_required},
+                      std::time(nullptr));
+  if (read.ok()) {
+    const Certificate& certificate = (*read)->certified_key.certificate;
+    return {Verdict::kFine, "certificate",
+            strCat("valid until ", dayText(certificate.endS()), ", for ",
+                   absl::StrJoin(certificate.names(), ", ")),
+            ""};
+  }
+  const std::string problem(read.status().message());
+  const size_t remedy = std::min(problem.rfind("; "), problem.size());
+  return {Verdict::kProblem, "certificate", problem.substr(0, remedy),
+          remedy == problem.size() ? "correct the file" : problem.substr(remedy + 2)};
 }
 
 }  // namespace
@@ -98,10 +111,9 @@ bool hasProblem(const std::vector<Finding>& findings) {
 }
 
 std::vector<Finding> checkPorts(const Config& config) {
-  std::vector<Finding> findings =
-      checkPort(config.grpc.address, "grpc.address", !config.access.isOpen());
+  std::vector<Finding> findings = checkPort(config.grpc.address, "grpc.address");
   if (!config.http.enabled) return findings;
-  for (Finding& finding : checkPort(config.http.address, "http.address", !config.access.isOpen())) {
+  for (Finding& finding : checkPort(config.http.address, "http.address")) {
     findings.push_back(std::move(finding));
   }
   return findings;
@@ -146,6 +158,26 @@ std::vector<Finding> checkContainment(const Config& config) {
                   "use Linux 5.13 or newer, or a container");
   }
   return {{Verdict::kFine, "containment", strCat("files by landlock ", version), ""}};
+}
+
+std::vector<Finding> checkProtection(const Config& config) {
+  std::vector<Finding> findings;
+  const TlsConfig& tls = config.tls;
+  if (!tls.certificate.empty() || !tls.key.empty() || !tls.client_ca.empty()) {
+    findings.push_back(checkCertificate(tls));
+  }
+  const Exposure exposure = exposureOf(config);
+  if (const std::optional<std::string> refusal = refusalToListen(exposure)) {
+    const size_t remedy = refusal->find("; ");
+    findings.push_back(
+        {Verdict::kProblem, "network", refusal->substr(0, remedy), refusal->substr(remedy + 2)});
+  } else if (reachOf(exposure) == ServerReach::kOpen) {
+    findings.push_back({Verdict::kAdvice, "network",
+                        "anybody on the network can reach the server, as --open allows",
+                        "leave it in a network that you trust, or add tls.certificate and access "
+                        "control"});
+  }
+  return findings;
 }
 
 std::vector<Finding> checkHost() {

@@ -26,12 +26,14 @@ bool hasProblem(const std::vector<Finding>& findings);
 
 // Whether atlases can be made: devices, and a small scene. A server without engines says so.
 std::vector<Finding> checkEngines(const Config& config);
-// Whether each listening address can be taken, and whether it is for this machine alone.
+// Whether each listening address can be taken.
 std::vector<Finding> checkPorts(const Config& config);
 // Whether the files of access.* can be used.
 std::vector<Finding> checkAccess(const Config& config);
 // Whether this kernel can refuse files and system calls that a server does not need.
 std::vector<Finding> checkContainment(const Config& config);
+// Certificate and key, and whether the server may listen where it would.
+std::vector<Finding> checkProtection(const Config& config);
 // Cores, and how many connections the system lets a process have.
 std::vector<Finding> checkHost();
 

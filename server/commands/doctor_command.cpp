@@ -40,6 +40,7 @@ int doctor(const Config& config) {
   tell(checkEngines(config));
   tell(checkPorts(config));
   tell(checkAccess(config));
+  tell(checkProtection(config));
   std::cout << (has_problem ? "viewloomd cannot run yet\n" : "viewloomd can run\n");
   return has_problem ? kExitProblem : 0;
 }

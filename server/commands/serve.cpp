@@ -7,15 +7,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/clock.h"
 #include "base/descriptors.h"
 #include "base/heap.h"
 #include "base/log.h"
+#include "certificates/certificate.h"
+#include "certificates/server_address.h"
 #include "commands/command.h"
 #include "commands/contained_serve.h"
+#include "commands/qr_code.h"
 #include "commands/reachable_addresses.h"
 #include "containment/containment.h"
 #include "service.h"
@@ -35,32 +37,66 @@ sigset_t blockStopSignals() {
   return signals;
 }
 
-std::string joined(const std::vector<std::string>& addresses, const char* before) {
+std::string joined(const std::vector<std::string>& addresses, const std::string& before) {
   std::string text;
   for (const std::string& address : addresses)
     text += (text.empty() ? "" : ", ") + (before + address);
   return text;
 }
 
-// Says how other machines get here, and what keeps them out.
-void sayReach(const std::string& grpc_address, const std::string& http_url, bool is_open,
+// Addresses of other machines' view of the server.
+struct Outside {
+  std::vector<std::string> grpc;
+  std::vector<std::string> http;
+};
+
+Outside outsideOf(const Service& service, const InterfaceAddresses& interfaces) {
+  const std::string http_url = service.httpUrl();
+  const size_t scheme_end = http_url.find("://");
+  Outside outside;
+  outside.grpc = reachableAddresses(parseServerAddress(service.grpcAddress()).target, interfaces);
+  if (scheme_end != std::string::npos) {
+    const std::string address = http_url.substr(scheme_end + 3);
+    outside.http = reachableAddresses(address.substr(0, address.find('/')), interfaces);
+  }
+  return outside;
+}
+
+void sayCertificate(const Certificate& certificate) {
+  std::printf("Certificate: SHA-256 fingerprint %s, valid until %s\n",
+              certificate.fingerprint().text().c_str(), dayText(certificate.endS()).c_str());
+  if (certificate.isSelfSigned()) {
+    std::printf("Clients of this certificate: --fingerprint %s\n",
+                certificate.fingerprint().text().c_str());
+  }
+}
+
+// Says how other machines get here, and whether something keeps them out.
+void sayReach(const Service& service, const Exposure& exposure,
               const InterfaceAddresses& interfaces) {
-  constexpr std::string_view kScheme = "http://";
-  const std::vector<std::string> grpc = reachableAddresses(grpc_address, interfaces);
-  const std::vector<std::string> http =
-      http_url.starts_with(kScheme)
-          ? reachableAddresses(http_url.substr(kScheme.size()), interfaces)
-          : std::vector<std::string>();
-  if (!grpc.empty()) std::printf("Other machines: --server %s\n", joined(grpc, "").c_str());
-  if (!http.empty()) std::printf("Page for other machines: %s\n", joined(http, "http://").c_str());
-  if (!is_open && !(grpc.empty() && http.empty())) {
-    std::printf("Access tokens decide who can publish and watch. Nothing is encrypted.\n");
-  } else if (!grpc.empty()) {
+  const TlsMaterialPtr tls = service.tls();
+  const std::string scheme = tls ? "https://" : "";
+  const std::string page_scheme = tls ? "https://" : "http://";
+  const auto [grpc, http] = outsideOf(service, interfaces);
+  if (!grpc.empty()) std::printf("Other machines: --server %s\n", joined(grpc, scheme).c_str());
+  if (!http.empty()) {
+    std::printf("Page for other machines: %s\n", joined(http, page_scheme).c_str());
+  }
+  if (tls) sayCertificate(tls->certified_key.certificate);
+  const bool is_open = reachOf(exposure) == ServerReach::kOpen;
+  if (is_open && exposure.has_access_control) {
+    std::printf("Nothing is encrypted: anybody on the way can read pictures and access tokens.\n");
+  } else if (is_open && !grpc.empty()) {
     std::printf("There is no password: anybody who reaches %s can publish and watch streams.\n",
                 grpc.front().c_str());
-  } else if (!http.empty()) {
+  } else if (is_open && !http.empty()) {
     std::printf("There is no password: anybody who reaches %s can watch all streams.\n",
                 http.front().c_str());
+  }
+  // A local network, with phones in it.
+  const bool is_local = tls && tls->certified_key.certificate.isSelfSigned() && !http.empty();
+  if (is_local && isatty(STDOUT_FILENO) == 1) {
+    std::fputs(qrCode(page_scheme + http.front() + "/").c_str(), stdout);
   }
 }
 
@@ -88,7 +124,7 @@ int serve(const Config& config) {
   Service service(config, clock, on_failure, contain);
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
               service.httpUrl().c_str());
-  sayReach(service.grpcAddress(), service.httpUrl(), config.access.isOpen(), interfaces);
+  sayReach(service, exposureOf(config), interfaces);
   std::fflush(stdout);
 
   int signal = 0;

@@ -32,6 +32,14 @@ struct AccessConfig {
   bool isOpen() const { return token_file.empty() && jwks_file.empty(); }
 };
 
+// Files in PEM; without a certificate, nothing is encrypted.
+struct TlsConfig {
+  std::string certificate;
+  std::string key;
+  std::string client_ca;  // empty = clients are not asked for certificates
+  bool client_required = true;
+};
+
 struct LimitsConfig {
   uint64_t frame_bytes_max = uint64_t{3} << 29;  // 1.5 GiB
   uint32_t plane_side_px_max = 8192;
@@ -64,9 +72,11 @@ struct Config {
   std::string device;  // part of a device's name, or its index; empty = a real GPU, else lavapipe
   std::string kernel_folder = "auto";  // auto = the user's cache; empty = none
   bool validation = false;
+  bool open = false;  // listen beyond this machine, though nothing keeps strangers out
   GrpcConfig grpc{};
   HttpConfig http{};
   AccessConfig access{};
+  TlsConfig tls{};
   LimitsConfig limits{};
   PipelineConfig pipeline{};
   ContainmentConfig containment{};

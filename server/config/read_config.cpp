@@ -120,6 +120,14 @@ void addSettingOptions(const usage::Command& command, ConfigSources& sources,
     const bool is_wanted = std::ranges::any_of(
         beginnings, [&](const std::string& beginning) { return key.starts_with(beginning); });
     if (!is_wanted) continue;
+    const auto* toggle = std::get_if<BoolSetting>(&setting.target);
+    if (toggle != nullptr && toggle->is_switch) {
+      command
+          .addAction(
+              "--" + key, [&sources, key] { sources.flags[key] = "true"; }, helpText(setting))
+          .group("Settings");
+      continue;
+    }
     command
         .addTaken(
             "--" + key, [&sources, key](const std::string& text) { sources.flags[key] = text; },

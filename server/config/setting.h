@@ -11,6 +11,7 @@ namespace viewloom {
 
 struct BoolSetting {
   bool* value;
+  bool is_switch = false;  // its flag stands alone and means true
 };
 
 struct CountSetting {

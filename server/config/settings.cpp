@@ -22,12 +22,16 @@ std::vector<Setting> machineSettings(Config& config) {
   };
 }
 
-std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
+std::vector<Setting> addressSettings(bool& open, GrpcConfig& grpc, HttpConfig& http) {
   using Form = TextSetting::Form;
   return {
+      {"open", "",
+       "Listen beyond this machine without encryption and access control, in a network that you "
+       "trust",
+       BoolSetting{.value = &open, .is_switch = true}},
       {"grpc.address", "",
-       "Address for publishers and viewers, without a password: use loopback or a trusted network. "
-       "Port 0 takes a free port",
+       "Address for publishers and viewers; beyond loopback it needs tls.certificate and access "
+       "control, or --open. Port 0 takes a free port",
        TextSetting{&grpc.address, Form::kGrpcAddress}},
       {"grpc.keepalive_s", "s",
        "Silence after which a connection is tested; it is closed if no answer comes in half that "
@@ -39,8 +43,7 @@ std::vector<Setting> addressSettings(GrpcConfig& grpc, HttpConfig& http) {
       {"http.enabled", "", "Serve the viewer page, stills, motion JPEG and /metrics over HTTP",
        BoolSetting{&http.enabled}},
       {"http.address", "",
-       "Address of the viewer page, without a password, as for grpc.address. Port 0 takes a free "
-       "port",
+       "Address of the viewer page, with the same needs as grpc.address. Port 0 takes a free port",
        TextSetting{&http.address, Form::kHostPort}},
       {"http.allowed_hosts", "",
        "Further host names that requests may use, such as the name of a proxy",
@@ -65,6 +68,24 @@ std::vector<Setting> accessSettings(AccessConfig& access) {
       {"access.audit_file", "",
        "File to which each grant, refusal and change is appended, as a line of JSON; empty is none",
        TextSetting{&access.audit_file, Form::kFile}},
+  };
+}
+
+std::vector<Setting> tlsSettings(TlsConfig& tls) {
+  using Form = TextSetting::Form;
+  return {
+      {"tls.certificate", "",
+       "Certificate in PEM, with those between it and its authority, for both ports; empty is no "
+       "encryption",
+       TextSetting{&tls.certificate, Form::kFile}},
+      {"tls.key", "", "Private key in PEM of tls.certificate, without a passphrase",
+       TextSetting{&tls.key, Form::kFile}},
+      {"tls.client_ca", "",
+       "Certificates in PEM of the authorities that certificates of clients come from; empty asks "
+       "for none",
+       TextSetting{&tls.client_ca, Form::kFile}},
+      {"tls.client_required", "", "Refuse clients without a certificate of tls.client_ca",
+       BoolSetting{&tls.client_required}},
   };
 }
 
@@ -128,9 +149,9 @@ std::vector<Setting> containmentSettings(ContainmentConfig& containment) {
 std::vector<Setting> settingsOf(Config& config) {
   std::vector<Setting> settings = machineSettings(config);
   for (const std::vector<Setting>& part :
-       {addressSettings(config.grpc, config.http), accessSettings(config.access),
-        limitSettings(config.limits), pipelineSettings(config.pipeline),
-        containmentSettings(config.containment)}) {
+       {addressSettings(config.open, config.grpc, config.http), tlsSettings(config.tls),
+        accessSettings(config.access), limitSettings(config.limits),
+        pipelineSettings(config.pipeline), containmentSettings(config.containment)}) {
     settings.insert(settings.end(), part.begin(), part.end());
   }
   settings.push_back({"log.level", "", "Lowest level of messages to log to standard error",

@@ -30,6 +30,7 @@ const LabelValues kHandOvers = {"decode", "structure", "trace", "grpc", "web"};
 const LabelValues kTransports = {"grpc", "web"};
 const LabelValues kRayAnswers = {"hit", "hit_assumed", "hidden", "outside", "empty"};
 const LabelValues kTraceMethods = {"walk", "sweep"};
+const LabelValues kCertificateChanges = {"taken", "refused"};
 const LabelValues kHttpAnswers = {"success", "redirect", "client_error", "server_error"};
 
 Counter counter(prometheus::Registry& registry, const char* name, const char* help) {
@@ -164,6 +165,12 @@ Metrics::Metrics()
       displays(gauge(store_->registry, "viewloom_displays", "Displays watched now.")),
       http_connections(gauge(store_->registry, "viewloom_http_connections",
                              "HTTP and WebSocket connections open now.")),
+      certificate_end(gauge(store_->registry, "viewloom_certificate_end_seconds",
+                            "When the certificate in use expires, since 1970; 0 without TLS.")),
+      certificate_changes(counters<CertificateChange>(
+          store_->registry, "viewloom_certificate_changes_total",
+          "Changed files of the certificate, by whether they were taken.", "outcome",
+          kCertificateChanges)),
       stage(stageHistograms(store_->registry)),
       output_delay(outputDelayHistogram(store_->registry)),
       grpc_connections(

@@ -82,6 +82,8 @@ enum class HandOver : uint8_t { kDecode, kStructure, kTrace, kGrpc, kWeb, kCount
 enum class Transport : uint8_t { kGrpc, kWeb, kCount };
 // How a ray ended; the fields of Coverage.
 enum class RayAnswer : uint8_t { kHit, kHitAssumed, kHidden, kOutside, kEmpty, kCount };
+// Outcome of a change of the certificate's files.
+enum class CertificateChange : uint8_t { kTaken, kRefused, kCount };
 enum class HttpAnswer : uint8_t { kSuccess, kRedirect, kClientError, kServerError, kCount };
 
 // All metrics of a server, made once by whoever composes it. Each field is named like its metric:
@@ -121,7 +123,9 @@ class Metrics {
   Gauge streams_live;                            // now
   Gauge displays;                                // watched now
   Gauge http_connections;                        // open now
-  Labelled<Stage, Histogram> stage;              // viewloom_stage_seconds{stage}
+  Gauge certificate_end;  // viewloom_certificate_end_seconds; since 1970, 0 = no TLS
+  Labelled<CertificateChange, Counter> certificate_changes;  // {outcome}
+  Labelled<Stage, Histogram> stage;                          // viewloom_stage_seconds{stage}
 
   Histogram
       output_delay;  // viewloom_output_delay_seconds; from tick to atlas: jitter is its spread

@@ -14,6 +14,18 @@
 namespace viewloom {
 namespace {
 
+v1::Reach reachToProto(ServerReach reach) {
+  switch (reach) {
+    case ServerReach::kMachine:
+      return v1::REACH_MACHINE;
+    case ServerReach::kProtected:
+      return v1::REACH_PROTECTED;
+    case ServerReach::kOpen:
+      return v1::REACH_OPEN;
+  }
+  return v1::REACH_UNSPECIFIED;
+}
+
 v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   v1::GetServerInfoResponse proto;
   proto.set_version(description.version);
@@ -29,6 +41,7 @@ v1::GetServerInfoResponse infoToProto(const ServerDescription& description) {
   proto.set_subscriber_count_max(description.broadcaster_limits.subscriber_count_max);
   proto.set_http_address(description.http_address);
   proto.set_containment(description.containment);
+  proto.set_reach(reachToProto(description.reach));
   return proto;
 }
 

@@ -9,6 +9,7 @@
 #include "frame/limits.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
+#include "tls/exposure.h"
 #include "viewloom/v1/catalog_service.grpc.pb.h"
 
 namespace viewloom {
@@ -24,7 +25,8 @@ struct ServerDescription {
   uint32_t stream_count_max = 0;
   BroadcasterLimits broadcaster_limits;
   std::string http_address;  // of the viewer page; empty = none
-  std::string containment;   // what contains the process, in words; "none"
+  ServerReach reach = ServerReach::kMachine;
+  std::string containment;  // what contains the process, in words; "none"
 };
 
 // Thread-safety: all methods may be called from any thread.

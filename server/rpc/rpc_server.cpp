@@ -8,6 +8,8 @@
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 
+#include "rpc/tls_credentials.h"
+
 namespace viewloom {
 namespace {
 
@@ -94,7 +96,8 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
   setLimits(builder, options);
   constexpr auto kFromFd = grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD;
   acceptor_ = builder.experimental().AddExternalConnectionAcceptor(
-      kFromFd, grpc::InsecureServerCredentials());
+      kFromFd,
+      options.tls ? tlsServerCredentials(options.tls) : grpc::InsecureServerCredentials());
   probe_.emplace(builder.experimental().AddExternalConnectionAcceptor(
                      kFromFd, grpc::InsecureServerCredentials()),
                  parts.clock);

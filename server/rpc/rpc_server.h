@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "rpc/rpc_listener.h"
 #include "rpc/rpc_probe.h"
 #include "rpc/stream_services.h"
+#include "tls/tls_material.h"
 
 namespace viewloom {
 
@@ -40,6 +42,8 @@ struct RpcServerOptions {
   // How long a connection may be silent before it is pinged. A peer that does not answer within
   // half as long is gone, and so is its hold on a stream's name.
   std::chrono::seconds keepalive{10};
+  // Certificate and key of new connections, asked from any thread; none = no encryption.
+  std::function<TlsMaterialPtr()> tls;
 };
 
 // Thread-safety: demandChanged and health may be called from any thread; the rest from one.

@@ -8,6 +8,11 @@
 namespace viewloom {
 
 absl::StatusOr<TlsMaterialPtr> readTlsMaterial(const TlsFiles& files, int64_t now_s) {
+  if (files.certificate.empty() && files.key.empty()) {
+    return absl::InvalidArgumentError(
+        "tls.client_ca is given without tls.certificate: clients show certificates to encrypted "
+        "ports alone; name the server's certificate and key, too");
+  }
   absl::StatusOr<CertifiedKey> certified_key =
       readCertifiedKey({.certificate = {.option = "tls.certificate", .path = files.certificate},
                     .key = {.option = "tls.key", .path = files.key}},

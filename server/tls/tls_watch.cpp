@@ -63,43 +63,37 @@ absl::StatusOr<TlsStore::Found> TlsStore::look() {
 TlsWatch::TlsWatch(TlsFiles files, OnLook on_look)
     : store_(std::move(files), [] { return int64_t{std::time(nullptr)}; }),
       on_look_(std::move(on_look)) {
-  remindOfEnd();
+  tell(TlsStore::Found::kNothing);
   thread_ = std::jthread([this](const std::stop_token& stop) {
     nameThread("tls files");
     std::mutex mutex;
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     while (!never.wait_for(lock, stop, kLookInterval, [&] { return stop.stop_requested(); })) {
-      look();
+      tell(store_.look());
     }
   });
 }
 
-void TlsWatch::look() {
-  const absl::StatusOr<TlsStore::Found> found = store_.look();
+void TlsWatch::tell(const absl::StatusOr<TlsStore::Found>& found) {
+  const TlsMaterialPtr material = current();
+  const Certificate& certificate = material->certified_key.certificate;
+  const int64_t end_s = certificate.endS();
+  on_look_(found, end_s);
   if (!found.ok()) {
-    ++state_.refused_count;
     log(LogLevel::kError, "the changed certificate is not used, and the one before stays: ",
         std::string(found.status().message()));
   } else if (*found == TlsStore::Found::kTaken) {
-    ++state_.taken_count;
     reminded_s_.reset();
-    const Certificate& certificate = current()->certified_key.certificate;
     log(LogLevel::kInfo, "new connections get the changed certificate, SHA-256 fingerprint ",
-        certificate.fingerprint().text(), ", valid until ", dayText(certificate.endS()));
+        certificate.fingerprint().text(), ", valid until ", dayText(end_s));
   }
-  remindOfEnd();
-}
-
-void TlsWatch::remindOfEnd() {
   const int64_t now_s = std::time(nullptr);
-  state_.end_s = current()->certified_key.certificate.endS();
-  on_look_(state_);
-  const bool is_near = state_.end_s - now_s < kReminderDays * kDay_s;
+  const bool is_near = end_s - now_s < kReminderDays * kDay_s;
   if (!is_near || (reminded_s_ && now_s - *reminded_s_ < kDay_s)) return;
   reminded_s_ = now_s;
   log(LogLevel::kWarning, "the certificate of tls.certificate ",
-      now_s > state_.end_s ? "expired on " : "expires on ", dayText(state_.end_s),
+      now_s > end_s ? "expired on " : "expires on ", dayText(end_s),
       "; replace its file, and the server reads it without a restart");
 }
 

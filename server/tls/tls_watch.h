@@ -49,27 +49,20 @@ class TlsStore {
 // weeks is logged once a day. Thread-safety: all methods may be called from any thread.
 class TlsWatch {
  public:
-  // `on_look` is told the number of good and of bad changes, and when the certificate ends (seconds
-  // since 1970); from this thread once, later from the watch's own.
-  struct State {
-    uint64_t taken_count = 0;
-    uint64_t refused_count = 0;
-    int64_t end_s = 0;
-  };
-  using OnLook = std::function<void(const State&)>;
+  // Told what each look found, and when the certificate in use ends (seconds since 1970).
+  using OnLook = std::function<void(const absl::StatusOr<TlsStore::Found>& found, int64_t end_s)>;
 
-  // Throws std::runtime_error as TlsStore.
+  // Throws std::runtime_error as TlsStore. `on_look` is called once here, later by the watch's own
+  // thread.
   TlsWatch(TlsFiles files, OnLook on_look);
 
   TlsMaterialPtr current() const { return store_.current(); }
 
  private:
-  void look();
-  void remindOfEnd();
+  void tell(const absl::StatusOr<TlsStore::Found>& found);
 
   TlsStore store_;
   const OnLook on_look_;
-  State state_;
   std::optional<int64_t> reminded_s_;
   std::jthread thread_;  // the last member: it uses the others
 };

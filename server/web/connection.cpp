@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/connection.h"
 
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace {
 
 constexpr unsigned kHttpVersion11 = 11;
 constexpr unsigned kNotModified = 304;
+// For the other side to confirm the end of an encrypted connection.
+constexpr std::chrono::milliseconds kGoodbyeTime{1000};
 
 std::string text(beast::string_view view) {
   return std::string(view.data(), view.size());
@@ -72,10 +75,12 @@ http::response<http::empty_body> headOf(const HttpReply& reply) {
 
 }  // namespace
 
-Connection::Connection(WebContext& context, tcp::socket socket, Admission admission)
+Connection::Connection(WebContext& context, tcp::socket socket, Admission admission,
+                       std::shared_ptr<ssl::context> tls)
     : context_(context),
       admission_(admission),
       strand_(socket.get_executor()),
+      tls_(std::move(tls)),
       stream_(std::move(socket)),
       peer_(addressOf(stream_.socket())) {
   ErrorCode ignored;  // a socket that is gone already shows at the first read
@@ -96,11 +101,11 @@ HttpRequest Connection::requestOf(const http::request<http::empty_body>& request
           .authorization = text(request[http::field::authorization]),
           .cookie = text(request[http::field::cookie]),
           .websocket_protocols = text(request[http::field::sec_websocket_protocol]),
-          .forwarded_proto = text(request["X-Forwarded-Proto"]),
           .page = {.origin = text(request[http::field::origin]),
                    .referer = text(request[http::field::referer]),
                    .fetch_site = text(request["Sec-Fetch-Site"]),
                    .fetch_mode = text(request["Sec-Fetch-Mode"])},
+          .is_encrypted = context_.options.tls || request["X-Forwarded-Proto"] == "https",
           .upgrade = websocket::is_upgrade(request)};
 }
 
@@ -133,6 +138,7 @@ void Connection::cut() {
 
 net::awaitable<void> Connection::serve() {
   const auto self = shared_from_this();
+  if (!co_await secure()) co_return;
   for (bool keep = true; keep;) {
     Parser parser;
     ErrorCode error;
@@ -156,8 +162,7 @@ net::awaitable<void> Connection::serve() {
     co_await write(*reply, parser, keep, error);
     if (error) break;
   }
-  ErrorCode ignored;
-  stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  co_await stream_.finish(kGoodbyeTime);
 }
 
 std::optional<HttpReply> Connection::refusalOf(const HttpRequest& request) const {
@@ -169,6 +174,36 @@ std::optional<HttpReply> Connection::refusalOf(const HttpRequest& request) const
   return refusal(context_, request);
 }
 
+std::chrono::milliseconds Connection::requestTimeout() const {
+  return admission_ == Admission::kStatus ? context_.options.status_timeout
+                                          : context_.options.request_timeout;
+}
+
+net::awaitable<bool> Connection::secure() {
+  if (tls_ == nullptr) co_return true;
+  ErrorCode error;
+  idle_ = true;
+  stream_.expiresAfter(requestTimeout());
+  const bool speaks_tls = co_await beast::async_detect_ssl(stream_, buffer_, into(error));
+  if (!error && !speaks_tls) co_await sendToTls();
+  if (error || !speaks_tls) co_return false;
+  idle_ = false;
+  co_await stream_.secure(std::exchange(tls_, nullptr), buffer_, error);
+  co_return !error;
+}
+
+// People write addresses without https://, and browsers then begin without TLS.
+net::awaitable<void> Connection::sendToTls() {
+  Parser parser;
+  ErrorCode error;
+  co_await read(parser, error);
+  if (error) co_return;
+  const HttpRequest request = requestOf(parser.get());
+  std::optional<HttpReply> reply = refusalOf(request);
+  if (!reply) reply = redirectReply("https://" + request.host + request.target);
+  co_await write(*reply, parser, false, error);
+}
+
 net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
   parser.header_limit(context_.options.header_bytes_max);
   parser.body_limit(0);
@@ -177,8 +212,7 @@ net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
     error = net::error::operation_aborted;
     co_return;
   }
-  stream_.expires_after(admission_ == Admission::kStatus ? context_.options.status_timeout
-                                                         : context_.options.request_timeout);
+  stream_.expiresAfter(requestTimeout());
   awaits_request_ = true;
   co_await http::async_read_header(stream_, buffer_, parser, into(error));
   idle_ = false;
@@ -229,7 +263,7 @@ net::awaitable<void> Connection::write(const HttpReply& reply, const Parser& par
   if (reply.status != kNotModified && !reply.live) response.content_length(net::buffer_size(body));
   response.keep_alive(keep);
   http::response_serializer<http::empty_body> serializer(response);
-  stream_.expires_after(context_.options.transfer_timeout);
+  stream_.expiresAfter(context_.options.transfer_timeout);
   co_await http::async_write_header(stream_, serializer, into(error));
   context_.metrics.http_responses[answerKind(reply.status)].add();
   if (error || parser.get().method() == http::verb::head || reply.status == kNotModified) co_return;

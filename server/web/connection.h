@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "web/live_reader.h"
 #include "web/routes.h"
 #include "web/web_context.h"
+#include "web/web_stream.h"
 
 namespace viewloom {
 
@@ -26,7 +28,9 @@ enum class Admission : uint8_t {
 // rest happens on the strand of its socket.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(WebContext& context, tcp::socket socket, Admission admission);
+  // `tls`: what it is encrypted with; null = not at all.
+  Connection(WebContext& context, tcp::socket socket, Admission admission,
+             std::shared_ptr<ssl::context> tls);
   ~Connection();
 
   // Serves requests until either side goes; stays alive by itself until then.
@@ -42,6 +46,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Parser = http::request_parser<http::empty_body>;
 
   net::awaitable<void> serve();
+  // False when the other side goes, or speaks no TLS and was told so.
+  net::awaitable<bool> secure();
+  net::awaitable<void> sendToTls();
+  // For a handshake, and for a request.
+  std::chrono::milliseconds requestTimeout() const;
   net::awaitable<void> read(Parser& parser, ErrorCode& error);
   // Refuses what the client is not admitted to.
   std::optional<HttpReply> refusalOf(const HttpRequest& request) const;
@@ -56,7 +65,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   WebContext& context_;
   const Admission admission_;
   const net::any_io_executor strand_;
-  beast::tcp_stream stream_;  // until a live reader has it
+  std::shared_ptr<ssl::context> tls_;  // null once it is in use, or where there is none
+  WebStream stream_;                   // until a live reader has it
   const std::string peer_;    // address of the client; empty if it is gone already
   beast::flat_buffer buffer_;
   std::shared_ptr<LiveReader> live_reader_;

@@ -18,9 +18,9 @@ struct HttpRequest {
   std::string authorization;
   std::string cookie;
   std::string websocket_protocols;
-  std::string forwarded_proto;
   PageHeaders page{};
-  bool upgrade = false;  // to a WebSocket
+  bool is_encrypted = false;  // by this server, or by a proxy before it
+  bool upgrade = false;       // to a WebSocket
 };
 
 }  // namespace viewloom

@@ -13,6 +13,7 @@
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "web/connection.h"
+#include "web/tls_contexts.h"
 
 namespace viewloom {
 namespace {
@@ -62,12 +63,15 @@ struct HttpServer::State {
                 broadcaster,
                 metrics,
                 clock,
-                access} {}
+                access} {
+    if (options.tls) tls.emplace(options.tls);
+  }
 
   net::io_context io;
   tcp::acceptor acceptor;  // used by accept() alone
   const tcp::endpoint endpoint;
   WebContext context;
+  std::optional<TlsContexts> tls;  // used by accept() alone
 
   std::mutex mutex;
   std::condition_variable fewer;
@@ -110,7 +114,8 @@ void HttpServer::State::take(tcp::socket socket) {
   }
   const uint64_t id = ++connection_id;
   const std::shared_ptr<Connection> connection(
-      new Connection(context, std::move(socket), *admission), [this, id](Connection* ended) {
+      new Connection(context, std::move(socket), *admission, tls ? tls->current() : nullptr),
+      [this, id](Connection* ended) {
         delete ended;
         std::lock_guard relock(mutex);
         connections.erase(id);
@@ -188,7 +193,7 @@ std::string HttpServer::url() const {
   const auto& address = state_->endpoint.address();
   const std::string host =
       address.is_v6() ? strCat("[", address.to_string(), "]") : address.to_string();
-  return strCat("http://", host, ":", port(), "/");
+  return strCat(state_->tls ? "https://" : "http://", host, ":", port(), "/");
 }
 
 void HttpServer::drain() {

@@ -73,16 +73,16 @@ absl::Status MultipartStream::subscribe(const WatchRequest& request) {
   return absl::OkStatus();
 }
 
-net::awaitable<void> MultipartStream::run(beast::tcp_stream stream,
-                                          http::response<http::empty_body> head) {
+net::awaitable<void> MultipartStream::run(WebStream stream, http::response<http::empty_body> head) {
   const auto self = shared_from_this();
   ErrorCode error;
   stream_.emplace(std::move(stream));
   limitSilence(stream_->socket(), context_.options.transfer_timeout);
+  stream_->expiresNever();  // a read takes the clock with it that stands when it begins
   net::co_spawn(
       awake_.get_executor(), [self] { return self->readUntilGone(); }, net::detached);
   http::response_serializer<http::empty_body> serializer(head);
-  stream_->expires_after(context_.options.transfer_timeout);
+  stream_->expiresAfter(context_.options.transfer_timeout);
   co_await http::async_write_header(*stream_, serializer, into(error));
   if (!error) co_await writeText(kOpening, error);
   if (!error) co_await writeParts(error);
@@ -101,13 +101,12 @@ void MultipartStream::cut() {
 }
 
 // A player sends nothing more; reading tells when it goes, also while there is nothing to write.
-// Past the stream's own clock, which is for what is written.
 net::awaitable<void> MultipartStream::readUntilGone() {
   const auto self = shared_from_this();
   std::array<char, 512> ignored;
   ErrorCode error;
   while (!error) {
-    co_await stream_->socket().async_read_some(net::buffer(ignored), into(error));
+    co_await stream_->async_read_some(net::buffer(ignored), into(error));
   }
   gone_ = true;
   cut();  // also what is being written: nobody reads it
@@ -147,14 +146,14 @@ net::awaitable<void> MultipartStream::writePart(std::string end, ErrorCode& erro
   std::vector<net::const_buffer> part;
   for (const SharedBytes& band : jpegBands(*atlas)) part.push_back(net::buffer(*band));
   part.push_back(net::buffer(end));
-  stream_->expires_after(context_.options.transfer_timeout);
+  stream_->expiresAfter(context_.options.transfer_timeout);
   co_await net::async_write(*stream_, part, into(error));
   if (error) co_return;
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(net::buffer_size(part)));
 }
 
 net::awaitable<void> MultipartStream::writeText(std::string text, ErrorCode& error) {
-  stream_->expires_after(context_.options.transfer_timeout);
+  stream_->expiresAfter(context_.options.transfer_timeout);
   co_await net::async_write(*stream_, net::buffer(text), into(error));
 }
 

@@ -14,6 +14,7 @@
 #include "web/url.h"
 #include "web/watch_request.h"
 #include "web/web_context.h"
+#include "web/web_stream.h"
 
 namespace viewloom {
 
@@ -38,7 +39,7 @@ class MultipartStream final : public LiveReader,
   // Errors as Broadcaster::subscribe.
   absl::Status subscribe(const WatchRequest& request);
   // Serves until either side goes. `head`: the reply up to its body.
-  net::awaitable<void> run(beast::tcp_stream stream, http::response<http::empty_body> head);
+  net::awaitable<void> run(WebStream stream, http::response<http::empty_body> head);
   void leave() override;
   void cut() override;
 
@@ -54,7 +55,7 @@ class MultipartStream final : public LiveReader,
   WebContext& context_;
   const Caller caller_;
   net::steady_timer awake_;  // waiting for it is waiting for wake(), or until a repeat is due
-  std::optional<beast::tcp_stream> stream_;  // from run() on
+  std::optional<WebStream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   AtlasPtr shown_;  // by the part that was written last

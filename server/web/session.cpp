@@ -37,9 +37,8 @@ std::string valueOf(const std::string& list, char separator, std::string_view be
 
 // `value` is a token that was accepted: it has no characters that a cookie may not have.
 std::string cookieOf(const HttpRequest& request, std::string_view value, std::string_view more) {
-  const bool is_secure = request.forwarded_proto == "https";
   return strCat(kCookieBegin, value, "; Path=/; HttpOnly; SameSite=Strict",
-                is_secure ? "; Secure" : "", more);
+                request.is_encrypted ? "; Secure" : "", more);
 }
 
 HttpReply identityReply(const AccessControl& access, const Identity& identity) {

@@ -22,8 +22,7 @@ std::string pongJson(uint64_t number) {
 
 }  // namespace
 
-Viewer::Viewer(WebContext& context, Caller caller, beast::tcp_stream stream,
-               QueryParameters parameters)
+Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters)
     : context_(context),
       caller_(std::move(caller)),
       socket_(std::move(stream)),
@@ -40,7 +39,7 @@ Viewer::~Viewer() {
 
 net::awaitable<void> Viewer::run(http::request<http::empty_body> request, std::string protocol) {
   const auto self = shared_from_this();
-  beast::get_lowest_layer(socket_).expires_never();
+  socket_.next_layer().expiresNever();
   socket_.set_option(
       websocket::stream_base::timeout{.handshake_timeout = context_.options.request_timeout,
                                       .idle_timeout = context_.options.idle_timeout,
@@ -77,7 +76,7 @@ void Viewer::leave() {
 
 void Viewer::cut() {
   next_read_.cancel();
-  beast::get_lowest_layer(socket_).close();
+  socket_.next_layer().close();
 }
 
 absl::Status Viewer::open() {

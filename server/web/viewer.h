@@ -16,6 +16,7 @@
 #include "web/url.h"
 #include "web/watch_request.h"
 #include "web/web_context.h"
+#include "web/web_stream.h"
 
 namespace viewloom {
 
@@ -29,7 +30,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
  public:
   // `caller` may watch the stream that the parameters name. The viewer ends once the identity of
   // the caller does not hold any more.
-  Viewer(WebContext& context, Caller caller, beast::tcp_stream stream, QueryParameters parameters);
+  Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters);
   ~Viewer() override;
 
   // Shakes hands, with a WebSocket protocol unless it is "", and serves until either side goes.
@@ -61,7 +62,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
 
   WebContext& context_;
   const Caller caller_;
-  websocket::stream<beast::tcp_stream> socket_;
+  websocket::stream<WebStream> socket_;
   net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
   net::steady_timer next_read_;
   MessagePace pace_;

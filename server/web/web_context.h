@@ -14,6 +14,7 @@
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
+#include "tls/tls_material.h"
 #include "web/host_policy.h"
 #include "web/message_pace.h"
 
@@ -29,6 +30,8 @@ struct HttpOptions {
   uint32_t status_connection_count_max = 16;
   std::vector<std::string> allowed_hosts;    // beside those of HostPolicy
   std::vector<std::string> allowed_origins;  // of pages that may watch
+  // Certificate and key of new connections, asked from any thread; none = no encryption.
+  std::function<TlsMaterialPtr()> tls{};
 
   uint32_t header_bytes_max = 8192;
   uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits

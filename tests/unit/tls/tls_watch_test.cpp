@@ -91,6 +91,12 @@ TEST_F(TlsStoreTest, readsAuthoritiesOfClients) {
   EXPECT_EQ(store.current()->client_authorities_pem, authority.pem);
 }
 
+TEST_F(TlsStoreTest, needsACertificateBesideAuthoritiesOfClients) {
+  const absl::Status status =
+      readTlsMaterial({.client_authorities = "clients.crt"}, kTestDay_s).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("without tls.certificate"));
+}
+
 TEST_F(TlsStoreTest, doesNotBeginWithBadFiles) {
   replace(makeTestCertificate({.end_s = kTestDay_s - 1}));
   EXPECT_THROW(store(), std::runtime_error);
@@ -98,10 +104,12 @@ TEST_F(TlsStoreTest, doesNotBeginWithBadFiles) {
 
 TEST_F(TlsStoreTest, isWatchedFromItsConstructionOn) {
   replace(makeTestCertificate({.begin_s = 0, .end_s = 4'000'000'000}));
-  std::optional<TlsWatch::State> told;
-  const TlsWatch watch(files_, [&told](const TlsWatch::State& state) { told = state; });
-  ASSERT_TRUE(told.has_value());
-  EXPECT_EQ(told->end_s, 4'000'000'000);
+  int64_t told_s = 0;
+  const TlsWatch watch(files_, [&](const auto& found, int64_t end_s) {
+    EXPECT_EQ(*found, Found::kNothing);
+    told_s = end_s;
+  });
+  EXPECT_EQ(told_s, 4'000'000'000);
   EXPECT_NE(watch.current(), nullptr);
 }
 

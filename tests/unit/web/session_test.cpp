@@ -102,9 +102,8 @@ TEST_F(Session, beginsWithATokenInAHeader) {
   EXPECT_EQ(answer["id"], "anna");
   EXPECT_EQ(answer["roles"][0], "watch");
   EXPECT_TRUE(answer["needs_token"]);
-  EXPECT_THAT(
-      cookieOf(ask("POST", {.authorization = "Bearer " + token_, .forwarded_proto = "https"})),
-      HasSubstr("; Secure"));
+  EXPECT_THAT(cookieOf(ask("POST", {.authorization = "Bearer " + token_, .is_encrypted = true})),
+              HasSubstr("; Secure"));
 }
 
 TEST_F(Session, doesNotBeginWithAWrongToken) {
