@@ -3,7 +3,7 @@
 import {fileURLToPath} from 'node:url';
 import {parseArgs} from 'node:util';
 
-const {connect, status} = await loadViewloom();
+const {connect, status, tlsCredentials} = await loadViewloom();
 export {connect};
 
 async function loadViewloom() {
@@ -23,7 +23,17 @@ const kCommonOptions = {
   server: {type: 'string', default: '127.0.0.1:50051'},
   stream: {type: 'string', default: 'demo'},
   protos: {type: 'string'},
+  fingerprint: {type: 'string'},
+  'tls-ca': {type: 'string'},
+  'tls-cert': {type: 'string'},
+  'tls-key': {type: 'string'},
 };
+
+// Nothing for a server without TLS, whose address has no https://.
+function credentialsOf({server, fingerprint, 'tls-ca': ca, 'tls-cert': cert, 'tls-key': key}) {
+  const hasTls = server.startsWith('https://') || fingerprint || ca || cert || key;
+  return hasTls ? tlsCredentials({server, fingerprint, ca, cert, key}) : undefined;
+}
 
 // Text of a server or a file, without what would drive a terminal.
 export function printable(text) {
@@ -37,6 +47,10 @@ function errorText({code, details}, server) {
   const isAbsent = code === status.UNAVAILABLE &&
       /No connection established|ECONNREFUSED|ENOTFOUND|Name resolution failed/.test(details);
   if (!isAbsent) return `${status[code]}: ${details}`;
+  if (/certificate|altnames/i.test(details)) {
+    return `the certificate of ${server} is not accepted: connect by a name that it has, and name ` +
+        `its authority with --tls-ca FILE, or pin it with --fingerprint HEX (${details})`;
+  }
   return `no viewloomd answers at ${server}: start one with \`viewloomd serve\` or ` +
       `\`deploy/demo.sh\`, or say where it is with --server HOST:PORT (${details})`;
 }
@@ -48,7 +62,7 @@ export async function run(moreOptions, main) {
   try {
     const {values: options} = parseArgs({options: {...kCommonOptions, ...moreOptions}});
     server = options.server;
-    await main(options);
+    await main({...options, credentials: await credentialsOf(options)});
   } catch (error) {
     console.error(
         printable(error.details === undefined ? error.message : errorText(error, server)));

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
     from viewloom.publisher import Publisher
     from viewloom.server import Server, connect
     from viewloom.source import Source
+    from viewloom.tls import Tls
     from viewloom.version import VERSION as __version__
     from viewloom.watcher import Watcher
 else:
     _MODULES = {"Atlas": "atlas", "BadInput": "errors", "ClockOffset": "clock",
                 "Publisher": "publisher", "Server": "server", "Source": "source",
-                "UnlikelyInput": "errors", "ViewloomError": "errors",
+                "Tls": "tls", "UnlikelyInput": "errors", "ViewloomError": "errors",
                 "Watcher": "watcher", "connect": "server", "encoding": "display",
                 "view_window": "atlas"}
 
@@ -39,5 +40,6 @@ else:
             raise AttributeError(f"module 'viewloom' has no attribute '{name}'")
         return getattr(importlib.import_module(f"viewloom.{_MODULES[name]}"), name)
 
-__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "UnlikelyInput",
-           "ViewloomError", "Watcher", "__version__", "aio", "connect", "encoding", "view_window"]
+__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "Tls",
+           "UnlikelyInput", "ViewloomError", "Watcher", "__version__", "aio", "connect",
+           "encoding", "view_window"]

@@ -47,13 +47,16 @@ def token_metadata(token: Optional[str]) -> Metadata:
 
 
 def checked_address(address: Any) -> str:
-    """HOST:PORT, with viewloomd's own port where none is given. Raises BadInput."""
-    accepted = 'must be HOST:PORT, as "127.0.0.1:50051", or "unix:PATH"'
+    """HOST:PORT, with viewloomd's own port where none is given; https:// before it stays. Raises
+    BadInput."""
+    accepted = 'must be HOST:PORT, as "127.0.0.1:50051", "https://HOST:PORT" or "unix:PATH"'
     if not isinstance(address, str):
         raise BadInput("address", f"is a {type(address).__name__}, {accepted}")
-    if re.match(r"(https?|grpcs?|tcp)://", address):
-        raise BadInput("address", f"is {address!r}, {accepted}: without a scheme in front, and the "
-                       "port of gRPC, not that of the page")
+    if address.startswith("https://"):
+        return "https://" + checked_address(address.removeprefix("https://").removesuffix("/"))
+    if re.match(r"(http|grpcs?|tcp)://", address):
+        raise BadInput("address", f"is {address!r}, {accepted}: without another scheme in front, "
+                       "and the port of gRPC, not that of the page")
     if not address or re.search(r"\s", address):
         raise BadInput("address", f"is {address!r}, {accepted}")
     if re.match(r"(unix|unix-abstract|dns|ipv4|ipv6|vsock|xds):", address):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple, Optional
 
 import grpc
@@ -89,7 +90,17 @@ def _no_server(address: str, reason: str) -> Optional[str]:
         return f"there is no host of that name: {address}; accepted is HOST:PORT"
     if "failed to connect" not in reason.lower():
         return None
+    if re.search("certificate.verify.failed|hostname verification|not in peer certificate", reason,
+                 re.IGNORECASE):
+        return (f"the certificate of {address} is not accepted: connect by a name that it has, and "
+                "name its authority with Tls(ca=FILE), or pin it with Tls(fingerprint=HEX)")
+    if re.search("wrong.version.number", reason, re.IGNORECASE):
+        return f"the server at {address} speaks no TLS: write its address without https://"
     cause = reason.rsplit(": ", 1)[-1].strip()
+    if cause == "Socket closed":
+        return (f"the server at {address} closed the connection before the call: if it speaks TLS, "
+                "write its address as https://HOST:PORT; if it asks for certificates, give "
+                "Tls(certificate=FILE, key=FILE)")
     return (f"no viewloomd answers at {address} ({cause}): start one with `viewloomd serve` or "
             "`deploy/demo.sh`, or say where it is: viewloom.connect(\"HOST:PORT\")")
 

@@ -10,12 +10,12 @@ import grpc
 
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.connection import (CHANNEL_OPTIONS, DEFAULT_ADDRESS, Connection,
-                                 checked_address, token_metadata)
+from viewloom.connection import DEFAULT_ADDRESS, Connection, checked_address, token_metadata
 from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.frame_messages import settings_message
 from viewloom.publisher import Publisher
+from viewloom.tls import Tls, open_channel
 from viewloom.v1 import catalog_service_pb2 as catalog
 from viewloom.v1.catalog_service_pb2_grpc import CatalogServiceStub
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -28,9 +28,9 @@ class Server:
     """A viewloomd. Thread-safety: all methods may be called from any thread."""
 
     def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
-                 token: Optional[str] = None) -> None:
+                 token: Optional[str] = None, tls: Optional[Tls] = None) -> None:
         self._address = checked_address(address)
-        self._channel = grpc.insecure_channel(self._address, options=CHANNEL_OPTIONS)
+        self._channel = open_channel(grpc, self._address, tls)
         self._connection = Connection(self._channel, self._address, token_metadata(token))
         self._reconnects = reconnect
         self._catalog = CatalogServiceStub(self._channel)
@@ -130,12 +130,13 @@ class Server:
 
 
 def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
-            token: Optional[str] = None) -> Server:
-    """A connection to the viewloomd at HOST:PORT. Connects when first used.
+            token: Optional[str] = None, tls: Optional[Tls] = None) -> Server:
+    """A connection to the viewloomd at HOST:PORT or https://HOST:PORT. Connects when first used.
 
     reconnect: when the server restarts or the line breaks, publishers and watchers call again until
                it is back: publishers send what stands once more. False: they raise instead.
-    token:     access token for the server; None is the one in VIEWLOOM_TOKEN, "" is none. It
-               crosses the network as it is.
+    token:     access token for the server; None is the one in VIEWLOOM_TOKEN, "" is none.
+               Without https:// it crosses the network as it is.
+    tls:       how client and server know each other; None = by the authorities of the system.
     """
-    return Server(address, reconnect=reconnect, token=token)
+    return Server(address, reconnect=reconnect, token=token, tls=tls)

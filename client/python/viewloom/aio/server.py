@@ -14,12 +14,12 @@ from viewloom.aio.publisher import Publisher
 from viewloom.aio.watcher import Watcher
 from viewloom.atlas import Atlas
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.connection import (CHANNEL_OPTIONS, DEFAULT_ADDRESS, Connection,
-                                 checked_address, token_metadata)
+from viewloom.connection import DEFAULT_ADDRESS, Connection, checked_address, token_metadata
 from viewloom.display import DisplayLike, EncodingLike, display_from, open_request
 from viewloom.errors import data_loss, error_from_rpc
 from viewloom.frame_messages import settings_message
 from viewloom.server import IN_FLIGHT_MAX
+from viewloom.tls import Tls, open_channel
 from viewloom.v1 import catalog_service_pb2 as catalog
 from viewloom.v1.catalog_service_pb2_grpc import CatalogServiceStub
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -29,9 +29,9 @@ class Server:
     """A viewloomd; arguments and errors as of the blocking Server."""
 
     def __init__(self, address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
-                 token: Optional[str] = None) -> None:
+                 token: Optional[str] = None, tls: Optional[Tls] = None) -> None:
         self._address = checked_address(address)
-        self._channel = grpc.aio.insecure_channel(self._address, options=CHANNEL_OPTIONS)
+        self._channel = open_channel(grpc.aio, self._address, tls)
         self._connection = Connection(self._channel, self._address, token_metadata(token))
         self._reconnects = reconnect
         self._catalog = CatalogServiceStub(self._channel)
@@ -113,6 +113,6 @@ class Server:
 
 
 def connect(address: str = DEFAULT_ADDRESS, *, reconnect: bool = True,
-            token: Optional[str] = None) -> Server:
+            token: Optional[str] = None, tls: Optional[Tls] = None) -> Server:
     """As the blocking connect(), within the running event loop."""
-    return Server(address, reconnect=reconnect, token=token)
+    return Server(address, reconnect=reconnect, token=token, tls=tls)
