@@ -48,8 +48,8 @@ function errorText({code, details}, server) {
       /No connection established|ECONNREFUSED|ENOTFOUND|Name resolution failed/.test(details);
   if (!isAbsent) return `${status[code]}: ${details}`;
   if (/certificate|altnames/i.test(details)) {
-    return `the certificate of ${server} is not accepted: connect by a name that it has, and name ` +
-        `its authority with --tls-ca FILE, or pin it with --fingerprint HEX (${details})`;
+    return `the certificate of ${server} is not accepted: connect by a name that it has, and ` +
+        `name its authority with --tls-ca FILE, or pin it with --fingerprint HEX (${details})`;
   }
   return `no viewloomd answers at ${server}: start one with \`viewloomd serve\` or ` +
       `\`deploy/demo.sh\`, or say where it is with --server HOST:PORT (${details})`;

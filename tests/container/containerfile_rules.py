@@ -78,6 +78,8 @@ def check_ports(stages, ports):
         if variables.get(name) != f"0.0.0.0:{ports[kind]}":
             yield last.line, f"ENV {name} must be 0.0.0.0:{ports[kind]}: loopback of a container " \
                 "is reached by nobody"
+    if variables.get("VIEWLOOM_OPEN") != "true":
+        yield last.line, "ENV VIEWLOOM_OPEN must be true: -p decides who reaches the server"
 
 
 def health_command(stages):

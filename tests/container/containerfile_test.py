@@ -89,6 +89,7 @@ class Rules(unittest.TestCase):
         self.assertIn("EXPOSE 50051 8081", self.changed("EXPOSE 8080", "EXPOSE 8081"))
         self.assertIn("VIEWLOOM_HTTP_ADDRESS must be",
                       self.changed("ADDRESS=0.0.0.0:8080", "ADDRESS=127.0.0.1:8080"))
+        self.assertIn("VIEWLOOM_OPEN must be", self.changed(" VIEWLOOM_OPEN=true", ""))
 
     def test_a_server_that_gets_no_signals_or_is_never_asked_is_found(self):
         self.assertIn("ENTRYPOINT must", self.changed('["viewloomd"]', "viewloomd"))

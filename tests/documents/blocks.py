@@ -21,8 +21,8 @@ PROMPT = "$ "
 LOOKS_LIKE_A_COMMAND = re.compile(
     r"^(?:\$ |(?:cd|cmake|ctest|curl|docker|export|journalctl|ninja|node|npm|sudo) \S"
     r"|(?:deploy|tests|client|build)/[\w./-]+\.(?:sh|py)\b|/usr/bin/\w+ |[A-Z_]+=\S+ \S"
-    r"|viewloomd? (?:-|advise|bench|cast|doctor|inspect|list|publish|record|render|serve|show"
-    r"|watch)\b)")
+    r"|viewloomd? (?:-|advise|bench|cast|certificate|doctor|inspect|list|publish|record|render"
+    r"|serve|show|watch)\b)")
 
 
 class Command(NamedTuple):
