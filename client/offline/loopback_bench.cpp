@@ -86,6 +86,7 @@ class AtlasTally {
 Config loopbackConfig(Config config) {
   config.grpc.address = "127.0.0.1:0";
   config.http.enabled = false;
+  config.tls = {};
   return config;
 }
 

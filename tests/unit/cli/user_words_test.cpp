@@ -93,6 +93,17 @@ TEST(UserWords, sayWhyNoServerAnswers) {
            "Domain name not found"),
       StartsWith("no server at host:5 (there is no host of that name); "));
   EXPECT_THAT(said("Socket closed"), HasSubstr("(it has closed the connection)"));
+  const std::string failed =
+      "failed to connect to all addresses; last error: UNKNOWN: ipv4:1.2.3.4:5: ";
+  EXPECT_THAT(said((failed + "Socket closed").c_str()), HasSubstr("if it speaks TLS"));
+  EXPECT_THAT(said((failed + "Tls handshake failed: SSL_ERROR_SSL: error:0A00010B:SSL "
+                             "routines::wrong version number")
+                       .c_str()),
+              StartsWith("the server speaks no TLS ("));
+  EXPECT_EQ(said((failed + "Custom verification check failed with error: UNAUTHENTICATED: the "
+                           "certificate of host is not the pinned one; look")
+                     .c_str()),
+            "the certificate of host is not the pinned one; look");
   EXPECT_THAT(said("keepalive watchdog timeout"), HasSubstr("(it has stopped answering)"));
 }
 
