@@ -14,8 +14,8 @@
 #include "base/host_port.h"
 #include "base/str_cat.h"
 #include "certificates/authorities.h"
-#include "certificates/fingerprint.h"
 #include "certificates/certified_key.h"
+#include "certificates/fingerprint.h"
 #include "certificates/server_address.h"
 
 namespace viewloom {
@@ -115,10 +115,10 @@ absl::StatusOr<Trust> readTrust(const TlsOptions& options) {
 absl::StatusOr<std::shared_ptr<tls::CertificateProviderInterface>> readOwn(
     const TlsOptions& options) {
   if (options.certificate_file.empty() && options.key_file.empty()) return nullptr;
-  absl::StatusOr<CertifiedKey> own =
-      readCertifiedKey({.certificate = {.option = kCertificateOption, .path = options.certificate_file},
-                    .key = {.option = kKeyOption, .path = options.key_file}},
-                   CertificatePurpose::kClient, std::time(nullptr));
+  absl::StatusOr<CertifiedKey> own = readCertifiedKey(
+      {.certificate = {.option = kCertificateOption, .path = options.certificate_file},
+       .key = {.option = kKeyOption, .path = options.key_file}},
+      CertificatePurpose::kClient, std::time(nullptr));
   VIEWLOOM_RETURN_IF_ERROR(own.status());
   return std::make_shared<tls::StaticDataCertificateProvider>(std::vector<tls::IdentityKeyCertPair>{
       {.private_key = own->key_pem, .certificate_chain = own->chain_pem}});

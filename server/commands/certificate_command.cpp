@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <ctime>
@@ -25,7 +26,7 @@
 namespace viewloom {
 namespace {
 
-constexpr int kExitFailed = 1;
+constexpr int kExitNotWritten = 1;
 constexpr mode_t kForOwnerAlone = 0077;
 
 struct CertificateOptions {
@@ -100,14 +101,18 @@ int makeFiles(const CertificateOptions& options) {
                              .days = options.days,
                              .now_s = std::time(nullptr)};
   const absl::StatusOr<MadeCertificate> made = makeCertificate(wish);
-  if (!made.ok()) throw std::runtime_error(strCat("--name: ", made.status().message()));
+  if (!made.ok()) {
+    const std::string problem(made.status().message());  // "host: got ..."
+    throw std::runtime_error("--name" +
+                             problem.substr(std::min(problem.find(": "), problem.size())));
+  }
   const std::filesystem::path certificate_path = options.folder / "viewloomd.crt";
   const std::filesystem::path key_path = options.folder / "viewloomd.key";
   const absl::Status written = writeFiles(*made, certificate_path, key_path, options.is_replaced);
   if (!written.ok()) {
     const std::string problem(written.message());
     std::fprintf(stderr, "viewloomd: %s\n", printable(problem, true).c_str());
-    return kExitFailed;
+    return kExitNotWritten;
   }
   tell(*made, wish, certificate_path, key_path);
   return 0;

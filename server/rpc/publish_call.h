@@ -39,7 +39,7 @@ struct IngestParts {
 // that are still written. Thread-safety: as BidiCall.
 class PublishCall final : public BidiCall {
  public:
-  // `host`: of the publisher.
+  // `host`: of the publisher, or the subject of its certificate.
   PublishCall(const IngestParts& parts, Caller caller, std::string host)
       : parts_(parts), host_(std::move(host)), caller_(std::move(caller)) {}
 

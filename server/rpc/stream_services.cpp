@@ -3,6 +3,7 @@
 
 #include "rpc/peer_host.h"
 #include "rpc/status_to_grpc.h"
+#include "rpc/tls_credentials.h"
 
 namespace viewloom {
 namespace {
@@ -22,8 +23,10 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::Publ
     grpc::CallbackServerContext* context) {
   absl::StatusOr<Caller> caller = admitCall(access_, *context, kPublishFrames);
   if (!caller.ok()) return new RefusedCall(caller.status());
-  const auto call =
-      std::make_shared<PublishCall>(parts_, *std::move(caller), peerHost(context->peer()));
+  // Publishers with one certificate are one user's, wherever they run.
+  const std::string subject = clientSubject(*context);
+  const auto call = std::make_shared<PublishCall>(
+      parts_, *std::move(caller), subject.empty() ? peerHost(context->peer()) : subject);
   calls_.open(call);
   return call.get();
 }

@@ -18,7 +18,8 @@ bool staysOnMachine(const std::string& address) {
 
 ServerReach reachOf(const Exposure& exposure) {
   if (std::ranges::all_of(exposure.addresses, staysOnMachine)) return ServerReach::kMachine;
-  return exposure.has_tls && exposure.has_access_control ? ServerReach::kProtected : ServerReach::kOpen;
+  return exposure.has_tls && exposure.has_access_control ? ServerReach::kProtected
+                                                         : ServerReach::kOpen;
 }
 
 std::optional<std::string> refusalToListen(const Exposure& exposure) {

@@ -15,8 +15,8 @@ absl::StatusOr<TlsMaterialPtr> readTlsMaterial(const TlsFiles& files, int64_t no
   }
   absl::StatusOr<CertifiedKey> certified_key =
       readCertifiedKey({.certificate = {.option = "tls.certificate", .path = files.certificate},
-                    .key = {.option = "tls.key", .path = files.key}},
-                   CertificatePurpose::kServer, now_s);
+                        .key = {.option = "tls.key", .path = files.key}},
+                       CertificatePurpose::kServer, now_s);
   VIEWLOOM_RETURN_IF_ERROR(certified_key.status());
   std::string authorities;
   if (!files.client_authorities.empty()) {

@@ -15,8 +15,9 @@ namespace viewloom {
 namespace {
 
 constexpr std::chrono::seconds kLookInterval{2};
-constexpr int64_t kDay_s = 86400;
-constexpr int64_t kReminderDays = 14;
+// Before the end of a certificate, and between two reminders of it.
+constexpr int64_t kRemindBefore_s = 14 * 86400;
+constexpr int64_t kRemindAgain_s = 86400;
 
 std::array<int64_t, 4> factsOf(const std::string& path) {
   struct stat facts {};
@@ -89,8 +90,8 @@ void TlsWatch::tell(const absl::StatusOr<TlsStore::Found>& found) {
         certificate.fingerprint().text(), ", valid until ", dayText(end_s));
   }
   const int64_t now_s = std::time(nullptr);
-  const bool is_near = end_s - now_s < kReminderDays * kDay_s;
-  if (!is_near || (reminded_s_ && now_s - *reminded_s_ < kDay_s)) return;
+  const bool is_near = end_s - now_s < kRemindBefore_s;
+  if (!is_near || (reminded_s_ && now_s - *reminded_s_ < kRemindAgain_s)) return;
   reminded_s_ = now_s;
   log(LogLevel::kWarning, "the certificate of tls.certificate ",
       now_s > end_s ? "expired on " : "expires on ", dayText(end_s),

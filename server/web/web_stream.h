@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <utility>
 #include <variant>
 
@@ -33,8 +32,6 @@ class WebStream {
                               ErrorCode& error);
   // Says that nothing more will be written, so that the other side knows it has everything.
   net::awaitable<void> finish(std::chrono::milliseconds limit);
-  // Subject of the certificate that the other side has shown ("CN=publisher-1,O=Lab"); "" without.
-  std::string peerSubject() const;
 
   // The names that Beast asks for.
   template <typename Buffers, typename Token>

@@ -55,7 +55,7 @@ def open_channel(module: Any, address: str, tls: Optional[Tls]) -> Any:
         raise BadInput("tls", "has a certificate without its key, or a key without its "
                        "certificate; must have both or none")
     roots = _read(chosen.ca) if chosen.ca else None
-    options = CHANNEL_OPTIONS
+    options: tuple[tuple[str, Any], ...] = CHANNEL_OPTIONS
     if chosen.fingerprint:
         shown = _pinned(target, chosen)
         roots = ssl.DER_cert_to_PEM_cert(shown.der).encode()

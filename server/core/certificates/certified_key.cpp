@@ -100,7 +100,8 @@ absl::Status checkUse(const CertifiedKeyFiles& files, const std::vector<Certific
              "; take a key of EC P-256 or RSA of 2048 bits, and a certificate for it"));
 }
 
-absl::Status checkPair(const CertifiedKeyFiles& files, const Certificate& certificate, EVP_PKEY& key) {
+absl::Status checkPair(const CertifiedKeyFiles& files, const Certificate& certificate,
+                       EVP_PKEY& key) {
   const bool belongs = X509_check_private_key(&certificate.get(), &key) == 1;
   ERR_clear_error();
   if (belongs) return absl::OkStatus();
@@ -110,8 +111,8 @@ absl::Status checkPair(const CertifiedKeyFiles& files, const Certificate& certif
 
 }  // namespace
 
-absl::StatusOr<CertifiedKey> readCertifiedKey(const CertifiedKeyFiles& files, CertificatePurpose purpose,
-                                      int64_t now_s) {
+absl::StatusOr<CertifiedKey> readCertifiedKey(const CertifiedKeyFiles& files,
+                                              CertificatePurpose purpose, int64_t now_s) {
   if (files.certificate.path.empty() || files.key.path.empty()) {
     const bool has_key = files.certificate.path.empty();
     const NamedFile& missing = has_key ? files.certificate : files.key;
@@ -132,8 +133,8 @@ absl::StatusOr<CertifiedKey> readCertifiedKey(const CertifiedKeyFiles& files, Ce
   VIEWLOOM_RETURN_IF_ERROR(checkCertificate(files.certificate, chain->front(), purpose, now_s));
   VIEWLOOM_RETURN_IF_ERROR(checkUse(files, *chain, **key));
   return CertifiedKey{.chain_pem = *std::move(chain_pem),
-                  .key_pem = *std::move(key_pem),
-                  .certificate = std::move(chain->front())};
+                      .key_pem = *std::move(key_pem),
+                      .certificate = std::move(chain->front())};
 }
 
 }  // namespace viewloom

@@ -25,7 +25,7 @@ struct CertifiedKeyFiles {
 // Reads both files and checks them: PEM, the key's form, that both belong together, validity at
 // `now_s` (seconds since 1970), purpose, and what OpenSSL accepts. A server's certificate must name
 // a host. INVALID_ARGUMENT is one sentence with the file and the remedy; it holds no secret.
-absl::StatusOr<CertifiedKey> readCertifiedKey(const CertifiedKeyFiles& files, CertificatePurpose purpose,
-                                      int64_t now_s);
+absl::StatusOr<CertifiedKey> readCertifiedKey(const CertifiedKeyFiles& files,
+                                              CertificatePurpose purpose, int64_t now_s);
 
 }  // namespace viewloom

@@ -21,7 +21,7 @@ using testing::Not;
 class CertifiedKeyTest : public testing::Test {
  protected:
   CertifiedKeyTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "certified_key-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "certified-key-XXXXXX").string();
     folder_ = mkdtemp(name.data());
   }
   ~CertifiedKeyTest() override { std::filesystem::remove_all(folder_); }
@@ -113,8 +113,8 @@ TEST_F(CertifiedKeyTest, isRefusedWhenAFileIsMissing) {
   EXPECT_THAT(refusal(),
               AllOf(HasSubstr("tls.key"), HasSubstr("No such file"), HasSubstr("check the path")));
   const auto no_key = readCertifiedKey({.certificate = {.option = "tls.certificate", .path = "a"},
-                                    .key = {.option = "tls.key", .path = ""}},
-                                   CertificatePurpose::kServer, kTestDay_s);
+                                        .key = {.option = "tls.key", .path = ""}},
+                                       CertificatePurpose::kServer, kTestDay_s);
   EXPECT_THAT(std::string(no_key.status().message()),
               AllOf(HasSubstr("tls.key is missing"), HasSubstr("name both files")));
 }

@@ -26,7 +26,8 @@ TEST(Exposure, isProtectedWithTlsAndAccessControlAlone) {
         exposure.has_tls = has_tls;
         exposure.has_access_control = has_access_control;
         const bool is_protected = has_tls && has_access_control;
-        EXPECT_EQ(reachOf(exposure), is_protected ? ServerReach::kProtected : ServerReach::kOpen) << address;
+        EXPECT_EQ(reachOf(exposure), is_protected ? ServerReach::kProtected : ServerReach::kOpen)
+            << address;
         EXPECT_EQ(refusalToListen(exposure).has_value(), !is_protected) << address;
       }
     }
