@@ -75,6 +75,8 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                  .connection_count_max = options.connection_count_max,
                  .acknowledge_time = std::chrono::milliseconds(options.keepalive) / 2},
                 parts.metrics),
+      credentials_(options.tls ? tlsServerCredentials(options.tls)
+                               : grpc::InsecureServerCredentials()),
       ingest_({.intake = parts.intake,
                .pool = parts.pool,
                .directory = parts.directory,
@@ -95,9 +97,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
   grpc::ServerBuilder builder;
   setLimits(builder, options);
   constexpr auto kFromFd = grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD;
-  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(
-      kFromFd,
-      options.tls ? tlsServerCredentials(options.tls) : grpc::InsecureServerCredentials());
+  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(kFromFd, credentials_);
   probe_.emplace(builder.experimental().AddExternalConnectionAcceptor(
                      kFromFd, grpc::InsecureServerCredentials()),
                  parts.clock);

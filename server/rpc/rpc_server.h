@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
@@ -76,6 +77,8 @@ class RpcServer {
   const std::chrono::milliseconds drain_time_;
   const Metrics& metrics_;
   RpcListener listener_;
+  // gRPC asks it for the certificate of each new connection, and does not keep it.
+  const std::shared_ptr<grpc::ServerCredentials> credentials_;
   IngestService ingest_;
   DisplayService display_;
   CatalogService catalog_;

@@ -13,9 +13,9 @@
 
 namespace viewloom {
 
-// TLS 1.2 or 1.3. `current` gives what new connections are to use; it is called from any thread for
-// as long as a server uses the credentials, and never gives null. Whether clients are asked for
-// certificates is settled by its first answer.
+// TLS 1.2 or 1.3. They have to outlive the server that uses them. `current` gives what new
+// connections are to use; it is called from any thread for as long as the server lives, and never
+// gives null. Whether clients are asked for certificates is settled by its first answer.
 std::shared_ptr<grpc::ServerCredentials> tlsServerCredentials(
     std::function<TlsMaterialPtr()> current);
 
