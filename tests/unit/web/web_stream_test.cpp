@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/web_stream.h"
 
+#include <array>
 #include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <boost/asio/detached.hpp>
