@@ -42,12 +42,6 @@ void expandToRgba(std::span<const uint8_t> rgb, uint8_t* rgba) {
   }
 }
 
-// Whether the uncompressed bytes of the plane are already what a Frame holds.
-bool isPacked(const PlaneFormat& plane) {
-  return plane.encoding != PlaneEncoding::kRgb8 && plane.encoding != PlaneEncoding::kJpeg &&
-         uncompressedBytes(plane) == decodedBytes(plane);
-}
-
 // `bytes` are the plane's uncompressed bytes, with its stride; `out` becomes the packed plane:
 // strides go, RGB8 becomes RGBA8.
 void packPlane(std::span<const uint8_t> bytes, const PlaneFormat& plane,
@@ -74,7 +68,7 @@ absl::StatusOr<SharedBytes> PlaneDecoder::inflate(const PlaneFormat& plane,
                                                   const SharedBytes& wire) {
   const absl::StatusOr<uint64_t> content_bytes =
       plane.encoding == PlaneEncoding::kJpeg
-          ? ZstdInflater::contentBytesUpTo(*wire, jpegBytesMax(plane.size_px.area()))
+          ? ZstdInflater::contentBytesUpTo(*wire, inflatedBytesMax(plane))
           : ZstdInflater::contentBytes(*wire, uncompressedBytes(plane));
   if (!content_bytes.ok()) return content_bytes.status();
   BytePool::Buffer inflated = pool_.takeUncleared(*content_bytes);
@@ -93,7 +87,7 @@ absl::StatusOr<SharedBytes> PlaneDecoder::decode(const PlaneFormat& plane, Share
     restorePredicted(*wire, plane.size_px, *restored);
     return SharedBytes(std::move(restored));
   }
-  if (isPacked(plane)) return wire;
+  if (isHeldAsSent(plane)) return wire;
   BytePool::Buffer packed = pool_.takeUncleared(decodedBytes(plane));
   if (plane.encoding == PlaneEncoding::kJpeg) {
     VIEWLOOM_RETURN_IF_ERROR(jpeg_.decode(*wire, plane.size_px, *packed));

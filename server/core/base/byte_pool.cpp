@@ -5,6 +5,8 @@
 #include <bit>
 #include <utility>
 
+#include "base/idle_memory.h"
+
 namespace viewloom {
 namespace {
 
@@ -21,48 +23,72 @@ constexpr size_t kWasteFactorMax = 4;
 
 }  // namespace
 
-struct BytePool::Shelf {
-  size_t kept_count;
-  size_t kept_bytes_max;
-  std::mutex mutex;
-  size_t waiting_bytes = 0;
-  std::vector<std::unique_ptr<std::vector<uint8_t>>> waiting;  // longest waiting first
+struct BytePool::Shelf final : IdleMemory {
+  using Clock = std::chrono::steady_clock;
+  using Bytes = std::unique_ptr<std::vector<uint8_t>>;
 
-  std::unique_ptr<std::vector<uint8_t>> takeFitting(size_t capacity_bytes) {
+  struct Free {
+    Bytes bytes;
+    Clock::time_point since;
+  };
+
+  Shelf(size_t count, size_t bytes_max) : kept_count(count), kept_bytes_max(bytes_max) {
+    waiting.reserve(kept_count + 1);
+  }
+
+  const size_t kept_count;
+  const size_t kept_bytes_max;
+  mutable std::mutex mutex;  // guards what follows
+  size_t waiting_bytes = 0;
+  std::vector<Free> waiting;  // longest waiting first
+
+  Bytes takeFitting(size_t capacity_bytes) {
     std::lock_guard lock(mutex);
     auto best = waiting.end();
     for (auto it = waiting.begin(); it != waiting.end(); ++it) {
-      const size_t got = (*it)->capacity();
+      const size_t got = it->bytes->capacity();
       if (got < capacity_bytes || got > roundedUp(capacity_bytes) * kWasteFactorMax) continue;
-      if (best == waiting.end() || got < (*best)->capacity()) best = it;
+      if (best == waiting.end() || got < best->bytes->capacity()) best = it;
     }
     if (best == waiting.end()) return nullptr;
     return remove(best);
   }
 
-  void putBack(std::unique_ptr<std::vector<uint8_t>> buffer) {
+  void putBack(Bytes buffer) {
     if (buffer->capacity() > kept_bytes_max) return;
     std::lock_guard lock(mutex);
     waiting_bytes += buffer->capacity();
-    waiting.push_back(std::move(buffer));
+    waiting.push_back({std::move(buffer), Clock::now()});
     while (waiting.size() > kept_count || waiting_bytes > kept_bytes_max) remove(waiting.begin());
   }
 
- private:
-  using Waiting = std::vector<std::unique_ptr<std::vector<uint8_t>>>;
+  uint64_t idleBytes() const override {
+    std::lock_guard lock(mutex);
+    return waiting_bytes;
+  }
 
-  std::unique_ptr<std::vector<uint8_t>> remove(Waiting::iterator at) {
-    auto removed = std::move(*at);
+  uint64_t releaseIdle(std::chrono::nanoseconds unused_for) override {
+    const Clock::time_point until = Clock::now() - unused_for;
+    std::lock_guard lock(mutex);
+    const size_t before_bytes = waiting_bytes;
+    while (!waiting.empty() && waiting.front().since <= until) remove(waiting.begin());
+    return before_bytes - waiting_bytes;
+  }
+
+ private:
+  Bytes remove(std::vector<Free>::iterator at) {
+    Bytes removed = std::move(at->bytes);
     waiting.erase(at);
     waiting_bytes -= removed->capacity();
     return removed;
   }
 };
 
-BytePool::BytePool(size_t kept_count, size_t kept_bytes_max) : shelf_(std::make_shared<Shelf>()) {
-  shelf_->kept_count = kept_count;
-  shelf_->kept_bytes_max = kept_bytes_max;
-  shelf_->waiting.reserve(kept_count + 1);
+BytePool::BytePool(size_t kept_count, size_t kept_bytes_max)
+    : shelf_(std::make_shared<Shelf>(kept_count, kept_bytes_max)) {}
+
+std::shared_ptr<IdleMemory> BytePool::idleMemory() const {
+  return shelf_;
 }
 
 BytePool::Buffer BytePool::take(size_t capacity_bytes) {

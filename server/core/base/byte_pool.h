@@ -12,6 +12,8 @@
 
 namespace viewloom {
 
+class IdleMemory;
+
 // Bytes that several readers share. They return to their pool with the last reader.
 using SharedBytes = std::shared_ptr<const std::vector<uint8_t>>;
 
@@ -32,6 +34,9 @@ class BytePool {
   // Takes a buffer with its old size and content. For callers that write piece by piece and grow
   // it, so that it is not filled with 0 first.
   Buffer takeUncleared(size_t capacity_bytes);
+
+  // The free buffers.
+  std::shared_ptr<IdleMemory> idleMemory() const;
 
  private:
   struct Shelf;

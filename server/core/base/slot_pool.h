@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -10,11 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/idle_memory.h"
+
 namespace viewloom {
 
 // Lends slots. A borrower keeps a slot at least until the device has finished with it. Borrowed
-// slots may outlive the pool. Thread-safety: all methods may be called from any thread, and slots
-// may return on any thread.
+// slots may outlive the pool. Slots count themselves in the server's memory, free ones too. So idle
+// memory here has no bytes of its own. Thread-safety: all methods may be called from any thread, and
+// slots may return on any thread.
 template <typename Slot>
 class SlotPool {
  public:
@@ -27,6 +31,9 @@ class SlotPool {
 
   // Whether take() would succeed. The answer stays true if only this thread takes slots.
   bool hasRoom() const { return shelf_->hasRoom(); }
+
+  // The free slots.
+  std::shared_ptr<IdleMemory> idleMemory() const { return shelf_; }
 
   // Takes a slot for which `fits(slot)` holds: a free one, or a new one from `make()`. Once
   // slot_count_max slots exist, a new one replaces a free one that does not fit. Returns nullptr if
@@ -48,7 +55,14 @@ class SlotPool {
   }
 
  private:
-  struct Shelf {
+  struct Shelf final : IdleMemory {
+    using Clock = std::chrono::steady_clock;
+
+    struct Free {
+      std::unique_ptr<Slot> slot;
+      Clock::time_point since;
+    };
+
     Shelf(size_t count_max, std::function<void()> callback)
         : on_return(std::move(callback)), slot_count_max(count_max) {
       free_slots.reserve(count_max);
@@ -58,9 +72,9 @@ class SlotPool {
     std::unique_ptr<Slot> takeFree(const Fits& fits) {
       std::lock_guard lock(mutex);
       const auto fitting = std::find_if(free_slots.begin(), free_slots.end(),
-                                        [&](const auto& slot) { return fits(*slot); });
+                                        [&](const Free& free) { return fits(*free.slot); });
       if (fitting == free_slots.end()) return nullptr;
-      std::unique_ptr<Slot> slot = std::move(*fitting);
+      std::unique_ptr<Slot> slot = std::move(fitting->slot);
       free_slots.erase(fitting);
       return slot;
     }
@@ -79,7 +93,7 @@ class SlotPool {
         return true;
       }
       if (free_slots.empty()) return false;
-      misfit = std::move(free_slots.back());
+      misfit = std::move(free_slots.back().slot);
       free_slots.pop_back();
       return true;
     }
@@ -90,7 +104,7 @@ class SlotPool {
     }
 
     void setCountMax(size_t count_max) {
-      std::vector<std::unique_ptr<Slot>> dropped;  // freed after the lock
+      std::vector<Free> dropped;  // freed after the lock
       std::lock_guard lock(mutex);
       slot_count_max = count_max;
       while (slot_count > slot_count_max && !free_slots.empty()) {
@@ -106,18 +120,33 @@ class SlotPool {
         if (slot_count > slot_count_max) {
           --slot_count;
         } else {
-          free_slots.push_back(std::move(slot));
+          free_slots.push_back({std::move(slot), Clock::now()});
         }
       }
       slot.reset();
       on_return();
     }
 
+    uint64_t idleBytes() const override { return 0; }
+
+    uint64_t releaseIdle(std::chrono::nanoseconds unused_for) override {
+      const Clock::time_point until = Clock::now() - unused_for;
+      std::vector<Free> dropped;  // freed after the lock
+      std::lock_guard lock(mutex);
+      std::erase_if(free_slots, [&](Free& free) {
+        if (free.since > until) return false;
+        dropped.push_back(std::move(free));
+        --slot_count;
+        return true;
+      });
+      return 0;
+    }
+
     const std::function<void()> on_return;
     std::mutex mutex;  // guards what follows
     size_t slot_count_max;
     size_t slot_count = 0;  // free and lent
-    std::vector<std::unique_ptr<Slot>> free_slots;
+    std::vector<Free> free_slots;
   };
 
   std::shared_ptr<Shelf> shelf_;

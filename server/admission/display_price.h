@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an open display and each of its viewers cost in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "admission/memory_budget.h"
+#include "display/display_spec.h"
+
+namespace viewloom {
+
+// Bytes. Sizes of JPEG are estimates for photographs: half a byte a pixel, or one from a quality of
+// 91 on. All others are upper bounds.
+struct DisplayPrice {
+  uint64_t rays_bytes = 0;     // where each view and each sample of its pixels lies
+  uint64_t encoded_bytes = 0;  // one atlas as it is sent
+  uint64_t making_bytes = 0;   // planes of one atlas while it is made
+
+  // As long as it is open: its rays, its newest atlas, and the one that follows.
+  uint64_t displayBytes() const { return rays_bytes + 2 * encoded_bytes; }
+  // A slow viewer is still sent an older atlas; its call has buffers.
+  uint64_t viewerBytes() const;
+};
+
+// Expects a completed spec.
+DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding);
+
+// Takes a display into the budget before it is opened, for the viewer `identity`. An atlas has to
+// fit beside it while it is made. Errors are RESOURCE_EXHAUSTED, name the field of the display that
+// makes it smaller, and say how large such an atlas may be.
+absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec& spec,
+                                         const EncodingSpec& encoding, const std::string& identity);
+// The same of another viewer of an open display. Names no field.
+absl::StatusOr<Reservation> admitViewer(MemoryBudget& budget, const DisplaySpec& spec,
+                                        const EncodingSpec& encoding, const std::string& identity);
+
+// A stream's name, a publisher's call, or a connection before it asks for anything.
+inline constexpr uint64_t kConnectionBytes = uint64_t{64} << 10;
+
+}  // namespace viewloom

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "admission/display_price.h"
+
+#include <gtest/gtest.h>
+
+namespace viewloom::display_price_test {
+namespace {
+
+DisplaySpec quiltOf(uint32_t side_px) {
+  DisplaySpec spec;
+  spec.kind = QuiltSpec{.columns = 4, .rows = 4, .size_px = {side_px, side_px}};
+  return completeDisplaySpec(spec).value();
+}
+
+TEST(DisplayPrice, growsWithThePlanesThatAreAskedFor) {
+  const uint64_t area_px = 1024 * 1024;
+  const DisplayPrice plain = displayPrice(quiltOf(1024), {});
+  EXPECT_EQ(plain.making_bytes, 4 * area_px);
+  EXPECT_EQ(plain.encoded_bytes, area_px / 2);
+  const DisplayPrice all = displayPrice(quiltOf(1024), {.color = BandEncoding::kRaw,
+                                                        .with_depth = true,
+                                                        .with_mask = true,
+                                                        .planes = BandEncoding::kRaw});
+  EXPECT_EQ(all.making_bytes, 9 * area_px);
+  EXPECT_EQ(all.encoded_bytes, 9 * area_px);
+  EXPECT_EQ(all.viewerBytes(), kConnectionBytes + 9 * area_px);
+}
+
+TEST(DisplayPrice, growsWithTheSamplesOfALens) {
+  DisplaySpec spec = quiltOf(1024);
+  const uint64_t sharp_bytes = displayPrice(spec, {}).rays_bytes;
+  spec.lens = LensSpec{.walked_count = 64};
+  EXPECT_EQ(displayPrice(spec, {}).rays_bytes, 64 * sharp_bytes);
+}
+
+TEST(AdmitDisplay, holdsTheDisplayOnceAnAtlasCouldBeMadeBesideIt) {
+  MemoryBudget budget(100'000'000);
+  const DisplaySpec spec = quiltOf(1024);
+  const auto granted = admitDisplay(budget, spec, {}, "10.0.0.7");
+  ASSERT_TRUE(granted.ok());
+  EXPECT_EQ(budget.reservedBytes(MemoryUse::kDisplays), displayPrice(spec, {}).displayBytes());
+}
+
+TEST(AdmitDisplay, saysHowLargeAnAtlasWouldFit) {
+  MemoryBudget budget(1'000'000'000);
+  const EncodingSpec all{.with_depth = true, .with_mask = true, .planes = BandEncoding::kRaw};
+  const auto granted = admitDisplay(budget, quiltOf(16384), all, "10.0.0.7");
+  EXPECT_EQ(granted.status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(fieldOf(granted.status()), "quilt.size");
+  const std::string message(granted.status().message());
+  EXPECT_NE(message.find("(16 views, 16384x16384 px) takes 6.85 GB of memory; 750 MB"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("an atlas of up to 53"), std::string::npos) << message;
+  EXPECT_TRUE(admitDisplay(budget, quiltOf(5300), all, "10.0.0.7").ok());
+}
+
+TEST(AdmitViewer, countsTheAtlasThatIsBeingWritten) {
+  MemoryBudget budget(1'000'000);
+  const DisplaySpec spec = quiltOf(1024);
+  const auto first = admitViewer(budget, spec, {}, "10.0.0.7");
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(budget.reservedBytes(MemoryUse::kViewers), displayPrice(spec, {}).viewerBytes());
+  const auto second = admitViewer(budget, spec, {}, "10.0.0.7");
+  EXPECT_EQ(second.status().code(), absl::StatusCode::kResourceExhausted);
+}
+
+}  // namespace
+}  // namespace viewloom::display_price_test

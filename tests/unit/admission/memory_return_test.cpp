@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "admission/memory_return.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace viewloom::memory_return_test {
+namespace {
+
+constexpr uint64_t kMiB = uint64_t{1} << 20;
+
+TEST(HeapWatch, returnsMemoryOnceItHasStayedFree) {
+  HeapWatch heap;
+  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
+  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
+  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
+  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
+  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
+  EXPECT_TRUE(heap.noteUsed(10 * kMiB));
+  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
+}
+
+TEST(HeapWatch, leavesTheHeapToStreamsWhoseFramesComeAndGo) {
+  HeapWatch heap;
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(heap.noteUsed(i % 2 == 0 ? 100 * kMiB : 10 * kMiB));
+}
+
+TEST(HeapWatch, waitsForAsMuchAsIsWorthIt) {
+  HeapWatch heap;
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.noteUsed(100 * kMiB));
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.noteUsed(85 * kMiB));
+}
+
+TEST(MemoryReturn, ticksAndEndsAtOnce) {
+  MemoryBudget budget(1000);
+  std::atomic<int> tick_count = 0;
+  {
+    const MemoryReturn memory_return(budget, [&] { ++tick_count; });
+    while (tick_count == 0) std::this_thread::yield();
+  }
+  EXPECT_GE(tick_count, 1);
+}
+
+}  // namespace
+}  // namespace viewloom::memory_return_test
