@@ -21,8 +21,8 @@ std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format) {
   return planes;
 }
 
-FrameAssembly::FrameAssembly(FrameFormat format, BytePool& pool)
-    : format_(std::move(format)), pool_(pool) {
+FrameAssembly::FrameAssembly(FrameFormat format, BytePool& pool, Reservation memory)
+    : format_(std::move(format)), pool_(pool), memory_(std::move(memory)) {
   for (const PlaneFormat* plane : wirePlanes(format_)) plane_bytes_.push_back(plane->wire_bytes);
   planes_.reserve(plane_bytes_.size());
 }
@@ -92,7 +92,9 @@ absl::Status FrameAssembly::requireComplete() const {
 
 CollectedFrame FrameAssembly::take() {
   VIEWLOOM_CHECK(complete());
-  return {.format = std::move(format_), .planes = std::move(planes_)};
+  return {.format = std::move(format_),
+          .planes = std::move(planes_),
+          .memory = std::move(memory_)};
 }
 
 }  // namespace viewloom

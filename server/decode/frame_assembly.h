@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/byte_pool.h"
 #include "base/status.h"
 #include "frame/frame.h"
@@ -20,6 +22,8 @@ struct CollectedFrame {
   FrameFormat format;
   std::vector<SharedBytes> planes;  // in the order of the wire: sources, layers, planes
   uint64_t session = 0;             // see FrameOrigin
+  std::string publisher{};          // see Frame
+  Reservation memory{};             // of the planes; goes on with the decoded frame
 };
 
 // The declared planes in the order in which their chunks come.
@@ -29,8 +33,8 @@ std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format);
 class FrameAssembly {
  public:
   // The format must have passed validateFrame. Memory for a plane is taken when its first chunk
-  // comes.
-  FrameAssembly(FrameFormat format, BytePool& pool);
+  // comes. `memory`: of all planes, from now on (admission/frame_price.h).
+  FrameAssembly(FrameFormat format, BytePool& pool, Reservation memory = {});
 
   // Where the next piece is to be written, whole, before endChunk(); nothing else may be called in
   // between. Errors are INVALID_ARGUMENT and name chunk.plane_index, chunk.offset_bytes or
@@ -52,6 +56,7 @@ class FrameAssembly {
  private:
   FrameFormat format_;
   BytePool& pool_;
+  Reservation memory_;
   std::vector<uint64_t> plane_bytes_;  // declared, in wire order
   std::vector<SharedBytes> planes_;    // whole ones
   BytePool::Buffer filling_;           // of the current plane; null before its first chunk

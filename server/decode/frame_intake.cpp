@@ -11,7 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "admission/frame_price.h"
+#include "admission/out_of_memory.h"
 #include "base/latest_mailbox.h"
+#include "base/log.h"
 #include "base/thread_name.h"
 #include "decode/frame_decoder.h"
 
@@ -27,12 +30,15 @@ struct WaitingFrame {
 // A frame in the hands of the threads. Each plane is decoded by whoever claims it; what decoded[i]
 // holds is seen by the thread that ends the last plane.
 struct OpenFrame {
-  OpenFrame(std::string name, WaitingFrame waiting)
-      : stream(std::move(name)),
-        frame(std::move(waiting)),
-        planes(wirePlanes(frame.collected.format)),
+  // Memory may run out here, so that the frame follows by begin().
+  OpenFrame(const std::string& name, const FrameFormat& format)
+      : stream(name),
+        planes(wirePlanes(format)),
         decoded(planes.size()),
         unfinished_count(planes.size()) {}
+
+  // Formats of planes stay where they are when their frame is moved.
+  void begin(WaitingFrame waiting) { frame = std::move(waiting); }
 
   const std::string stream;
   WaitingFrame frame;
@@ -41,6 +47,18 @@ struct OpenFrame {
   size_t claimed_count = 0;  // guarded by the intake's mutex, as the next
   size_t unfinished_count;
 };
+
+void reportRefused(const ReportFrame& report, uint64_t number, const absl::Status& status) {
+  report({.number = number,
+          .outcome = FrameOutcome::kRefused,
+          .reason = std::string(status.message())});
+}
+
+// Gives its memory back to the budget once it is gone.
+FramePtr heldFrame(std::unique_ptr<Frame> frame, Reservation memory) {
+  const auto held = std::make_shared<Reservation>(std::move(memory));
+  return {frame.release(), [held](const Frame* gone) { delete gone; }};
+}
 
 }  // namespace
 
@@ -63,20 +81,35 @@ struct FrameIntake::State {
   bool closed = false;
   std::vector<std::jthread> threads;  // last: they use what is above
 
+  // Memory that runs out beside the frames themselves costs a stream its turn.
+  void decode(PlaneDecoder& decoder) {
+    for (bool is_open = true; is_open;) {
+      try {
+        decodeUntilClosed(decoder);
+        is_open = false;
+      } catch (const std::bad_alloc&) {
+        log(LogLevel::kWarning, "no memory is left to decode; trying again");
+      }
+    }
+  }
+
   void decodeUntilClosed(PlaneDecoder& decoder) {
     std::unique_lock lock(mutex);
     for (;;) {
       work.wait(lock, [this] { return closed || !open_frames.empty() || !queue.empty(); });
       if (open_frames.empty()) {
         if (queue.empty()) return;
-        openNextFrame();
+        openNextFrame(lock);
+        continue;
       }
       const std::shared_ptr<OpenFrame> open = open_frames.front();
       const size_t plane = open->claimed_count++;
       if (open->claimed_count == open->planes.size()) open_frames.pop_front();
       lock.unlock();
-      open->decoded[plane] =
-          decoder.decode(*open->planes[plane], std::move(open->frame.collected.planes[plane]));
+      open->decoded[plane] = unlessOutOfMemory([&] {
+        return decoder.decode(*open->planes[plane],
+                              std::move(open->frame.collected.planes[plane]));
+      });
       lock.lock();
       if (--open->unfinished_count > 0) continue;
       lock.unlock();
@@ -86,11 +119,20 @@ struct FrameIntake::State {
     }
   }
 
-  void openNextFrame() {
+  void openNextFrame(std::unique_lock<std::mutex>& lock) {
     const std::string stream = std::move(queue.front());
     queue.pop_front();
     WaitingFrame waiting = *streams.at(stream).take();
-    open_frames.push_back(std::make_shared<OpenFrame>(stream, std::move(waiting)));
+    try {
+      const auto open = std::make_shared<OpenFrame>(stream, waiting.collected.format);
+      open_frames.push_back(open);
+      open->begin(std::move(waiting));
+    } catch (const std::bad_alloc&) {
+      lock.unlock();
+      reportRefused(waiting.report, waiting.collected.format.number, outOfMemory());
+      lock.lock();
+      finish(stream);
+    }
     work.notify_all();  // its other planes are for others
   }
 
@@ -103,20 +145,25 @@ struct FrameIntake::State {
     }
   }
 
+  absl::StatusOr<FramePtr> join(OpenFrame& open) {
+    CollectedFrame& collected = open.frame.collected;
+    const uint64_t decoded_bytes = framePrice(collected.format).decoded_bytes;
+    absl::StatusOr<std::unique_ptr<Frame>> frame =
+        joinPlanes(std::move(collected.format), std::move(open.decoded), pool);
+    if (!frame.ok()) return frame.status();
+    (*frame)->times = open.frame.times;
+    (*frame)->times.decoded_ns = clock.nowNs();
+    (*frame)->publisher = std::move(collected.publisher);
+    collected.memory.shrinkTo(decoded_bytes);
+    return heldFrame(*std::move(frame), std::move(collected.memory));
+  }
+
   void deliver(OpenFrame& open) {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
     const uint64_t session = waiting.collected.session;
-    absl::StatusOr<std::unique_ptr<Frame>> frame =
-        joinPlanes(std::move(waiting.collected.format), std::move(open.decoded), pool);
-    if (!frame.ok()) {
-      waiting.report({.number = number,
-                      .outcome = FrameOutcome::kRefused,
-                      .reason = std::string(frame.status().message())});
-      return;
-    }
-    (*frame)->times = waiting.times;
-    (*frame)->times.decoded_ns = clock.nowNs();
+    absl::StatusOr<FramePtr> frame = unlessOutOfMemory([&] { return join(open); });
+    if (!frame.ok()) return reportRefused(waiting.report, number, frame.status());
     sink.offerFrame({open.stream, session}, *std::move(frame), std::move(waiting.report));
   }
 };
@@ -128,7 +175,7 @@ FrameIntake::FrameIntake(FrameSink& sink, const Clock& clock, BytePool& pool,
     state_->threads.emplace_back(
         [state = state_.get(), decoder = std::make_unique<PlaneDecoder>(pool)] {
           nameThread("decode");
-          state->decodeUntilClosed(*decoder);
+          state->decode(*decoder);
         });
   }
 }

@@ -23,7 +23,8 @@ struct FrameIntakeOptions {
 // Decodes on threads of its own, the planes of a frame side by side. Of each stream one frame waits
 // at most: a newer one replaces it, and it is reported kReplaced. Frames of one stream are decoded
 // one after the other and reach the sink in the order in which they were offered; one that does not
-// decode is reported kRefused.
+// decode, or for which memory runs out, is reported kRefused. A frame gives its reservation back
+// when its last reader lets go of it.
 // Thread-safety: all methods may be called from any thread. offer never blocks.
 class FrameIntake {
  public:

@@ -58,6 +58,7 @@ struct JpegDecoder::Reader {
 
   bool readHeader(const uint8_t* bytes, size_t count) {
     if (setjmp(fault.escape)) return false;
+    jpeg_abort_decompress(&decoder);  // memory may have run out in the middle of the last picture
     jpeg_mem_src(&decoder, bytes, count);
     jpeg_read_header(&decoder, TRUE);
     return true;

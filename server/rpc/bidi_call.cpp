@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "admission/out_of_memory.h"
 #include "rpc/status_to_grpc.h"
 
 namespace viewloom {
@@ -42,7 +43,8 @@ void BidiCall::OnReadDone(bool ok) {
 }
 
 void BidiCall::handle(bool ok) {
-  const absl::Status status = ok ? handleMessage(incoming_) : handleHalfClose();
+  const absl::Status status =
+      unlessOutOfMemory([&] { return ok ? handleMessage(incoming_) : handleHalfClose(); });
   if (!status.ok()) end(status);
   bool ended = false;
   {
@@ -76,14 +78,29 @@ void BidiCall::OnCancel() {
 }
 
 void BidiCall::OnDone() {
+  if (releases_when_done_) {
+    release();
+    dropReads();
+  }
   // The last reaction: with its own reference the call may go, once nobody outside holds it.
   const std::shared_ptr<BidiCall> self = std::move(self_);
+}
+
+// What a message is made of may be half taken, so that nothing can follow it.
+std::optional<grpc::ByteBuffer> BidiCall::nextMessage() {
+  try {
+    return takeMessage();
+  } catch (const std::bad_alloc&) {
+    releases_when_done_ = !end_status_.has_value();
+    if (releases_when_done_) end_status_ = statusToGrpc(outOfMemory());
+    return std::nullopt;
+  }
 }
 
 void BidiCall::advance() {
   if (finished_ || !opened_) return;
   if (!writing_ && !cancelled_) {
-    if (std::optional<grpc::ByteBuffer> message = takeMessage()) {
+    if (std::optional<grpc::ByteBuffer> message = nextMessage()) {
       outgoing_ = *std::move(message);
       writing_ = true;
       grpc::WriteOptions options;

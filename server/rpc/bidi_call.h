@@ -55,7 +55,8 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   // False holds the end back although there is nothing to write yet. With the lock.
   virtual bool mayFinish() const { return true; }
 
-  // Writes, reads or finishes if there is reason to. With the lock.
+  // Writes, reads or finishes if there is reason to. A call that has no memory to write ends with
+  // RESOURCE_EXHAUSTED. With the lock.
   void advance();
   bool ending() const { return end_status_.has_value(); }
   bool halfClosed() const { return half_closed_; }
@@ -64,6 +65,7 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
 
  private:
   void handle(bool ok);
+  std::optional<grpc::ByteBuffer> nextMessage();
 
   std::shared_ptr<BidiCall> self_;
   grpc::ByteBuffer incoming_;
@@ -75,6 +77,7 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   bool writing_ = false;
   bool cancelled_ = false;
   bool finished_ = false;
+  bool releases_when_done_ = false;  // it ended with the lock held, without release()
   std::optional<grpc::Status> end_status_;
 };
 

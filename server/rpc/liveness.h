@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -43,7 +44,11 @@ class Ticker {
           std::condition_variable_any never;
           std::unique_lock lock(mutex);
           while (!never.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
-            on_tick();
+            try {
+              on_tick();
+            } catch (const std::bad_alloc&) {
+              // Calls hear of the next tick.
+            }
           }
         }) {}
 

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "admission/display_price.h"
+#include "admission/out_of_memory.h"
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "rpc/frame_from_proto.h"
@@ -75,6 +77,10 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
                         strCat("the session id has ", settings.session_id().size(),
                                " bytes; accepted is 0..", kSessionBytesMax));
   }
+  auto memory = parts_.memory.reserve(
+      {.use = MemoryUse::kConnections, .identity = host_, .bytes = kConnectionBytes}, "a stream",
+      [](uint64_t) { return ""; });
+  if (!memory.ok()) return withFieldPrefix(memory.status(), "settings.stream");
   const auto on_takeover = [self = weak_from_this()] {
     const auto call = self.lock();
     if (call)
@@ -94,6 +100,7 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
     stream_ = settings.stream();
     session_ = (*claim)->session();
     claim_ = *std::move(claim);
+    memory_ = *std::move(memory);
     has_heartbeats_ = settings.sends_heartbeats();
     heartbeat_is_due_ = has_heartbeats_;
     replies_.push_back(bytesFromMessage(response));
@@ -116,10 +123,28 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
                       strCat("the number of the frame is ", format->number,
                              "; accepted is more than ", last_number_, ", the last one"));
   }
+  assembly_.reset();
+  absl::StatusOr<Reservation> memory = admit(*format);
+  if (!memory.ok()) {
+    countOutcome(parts_, stream_, FrameOutcome::kRefused);
+    return memory.status();
+  }
   last_number_ = format->number;
   times_ = {};
-  assembly_.emplace(*std::move(format), parts_.pool);
+  assembly_.emplace(*std::move(format), parts_.pool, *std::move(memory));
   return absl::OkStatus();
+}
+
+// A frame of a new size has to fit together with how it is prepared. The next ones like it are
+// prepared in the memory of those before.
+absl::StatusOr<Reservation> PublishCall::admit(const FrameFormat& format) {
+  const uint64_t prepared_bytes = parts_.prepared_bytes(format);
+  const bool is_like_last = prepared_bytes == last_prepared_bytes_;
+  absl::StatusOr<Reservation> memory = admitFrame(
+      parts_.memory, format,
+      [&](const FrameFormat&) { return is_like_last ? 0 : prepared_bytes; }, host_);
+  if (memory.ok()) last_prepared_bytes_ = prepared_bytes;
+  return memory;
 }
 
 absl::Status PublishCall::handleChunk(const v1::FrameChunk& chunk) {
@@ -150,22 +175,31 @@ void PublishCall::offerFrame() {
   parts_.metrics.frames_received.add();
   CollectedFrame frame = assembly_->take();
   frame.session = session_;
+  frame.publisher = host_;
   // A frame outlives its call; its outcome is counted all the same.
   parts_.intake.offer(
       stream_, std::move(frame), times_,
       [weak = weak_from_this(), parts = parts_, stream = stream_](const FrameReport& report) {
         countOutcome(parts, stream, report.outcome);
         const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
-        if (call) call->onReport(report);
+        if (call) call->tell(report);
       });
 }
 
+void PublishCall::tell(const FrameReport& report) {
+  const absl::Status status = unlessOutOfMemory([&] {
+    onReport(report);
+    return absl::OkStatus();
+  });
+  if (!status.ok()) end(status);
+}
+
 void PublishCall::onReport(const FrameReport& report) {
-  v1::PublishFramesResponse response;
-  *response.mutable_report() = reportToProto(report);
   {
     std::lock_guard lock(mutex_);
     --unreported_count_;
+    v1::PublishFramesResponse response;
+    *response.mutable_report() = reportToProto(report);
     replies_.push_back(bytesFromMessage(response));
     advance();
   }
@@ -191,8 +225,10 @@ void PublishCall::dropReads() {
 
 void PublishCall::release() {
   std::unique_ptr<StreamDirectory::Claim> claim;
+  Reservation memory;
   std::lock_guard lock(mutex_);
   claim = std::move(claim_);
+  memory = std::move(memory_);
 }
 
 std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {

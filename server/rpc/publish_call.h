@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "admission/frame_price.h"
+#include "admission/memory_budget.h"
 #include "base/byte_pool.h"
 #include "base/clock.h"
 #include "decode/frame_intake.h"
@@ -33,13 +35,16 @@ struct IngestParts {
   const Clock& clock;
   const Metrics& metrics;
   FrameLimits limits;
+  MemoryBudget& memory = unboundedMemory();
+  PreparedBytes prepared_bytes = [](const FrameFormat&) { return uint64_t{0}; };
 };
 
 // However it ends, the stream's name is free at once, and the reports of the frames taken before
 // that are still written. Thread-safety: as BidiCall.
 class PublishCall final : public BidiCall {
  public:
-  // `host`: of the publisher, or the subject of its certificate.
+  // `host`: of the publisher, or the subject of its certificate. Its frames take its share of the
+  // memory.
   PublishCall(const IngestParts& parts, Caller caller, std::string host)
       : parts_(parts), host_(std::move(host)), caller_(std::move(caller)) {}
 
@@ -64,7 +69,10 @@ class PublishCall final : public BidiCall {
   absl::Status noteChunk(uint64_t data_bytes);
   absl::Status handleSettings(const v1::PublishSettings& settings);
   absl::Status handleHeader(const v1::FrameHeader& header);
+  absl::StatusOr<Reservation> admit(const FrameFormat& format);
   void offerFrame();
+  // A report that finds no memory ends the call.
+  void tell(const FrameReport& report);
   void onReport(const FrameReport& report);
 
   const IngestParts parts_;
@@ -75,10 +83,12 @@ class PublishCall final : public BidiCall {
   std::optional<FrameAssembly> assembly_;
   FrameTimes times_;
   uint64_t last_number_ = 0;
-  uint64_t session_ = 0;  // see StreamDirectory::Claim
+  uint64_t last_prepared_bytes_ = 0;  // what the last frame took beside its planes
+  uint64_t session_ = 0;              // see StreamDirectory::Claim
 
   // Under mutex_.
   std::string stream_;
+  Reservation memory_;  // of the call
   std::unique_ptr<StreamDirectory::Claim> claim_;
   std::deque<grpc::ByteBuffer> replies_;    // accepted, then reports
   size_t unreported_count_ = 0;             // frames taken whose report has not come

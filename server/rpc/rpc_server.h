@@ -32,6 +32,8 @@ struct RpcParts {
   const Clock& clock;
   const Metrics& metrics;
   AccessControl& access;
+  MemoryBudget& memory = unboundedMemory();
+  PreparedBytes prepared_bytes = [](const FrameFormat&) { return uint64_t{0}; };
 };
 
 struct RpcServerOptions {

@@ -134,6 +134,7 @@ struct Frame {
   FrameFormat format;
   std::vector<std::vector<LayerPlanes>> sources;  // [source][layer]
   FrameTimes times;
+  std::string publisher{};  // whose share of the memory it takes: an address; empty = the server's
 };
 
 using FramePtr = std::shared_ptr<const Frame>;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <new>
+
+#include <jerror.h>
 
 namespace viewloom {
 namespace {
@@ -32,7 +35,7 @@ JpegMemory& JpegMemory::of(j_common_ptr object) {
 
 void* JpegMemory::allocate(j_common_ptr object, int pool, size_t size_bytes) {
   JpegMemory& memory = of(object);
-  if (pool == JPOOL_IMAGE) return memory.take(size_bytes);
+  if (pool == JPOOL_IMAGE) return memory.takeOrFail(object, size_bytes);
   return memory.original_.alloc_small(object, pool, size_bytes);
 }
 
@@ -42,10 +45,10 @@ JSAMPARRAY JpegMemory::allocateRows(j_common_ptr object, int pool, JDIMENSION sa
   if (pool != JPOOL_IMAGE) {
     return memory.original_.alloc_sarray(object, pool, samples_per_row, row_count);
   }
-  auto* rows = static_cast<JSAMPARRAY>(memory.take(row_count * sizeof(JSAMPROW)));
+  auto* rows = static_cast<JSAMPARRAY>(memory.takeOrFail(object, row_count * sizeof(JSAMPROW)));
   // A pair of vectors may start in the last sample of a row.
   const size_t stride_bytes = roundedUp(samples_per_row) + 2 * kAlignment_bytes;
-  auto* samples = static_cast<JSAMPROW>(memory.take(row_count * stride_bytes));
+  auto* samples = static_cast<JSAMPROW>(memory.takeOrFail(object, row_count * stride_bytes));
   for (JDIMENSION i = 0; i < row_count; ++i) rows[i] = samples + i * stride_bytes;
   return rows;
 }
@@ -58,6 +61,13 @@ void JpegMemory::freePool(j_common_ptr object, int pool) {
   memory.used_bytes_ = 0;
 }
 
+// libjpeg is C: it is left by its own error exit, and never by an exception.
+void* JpegMemory::takeOrFail(j_common_ptr object, size_t size_bytes) {
+  void* const taken = take(size_bytes);
+  if (taken == nullptr) ERREXIT1(object, JERR_OUT_OF_MEMORY, 0);
+  return taken;
+}
+
 void* JpegMemory::take(size_t size_bytes) {
   const size_t wanted_bytes = roundedUp(size_bytes);
   while (block_index_ < blocks_.size() &&
@@ -68,13 +78,22 @@ void* JpegMemory::take(size_t size_bytes) {
   if (block_index_ == blocks_.size()) {
     // A power of two, so that images of slightly different widths share their blocks.
     const size_t block_bytes = std::max(kBlock_bytes, std::bit_ceil(wanted_bytes));
-    blocks_.push_back({std::make_unique<uint8_t[]>(block_bytes + kAlignment_bytes), block_bytes});
+    if (!addBlock(block_bytes)) return nullptr;
   }
   uint8_t* start = blocks_[block_index_].bytes.get();
   start += roundedUp(reinterpret_cast<uintptr_t>(start)) - reinterpret_cast<uintptr_t>(start);
   uint8_t* taken = start + used_bytes_;
   used_bytes_ += wanted_bytes;
   return taken;
+}
+
+bool JpegMemory::addBlock(size_t block_bytes) {
+  try {
+    blocks_.push_back({std::make_unique<uint8_t[]>(block_bytes + kAlignment_bytes), block_bytes});
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace viewloom

@@ -36,7 +36,9 @@ class JpegMemory {
                                  JDIMENSION row_count);
   static void freePool(j_common_ptr object, int pool);
 
-  void* take(size_t size_bytes);
+  void* takeOrFail(j_common_ptr object, size_t size_bytes);
+  void* take(size_t size_bytes);  // nullptr = no memory is left
+  bool addBlock(size_t block_bytes);
 
   jpeg_memory_mgr original_;
   std::vector<Block> blocks_;
