@@ -2,6 +2,7 @@
 #include "access/caller.h"
 
 #include "access/access_control.h"
+#include "base/host_port.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
 
@@ -31,6 +32,10 @@ absl::Status Caller::mayUse(const std::string& stream) const {
 
 bool Caller::sees(std::string_view stream) const {
   return identity_->rights.streams.matches(stream);
+}
+
+std::string Caller::shareName(std::string_view host) const {
+  return identity_->proof == Proof::kNothing ? identityOfHost(host) : identity_->id;
 }
 
 absl::Status Caller::recheck() const {

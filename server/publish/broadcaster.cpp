@@ -2,118 +2,84 @@
 #include "publish/broadcaster.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/check.h"
 #include "base/str_cat.h"
-#include "publish/member.h"
+#include "publish/watched_displays.h"
 
 namespace viewloom {
-namespace {
-
-struct WatchedDisplay {
-  ActiveDisplayPtr active;
-  std::string key;  // stream, picture and encoding
-  std::vector<MemberPtr> members;
-  std::shared_ptr<const AtlasLayout> layout;
-  AtlasPtr newest;
-  GrowingAtlasPtr growing;     // the newest that has begun, unless it is whole
-  uint64_t last_sequence = 0;  // of all that have begun
-  uint64_t atlas_count = 0;
-};
-
-}  // namespace
 
 struct Broadcaster::State {
-  explicit State(BroadcasterLimits given) : limits(given) {}
+  State(BroadcasterLimits limits, MemoryBudget& budget) : memory(budget), displays(limits) {}
 
-  const BroadcasterLimits limits;
+  MemoryBudget& memory;
   std::function<void(const std::string&)> on_demand_change;
   std::function<void(const std::string&)> on_eyes_served;
 
   mutable std::mutex mutex;  // guards what follows; never held while a subscriber is called
   bool is_draining = false;
-  uint64_t next_id = 1;  // of displays and subscribers
-  uint32_t subscriber_count = 0;
-  std::map<uint64_t, WatchedDisplay> displays;  // by id
-  std::map<std::string, uint64_t> id_of_key;
+  WatchedDisplays displays;
 
-  absl::Status checkRoom(bool is_new_display) const;
-  WatchedDisplay& openDisplay(ActiveDisplay display, const std::string& key);
-  std::vector<MemberPtr> closeDisplay(uint64_t id);
-  bool removeMember(uint64_t display_id, uint64_t subscriber_id, std::string& stream);
-  void noteSubscriberCount(WatchedDisplay& display);
+  absl::Status checkRoom(bool opens_display) const {
+    if (is_draining) return absl::UnavailableError("the server is shutting down; try again later");
+    return displays.checkRoom(opens_display);
+  }
+  uint64_t takeId() {
+    std::lock_guard lock(mutex);
+    return displays.takeId();
+  }
+  absl::StatusOr<Seat> admit(const ActiveDisplay& display, const std::string& key,
+                             const Subscriber& subscriber) const;
+  struct Joined;
+  absl::StatusOr<std::optional<Joined>> join(const ActiveDisplay& display, const std::string& key,
+                                             const std::shared_ptr<Subscriber>& subscriber,
+                                             Seat& seat);
   void announce(const std::string& stream) const {
     if (on_demand_change) on_demand_change(stream);
   }
 };
 
-absl::Status Broadcaster::State::checkRoom(bool is_new_display) const {
-  if (is_draining) return absl::UnavailableError("the server is shutting down; try again later");
-  if (subscriber_count >= limits.subscriber_count_max) {
-    return absl::ResourceExhaustedError(
-        strCat("too many subscribers: this server accepts up to ", limits.subscriber_count_max,
-               " viewers; close one, or raise limits.subscribers_max"));
+// A viewer at its place, and what there is to tell it.
+struct Broadcaster::State::Joined {
+  MemberPtr member;
+  uint64_t display_id = 0;
+  AtlasPtr newest;
+  GrowingAtlasPtr growing;
+};
+
+// Without the lock while memory is asked for: idle memory may have to be given up for it, whose
+// owner may ask this broadcaster.
+absl::StatusOr<Seat> Broadcaster::State::admit(const ActiveDisplay& display, const std::string& key,
+                                               const Subscriber& subscriber) const {
+  bool opens = false;
+  {
+    std::lock_guard lock(mutex);
+    opens = !displays.isOpen(key);
+    VIEWLOOM_RETURN_IF_ERROR(checkRoom(opens));
   }
-  if (is_new_display && displays.size() >= limits.display_count_max) {
-    return absl::ResourceExhaustedError(
-        strCat("too many distinct displays: this server accepts up to ", limits.display_count_max,
-               "; choose one that is watched already, or raise limits.displays_max"));
-  }
-  return absl::OkStatus();
+  return admitSeat(memory, display.spec, display.encoding, subscriber.identity(), opens);
 }
 
-WatchedDisplay& Broadcaster::State::openDisplay(ActiveDisplay active, const std::string& key) {
-  active.id = next_id++;
-  id_of_key[key] = active.id;
-  WatchedDisplay& display = displays[active.id];
-  display.key = key;
-  display.active = std::make_shared<ActiveDisplay>(std::move(active));
-  return display;
-}
-
-// Snapshots are immutable: a changed count is a new snapshot.
-void Broadcaster::State::noteSubscriberCount(WatchedDisplay& display) {
-  auto changed = std::make_shared<ActiveDisplay>(*display.active);
-  changed->subscriber_count = static_cast<uint32_t>(display.members.size());
-  display.active = std::move(changed);
-}
-
-std::vector<MemberPtr> Broadcaster::State::closeDisplay(uint64_t id) {
-  const auto found = displays.find(id);
-  if (found == displays.end()) return {};
-  std::vector<MemberPtr> members = std::move(found->second.members);
-  subscriber_count -= static_cast<uint32_t>(members.size());
-  id_of_key.erase(found->second.key);
-  displays.erase(found);
-  return members;
-}
-
-// True when the display went with its last member.
-bool Broadcaster::State::removeMember(uint64_t display_id, uint64_t subscriber_id,
-                                      std::string& stream) {
+// None = the display has been closed since the seat was admitted.
+absl::StatusOr<std::optional<Broadcaster::State::Joined>> Broadcaster::State::join(
+    const ActiveDisplay& display, const std::string& key,
+    const std::shared_ptr<Subscriber>& subscriber, Seat& seat) {
   std::lock_guard lock(mutex);
-  const auto found = displays.find(display_id);
-  if (found == displays.end()) return false;
-  WatchedDisplay& display = found->second;
-  std::erase_if(display.members, [&](const MemberPtr& member) {
-    if (member->id() != subscriber_id) return false;
-    member->leave();
-    --subscriber_count;
-    return true;
-  });
-  if (!display.members.empty()) {
-    noteSubscriberCount(display);
-    return false;
-  }
-  stream = display.active->stream;
-  closeDisplay(display_id);
-  return true;
+  const bool is_open = displays.isOpen(key);
+  if (!is_open && !seat.opens) return std::nullopt;
+  VIEWLOOM_RETURN_IF_ERROR(checkRoom(!is_open));
+  auto member = std::make_shared<Member>(displays.takeId(), subscriber, std::move(seat.viewer));
+  WatchedDisplay& joined =
+      is_open ? displays.at(key) : displays.open(display, key, std::move(seat.display));
+  displays.add(joined, member);
+  return Joined{std::move(member), joined.active->id, joined.newest, joined.growing};
 }
 
-Broadcaster::Broadcaster(BroadcasterLimits limits) : state_(std::make_shared<State>(limits)) {}
+Broadcaster::Broadcaster(BroadcasterLimits limits, MemoryBudget& memory)
+    : state_(std::make_shared<State>(limits, memory)) {}
 
 Broadcaster::~Broadcaster() = default;
 
@@ -123,39 +89,30 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   // A stream's name holds no blank, so that the parts cannot run into each other.
   std::string picture_key = strCat(stream, " ", displayKey(spec));
-  MemberPtr member;
-  AtlasPtr newest;
-  GrowingAtlasPtr growing;
-  uint64_t display_id = 0;
-  {
-    std::lock_guard lock(state_->mutex);
-    if (eyes != nullptr) picture_key += strCat("of ", state_->next_id, " ");
-    const std::string key = strCat(picture_key, encodingKey(encoding));
-    const auto known = state_->id_of_key.find(key);
-    const bool is_new = known == state_->id_of_key.end();
-    VIEWLOOM_RETURN_IF_ERROR(state_->checkRoom(is_new));
-    WatchedDisplay& display = is_new ? state_->openDisplay({.stream = stream,
-                                                            .spec = spec,
-                                                            .encoding = encoding,
-                                                            .picture_key = std::move(picture_key),
-                                                            .eyes = std::move(eyes)},
-                                                           key)
-                                     : state_->displays.at(known->second);
-    member = std::make_shared<Member>(state_->next_id++, std::move(subscriber));
-    display.members.push_back(member);
-    ++state_->subscriber_count;
-    state_->noteSubscriberCount(display);
-    display_id = display.active->id;
-    newest = display.newest;
-    growing = display.growing;
+  if (eyes != nullptr) picture_key += strCat("of ", state_->takeId(), " ");
+  const std::string key = strCat(picture_key, encodingKey(encoding));
+  const ActiveDisplay display{.stream = stream,
+                              .spec = spec,
+                              .encoding = encoding,
+                              .picture_key = std::move(picture_key),
+                              .eyes = std::move(eyes)};
+  std::optional<State::Joined> joined;
+  while (!joined) {
+    absl::StatusOr<Seat> seat = state_->admit(display, key, *subscriber);
+    VIEWLOOM_RETURN_IF_ERROR(seat.status());
+    absl::StatusOr<std::optional<State::Joined>> tried =
+        state_->join(display, key, subscriber, *seat);
+    VIEWLOOM_RETURN_IF_ERROR(tried.status());
+    joined = *std::move(tried);
   }
-  auto subscription = std::make_unique<Subscription>(state_, display_id, member->id());
-  if (newest != nullptr) {
-    member->offer(newest);
+  auto subscription =
+      std::make_unique<Subscription>(state_, joined->display_id, joined->member->id());
+  if (joined->newest != nullptr) {
+    joined->member->offer(joined->newest);
   } else {
     state_->announce(stream);
   }
-  if (growing != nullptr) member->begin(growing);
+  if (joined->growing != nullptr) joined->member->begin(joined->growing);
   return subscription;
 }
 
@@ -170,7 +127,7 @@ void Broadcaster::onEyesServed(std::function<void(const std::string& stream)> ca
 std::vector<ActiveDisplayPtr> Broadcaster::displays(const std::string& stream) const {
   std::lock_guard lock(state_->mutex);
   std::vector<ActiveDisplayPtr> wanted;
-  for (const auto& [id, display] : state_->displays) {
+  for (const auto& [id, display] : state_->displays.all()) {
     if (stream.empty() || display.active->stream == stream) wanted.push_back(display.active);
   }
   return wanted;
@@ -178,8 +135,8 @@ std::vector<ActiveDisplayPtr> Broadcaster::displays(const std::string& stream) c
 
 ActiveDisplayPtr Broadcaster::display(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  return found == state_->displays.end() ? nullptr : found->second.active;
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  return found == nullptr ? nullptr : found->active;
 }
 
 uint32_t Broadcaster::subscriberCount(const std::string& stream) const {
@@ -190,14 +147,14 @@ uint32_t Broadcaster::subscriberCount(const std::string& stream) const {
 
 void Broadcaster::noteLayout(uint64_t display_id, std::shared_ptr<const AtlasLayout> layout) {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  if (found != state_->displays.end()) found->second.layout.swap(layout);
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  if (found != nullptr) found->layout.swap(layout);
 }
 
 std::shared_ptr<const AtlasLayout> Broadcaster::layout(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  return found == state_->displays.end() ? nullptr : found->second.layout;
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  return found == nullptr ? nullptr : found->layout;
 }
 
 void Broadcaster::begin(const GrowingAtlasPtr& atlas) {
@@ -205,9 +162,9 @@ void Broadcaster::begin(const GrowingAtlasPtr& atlas) {
   GrowingAtlasPtr previous;  // freed after the lock
   {
     std::lock_guard lock(state_->mutex);
-    const auto found = state_->displays.find(atlas->atlas().display_id);
-    if (found == state_->displays.end()) return;
-    WatchedDisplay& display = found->second;
+    WatchedDisplay* const found = state_->displays.find(atlas->atlas().display_id);
+    if (found == nullptr) return;
+    WatchedDisplay& display = *found;
     VIEWLOOM_CHECK(atlas->atlas().sequence > display.last_sequence);
     display.last_sequence = atlas->atlas().sequence;
     previous = std::exchange(display.growing, atlas);
@@ -223,9 +180,9 @@ void Broadcaster::publish(const AtlasPtr& atlas) {
   GrowingAtlasPtr has_become;  // the same
   {
     std::lock_guard lock(state_->mutex);
-    const auto found = state_->displays.find(atlas->display_id);
-    if (found == state_->displays.end()) return;
-    WatchedDisplay& display = found->second;
+    WatchedDisplay* const found = state_->displays.find(atlas->display_id);
+    if (found == nullptr) return;
+    WatchedDisplay& display = *found;
     VIEWLOOM_CHECK(display.newest == nullptr || atlas->sequence > display.newest->sequence);
     previous = std::exchange(display.newest, atlas);
     display.last_sequence = std::max(display.last_sequence, atlas->sequence);
@@ -245,27 +202,27 @@ void Broadcaster::refuse(uint64_t display_id, const absl::Status& status) {
   std::vector<MemberPtr> members;
   {
     std::lock_guard lock(state_->mutex);
-    members = state_->closeDisplay(display_id);
+    members = state_->displays.close(display_id);
   }
   for (const MemberPtr& member : members) member->end(status);
 }
 
 AtlasPtr Broadcaster::newest(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  return found == state_->displays.end() ? nullptr : found->second.newest;
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  return found == nullptr ? nullptr : found->newest;
 }
 
 uint64_t Broadcaster::nextSequence(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  return found == state_->displays.end() ? 1 : found->second.last_sequence + 1;
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  return found == nullptr ? 1 : found->last_sequence + 1;
 }
 
 uint64_t Broadcaster::atlasCount(uint64_t display_id) const {
   std::lock_guard lock(state_->mutex);
-  const auto found = state_->displays.find(display_id);
-  return found == state_->displays.end() ? 0 : found->second.atlas_count;
+  WatchedDisplay* const found = state_->displays.find(display_id);
+  return found == nullptr ? 0 : found->atlas_count;
 }
 
 void Broadcaster::drain() {
@@ -273,8 +230,8 @@ void Broadcaster::drain() {
   {
     std::lock_guard lock(state_->mutex);
     state_->is_draining = true;
-    while (!state_->displays.empty()) {
-      for (MemberPtr& member : state_->closeDisplay(state_->displays.begin()->first)) {
+    while (!state_->displays.all().empty()) {
+      for (MemberPtr& member : state_->displays.close(state_->displays.all().begin()->first)) {
         members.push_back(std::move(member));
       }
     }
@@ -288,7 +245,12 @@ Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, uint64_t d
 
 Broadcaster::Subscription::~Subscription() {
   std::string stream;
-  if (state_->removeMember(display_id_, subscriber_id_, stream)) state_->announce(stream);
+  bool was_last = false;
+  {
+    std::lock_guard lock(state_->mutex);
+    was_last = state_->displays.remove(display_id_, subscriber_id_, stream);
+  }
+  if (was_last) state_->announce(stream);
 }
 
 }  // namespace viewloom

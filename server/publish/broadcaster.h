@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "eye_poses/eye_track.h"
@@ -39,7 +40,8 @@ struct BroadcasterLimits {
 // held that a subscriber could want.
 class Broadcaster {
  public:
-  explicit Broadcaster(BroadcasterLimits limits);
+  // Displays and viewers take their memory from the budget, which outlives the broadcaster.
+  explicit Broadcaster(BroadcasterLimits limits, MemoryBudget& memory = unboundedMemory());
   ~Broadcaster();
 
   // A place among the watchers of a display; leaving it is destroying it.
@@ -48,7 +50,7 @@ class Broadcaster {
   // Joins or opens the display. A late joiner is offered the newest whole atlas at once, then told
   // of the one that is being made.
   // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
-  // RESOURCE_EXHAUSTED over a limit, UNAVAILABLE while draining.
+  // RESOURCE_EXHAUSTED over a limit, or where the budget has no room; UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
                                                           const DisplaySpec& spec,
                                                           const EncodingSpec& encoding,

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "admission/memory_budget.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -16,8 +17,9 @@ namespace viewloom {
 // the subscriber is called once at a time, in order of sequence, never after end() or leave().
 class Member {
  public:
-  Member(uint64_t id, std::shared_ptr<Subscriber> subscriber)
-      : id_(id), subscriber_(std::move(subscriber)) {}
+  // `memory`: of the viewer, as long as it is here.
+  Member(uint64_t id, std::shared_ptr<Subscriber> subscriber, Reservation memory)
+      : id_(id), subscriber_(std::move(subscriber)), memory_(std::move(memory)) {}
 
   uint64_t id() const { return id_; }
 
@@ -50,6 +52,7 @@ class Member {
  private:
   const uint64_t id_;
   const std::shared_ptr<Subscriber> subscriber_;
+  const Reservation memory_;
   std::mutex call_mutex_;
   std::atomic<bool> gone_ = false;
   uint64_t begun_sequence_ = 0;  // under call_mutex_, as is the next

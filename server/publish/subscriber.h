@@ -2,6 +2,8 @@
 // Somebody who wants the newest atlas of a display.
 #pragma once
 
+#include <string>
+
 #include "base/status.h"
 #include "encode/encoded_band.h"
 #include "publish/growing_atlas.h"
@@ -11,6 +13,8 @@ namespace viewloom {
 // Called from any thread, one call at a time per subscriber. No method may block.
 class Subscriber : public AtlasReader {
  public:
+  // Whose share of the memory the display takes: an address; empty = the server's own.
+  virtual std::string identity() const { return ""; }
   // An atlas is being made. It is offered once it is whole; until then it may be abandoned.
   virtual void begin(GrowingAtlasPtr /*atlas*/) {}
   void noteGrowth() override {}

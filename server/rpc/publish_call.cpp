@@ -78,8 +78,8 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
                                " bytes; accepted is 0..", kSessionBytesMax));
   }
   auto memory = parts_.memory.reserve(
-      {.use = MemoryUse::kConnections, .identity = host_, .bytes = kConnectionBytes}, "a stream",
-      [](uint64_t) { return ""; });
+      {.use = MemoryUse::kConnections, .identity = identity_, .bytes = kConnectionBytes},
+      "a stream", [](uint64_t) { return ""; });
   if (!memory.ok()) return withFieldPrefix(memory.status(), "settings.stream");
   const auto on_takeover = [self = weak_from_this()] {
     const auto call = self.lock();
@@ -141,8 +141,8 @@ absl::StatusOr<Reservation> PublishCall::admit(const FrameFormat& format) {
   const uint64_t prepared_bytes = parts_.prepared_bytes(format);
   const bool is_like_last = prepared_bytes == last_prepared_bytes_;
   absl::StatusOr<Reservation> memory = admitFrame(
-      parts_.memory, format,
-      [&](const FrameFormat&) { return is_like_last ? 0 : prepared_bytes; }, host_);
+      parts_.memory, format, [&](const FrameFormat&) { return is_like_last ? 0 : prepared_bytes; },
+      identity_);
   if (memory.ok()) last_prepared_bytes_ = prepared_bytes;
   return memory;
 }
@@ -175,7 +175,7 @@ void PublishCall::offerFrame() {
   parts_.metrics.frames_received.add();
   CollectedFrame frame = assembly_->take();
   frame.session = session_;
-  frame.publisher = host_;
+  frame.publisher = identity_;
   // A frame outlives its call; its outcome is counted all the same.
   parts_.intake.offer(
       stream_, std::move(frame), times_,

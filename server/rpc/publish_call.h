@@ -12,6 +12,7 @@
 #include "admission/memory_budget.h"
 #include "base/byte_pool.h"
 #include "base/clock.h"
+#include "base/host_port.h"
 #include "decode/frame_intake.h"
 #include "frame/limits.h"
 #include "metrics/metrics.h"
@@ -46,7 +47,10 @@ class PublishCall final : public BidiCall {
   // `host`: of the publisher, or the subject of its certificate. Its frames take its share of the
   // memory.
   PublishCall(const IngestParts& parts, Caller caller, std::string host)
-      : parts_(parts), host_(std::move(host)), caller_(std::move(caller)) {}
+      : parts_(parts),
+        host_(std::move(host)),
+        caller_(std::move(caller)),
+        identity_(caller_->shareName(host_)) {}
 
   // Tells the publisher what its displays want now, if that changed.
   void refreshWanted();
@@ -78,6 +82,7 @@ class PublishCall final : public BidiCall {
   const IngestParts parts_;
   const std::string host_;
   LiveCaller caller_;
+  const std::string identity_;
 
   // Used only by the read callbacks.
   std::optional<FrameAssembly> assembly_;

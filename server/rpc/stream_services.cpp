@@ -17,16 +17,19 @@ class RefusedCall final : public StreamReactor {
   void OnDone() override { delete this; }
 };
 
+// Clients with one certificate are one user's, wherever they run.
+std::string hostOf(const grpc::CallbackServerContext& context) {
+  const std::string subject = clientSubject(context);
+  return subject.empty() ? peerHost(context.peer()) : subject;
+}
+
 }  // namespace
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
     grpc::CallbackServerContext* context) {
   absl::StatusOr<Caller> caller = admitCall(access_, *context, kPublishFrames);
   if (!caller.ok()) return new RefusedCall(caller.status());
-  // Publishers with one certificate are one user's, wherever they run.
-  const std::string subject = clientSubject(*context);
-  const auto call = std::make_shared<PublishCall>(
-      parts_, *std::move(caller), subject.empty() ? peerHost(context->peer()) : subject);
+  const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), hostOf(*context));
   calls_.open(call);
   return call.get();
 }
@@ -51,7 +54,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
     grpc::CallbackServerContext* context) {
   absl::StatusOr<Caller> caller = admitCall(access_, *context, kStreamAtlases);
   if (!caller.ok()) return new RefusedCall(caller.status());
-  const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller));
+  const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), hostOf(*context));
   calls_.open(call);
   return call.get();
 }

@@ -13,31 +13,32 @@ namespace viewloom {
 
 class WatchCall::Seat final : public Subscriber {
  public:
-  Seat(std::weak_ptr<WatchCall> call, uint64_t number, std::string field)
-      : call_(std::move(call)), number_(number), field_(std::move(field)) {}
+  Seat(const std::shared_ptr<WatchCall>& call, uint64_t number, std::string field)
+      : call_(call), identity_(call->identity_), number_(number), field_(std::move(field)) {}
 
+  std::string identity() const override { return identity_; }
   void begin(GrowingAtlasPtr atlas) override {
     if (const auto call = call_.lock()) call->begin(number_, std::move(atlas));
   }
-
   void noteGrowth() override {
     if (const auto call = call_.lock()) call->noteGrowth(number_);
   }
-
   void offer(AtlasPtr atlas) override {
     if (const auto call = call_.lock()) call->offer(number_, std::move(atlas));
   }
-
   void end(const absl::Status& status) override {
-    const std::string problem = fieldOf(status);
-    const bool is_of_display = !problem.empty() && !problem.starts_with("eye_poses");
-    if (const auto call = call_.lock()) {
-      call->endSeat(number_, is_of_display ? withFieldPrefix(status, field_) : status);
-    }
+    if (const auto call = call_.lock()) call->endSeat(number_, inField(status));
+  }
+
+  // Errors of the display name the field that asked for it.
+  absl::Status inField(const absl::Status& status) const {
+    const std::string of = fieldOf(status);
+    return of.empty() || of.starts_with("eye_poses") ? status : withFieldPrefix(status, field_);
   }
 
  private:
   const std::weak_ptr<WatchCall> call_;
+  const std::string identity_;
   const uint64_t number_;
   const std::string field_;  // that asked for the display
 };
@@ -183,7 +184,7 @@ absl::Status WatchCall::takeSeat(const std::string& field) {
     eyes_ = eyes_ ? std::make_shared<EyeTrack>(*eyes_) : std::make_shared<EyeTrack>();
   }
   auto subscription = parts_.broadcaster.subscribe(stream_, spec_, encoding_, seat, eyes_);
-  if (!subscription.ok()) return subscription.status();
+  if (!subscription.ok()) return seat->inField(subscription.status());
   std::lock_guard lock(mutex_);
   if (ending()) return absl::OkStatus();  // the subscription goes with this scope
   subscription_ = *std::move(subscription);

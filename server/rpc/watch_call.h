@@ -37,8 +37,13 @@ struct DisplayParts {
 // Thread-safety: as BidiCall.
 class WatchCall final : public BidiCall {
  public:
-  WatchCall(const DisplayParts& parts, Caller caller)
-      : parts_(parts), caller_(std::move(caller)), outbox_(parts_.metrics) {}
+  // `host`: of the client, or the subject of its certificate. Its display takes its share of the
+  // memory.
+  WatchCall(const DisplayParts& parts, Caller caller, const std::string& host)
+      : parts_(parts),
+        caller_(std::move(caller)),
+        identity_(caller_->shareName(host)),
+        outbox_(parts_.metrics) {}
 
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
@@ -77,6 +82,7 @@ class WatchCall final : public BidiCall {
 
   const DisplayParts parts_;
   LiveCaller caller_;
+  const std::string identity_;
 
   // Used only by the reads.
   std::string stream_;  // empty before the call was opened

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/clock.h"
@@ -24,9 +25,15 @@ class AtlasInbox final : public Subscriber {
   };
 
   // `on_change` is called, without a lock held, whenever there is something new to take or to
-  // learn.
-  AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change)
-      : clock_(clock), replaced_(replaced), on_change_(std::move(on_change)) {}
+  // learn. `identity`: see Subscriber.
+  AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change,
+             std::string identity = "")
+      : clock_(clock),
+        replaced_(replaced),
+        on_change_(std::move(on_change)),
+        identity_(std::move(identity)) {}
+
+  std::string identity() const override { return identity_; }
 
   void offer(AtlasPtr atlas) override {
     if (mailbox_.push({std::move(atlas), clock_.nowNs()})) replaced_.add();
@@ -54,6 +61,7 @@ class AtlasInbox final : public Subscriber {
   const Clock& clock_;
   const Counter replaced_;
   const std::function<void()> on_change_;
+  const std::string identity_;
   LatestMailbox<Arrival> mailbox_;
   mutable std::mutex mutex_;  // of ended_
   std::optional<absl::Status> ended_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "admission/out_of_memory.h"
 #include "base/str_cat.h"
 #include "web/admission.h"
 #include "web/multipart_stream.h"
@@ -75,10 +76,10 @@ http::response<http::empty_body> headOf(const HttpReply& reply) {
 
 }  // namespace
 
-Connection::Connection(WebContext& context, tcp::socket socket, Admission admission,
+Connection::Connection(WebContext& context, tcp::socket socket, ConnectionPlace place,
                        std::shared_ptr<ssl::context> tls)
     : context_(context),
-      admission_(admission),
+      place_(std::move(place)),
       strand_(socket.get_executor()),
       tls_(std::move(tls)),
       stream_(std::move(socket)),
@@ -112,7 +113,7 @@ HttpRequest Connection::requestOf(const http::request<http::empty_body>& request
 void Connection::start() {
   const auto self = shared_from_this();
   net::co_spawn(
-      strand_, [self] { return self->serve(); }, net::detached);
+      strand_, [self] { return self->serve(); }, OnceEnded([self] { self->end(); }));
 }
 
 void Connection::leave() {
@@ -127,13 +128,15 @@ void Connection::leave() {
 
 void Connection::cut() {
   awaits_request_ = false;
-  net::post(strand_, [self = shared_from_this()] {
-    if (self->live_reader_) {
-      self->live_reader_->cut();
-    } else {
-      self->stream_.close();
-    }
-  });
+  net::post(strand_, [self = shared_from_this()] { self->end(); });
+}
+
+void Connection::end() {
+  if (live_reader_) {
+    live_reader_->cut();
+  } else {
+    stream_.close();
+  }
 }
 
 net::awaitable<void> Connection::serve() {
@@ -155,10 +158,11 @@ net::awaitable<void> Connection::serve() {
       co_await watch(parser, request);
       co_return;
     }
-    if (!reply) reply = co_await answer(context_, request);
+    if (!reply) reply = co_await replyTo(request);
     const bool is_played = reply->live && parser.get().method() != http::verb::head;
     if (is_played && co_await play(*reply)) co_return;
-    keep = parser.get().keep_alive() && !context_.draining && admission_ != Admission::kStatus;
+    keep =
+        parser.get().keep_alive() && !context_.draining && place_.admission != Admission::kStatus;
     co_await write(*reply, parser, keep, error);
     if (error) break;
   }
@@ -166,7 +170,7 @@ net::awaitable<void> Connection::serve() {
 }
 
 std::optional<HttpReply> Connection::refusalOf(const HttpRequest& request) const {
-  if (admission_ == Admission::kStatus && !isStatusTarget(request.target)) {
+  if (place_.admission == Admission::kStatus && !isStatusTarget(request.target)) {
     context_.metrics.connections_refused[Transport::kWeb].add();
     return errorReply(
         absl::ResourceExhaustedError("too many connections; close some, or try again later"));
@@ -175,8 +179,8 @@ std::optional<HttpReply> Connection::refusalOf(const HttpRequest& request) const
 }
 
 std::chrono::milliseconds Connection::requestTimeout() const {
-  return admission_ == Admission::kStatus ? context_.options.status_timeout
-                                          : context_.options.request_timeout;
+  return place_.admission == Admission::kStatus ? context_.options.status_timeout
+                                                : context_.options.request_timeout;
 }
 
 net::awaitable<bool> Connection::secure() {
@@ -220,11 +224,19 @@ net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
   awaits_request_ = false;
 }
 
+net::awaitable<HttpReply> Connection::replyTo(HttpRequest request) {
+  try {
+    co_return co_await answer(context_, std::move(request));
+  } catch (const std::bad_alloc&) {
+    co_return errorReply(outOfMemory());
+  }
+}
+
 net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& request) {
   const absl::StatusOr<Url> url = parseUrl(request.target);
   ErrorCode error;
   if (!url.ok() || url->path != kWebSocket) {
-    const HttpReply reply = co_await answer(context_, request);
+    const HttpReply reply = co_await replyTo(request);
     co_await write(reply, parser, false, error);
     co_return;
   }
@@ -233,16 +245,20 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
     co_await write(errorReply(caller.status()), parser, false, error);
     co_return;
   }
-  const auto viewer =
-      std::make_shared<Viewer>(context_, *std::move(caller), std::move(stream_), url->parameters);
+  const std::string identity = caller->shareName(peer_);
+  const auto viewer = std::make_shared<Viewer>(context_, *std::move(caller), std::move(stream_),
+                                               url->parameters, identity);
   live_reader_ = viewer;
   if (context_.draining) viewer->leave();
-  co_await viewer->run(parser.release(),
-                       offersProtocol(request) ? std::string(kWebSocketProtocol) : "");
+  // Chosen before: GCC 12 destroys what a condition in a co_await makes twice.
+  std::string protocol = offersProtocol(request) ? std::string(kWebSocketProtocol) : "";
+  co_await viewer->run(parser.release(), std::move(protocol));
 }
 
 net::awaitable<bool> Connection::play(HttpReply& reply) {
-  const auto player = std::make_shared<MultipartStream>(context_, reply.live->caller, strand_);
+  const Caller& caller = reply.live->caller;
+  const auto player =
+      std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(peer_));
   if (const absl::Status status = player->subscribe(reply.live->request); !status.ok()) {
     reply = errorReply(status);
     co_return false;

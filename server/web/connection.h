@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "admission/memory_budget.h"
 #include "web/asio.h"
 #include "web/http_reply.h"
 #include "web/live_reader.h"
@@ -24,12 +25,18 @@ enum class Admission : uint8_t {
   kStatus,  // one request: /healthz and /metrics; the rest is answered "too many connections"
 };
 
+// A connection among all of them.
+struct ConnectionPlace {
+  Admission admission = Admission::kEverything;
+  Reservation memory;  // of the connection itself
+};
+
 // Thread-safety: start(), leave(), cut() and awaitsRequest() may be called from any thread; the
 // rest happens on the strand of its socket.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   // `tls`: what it is encrypted with; null = not at all.
-  Connection(WebContext& context, tcp::socket socket, Admission admission,
+  Connection(WebContext& context, tcp::socket socket, ConnectionPlace place,
              std::shared_ptr<ssl::context> tls);
   ~Connection();
 
@@ -45,6 +52,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
  private:
   using Parser = http::request_parser<http::empty_body>;
 
+  // Cuts, on the strand.
+  void end();
   net::awaitable<void> serve();
   // False when the other side goes, or speaks no TLS and was told so.
   net::awaitable<bool> secure();
@@ -54,6 +63,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   net::awaitable<void> read(Parser& parser, ErrorCode& error);
   // Refuses what the client is not admitted to.
   std::optional<HttpReply> refusalOf(const HttpRequest& request) const;
+  // The reply, or that there is no memory for it.
+  net::awaitable<HttpReply> replyTo(HttpRequest request);
   net::awaitable<void> watch(Parser& parser, const HttpRequest& request);
   // True when the connection went to the player; else nothing was written, and `reply` says why.
   net::awaitable<bool> play(HttpReply& reply);
@@ -63,11 +74,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   HttpRequest requestOf(const http::request<http::empty_body>& request) const;
 
   WebContext& context_;
-  const Admission admission_;
+  const ConnectionPlace place_;
   const net::any_io_executor strand_;
   std::shared_ptr<ssl::context> tls_;  // null once it is in use, or where there is none
   WebStream stream_;                   // until a live reader has it
-  const std::string peer_;    // address of the client; empty if it is gone already
+  const std::string peer_;             // address of the client; empty if it is gone already
   beast::flat_buffer buffer_;
   std::shared_ptr<LiveReader> live_reader_;
   bool idle_ = false;  // waits for a request of which nothing has come

@@ -5,11 +5,15 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "admission/display_price.h"
+#include "base/host_port.h"
+#include "base/log.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "web/connection.h"
@@ -36,6 +40,13 @@ tcp::endpoint endpointOf(const HttpOptions& options) {
       strCat("web address \"", options.address, "\": accepted is a numeric IPv4 or IPv6 address"));
 }
 
+// A socket whose other side went already has none.
+std::string identityOf(const tcp::socket& socket) {
+  ErrorCode error;
+  const tcp::endpoint endpoint = socket.remote_endpoint(error);
+  return error ? "" : identityOfHost(endpoint.address().to_string());
+}
+
 tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
   const tcp::endpoint endpoint = endpointOf(options);
   try {
@@ -52,7 +63,7 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
 struct HttpServer::State {
   State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
         const Metrics& metrics, const Clock& clock, AccessControl& access,
-        std::function<absl::Status()> grpc_health)
+        std::function<absl::Status()> grpc_health, MemoryBudget& memory)
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
         endpoint(acceptor.local_endpoint()),
@@ -63,7 +74,8 @@ struct HttpServer::State {
                 broadcaster,
                 metrics,
                 clock,
-                access} {
+                access,
+                memory} {
     if (options.tls) tls.emplace(options.tls);
   }
 
@@ -76,28 +88,54 @@ struct HttpServer::State {
   std::mutex mutex;
   std::condition_variable fewer;
   std::map<uint64_t, HeldConnection> connections;  // oldest first
-  uint64_t connection_id = 0;
+  uint64_t connection_id = 0;                      // used by take() alone
 
   std::vector<std::jthread> threads;
 
+  void run();
+  void startAccepting();
   net::awaitable<void> accept();
+  net::awaitable<void> acceptOne(ErrorCode& error);
   void take(tcp::socket socket);
   // To what a further connection is admitted; none when it has to go. Under the mutex.
   // `seen` is to be let go after it: the end of a connection takes the mutex.
-  std::optional<Admission> admit(ConnectionList& seen);
+  std::optional<Admission> admit(bool has_memory, ConnectionList& seen);
   bool cutOldestIdle(Admission admission, ConnectionList& seen);
   size_t countOf(Admission admission) const;
   ConnectionList living();
 };
 
+// Handlers that find no memory are dropped: what they served has been told, or ends by a timeout.
+void HttpServer::State::run() {
+  for (bool is_running = true; is_running;) {
+    try {
+      io.run();
+      is_running = false;
+    } catch (const std::bad_alloc&) {
+      log(LogLevel::kWarning, "no memory is left to serve an HTTP client; it is dropped");
+    }
+  }
+}
+
+void HttpServer::State::startAccepting() {
+  net::co_spawn(acceptor.get_executor(), accept(), OnceEnded([this] { startAccepting(); }));
+}
+
+net::awaitable<void> HttpServer::State::acceptOne(ErrorCode& error) {
+  try {
+    tcp::socket socket(net::make_strand(io));
+    co_await acceptor.async_accept(socket, into(error));
+    if (!error) take(std::move(socket));
+  } catch (const std::bad_alloc&) {
+    error = net::error::no_memory;
+  }
+}
+
 net::awaitable<void> HttpServer::State::accept() {
   while (!context.draining) {
     ErrorCode error;
-    tcp::socket socket(net::make_strand(io));
-    co_await acceptor.async_accept(socket, into(error));
-    if (!error) {
-      take(std::move(socket));
-    } else if (error != net::error::operation_aborted) {
+    co_await acceptOne(error);
+    if (error && error != net::error::operation_aborted) {
       net::steady_timer pause(acceptor.get_executor(), kAcceptPause);
       co_await pause.async_wait(into(error));
     }
@@ -105,37 +143,44 @@ net::awaitable<void> HttpServer::State::accept() {
 }
 
 void HttpServer::State::take(tcp::socket socket) {
+  std::optional<Reservation> memory = context.memory.tryReserve(
+      {.use = MemoryUse::kConnections, .identity = identityOf(socket), .bytes = kConnectionBytes});
   ConnectionList seen;
   std::unique_lock lock(mutex);
-  const std::optional<Admission> admission = admit(seen);
+  const std::optional<Admission> admission = admit(memory.has_value(), seen);
+  lock.unlock();
   if (!admission) {
     context.metrics.connections_refused[Transport::kWeb].add();
     return;  // closes the socket
   }
   const uint64_t id = ++connection_id;
+  // Made without the lock: its end takes it, also where there is no memory to make it.
   const std::shared_ptr<Connection> connection(
-      new Connection(context, std::move(socket), *admission, tls ? tls->current() : nullptr),
+      new Connection(
+          context, std::move(socket),
+          {.admission = *admission, .memory = memory ? *std::move(memory) : Reservation()},
+          tls ? tls->current() : nullptr),
       [this, id](Connection* ended) {
         delete ended;
         std::lock_guard relock(mutex);
         connections.erase(id);
         fewer.notify_all();
       });
+  lock.lock();
   connections.emplace(id, HeldConnection{connection, *admission});
   lock.unlock();
   connection->start();
 }
 
-std::optional<Admission> HttpServer::State::admit(ConnectionList& seen) {
+std::optional<Admission> HttpServer::State::admit(bool has_memory, ConnectionList& seen) {
   const HttpOptions& options = context.options;
   const size_t status_max = options.status_connection_count_max;
   const size_t most = options.connection_count_max;
-  if (connections.size() < most || countOf(Admission::kEverything) < most) {
-    return Admission::kEverything;
-  }
+  const bool has_room = connections.size() < most || countOf(Admission::kEverything) < most;
+  if (has_memory && has_room) return Admission::kEverything;
   // Those that were cut are still there for a moment.
   if (connections.size() >= most + 2 * status_max) return std::nullopt;
-  if (cutOldestIdle(Admission::kEverything, seen)) return Admission::kEverything;
+  if (has_memory && cutOldestIdle(Admission::kEverything, seen)) return Admission::kEverything;
   if (countOf(Admission::kStatus) >= status_max) cutOldestIdle(Admission::kStatus, seen);
   return Admission::kStatus;
 }
@@ -167,15 +212,16 @@ ConnectionList HttpServer::State::living() {
 
 HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
                        Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock,
-                       AccessControl& access, std::function<absl::Status()> grpc_health)
+                       AccessControl& access, std::function<absl::Status()> grpc_health,
+                       MemoryBudget& memory)
     : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock,
-                                     access, std::move(grpc_health))) {
+                                     access, std::move(grpc_health), memory)) {
   State& state = *state_;
-  net::co_spawn(state.acceptor.get_executor(), state.accept(), net::detached);
+  state.startAccepting();
   for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {
     state.threads.emplace_back([&state] {
       nameThread("http");
-      state.io.run();
+      state.run();
     });
   }
 }

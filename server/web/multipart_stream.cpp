@@ -47,9 +47,11 @@ HttpReply answerStream(const WebContext& context, const HttpRequest& request, co
   return reply;
 }
 
-MultipartStream::MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand)
+MultipartStream::MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand,
+                                 std::string identity)
     : context_(context),
       caller_(std::move(caller)),
+      identity_(std::move(identity)),
       awake_(std::move(strand), net::steady_timer::time_point::max()) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
@@ -60,12 +62,14 @@ MultipartStream::~MultipartStream() {
 
 absl::Status MultipartStream::subscribe(const WatchRequest& request) {
   const auto executor = awake_.get_executor();
-  inbox_ = std::make_shared<AtlasInbox>(context_.clock, context_.metrics.replaced[HandOver::kWeb],
-                                        [executor, weak = weak_from_this()] {
-                                          net::post(executor, [weak] {
-                                            if (const auto self = weak.lock()) self->wake();
-                                          });
-                                        });
+  inbox_ = std::make_shared<AtlasInbox>(
+      context_.clock, context_.metrics.replaced[HandOver::kWeb],
+      [executor, weak = weak_from_this()] {
+        net::post(executor, [weak] {
+          if (const auto self = weak.lock()) self->wake();
+        });
+      },
+      identity_);
   auto subscription =
       context_.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox_);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
@@ -80,7 +84,8 @@ net::awaitable<void> MultipartStream::run(WebStream stream, http::response<http:
   limitSilence(stream_->socket(), context_.options.transfer_timeout);
   stream_->expiresNever();  // a read takes the clock with it that stands when it begins
   net::co_spawn(
-      awake_.get_executor(), [self] { return self->readUntilGone(); }, net::detached);
+      awake_.get_executor(), [self] { return self->readUntilGone(); },
+      OnceEnded([self] { self->cut(); }));
   http::response_serializer<http::empty_body> serializer(head);
   stream_->expiresAfter(context_.options.transfer_timeout);
   co_await http::async_write_header(*stream_, serializer, into(error));

@@ -32,8 +32,9 @@ HttpReply answerStream(const WebContext& context, const HttpRequest& request, co
 class MultipartStream final : public LiveReader,
                               public std::enable_shared_from_this<MultipartStream> {
  public:
-  // It ends once the identity of the caller does not hold any more.
-  MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand);
+  // It ends once the identity of the caller does not hold any more. `identity`: see Subscriber.
+  MultipartStream(WebContext& context, Caller caller, net::any_io_executor strand,
+                  std::string identity);
   ~MultipartStream() override;
 
   // Errors as Broadcaster::subscribe.
@@ -54,6 +55,7 @@ class MultipartStream final : public LiveReader,
 
   WebContext& context_;
   const Caller caller_;
+  const std::string identity_;
   net::steady_timer awake_;  // waiting for it is waiting for wake(), or until a repeat is due
   std::optional<WebStream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;

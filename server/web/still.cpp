@@ -34,14 +34,16 @@ HttpReply stillReply(const EncodedAtlas& atlas, const QuiltAddress& address) {
   return reply;
 }
 
-net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address) {
+net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address,
+                                    std::string identity) {
   const WatchRequest& request = address.request;
   const auto executor = co_await net::this_coro::executor;
   const auto deadline =
       std::make_shared<net::steady_timer>(executor, context.options.still_timeout);
   const auto inbox = std::make_shared<AtlasInbox>(
       context.clock, context.metrics.replaced[HandOver::kWeb],
-      [executor, deadline] { net::post(executor, [deadline] { deadline->cancel(); }); });
+      [executor, deadline] { net::post(executor, [deadline] { deadline->cancel(); }); },
+      std::move(identity));
   const auto subscription =
       context.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox);
   if (!subscription.ok()) co_return errorReply(subscription.status());
@@ -70,7 +72,8 @@ net::awaitable<HttpReply> answerStill(WebContext& context, HttpRequest request, 
   if (!picture.ok()) co_return errorReply(picture.status());
   QuiltAddress& address = picture->address;
   if (!address.redirect.empty()) co_return redirectReply(address.redirect);
-  co_return co_await takeAtlas(context, std::move(address));
+  co_return co_await takeAtlas(context, std::move(address),
+                               picture->caller.shareName(request.peer));
 }
 
 }  // namespace viewloom

@@ -2,6 +2,8 @@
 // One atlas of a stream as one JPEG, at a URL that says how the views lie in it.
 #pragma once
 
+#include <string>
+
 #include "web/asio.h"
 #include "web/http_reply.h"
 #include "web/http_request.h"

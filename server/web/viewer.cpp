@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "admission/out_of_memory.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
 #include "web/atlas_message.h"
@@ -22,14 +23,16 @@ std::string pongJson(uint64_t number) {
 
 }  // namespace
 
-Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters)
+Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters,
+               std::string identity)
     : context_(context),
       caller_(std::move(caller)),
       socket_(std::move(stream)),
       awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
       next_read_(socket_.get_executor()),
       pace_(context.options.message_rate),
-      parameters_(std::move(parameters)) {
+      parameters_(std::move(parameters)),
+      identity_(std::move(identity)) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
 
@@ -55,13 +58,14 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request, std::s
   ErrorCode error;
   co_await socket_.async_accept(request, into(error));
   if (error) co_return;
-  if (const absl::Status status = open(); !status.ok()) {
+  if (const absl::Status status = unlessOutOfMemory([&] { return open(); }); !status.ok()) {
     co_await writeText(errorJson(status), error);
     co_await close(status);
     co_return;
   }
   net::co_spawn(
-      socket_.get_executor(), [self] { return self->writeMessages(); }, net::detached);
+      socket_.get_executor(), [self] { return self->writeMessages(); },
+      OnceEnded([self] { self->cut(); }));
   co_await readMessages();
   gone_ = true;
   subscription_.reset();
@@ -92,11 +96,13 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
   const std::weak_ptr<Viewer> viewer = weak_from_this();
   const auto executor = socket_.get_executor();
   auto inbox = std::make_shared<AtlasInbox>(
-      context_.clock, context_.metrics.replaced[HandOver::kWeb], [executor, viewer] {
+      context_.clock, context_.metrics.replaced[HandOver::kWeb],
+      [executor, viewer] {
         net::post(executor, [viewer] {
           if (const auto self = viewer.lock()) self->wake();
         });
-      });
+      },
+      identity_);
   auto subscription =
       context_.broadcaster.subscribe(request->stream, request->display, request->encoding, inbox);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
@@ -114,7 +120,9 @@ net::awaitable<void> Viewer::readMessages() {
     co_await socket_.async_read(buffer, into(error));
     if (error) co_return;
     const auto bytes = buffer.cdata();
-    const absl::Status status = takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
+    const absl::Status status = unlessOutOfMemory([&] {
+      return takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
+    });
     buffer.consume(bytes.size());
     if (!status.ok()) pending_error_ = errorJson(status);
     wake();

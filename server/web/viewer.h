@@ -29,8 +29,9 @@ namespace viewloom {
 class Viewer final : public LiveReader, public std::enable_shared_from_this<Viewer> {
  public:
   // `caller` may watch the stream that the parameters name. The viewer ends once the identity of
-  // the caller does not hold any more.
-  Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters);
+  // the caller does not hold any more. `identity`: see Subscriber.
+  Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters,
+         std::string identity);
   ~Viewer() override;
 
   // Shakes hands, with a WebSocket protocol unless it is "", and serves until either side goes.
@@ -67,6 +68,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   net::steady_timer next_read_;
   MessagePace pace_;
   const QueryParameters parameters_;
+  const std::string identity_;
   AskedDisplay asked_;  // as it is served
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "access/access_control.h"
+#include "admission/memory_budget.h"
 #include "base/clock.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
@@ -56,6 +57,7 @@ struct WebContext {
   const Metrics& metrics;
   const Clock& clock;
   AccessControl& access;
+  MemoryBudget& memory;
   std::atomic<bool> draining{false};
 };
 

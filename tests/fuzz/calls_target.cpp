@@ -76,7 +76,7 @@ class World {
                      .clock = clock_,
                      .metrics = metrics(),
                      .limits = {.side_px_max = 256, .area_px_max = 1 << 16, .view_count_max = 64}},
-        *access_.admit(kStreamAtlases, "127.0.0.1", ""));
+        *access_.admit(kStreamAtlases, "127.0.0.1", ""), "127.0.0.1");
   }
 
   void advance() { clock_.advance(kTickNs); }

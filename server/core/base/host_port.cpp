@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 
+#include <array>
 #include <charconv>
 #include <cstring>
 
@@ -48,6 +49,20 @@ std::optional<HostPort> parseHostPort(std::string_view text) {
   }
   if (parsed.host.empty() || !readPort(text, parsed.port)) return std::nullopt;
   return parsed;
+}
+
+std::string identityOfHost(std::string_view host) {
+  constexpr size_t kSubnetBytes = 8;
+  if (isLoopbackHost(host)) return "this machine";
+  in6_addr ipv6{};
+  if (inet_pton(AF_INET6, std::string(host).c_str(), &ipv6) != 1) return std::string(host);
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (IN6_IS_ADDR_V4MAPPED(&ipv6)) {
+    const uint8_t* const mapped = &ipv6.s6_addr[sizeof ipv6.s6_addr - kIpv4Bytes];
+    return inet_ntop(AF_INET, mapped, text.data(), text.size());
+  }
+  std::memset(&ipv6.s6_addr[kSubnetBytes], 0, sizeof ipv6.s6_addr - kSubnetBytes);
+  return strCat(inet_ntop(AF_INET6, &ipv6, text.data(), text.size()), "/64");
 }
 
 bool isLoopbackHost(std::string_view host) {

@@ -22,4 +22,9 @@ std::optional<HostPort> parseHostPort(std::string_view text);
 // Whether a host, without port and brackets, is a name or an address of the loopback interface.
 bool isLoopbackHost(std::string_view host);
 
+// The client at an address, for shares: "this machine" for loopback, the address for IPv4, and for
+// IPv6 the first 64 bits ("2001:db8:0:1::/64"), as one client has all addresses below. Other texts
+// stay as they are.
+std::string identityOfHost(std::string_view host);
+
 }  // namespace viewloom

@@ -85,6 +85,17 @@ TEST_F(Access, isOpenToAllWithoutFiles) {
   EXPECT_TRUE(caller->recheck().ok());
 }
 
+TEST_F(Access, namesWhoseShareACallerTakes) {
+  AccessControl open_access(clock_);
+  const auto anybody = open_access.admit(kPublishFrames, "10.0.0.7", "");
+  EXPECT_EQ(anybody->shareName("10.0.0.7"), "10.0.0.7");
+  EXPECT_EQ(anybody->shareName("127.0.0.1"), "this machine");
+  EXPECT_EQ(anybody->shareName("CN=camera-1"), "CN=camera-1");
+  const std::string token = add("a");
+  const auto access = open();
+  EXPECT_EQ(access->admit(kPublishFrames, "10.0.0.7", token)->shareName("10.0.0.7"), "a");
+}
+
 TEST_F(Access, forgetsARevokedToken) {
   const std::string token = add("a");
   const auto access = open();

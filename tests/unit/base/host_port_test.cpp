@@ -47,5 +47,17 @@ TEST(HostPort, knowsTheLoopbackByAddressNotByLook) {
   }
 }
 
+TEST(IdentityOfHost, isOneForAllAddressesOfAClient) {
+  for (const char* const host : {"127.0.0.1", "localhost", "::1", "::ffff:127.0.0.2"}) {
+    EXPECT_EQ(identityOfHost(host), "this machine") << host;
+  }
+  EXPECT_EQ(identityOfHost("this machine"), "this machine");
+  EXPECT_EQ(identityOfHost("10.0.0.7"), "10.0.0.7");
+  EXPECT_EQ(identityOfHost("::ffff:10.0.0.7"), "10.0.0.7");
+  EXPECT_EQ(identityOfHost("2001:db8:0:1:aaaa::1"), "2001:db8:0:1::/64");
+  EXPECT_EQ(identityOfHost("2001:db8:0:1::2"), "2001:db8:0:1::/64");
+  EXPECT_NE(identityOfHost("2001:db8:0:2::2"), identityOfHost("2001:db8:0:1::2"));
+}
+
 }  // namespace
 }  // namespace viewloom::test::host_port_test

@@ -55,7 +55,7 @@ class Session : public testing::Test {
     access_.emplace(AccessOptions{.token_file = path_}, clock_);
     const auto healthy = [] { return absl::OkStatus(); };
     context_.emplace(HttpOptions{}, HostPolicy({}, {}, {}), healthy, streams_, broadcaster_,
-                     metrics_, clock_, *access_);
+                     metrics_, clock_, *access_, unboundedMemory());
     for (const char* name : {"room.1", "hall"}) claims_.push_back(*streams_.claim(name, "", [] {}));
   }
   ~Session() override { std::filesystem::remove(path_); }
