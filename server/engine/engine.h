@@ -26,8 +26,8 @@
 
 namespace viewloom {
 
-// An engine has no memory left for what it was asked for; others may be served. The text is for
-// users.
+// An engine, or the budget, has no memory left for what it was asked for; others may be served. The
+// text is for users.
 class EngineOutOfMemory : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -164,6 +164,9 @@ class Engine {
   virtual void connect(EngineEvents events) = 0;
 
   virtual bool takes(const Frame& frame) const = 0;
+  // Memory of this machine that a frame of this format takes here once it is prepared, beside its
+  // planes, bytes at most. 0 where the engine does not take such frames.
+  virtual uint64_t preparedBytes(const FrameFormat& format) const = 0;
   virtual std::unique_ptr<FramePreparer> preparer() = 0;
 
   // nullptr where it cannot make such a picture of such a frame, which need not be prepared unless

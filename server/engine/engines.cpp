@@ -13,6 +13,13 @@ size_t Engines::firstFor(const Frame& frame) const {
   return size_t(first - all.begin());
 }
 
+uint64_t Engines::preparedBytes(const FrameFormat& format) const {
+  for (const auto& engine : all) {
+    if (const uint64_t bytes = engine->preparedBytes(format); bytes > 0) return bytes;
+  }
+  return 0;
+}
+
 StreamPreparers::StreamPreparers(const Engines& engines) {
   for (const auto& engine : engines.all) preparers_.push_back(engine->preparer());
 }

@@ -18,6 +18,8 @@ struct Engines {
 
   // The first engine that takes such frames, or all.size().
   size_t firstFor(const Frame& frame) const;
+  // Memory that the first engine that takes such frames prepares one in.
+  uint64_t preparedBytes(const FrameFormat& format) const;
 };
 
 // The preparers of one stream, one an engine.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "admission/memory_budget.h"
 #include "engine/engines.h"
 #include "gpu/device.h"
 
@@ -13,6 +14,8 @@ struct EngineOptions {
   uint32_t trace_slot_count = 3;  // atlases, or strips of them, on their way at once
   // Compiles the kernels of likely displays while nobody waits.
   bool warms_up = false;
+  // Frames and atlases are made in it. Outlives the engines.
+  MemoryBudget& memory = unboundedMemory();
 };
 
 // Where the device is the CPU, views are swept where they can be: the same cores do it faster, and

@@ -17,8 +17,8 @@ namespace viewloom {
 
 // Lends slots. A borrower keeps a slot at least until the device has finished with it. Borrowed
 // slots may outlive the pool. Slots count themselves in the server's memory, free ones too. So idle
-// memory here has no bytes of its own. Thread-safety: all methods may be called from any thread, and
-// slots may return on any thread.
+// memory here has no bytes of its own. Thread-safety: all methods may be called from any thread,
+// and slots may return on any thread.
 template <typename Slot>
 class SlotPool {
  public:
@@ -34,6 +34,11 @@ class SlotPool {
 
   // The free slots.
   std::shared_ptr<IdleMemory> idleMemory() const { return shelf_; }
+
+  // Slots that are lent, and will come back.
+  size_t lentCount() const { return shelf_->lentCount(); }
+  // Whether there are no slots, neither free nor lent.
+  bool isEmpty() const { return shelf_->isEmpty(); }
 
   // Takes a slot for which `fits(slot)` holds: a free one, or a new one from `make()`. Once
   // slot_count_max slots exist, a new one replaces a free one that does not fit. Returns nullptr if
@@ -82,6 +87,16 @@ class SlotPool {
     bool hasRoom() {
       std::lock_guard lock(mutex);
       return slot_count < slot_count_max || !free_slots.empty();
+    }
+
+    size_t lentCount() {
+      std::lock_guard lock(mutex);
+      return slot_count - free_slots.size();
+    }
+
+    bool isEmpty() {
+      std::lock_guard lock(mutex);
+      return slot_count == 0;
     }
 
     // Room for one more slot; frees a misfit for it if need be.

@@ -12,6 +12,10 @@ namespace {
 // Rows begin at whole cache lines.
 constexpr uint32_t kPitchFloats = 16;
 
+uint32_t pitchOf(uint32_t width) {
+  return (width + kPitchFloats - 1) / kPitchFloats * kPitchFloats + kGuardColumns;
+}
+
 // Behind the image a row may have been written over by whole vectors.
 void endRow(float* row, uint32_t width, ColumnCounts& counts) {
   const InvZRange range = rangeOfRow(row, width);
@@ -46,7 +50,7 @@ void DepthColumns::beginFrame(const Frame& frame) {
   if (size_px == size_px_ && layer_count == layer_count_) return;
   size_px_ = size_px;
   layer_count_ = layer_count;
-  pitch_ = (size_px.width + kPitchFloats - 1) / kPitchFloats * kPitchFloats + kGuardColumns;
+  pitch_ = pitchOf(size_px.width);
   inv_z_.reserve(floatCount());
   clearGuard(inv_z_.data());
 }
@@ -54,6 +58,12 @@ void DepthColumns::beginFrame(const Frame& frame) {
 size_t DepthColumns::floatCount() const {
   const size_t row_count = size_t{layer_count_} * (size_px_.height + 2 * kGuardRows);
   return row_count * pitch_ + 2 * kGuardColumns;
+}
+
+uint64_t DepthColumns::bytesFor(SizePx size_px, uint32_t layer_count) {
+  constexpr uint64_t kArrays = 3;
+  const uint64_t row_count = uint64_t{layer_count} * (size_px.height + 2 * kGuardRows);
+  return kArrays * (row_count * pitchOf(size_px.width) + 2 * kGuardColumns) * sizeof(float);
 }
 
 uint64_t DepthColumns::sizeBytes() const {

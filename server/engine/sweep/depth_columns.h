@@ -56,6 +56,8 @@ class DepthColumns {
   // From column 0 on; row -kGuardRows .. height + kGuardRows - 1.
   const float* row(uint32_t layer, int y) const { return inv_z_.data() + offset(layer, y); }
   uint64_t sizeBytes() const;
+  // The same of such frames, at most: once they are smoothed.
+  static uint64_t bytesFor(SizePx size_px, uint32_t layer_count);
 
  private:
   struct Plane {

@@ -19,12 +19,24 @@ constexpr uint32_t kRowsPerPiece = 16;
 
 class SweptFrame final : public PreparedFrame {
  public:
-  explicit SweptFrame(WorkerPool& workers) : workers_(workers) {}
+  SweptFrame(WorkerPool& workers, MemoryBudget& memory) : workers_(workers), memory_(memory) {}
 
   void take(FramePtr frame) override { frame_ = std::move(frame); }
-  void reserve() override {}
+  void reserve() override {
+    const uint64_t wanted_bytes = SweepSource::bytesFor(frame_->format);
+    if (reserved_.bytes() == wanted_bytes) return;
+    source_ = SweepSource();
+    reserved_.release();
+    absl::StatusOr<Reservation> reserved = memory_.reserve(
+        {.use = MemoryUse::kStructures, .identity = frame_->publisher, .bytes = wanted_bytes},
+        "preparing the frame", [](uint64_t) { return "Publish smaller frames or fewer layers"; });
+    if (!reserved.ok()) throw EngineOutOfMemory(std::string(reserved.status().message()));
+    reserved_ = *std::move(reserved);
+  }
   int64_t prepare(const Clock&) override {
-    if (frame_) source_.prepare(std::move(frame_), workers_);
+    if (!frame_) return 0;
+    reserve();
+    source_.prepare(std::move(frame_), workers_);
     return 0;
   }
   FrameMeasures measures() const override {
@@ -34,17 +46,23 @@ class SweptFrame final : public PreparedFrame {
 
  private:
   WorkerPool& workers_;
+  MemoryBudget& memory_;
+  Reservation reserved_;
   FramePtr frame_;      // that is not prepared yet
   SweepSource source_;  // keeps the last frame that was prepared until the next one is
 };
 
 class SweptFramePreparer final : public FramePreparer {
  public:
-  explicit SweptFramePreparer(WorkerPool& workers) : workers_(workers) {}
-  std::unique_ptr<PreparedFrame> make() override { return std::make_unique<SweptFrame>(workers_); }
+  SweptFramePreparer(WorkerPool& workers, MemoryBudget& memory)
+      : workers_(workers), memory_(memory) {}
+  std::unique_ptr<PreparedFrame> make() override {
+    return std::make_unique<SweptFrame>(workers_, memory_);
+  }
 
  private:
   WorkerPool& workers_;
+  MemoryBudget& memory_;
 };
 
 const SweepSource& sourceOf(const PreparedFrame& frame) {
@@ -66,14 +84,14 @@ struct PictureSweep final : Plan {
 // The whole atlas at once: its rows lie all over it.
 class AtlasSweep final : public StripWork {
  public:
-  AtlasSweep(AtlasOrder order, TraceOutputs planes, std::shared_ptr<SweptAtlas> atlas,
+  AtlasSweep(AtlasOrder order, TraceOutputs planes, std::shared_ptr<HeldAtlas> atlas,
              std::shared_ptr<SweeperShelf> sweepers)
       : StripWork({.strip_count = order.strips.count(), .piece_count = pieceCount(planOf(order))}),
         order_(std::move(order)),
         planes_(planes),
         atlas_(std::move(atlas)),
         sweepers_(std::move(sweepers)) {
-    atlas_->begin(*order_.picture, planes_);
+    atlas_->planes.begin(*order_.picture, planes_);
   }
 
   static const SweepPlan& planOf(const AtlasOrder& order) {
@@ -90,7 +108,7 @@ class AtlasSweep final : public StripWork {
          .plan = &plan,
          .source = source.rowSource(),
          .inv_z_max = float(source.measured().stats.inv_z_max)},
-        first, std::min(kRowsPerPiece, plan.rowCount() - first), planes_, *atlas_);
+        first, std::min(kRowsPerPiece, plan.rowCount() - first), planes_, atlas_->planes);
     sweepers_->putBack(std::move(sweeper));
     std::lock_guard lock(mutex_);
     counts_.coverage.add(coverage);
@@ -109,12 +127,12 @@ class AtlasSweep final : public StripWork {
       return std::span<const T>(plane).subspan(size_t{rows.first_row} * size_px.width,
                                                size_t{rows.row_count} * size_px.width);
     };
-    return {.rgba = atlas_->color,
-            .ycbcr = atlas_->ycbcr,
+    return {.rgba = atlas_->planes.color,
+            .ycbcr = atlas_->planes.ycbcr,
             .color_px = size_px,
             .first_row = rows.first_row,
-            .depth = rowsOf(atlas_->depth),
-            .mask = rowsOf(atlas_->mask)};
+            .depth = rowsOf(atlas_->planes.depth),
+            .mask = rowsOf(atlas_->planes.mask)};
   }
 
  private:
@@ -124,7 +142,7 @@ class AtlasSweep final : public StripWork {
 
   const AtlasOrder order_;
   const TraceOutputs planes_;
-  const std::shared_ptr<SweptAtlas> atlas_;  // holding it keeps it from reuse
+  const std::shared_ptr<HeldAtlas> atlas_;  // holding it keeps it from reuse
   const std::shared_ptr<SweeperShelf> sweepers_;
   mutable std::mutex mutex_;
   RayCounts counts_;  // guarded by mutex_
@@ -133,10 +151,9 @@ class AtlasSweep final : public StripWork {
 // Hands everything on in its only step.
 class SweepMaking final : public Making {
  public:
-  SweepMaking(AtlasOrder order, std::shared_ptr<SweptAtlas> atlas,
+  SweepMaking(AtlasOrder order, const TraceOutputs& planes, std::shared_ptr<HeldAtlas> atlas,
               std::shared_ptr<SweeperShelf> sweepers, HandOn hand_on)
-      : planes_(order.planes), hand_on_(std::move(hand_on)) {
-    planes_.color = AtlasSweep::planOf(order).colorForm(planes_.color);
+      : planes_(planes), hand_on_(std::move(hand_on)) {
     work_ = std::make_unique<AtlasSweep>(std::move(order), planes_, std::move(atlas),
                                          std::move(sweepers));
   }
@@ -169,18 +186,32 @@ void SweeperShelf::putBack(std::unique_ptr<ViewSweeper> sweeper) {
   free_.push_back(std::move(sweeper));
 }
 
-SweepEngine::SweepEngine(uint32_t atlas_count_max, WorkerPool& workers)
+std::shared_ptr<HeldAtlas> AtlasPool::take() {
+  if (aside_) return std::exchange(aside_, nullptr);
+  return slots_.take([](const HeldAtlas&) { return true; },
+                     [] { return std::make_unique<HeldAtlas>(); });
+}
+
+SweepEngine::SweepEngine(uint32_t atlas_count_max, WorkerPool& workers, MemoryBudget& memory)
     : workers_(workers),
+      memory_(memory),
       sweepers_(std::make_shared<SweeperShelf>()),
       atlases_(atlas_count_max, [this] { events_.on_room(); }),
-      atlases_for_eyes_(kAtlasesForEyes, [this] { events_.on_room(); }) {}
+      atlases_for_eyes_(kAtlasesForEyes, [this] { events_.on_room(); }) {
+  memory_.addIdle(atlases_.idleMemory());
+  memory_.addIdle(atlases_for_eyes_.idleMemory());
+}
 
 bool SweepEngine::takes(const Frame& frame) const {
   return canSweep(frame);
 }
 
 std::unique_ptr<FramePreparer> SweepEngine::preparer() {
-  return std::make_unique<SweptFramePreparer>(workers_);
+  return std::make_unique<SweptFramePreparer>(workers_, memory_);
+}
+
+uint64_t SweepEngine::preparedBytes(const FrameFormat& format) const {
+  return canSweep(format) ? SweepSource::bytesFor(format) : 0;
 }
 
 PlanPtr SweepEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) const {
@@ -191,12 +222,39 @@ PlanPtr SweepEngine::plan(const PicturePtr& picture, const PreparedFrame& frame)
 }
 
 std::unique_ptr<Making> SweepEngine::begin(AtlasOrder order, HandOn hand_on) {
-  SlotPool<SweptAtlas>& pool = order.is_for_eyes ? atlases_for_eyes_ : atlases_;
-  std::shared_ptr<SweptAtlas> atlas = pool.take([](const SweptAtlas&) { return true; },
-                                                [] { return std::make_unique<SweptAtlas>(); });
+  AtlasPool& pool = order.is_for_eyes ? atlases_for_eyes_ : atlases_;
+  const bool are_others_lent = atlases_.lentCount() + atlases_for_eyes_.lentCount() > 0;
+  std::shared_ptr<HeldAtlas> atlas = pool.take();
   if (!atlas) return nullptr;
-  return std::make_unique<SweepMaking>(std::move(order), std::move(atlas), sweepers_,
+  TraceOutputs planes = order.planes;
+  planes.color = AtlasSweep::planOf(order).colorForm(planes.color);
+  if (!makeRoom(order, planes, *atlas)) {
+    if (are_others_lent) {
+      pool.putAside(std::move(atlas));
+      return nullptr;
+    }
+    throw EngineOutOfMemory(
+        "the server's memory.budget has no room left for an atlas of this size; choose a smaller "
+        "one, or try again later");
+  }
+  return std::make_unique<SweepMaking>(std::move(order), planes, std::move(atlas), sweepers_,
                                        std::move(hand_on));
+}
+
+// An atlas that was much larger is made anew, so that it gives the rest back.
+bool SweepEngine::makeRoom(const AtlasOrder& order, const TraceOutputs& planes, HeldAtlas& atlas) {
+  constexpr uint64_t kWasteFactorMax = 4;
+  const uint64_t needed_bytes = SweptAtlas().capacityBytesFor(*order.picture, planes);
+  const bool fits = atlas.planes.capacityBytesFor(*order.picture, planes) <= atlas.memory.bytes() &&
+                    atlas.memory.bytes() <= kWasteFactorMax * needed_bytes;
+  if (fits) return true;
+  atlas.planes = {};
+  atlas.memory.release();
+  std::optional<Reservation> reserved =
+      memory_.tryReserve({.use = MemoryUse::kAtlases, .bytes = needed_bytes});
+  if (!reserved) return false;
+  atlas.memory = *std::move(reserved);
+  return true;
 }
 
 }  // namespace viewloom

@@ -3,10 +3,13 @@
 // frame, in its rows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/slot_pool.h"
 #include "base/worker_pool.h"
 #include "engine/engine.h"
@@ -25,15 +28,41 @@ class SweeperShelf {
   std::vector<std::unique_ptr<ViewSweeper>> free_;
 };
 
+// An atlas, and its memory in the budget.
+struct HeldAtlas {
+  Reservation memory;
+  SweptAtlas planes;  // last: it goes first
+};
+
+// Lends atlases. One for which the budget had no room waits aside: its return would tell everybody
+// that there is room. Thread-safety: as SlotPool, but one thread takes and puts aside.
+class AtlasPool {
+ public:
+  AtlasPool(size_t atlas_count_max, std::function<void()> on_return)
+      : slots_(atlas_count_max, std::move(on_return)) {}
+
+  std::shared_ptr<HeldAtlas> take();
+  void putAside(std::shared_ptr<HeldAtlas> atlas) { aside_ = std::move(atlas); }
+  bool hasRoom() const { return aside_ || slots_.hasRoom(); }
+  size_t lentCount() const { return slots_.lentCount() - (aside_ ? 1 : 0); }
+  std::shared_ptr<IdleMemory> idleMemory() const { return slots_.idleMemory(); }
+
+ private:
+  SlotPool<HeldAtlas> slots_;
+  std::shared_ptr<HeldAtlas> aside_;
+};
+
 class SweepEngine final : public Engine {
  public:
   // `atlas_count_max`: atlases of untracked displays that are made at a time. `workers` prepare
-  // frames, and outlive the engine.
-  SweepEngine(uint32_t atlas_count_max, WorkerPool& workers);
+  // frames. Both they and the memory outlive the engine.
+  SweepEngine(uint32_t atlas_count_max, WorkerPool& workers,
+              MemoryBudget& memory = unboundedMemory());
 
   TraceMethod method() const override { return TraceMethod::kSweep; }
   void connect(EngineEvents events) override { events_ = std::move(events); }
   bool takes(const Frame& frame) const override;
+  uint64_t preparedBytes(const FrameFormat& format) const override;
   std::unique_ptr<FramePreparer> preparer() override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
   bool isReady(const AtlasOrder&, std::function<void()>) override { return true; }
@@ -43,11 +72,15 @@ class SweepEngine final : public Engine {
   void drain() override {}
 
  private:
+  // Memory for the atlas; false = the budget has none.
+  bool makeRoom(const AtlasOrder& order, const TraceOutputs& planes, HeldAtlas& atlas);
+
   EngineEvents events_;
   WorkerPool& workers_;
+  MemoryBudget& memory_;
   const std::shared_ptr<SweeperShelf> sweepers_;
-  SlotPool<SweptAtlas> atlases_;
-  SlotPool<SweptAtlas> atlases_for_eyes_;
+  AtlasPool atlases_;
+  AtlasPool atlases_for_eyes_;
 };
 
 }  // namespace viewloom

@@ -18,20 +18,28 @@ uint32_t pieceCount(size_t count, uint32_t per_piece) {
 
 }  // namespace
 
-bool canSweep(const Frame& frame) {
-  if (frame.sources.size() != 1 || frame.format.sources.front().is_cube_map) return false;
-  const std::vector<LayerPlanes>& planes = frame.sources.front();
-  const std::vector<LayerFormat>& layers = frame.format.sources.front().layers;
+bool canSweep(const FrameFormat& format) {
+  if (format.sources.size() != 1 || format.sources.front().is_cube_map) return false;
+  const std::vector<LayerFormat>& layers = format.sources.front().layers;
   const SizePx size_px = layers.front().depth.size_px;
-  const auto isPlain = [&](const LayerFormat& layer) {
-    return layer.color.size_px == size_px && layer.color.transfer == ColorTransfer::kSrgb &&
-           layer.color.primaries == ColorPrimaries::kBt709 &&
-           layer.color.alpha == AlphaMode::kOpaque;
-  };
-  return frame.format.exposure_ev == 0 && std::all_of(layers.begin(), layers.end(), isPlain) &&
-         std::all_of(planes.begin(), planes.end(), [](const LayerPlanes& layer) {
+  return format.exposure_ev == 0 && std::ranges::all_of(layers, [&](const LayerFormat& layer) {
+           return layer.color.size_px == size_px && layer.color.transfer == ColorTransfer::kSrgb &&
+                  layer.color.primaries == ColorPrimaries::kBt709 &&
+                  layer.color.alpha == AlphaMode::kOpaque &&
+                  layer.color.encoding != PlaneEncoding::kRgba16f;
+         });
+}
+
+bool canSweep(const Frame& frame) {
+  return canSweep(frame.format) &&
+         std::ranges::all_of(frame.sources.front(), [](const LayerPlanes& layer) {
            return layer.color_encoding == PlaneEncoding::kRgba8;
          });
+}
+
+uint64_t SweepSource::bytesFor(const FrameFormat& format) {
+  const std::vector<LayerFormat>& layers = format.sources.front().layers;
+  return DepthColumns::bytesFor(layers.front().depth.size_px, uint32_t(layers.size()));
 }
 
 void SweepSource::prepare(FramePtr frame, WorkerPool& workers) {

@@ -9,6 +9,7 @@ namespace viewloom {
 
 // Whether such frames can be swept: all colour is opaque 8-bit sRGB, a px for each of depth.
 bool canSweep(const Frame& frame);
+bool canSweep(const FrameFormat& format);
 
 // Keeps its memory from frame to frame. Thread-safety: none while it is prepared, then immutable.
 class SweepSource {
@@ -23,6 +24,8 @@ class SweepSource {
   RowSource rowSource() const;
   // Beside the frame.
   uint64_t sizeBytes() const { return columns_.sizeBytes(); }
+  // At most, for frames of this format.
+  static uint64_t bytesFor(const FrameFormat& format);
 
  private:
   // Adds up the histograms of all blocks, made by all workers; of the kind of `empty`.

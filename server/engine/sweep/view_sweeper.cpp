@@ -64,6 +64,22 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
 }
 
+uint64_t SweptAtlas::capacityBytesFor(const TraceJob& job, const TraceOutputs& outputs) const {
+  const SizePx size_px = job.layout->size_px;
+  const uint64_t area_px = size_px.area();
+  const bool is_rgba = outputs.color == ColorForm::kRgba;
+  const uint64_t ycbcr_bytes = is_rgba ? 0 : YcbcrLayout(size_px, outputs.color).sizeBytes();
+  const auto after = [](uint64_t capacity, uint64_t wanted, uint64_t sample_bytes) {
+    return std::max(capacity, wanted) * sample_bytes;
+  };
+  return after(color.capacity(), is_rgba ? area_px : 0, sizeof(uint32_t)) +
+         after(ycbcr.capacity(), ycbcr_bytes, 1) +
+         after(depth.capacity(), outputs.depth ? area_px : 0, sizeof(float)) +
+         after(mask.capacity(), outputs.mask ? area_px : 0, 1) +
+         after(linear.capacity(), outputs.linear ? 4 * area_px : 0, sizeof(float)) +
+         after(records.capacity(), outputs.records ? area_px : 0, sizeof(abi::RayRecord));
+}
+
 // Writes codes that are rounded already.
 void writeLinear(const uint32_t* rgba, uint32_t width_px, float* linear) {
   for (size_t i = 0; i < size_t{width_px} * 4; ++i) {

@@ -34,6 +34,9 @@ struct SweptAtlas {
 
   // Room for the planes, black where no view stands.
   void begin(const TraceJob& job, const TraceOutputs& outputs);
+
+  // Bytes that it has room for after begin() of such an atlas.
+  uint64_t capacityBytesFor(const TraceJob& job, const TraceOutputs& outputs) const;
 };
 
 // Keeps what a row needs on its way. Thread-safety: none; one a thread. Several may sweep rows of

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/slot_pool.h"
 #include "gpu/submission.h"
 #include "trace/trace_slot.h"
@@ -15,9 +17,12 @@
 namespace viewloom {
 
 struct StripTrace {
-  StripTrace(const Device& device, const TraceSlotShape& shape)
-      : slot(device, shape), recorders{CommandRecorder(device), CommandRecorder(device)} {}
+  StripTrace(const Device& device, const TraceSlotShape& shape, Reservation reserved)
+      : memory(std::move(reserved)),
+        slot(device, shape),
+        recorders{CommandRecorder(device), CommandRecorder(device)} {}
 
+  const Reservation memory;
   TraceSlot slot;
   // Parts of a strip take turns: one is recorded while the device does the one before it.
   std::array<CommandRecorder, 2> recorders;
@@ -25,15 +30,16 @@ struct StripTrace {
 };
 
 // Slots are kept apart by the planes that they trace, and grow to the largest strip that was asked
-// for. The device must outlive it. Thread-safety: take() from one thread.
+// for since there were none. Device and memory outlive it. Thread-safety: take() from one thread.
 class StripTraces {
  public:
   // So many with the same planes. `on_return` is called on any thread.
-  StripTraces(const Device& device, uint32_t slot_count_max,
+  StripTraces(const Device& device, MemoryBudget& memory, uint32_t slot_count_max,
               const std::function<void()>& on_return);
 
   // Those for eyes are no others: tracked displays wait for nobody else's strips. Holding it keeps
-  // it from reuse. nullptr: all are lent.
+  // it from reuse. nullptr: all are lent, or the budget has no room until one comes back. Throws
+  // EngineOutOfMemory where none would come back.
   std::shared_ptr<StripTrace> take(const TraceSlotShape& shape, bool is_for_eyes);
 
  private:
@@ -43,7 +49,11 @@ class StripTraces {
     SlotPool<StripTrace> slots;
   };
 
+  std::unique_ptr<StripTrace> make(const TraceSlotShape& shape);
+  bool areSomeLent() const;
+
   const Device& device_;
+  MemoryBudget& memory_;
   std::vector<Ring> rings_;
 };
 

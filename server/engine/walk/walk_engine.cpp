@@ -33,9 +33,9 @@ CompilePlace compilePlaceFor(const Device& device) {
 }
 
 WalkEngine::WalkEngine(const Device& device, const WalkOptions& options)
-    : works_(device),
+    : works_(device, options.memory),
       tracer_(device),
-      strips_(device, options.strip_count_max, [this] { events_.on_room(); }),
+      strips_(device, options.memory, options.strip_count_max, [this] { events_.on_room(); }),
       gatherers_(std::make_shared<GathererShelf>()),
       watch_(works_.timeline, [this](const std::exception& error) { events_.on_failure(error); }) {
   if (options.warms_up) warm_up_.emplace(works_, tracer_);

@@ -33,6 +33,7 @@ CompilePlace compilePlaceFor(const Device& device);
 struct WalkOptions {
   uint32_t strip_count_max = 3;  // with the same planes, on their way at once
   bool warms_up = false;
+  MemoryBudget& memory = unboundedMemory();  // of frames and strips; outlives the engine
   CompilePlace compile_place = CompilePlace::kRecordingThread;
   std::function<void()> before_each_kernel = [] {};  // for tests: own threads call it
 };
@@ -45,6 +46,9 @@ class WalkEngine final : public Engine {
   TraceMethod method() const override { return TraceMethod::kWalk; }
   void connect(EngineEvents events) override;
   bool takes(const Frame&) const override { return true; }
+  uint64_t preparedBytes(const FrameFormat& format) const override {
+    return WalkedFrame::bytesFor(works_.device, format);
+  }
   std::unique_ptr<FramePreparer> preparer() override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
   bool isReady(const AtlasOrder& order, std::function<void()> then) override;

@@ -8,6 +8,22 @@
 namespace viewloom {
 namespace {
 
+// Memory of this machine, bytes. That of a graphics card is its own, and limits itself.
+uint64_t buildBytesOf(const Device& device, const std::vector<FrameShape>& shapes) {
+  uint64_t bytes = 0;
+  for (const FrameShape& shape : shapes) {
+    bytes += device.info().shares_memory ? buildBytes(shape) : shape.staged_bytes;
+  }
+  return bytes;
+}
+
+uint64_t structureBytesOf(const Device& device, const std::vector<FrameShape>& shapes) {
+  uint64_t bytes = 0;
+  if (!device.info().shares_memory) return bytes;
+  for (const FrameShape& shape : shapes) bytes += structureBytes(shape);
+  return bytes;
+}
+
 // Calls it, and says in words for users that the device has no memory left for that.
 template <typename Call>
 auto withinMemory(const Call& call) {
@@ -42,18 +58,37 @@ int64_t WalkedFrame::prepare(const Clock& clock) {
   });
 }
 
-// Under the lock of the builds.
+// Under the lock of the builds, while the frame is there.
 void WalkedFrame::makeRoom() {
+  const bool has_form = form_ && form_->shapes == shapes_;
+  if (!has_form) form_.reset();
   if (!fits(builds_->memory, shapes_)) {
     builds_->memory.clear();
+    builds_->reserved = nullptr;
+    builds_->reserved =
+        std::make_shared<const Reservation>(reserveBytes(buildBytesOf(works_.device, shapes_)));
     builds_->memory = makeBuildMemory(works_.device, shapes_);
   }
-  if (form_ && form_->shapes == shapes_) {
+  if (has_form) {
     form_->structure.buildIn(builds_->memory);
   } else {
-    form_.reset();
-    form_.emplace(works_.device, builds_->memory, shapes_);
+    form_.emplace(works_.device, builds_->memory, shapes_,
+                  reserveBytes(structureBytesOf(works_.device, shapes_)));
   }
+  form_->build_reserved = builds_->reserved;
+}
+
+Reservation WalkedFrame::reserveBytes(uint64_t bytes) const {
+  absl::StatusOr<Reservation> reserved = works_.memory.reserve(
+      {.use = MemoryUse::kStructures, .identity = frame_->publisher, .bytes = bytes},
+      "preparing the frame", [](uint64_t) { return "Publish smaller frames or fewer layers"; });
+  if (!reserved.ok()) throw EngineOutOfMemory(std::string(reserved.status().message()));
+  return *std::move(reserved);
+}
+
+uint64_t WalkedFrame::bytesFor(const Device& device, const FrameFormat& format) {
+  const std::vector<FrameShape> shapes = shapesOf(format);
+  return buildBytesOf(device, shapes) + structureBytesOf(device, shapes);
 }
 
 // The same. Returns how long it took to copy the planes.

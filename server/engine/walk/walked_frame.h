@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "engine/engine.h"
 #include "gpu/submission.h"
 #include "structure/frame_structure.h"
@@ -16,10 +17,11 @@ namespace viewloom {
 
 // Builds structures on a device. Thread-safety: as Timeline and StructureBuilder.
 struct StructureWorks {
-  explicit StructureWorks(const Device& used_device)
-      : device(used_device), timeline(used_device), builder(used_device) {}
+  explicit StructureWorks(const Device& used_device, MemoryBudget& budget = unboundedMemory())
+      : device(used_device), memory(budget), timeline(used_device), builder(used_device) {}
 
   const Device& device;
+  MemoryBudget& memory;
   Timeline timeline;
   const StructureBuilder builder;
 };
@@ -28,6 +30,7 @@ struct StructureWorks {
 struct StreamBuilds {
   std::mutex mutex;  // guards the memory, from the upload until the device is done
   FrameBuildMemory memory;
+  std::shared_ptr<const Reservation> reserved;  // held by the forms that hold the memory, too
 };
 
 class WalkedFrame final : public PreparedFrame {
@@ -41,6 +44,9 @@ class WalkedFrame final : public PreparedFrame {
   int64_t prepare(const Clock& clock) override;
   FrameMeasures measures() const override;
 
+  // Memory of this machine that such a frame takes, with what builds take beside it.
+  static uint64_t bytesFor(const Device& device, const FrameFormat& format);
+
   const std::vector<FrameShape>& shapes() const { return shapes_; }
   // Once it is prepared.
   const FrameStructure& structure() const { return form_->structure; }
@@ -49,15 +55,21 @@ class WalkedFrame final : public PreparedFrame {
   // On the device, with the commands that build it.
   struct Form {
     Form(const Device& device, const FrameBuildMemory& build_memory,
-         std::vector<FrameShape> part_shapes)
-        : structure(device, build_memory), recorder(device), shapes(std::move(part_shapes)) {}
+         std::vector<FrameShape> part_shapes, Reservation form_memory)
+        : reserved(std::move(form_memory)),
+          structure(device, build_memory),
+          recorder(device),
+          shapes(std::move(part_shapes)) {}
 
+    const Reservation reserved;
+    std::shared_ptr<const Reservation> build_reserved;
     FrameStructure structure;
     CommandRecorder recorder;
     const std::vector<FrameShape> shapes;
   };
 
   void makeRoom();
+  Reservation reserveBytes(uint64_t bytes) const;
   int64_t build(const Clock& clock);
 
   StructureWorks& works_;

@@ -2,6 +2,7 @@
 #include "gpu/device_error.h"
 
 #include <cstdio>
+#include <new>
 #include <utility>
 
 #include "base/str_cat.h"
@@ -21,6 +22,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 }  // namespace
 
 std::string deviceErrorText(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return "this computer has no memory left";
+  }
   const auto* const problem = dynamic_cast<const vk::SystemError*>(&error);
   if (problem == nullptr) return error.what();
   const char* text = "the graphics driver reports an error";
@@ -45,7 +49,9 @@ std::string deviceErrorText(const std::exception& error) {
 }
 
 bool isOutOfDeviceMemory(const std::exception& error) {
-  return dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error) != nullptr;
+  return dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error) != nullptr ||
+         dynamic_cast<const vk::OutOfHostMemoryError*>(&error) != nullptr ||
+         dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
 }
 
 void ValidationLog::add(std::string message) {

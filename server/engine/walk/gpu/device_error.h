@@ -17,7 +17,7 @@ namespace viewloom {
 // brackets. Other errors keep their text.
 std::string deviceErrorText(const std::exception& error);
 
-// Whether the device has no memory left for what was asked of it.
+// Whether the device, or this computer, has no memory left for what was asked of it.
 bool isOutOfDeviceMemory(const std::exception& error);
 
 // Warnings and errors of the validation layers of one device, so that tests can fail on any of

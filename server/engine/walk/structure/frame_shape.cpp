@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frame/cube_map.h"
+#include "frame/limits.h"
 #include "structure/mean_color.h"
 #include "structure/structure_layout.h"
 
@@ -35,6 +36,84 @@ uint64_t meanBytes(const FrameShape& shape) {
   return shape.depth_px.area() * sizeof(uint32_t);
 }
 
+// A layer of a source as it is decoded.
+struct DecodedLayer {
+  uint64_t depth_bytes = 0;
+  uint64_t color_bytes = 0;
+  PlaneEncoding color_encoding = PlaneEncoding::kRgba8;
+  bool has_surface = false;
+};
+
+std::vector<DecodedLayer> decodedLayers(const Frame& frame, const SourcePart& part) {
+  std::vector<DecodedLayer> layers;
+  for (const LayerPlanes& planes : frame.sources[part.source]) {
+    layers.push_back({.depth_bytes = planes.depth->size(),
+                      .color_bytes = planes.color->size(),
+                      .color_encoding = planes.color_encoding,
+                      .has_surface = planes.surface != nullptr});
+  }
+  return layers;
+}
+
+std::vector<DecodedLayer> decodedLayers(const FrameFormat& format, const SourcePart& part) {
+  std::vector<DecodedLayer> layers;
+  for (const LayerFormat& layer : format.sources[part.source].layers) {
+    const bool is_half = layer.color.encoding == PlaneEncoding::kRgba16f;
+    layers.push_back({.depth_bytes = decodedBytes(layer.depth),
+                      .color_bytes = decodedBytes(layer.color),
+                      .color_encoding = is_half ? PlaneEncoding::kRgba16f : PlaneEncoding::kRgba8,
+                      .has_surface = layer.mirrors()});
+  }
+  return layers;
+}
+
+std::vector<StagedLayer> stage(const FrameFormat& format, const SourcePart& part,
+                               const std::vector<DecodedLayer>& decoded) {
+  const std::vector<LayerFormat>& layers = format.sources[part.source].layers;
+  std::vector<StagedLayer> staged(decoded.size());
+  uint64_t offset = 0;
+  const auto put = [&](StagedPlane& plane, uint64_t size_bytes) {
+    plane = {offset, size_bytes};
+    offset = alignedEnd(offset, size_bytes);
+  };
+  for (size_t i = 0; i < decoded.size(); ++i) {
+    put(staged[i].depth, decoded[i].depth_bytes / (part.face ? kCubeFaceCount : 1));
+  }
+  for (size_t i = 0; i < decoded.size(); ++i) {
+    const SizePx plane_px = layers[i].depth.size_px;
+    if (decoded[i].has_surface) put(staged[i].surface, surfaceBytes(structureSize(plane_px, part)));
+  }
+  for (size_t i = 0; i < decoded.size(); ++i) {
+    const SizePx plane_px = layers[i].color.size_px;
+    const uint64_t texel_bytes = decoded[i].color_bytes / plane_px.area();
+    put(staged[i].color, texel_bytes * structureSize(plane_px, part).area());
+  }
+  return staged;
+}
+
+FrameShape shapeOf(const FrameFormat& format, const SourcePart& part,
+                   const std::vector<DecodedLayer>& decoded) {
+  const SourceFormat& source = format.sources[part.source];
+  FrameShape shape;
+  shape.depth_px = structureSize(source.layers.front().depth.size_px, part);
+  shape.is_cube_face = part.face.has_value();
+  bool all_plain = format.exposure_ev == 0;
+  bool all_opaque = true;
+  for (size_t i = 0; i < source.layers.size(); ++i) {
+    shape.color_px.push_back(structureSize(source.layers[i].color.size_px, part));
+    all_plain = all_plain && isPlainColor(source.layers[i].color, decoded[i].color_encoding);
+    all_opaque = all_opaque && source.layers[i].color.alpha == AlphaMode::kOpaque;
+  }
+  shape.color_storage = all_plain    ? ColorStorage::kRgba8Srgb
+                        : all_opaque ? ColorStorage::kRgb16Root
+                                     : ColorStorage::kRgba16fLinear;
+  const std::vector<StagedLayer> staged = stage(format, part, decoded);
+  shape.mirrors = source.mirrors();
+  shape.staged_before_color_bytes = staged.front().color.offset;
+  shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
+  return shape;
+}
+
 }  // namespace
 
 std::vector<SourcePart> partsOf(const FrameFormat& format) {
@@ -50,31 +129,20 @@ std::vector<SourcePart> partsOf(const FrameFormat& format) {
 }
 
 FrameShape shapeOf(const Frame& frame, const SourcePart& part) {
-  const SourceFormat& source = frame.format.sources[part.source];
-  const std::vector<LayerPlanes>& planes = frame.sources[part.source];
-  FrameShape shape;
-  shape.depth_px = structureSize(source.layers.front().depth.size_px, part);
-  shape.is_cube_face = part.face.has_value();
-  bool all_plain = frame.format.exposure_ev == 0;
-  bool all_opaque = true;
-  for (size_t i = 0; i < source.layers.size(); ++i) {
-    shape.color_px.push_back(structureSize(source.layers[i].color.size_px, part));
-    all_plain = all_plain && isPlainColor(source.layers[i].color, planes[i].color_encoding);
-    all_opaque = all_opaque && source.layers[i].color.alpha == AlphaMode::kOpaque;
-  }
-  shape.color_storage = all_plain    ? ColorStorage::kRgba8Srgb
-                        : all_opaque ? ColorStorage::kRgb16Root
-                                     : ColorStorage::kRgba16fLinear;
-  const std::vector<StagedLayer> staged = stagedLayers(frame, part);
-  shape.mirrors = source.mirrors();
-  shape.staged_before_color_bytes = staged.front().color.offset;
-  shape.staged_bytes = alignedEnd(staged.back().color.offset, staged.back().color.size_bytes);
-  return shape;
+  return shapeOf(frame.format, part, decodedLayers(frame, part));
 }
 
 std::vector<FrameShape> shapesOf(const Frame& frame) {
   std::vector<FrameShape> shapes;
   for (const SourcePart& part : partsOf(frame.format)) shapes.push_back(shapeOf(frame, part));
+  return shapes;
+}
+
+std::vector<FrameShape> shapesOf(const FrameFormat& format) {
+  std::vector<FrameShape> shapes;
+  for (const SourcePart& part : partsOf(format)) {
+    shapes.push_back(shapeOf(format, part, decodedLayers(format, part)));
+  }
   return shapes;
 }
 
@@ -86,26 +154,7 @@ Camera cameraOf(const FrameFormat& format, const SourcePart& part) {
 }
 
 std::vector<StagedLayer> stagedLayers(const Frame& frame, const SourcePart& part) {
-  const std::vector<LayerPlanes>& layers = frame.sources[part.source];
-  std::vector<StagedLayer> staged(layers.size());
-  uint64_t offset = 0;
-  const auto stage = [&](StagedPlane& plane, uint64_t size_bytes) {
-    plane = {offset, size_bytes};
-    offset = alignedEnd(offset, size_bytes);
-  };
-  for (size_t i = 0; i < layers.size(); ++i) {
-    stage(staged[i].depth, layers[i].depth->size() / (part.face ? kCubeFaceCount : 1));
-  }
-  for (size_t i = 0; i < layers.size(); ++i) {
-    const SizePx plane_px = frame.format.sources[part.source].layers[i].depth.size_px;
-    if (layers[i].surface) stage(staged[i].surface, surfaceBytes(structureSize(plane_px, part)));
-  }
-  for (size_t i = 0; i < layers.size(); ++i) {
-    const SizePx plane_px = frame.format.sources[part.source].layers[i].color.size_px;
-    const uint64_t texel_bytes = layers[i].color->size() / plane_px.area();
-    stage(staged[i].color, texel_bytes * structureSize(plane_px, part).area());
-  }
-  return staged;
+  return stage(frame.format, part, decodedLayers(frame, part));
 }
 
 uint64_t structureBytes(const FrameShape& shape) {

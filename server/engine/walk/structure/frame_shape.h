@@ -62,6 +62,8 @@ struct FrameShape {
 FrameShape shapeOf(const Frame& frame, const SourcePart& part = {});
 // Shapes of all parts of a frame.
 std::vector<FrameShape> shapesOf(const Frame& frame);
+// The same of frames of this format, once they are decoded.
+std::vector<FrameShape> shapesOf(const FrameFormat& format);
 
 // Memory that a structure of this shape takes at most, bytes, and that builds take beside it, which
 // all of a stream share.

@@ -35,12 +35,6 @@ uint64_t lensOffset(const TraceJob& job) {
   return tilesOffset(partCount(job), partCount(job), job.tileCount());
 }
 
-uint64_t bytesFor(const TraceSlotShape& shape) {
-  const uint32_t part_count = shape.sample_count * shape.walk_count;
-  return tilesOffset(part_count, part_count, shape.tile_count_max) +
-         uint64_t{shape.lens_point_count} * sizeof(abi::vec2);
-}
-
 abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceJob& job, uint32_t part,
                                 const TracedPlanes& planes) {
   const uint32_t walk = part % job.walk_count;
@@ -68,11 +62,17 @@ abi::TraceExtras describeExtras(const StructureSlot& structure, const TraceJob& 
 
 }  // namespace
 
+uint64_t TraceParams::uploadBytesFor(const TraceSlotShape& shape) {
+  const uint32_t part_count = shape.sample_count * shape.walk_count;
+  return tilesOffset(part_count, part_count, shape.tile_count_max) +
+         uint64_t{shape.lens_point_count} * sizeof(abi::vec2);
+}
+
 TraceParams::TraceParams(const Device& device, const TraceSlotShape& shape)
-    : upload_(device, {.size_bytes = bytesFor(shape),
+    : upload_(device, {.size_bytes = uploadBytesFor(shape),
                        .intent = MemoryIntent::kUpload,
                        .debug_name = "trace upload"}),
-      params_(device, {.size_bytes = bytesFor(shape), .debug_name = "trace params"}) {}
+      params_(device, {.size_bytes = uploadBytesFor(shape), .debug_name = "trace params"}) {}
 
 void TraceParams::write(std::span<const StructureSlot* const> structures, const TraceJob& job,
                         const TracedPlanes& planes) {

@@ -36,6 +36,8 @@ class TraceParams {
  public:
   TraceParams(const Device& device, const TraceSlotShape& shape);
 
+  // Of the upload; it is on the device once more.
+  static uint64_t uploadBytesFor(const TraceSlotShape& shape);
   uint64_t sizeBytes() const { return upload_.sizeBytes() + params_.sizeBytes(); }
   // For the job's band; what is recorded next brings it to the device.
   void write(std::span<const StructureSlot* const> structures, const TraceJob& job,

@@ -6,47 +6,16 @@
 
 #include "base/check.h"
 #include "gpu/commands.h"
-#include "shared/lens_abi.h"
-#include "trace/px_runs.h"
 
 namespace viewloom {
 namespace {
 
-ReadablePlane planeIf(bool wanted, const Device& device, uint64_t size_bytes, const char* name) {
-  return wanted ? ReadablePlane(device, size_bytes, name) : ReadablePlane();
+ReadablePlane planeOf(const Device& device, uint64_t size_bytes, const char* name) {
+  return size_bytes > 0 ? ReadablePlane(device, size_bytes, name) : ReadablePlane();
 }
 
-// So many answers fill whole descriptor alignments.
-constexpr uint64_t kAnswersStep = kDescriptorAlignment_bytes / 4;
-static_assert(kAnswersStep * sizeof(abi::RayAnswer) % kDescriptorAlignment_bytes == 0);
-
-uint64_t answersRowBytes(uint32_t width_px, uint32_t walk_count) {
-  return uint64_t{width_px} * walk_count * sizeof(abi::RayAnswer);
-}
-
-// Enough for every piece of every band that the slot holds.
-uint64_t answersBytes(const TraceSlotShape& shape) {
-  const uint64_t row_bytes = answersRowBytes(shape.width_px, shape.walk_count);
-  return std::min(row_bytes * shape.row_count_max, std::max(row_bytes, kAnswersBytesMax)) +
-         shape.walk_count * kAnswersStep * sizeof(abi::RayAnswer);
-}
-
-// A reflected ray takes as much memory as so many answers.
-constexpr uint32_t kPathAnswers =
-    (sizeof(abi::ReflectedPath) + sizeof(abi::RayAnswer) - 1) / sizeof(abi::RayAnswer);
-
-// Enough for every piece of every band that the slot holds, of two walks or more.
-uint64_t pathsBytes(const TraceSlotShape& shape) {
-  const uint64_t width_px = shape.width_px;
-  const uint64_t most = kAnswersBytesMax / ((2 + kPathAnswers) * sizeof(abi::RayAnswer));
-  return std::min(width_px * shape.row_count_max, std::max(width_px, most)) *
-         sizeof(abi::ReflectedPath);
-}
-
-// No more runs of px are in a band, each of which may be left unfinished.
-uint64_t runCountMax(const TraceSlotShape& shape) {
-  const uint64_t begun = std::min(shape.tile_count_max, shape.width_px);
-  return shape.row_count_max * (shape.width_px / kRunPixelsMin + begun);
+Buffer bufferOf(const Device& device, uint64_t size_bytes, const char* name) {
+  return size_bytes > 0 ? Buffer(device, {.size_bytes = size_bytes, .debug_name = name}) : Buffer();
 }
 
 constexpr uint32_t kOpaqueBlack = 0xff000000;
@@ -73,65 +42,33 @@ std::span<T> changeAs(ReadablePlane& plane, uint64_t count) {
   return {reinterpret_cast<T*>(plane.mutableBytes().data()), plane.isEmpty() ? 0 : count};
 }
 
-uint64_t colorBytesOf(SizePx size_px, ColorForm form) {
-  return form == ColorForm::kRgba ? size_px.area() * sizeof(uint32_t)
-                                  : YcbcrLayout(size_px, form).sizeBytes();
-}
-
 }  // namespace
-
-AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
-  const uint64_t row_bytes = answersRowBytes(width_px, walk_count);
-  const uint64_t rows = std::clamp<uint64_t>(kAnswersBytesMax / row_bytes, 1, row_count);
-  const uint64_t steps = (rows * width_px + kAnswersStep - 1) / kAnswersStep;
-  return {.row_count = uint32_t(rows), .stride = uint32_t(steps * kAnswersStep)};
-}
-
-AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count) {
-  return answersLayout(width_px, row_count, walk_count + kPathAnswers);
-}
 
 TraceSlot::TraceSlot(const Device& device, const TraceSlotShape& shape)
     : shape_(shape), params_(device, shape) {
-  const uint64_t area_px = uint64_t{shape.width_px} * shape.row_count_max;
-  const SizePx largest_px = {shape.width_px, shape.row_count_max};
-  color_ = ReadablePlane(device, colorBytesOf(largest_px, shape.outputs.color), "band color");
-  if (shape.outputs.color != ColorForm::kRgba) {
-    unpacked_ = Buffer(device, {.size_bytes = colorBytesOf(largest_px, ColorForm::kRgba),
-                                .debug_name = "band rgba"});
+  const TraceSlotSizes sizes = traceSlotSizes(shape, device.info().is_software);
+  color_ = planeOf(device, sizes.color, "band color");
+  unpacked_ = bufferOf(device, sizes.unpacked, "band rgba");
+  depth_ = planeOf(device, sizes.depth, "band depth");
+  mask_ = planeOf(device, sizes.mask, "band mask");
+  linear_ = planeOf(device, sizes.linear, "band linear");
+  records_ = planeOf(device, sizes.records, "band records");
+  counters_ = planeOf(device, sizes.counters, "band counters");
+  answers_ = bufferOf(device, sizes.answers, "answers of sources");
+  sample_ = bufferOf(device, sizes.sample, "sample");
+  sums_ = bufferOf(device, sizes.sums, "sums");
+  met_ = bufferOf(device, sizes.met, "met surfaces");
+  met_lists_ = bufferOf(device, sizes.met_lists, "lists of met");
+  incomplete_ = bufferOf(device, sizes.incomplete, "incomplete");
+  unfinished_ = bufferOf(device, sizes.unfinished, "unfinished");
+  hits_ = bufferOf(device, sizes.hits, "hits");
+  paths_ = bufferOf(device, sizes.paths, "reflected rays");
+  reflected_ = bufferOf(device, sizes.reflected, "reflected light");
+  if (sizes.reflection_settings > 0) {
+    reflection_settings_ = Buffer(device, {.size_bytes = sizes.reflection_settings,
+                                           .intent = MemoryIntent::kUpload,
+                                           .debug_name = "reflection settings"});
   }
-  depth_ = planeIf(shape.outputs.depth, device, area_px * sizeof(float), "band depth");
-  // Filled in words: rounded up to whole ones.
-  mask_ = planeIf(shape.outputs.mask, device, (area_px + 3) / 4 * 4, "band mask");
-  linear_ = planeIf(shape.outputs.linear, device, area_px * 4 * sizeof(float), "band linear");
-  records_ =
-      planeIf(shape.outputs.records, device, area_px * sizeof(abi::RayRecord), "band records");
-  counters_ = ReadablePlane(device, kCounterCount * sizeof(uint32_t), "band counters");
-  if (shape.walk_count > 1) {
-    answers_ =
-        Buffer(device, {.size_bytes = answersBytes(shape), .debug_name = "answers of sources"});
-  }
-  if (shape.sums_light) {
-    sample_ = Buffer(device, {.size_bytes = area_px * sizeof(uint32_t), .debug_name = "sample"});
-    sums_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::vec3), .debug_name = "sums"});
-  }
-  if (shape.met_count > 0) {
-    met_ = Buffer(device, {.size_bytes = shape.met_count * area_px * sizeof(uint32_t),
-                           .debug_name = "met surfaces"});
-    met_lists_ =
-        Buffer(device, {.size_bytes = shape.met_lists_bytes, .debug_name = "lists of met"});
-  }
-  if (shape.incomplete_count > 0) {
-    incomplete_ = Buffer(device, {.size_bytes = sizeof(abi::IncompleteHead) +
-                                                shape.incomplete_count * sizeof(uint32_t),
-                                  .debug_name = "incomplete"});
-  }
-  if (device.info().is_software) {
-    unfinished_ = Buffer(
-        device, {.size_bytes = sizeof(abi::IncompleteHead) + runCountMax(shape) * sizeof(uint32_t),
-                 .debug_name = "unfinished"});
-  }
-  if (shape.reflects) addReflections(device, area_px);
 }
 
 void TraceSlot::recordBegin(Commands commands, std::span<const StructureSlot* const> structures,
@@ -191,22 +128,6 @@ TracedPlanes TraceSlot::planes() const {
           .met_stride_bytes = band_px_.area() * sizeof(uint32_t)};
 }
 
-void TraceSlot::addReflections(const Device& device, uint64_t area_px) {
-  if (!shape_.outputs.records) {
-    hits_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::RayRecord), .debug_name = "hits"});
-  }
-  static_assert(sizeof(abi::ReflectionSettings) <= kDescriptorAlignment_bytes);
-  reflection_settings_ =
-      Buffer(device, {.size_bytes = shape_.walk_count * kDescriptorAlignment_bytes,
-                      .intent = MemoryIntent::kUpload,
-                      .debug_name = "reflection settings"});
-  if (shape_.walk_count > 1) {
-    paths_ = Buffer(device, {.size_bytes = pathsBytes(shape_), .debug_name = "reflected rays"});
-  }
-  reflected_ = Buffer(device, {.size_bytes = area_px * sizeof(abi::ReflectedLight),
-                               .debug_name = "reflected light"});
-}
-
 Descriptor TraceSlot::writeReflectionSettings(uint32_t walk,
                                               const abi::ReflectionSettings& settings) const {
   const uint64_t offset_bytes = walk * kDescriptorAlignment_bytes;
@@ -216,6 +137,13 @@ Descriptor TraceSlot::writeReflectionSettings(uint32_t walk,
           .buffer = &reflection_settings_,
           .offset_bytes = offset_bytes,
           .size_bytes = sizeof settings};
+}
+
+uint64_t TraceSlot::hostBytesFor(const Device& device, const TraceSlotShape& shape) {
+  const TraceSlotSizes sizes = traceSlotSizes(shape, device.info().is_software);
+  const bool is_shared = device.info().shares_memory;
+  return sizes.readableBytes() + (is_shared ? sizes.deviceBytes() : 0) +
+         (is_shared ? 2 : 1) * TraceParams::uploadBytesFor(shape);
 }
 
 uint64_t TraceSlot::sizeBytes() const {

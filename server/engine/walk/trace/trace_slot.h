@@ -16,24 +16,9 @@
 #include "trace/readable_plane.h"
 #include "trace/trace_params.h"
 #include "trace/trace_slot_shape.h"
+#include "trace/trace_slot_sizes.h"
 
 namespace viewloom {
-
-// Counters of rays by class, in sets (shaders/shared/trace_abi.h).
-inline constexpr uint64_t kCounterCount = uint64_t{abi::kCounterSets} * abi::kCounterStride;
-
-// Memory limit for the answers of several walks, which are merged before the next rows are traced.
-// A single row may take more.
-inline constexpr uint64_t kAnswersBytesMax = uint64_t{32} << 20;
-
-// How the answers of several walks to a piece of a band lie in memory, walk after walk.
-struct AnswersLayout {
-  uint32_t row_count = 0;
-  uint32_t stride = 0;  // answers from one walk to the next
-};
-AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
-// The same of reflected rays, where what is known of them takes its part of the memory.
-AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
 
 // Owner decides when the slot is free. Thread-safety: none.
 class TraceSlot {
@@ -42,6 +27,8 @@ class TraceSlot {
 
   const TraceSlotShape& shape() const { return shape_; }
   uint64_t sizeBytes() const;
+  // The same of a slot of this shape, before it is made; of the CPU's memory alone.
+  static uint64_t hostBytesFor(const Device& device, const TraceSlotShape& shape);
 
   // Once the band's submission is done. Rows from the top, packed.
   // Of the two forms of colour, the one that is not asked for is empty.
@@ -94,7 +81,6 @@ class TraceSlot {
   // Address of abi::RayRecord per pixel; 0 = not wanted.
   uint64_t recordsAddress() const;
   TracedPlanes planes() const;
-  void addReflections(const Device& device, uint64_t area_px);
   uint64_t colorBytes() const;
   uint64_t rgbaCount() const { return isRgba() ? band_px_.area() : 0; }
   uint64_t linearCount() const { return band_px_.area() * 4; }
