@@ -18,6 +18,7 @@ class EmptyRoom final : public EngineRoom {
   void serveEyes(uint64_t) override {}
   void drain() override {}
   EngineRoomDescription description() const override { return {}; }
+  uint64_t preparedBytes(const FrameFormat&) const override { return 0; }
   uint64_t deviceMessageCount() const override { return 0; }
 };
 

@@ -30,13 +30,15 @@ class DeviceRoom final : public EngineRoom {
                  .kernel_folder = kernelFolder(config.kernel_folder),
                  .validation = config.validation}),
         engines_(makeEngines(device_, {.trace_slot_count = config.pipeline.trace_slots,
-                                       .warms_up = config.pipeline.warm_up})),
+                                       .warms_up = config.pipeline.warm_up,
+                                       .memory = links.memory})),
         pipeline_({.engines = engines_,
                    .clock = links.clock,
                    .metrics = links.metrics,
                    .broadcaster = links.broadcaster,
                    .directory = links.directory,
-                   .on_failure = inWords(std::move(links.on_failure))},
+                   .on_failure = inWords(std::move(links.on_failure)),
+                   .memory = links.memory},
                   {.encode_thread_count = encode_thread_count,
                    .structure_slots_per_stream = config.pipeline.structure_slots,
                    .atlas_limits = limits}) {}
@@ -52,6 +54,9 @@ class DeviceRoom final : public EngineRoom {
   EngineRoomDescription description() const override {
     const DeviceInfo& info = device_.info();
     return {.device = info.name, .driver = info.driver, .is_software = info.is_software};
+  }
+  uint64_t preparedBytes(const FrameFormat& format) const override {
+    return pipeline_.preparedBytes(format);
   }
   uint64_t deviceMessageCount() const override { return device_.validationLog().messageCount(); }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "admission/memory_budget.h"
 #include "base/clock.h"
 #include "config/config.h"
 #include "display/atlas_layout.h"
@@ -29,6 +30,9 @@ struct EngineRoomDescription {
 class EngineRoom : public AtlasMaker {
  public:
   virtual EngineRoomDescription description() const = 0;
+  // Memory of this machine that a frame of this format takes once it is prepared, beside its
+  // planes, bytes.
+  virtual uint64_t preparedBytes(const FrameFormat& format) const = 0;
   // Warnings and errors of the device's validation, so far.
   virtual uint64_t deviceMessageCount() const = 0;
 };
@@ -39,6 +43,7 @@ struct EngineRoomLinks {
   const Metrics& metrics;
   Broadcaster& broadcaster;
   StreamDirectory& directory;
+  MemoryBudget& memory;
   std::function<void(const std::exception& error)> on_failure;  // see Service
 };
 

@@ -19,6 +19,7 @@
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "rpc/rpc_server.h"
+#include "service_memory.h"
 #include "tls/tls_watch.h"
 #include "web/http_server.h"
 
@@ -122,8 +123,8 @@ Exposure exposureOf(const Config& config) {
   Exposure exposure{
       .addresses = {config.grpc.address},
       .has_tls = !config.tls.certificate.empty(),
-      .has_access_control = !config.access.isOpen() ||
-                            (!config.tls.client_ca.empty() && config.tls.client_required),
+      .has_access_control =
+          !config.access.isOpen() || (!config.tls.client_ca.empty() && config.tls.client_required),
       .is_open_wanted = config.open};
   if (config.http.enabled) exposure.addresses.push_back(config.http.address);
   return exposure;
@@ -150,11 +151,14 @@ struct Service::Parts {
   Metrics metrics;
   AccessControl access;
   const std::unique_ptr<TlsWatch> tls;  // null = no encryption
+  MemoryBudget memory;
   StreamDirectory directory;
   Broadcaster broadcaster;
   BytePool planes;
   const std::unique_ptr<EngineRoom> engine_room;
   FrameIntake intake;
+  const PreparedBytes prepared_bytes;
+  std::optional<ServiceMemory> service_memory;
   std::optional<HttpServer> http;
   std::optional<RpcServer> rpc;
   std::atomic<RpcServer*> open_rpc = nullptr;  // displays may come by HTTP before it is there
@@ -167,8 +171,10 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
     : connection_shares(connectionShares(config)),
       access(accessOptions(config.access), clock),
       tls(watchTls(config.tls, metrics)),
+      memory(memoryBudgetBytes(config.memory),
+             [this](MemoryUse use) { metrics.memory_refused[use].add(); }),
       directory(clock, config.limits.streams_max),
-      broadcaster(broadcasterLimits(config.limits)),
+      broadcaster(broadcasterLimits(config.limits), memory),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
       engine_room(openEngineRoom(config, atlasLimits(config.limits),
                                  threadCount(config.pipeline.encode_threads),
@@ -176,10 +182,13 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
                                   .metrics = metrics,
                                   .broadcaster = broadcaster,
                                   .directory = directory,
+                                  .memory = memory,
                                   .on_failure = std::move(on_failure)})),
       intake(*engine_room, clock, planes,
              {.thread_count = threadCount(config.pipeline.decode_threads),
-              .on_replaced = [this] { metrics.replaced[HandOver::kDecode].add(); }}) {
+              .on_replaced = [this] { metrics.replaced[HandOver::kDecode].add(); }}),
+      prepared_bytes(
+          [this](const FrameFormat& format) { return engine_room->preparedBytes(format); }) {
   const EngineRoomDescription made = engine_room->description();
   if (made.device.empty()) {
     log(LogLevel::kInfo, "no engines: atlases are handed out, none are made");
@@ -188,6 +197,8 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
   }
   connect();
   const std::string containment = contain();
+  memory.addIdle(planes.idleMemory());
+  service_memory.emplace(memory, directory, metrics, prepared_bytes, made.is_software);
   if (config.http.enabled) openHttp(config, clock);
   openRpc(config, clock, containment);
 }
@@ -216,8 +227,9 @@ std::function<TlsMaterialPtr()> Service::Parts::material() const {
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
   HttpOptions options = httpOptions(config.http, connection_shares.http);
   options.tls = material();
-  http.emplace(std::move(options), directory, broadcaster, metrics, clock, access,
-               [this] { return grpcHealth(); });
+  http.emplace(
+      std::move(options), directory, broadcaster, metrics, clock, access,
+      [this] { return grpcHealth(); }, memory);
 }
 
 absl::Status Service::Parts::grpcHealth() {
@@ -242,6 +254,7 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock,
                                       .containment = containment};
   rpc.emplace(RpcServerOptions{.address = config.grpc.address,
                                .connection_count_max = connection_shares.grpc,
+                               .memory_bytes_max = messageBytesMax(memory.totalBytes()),
                                .keepalive = std::chrono::seconds(config.grpc.keepalive_s),
                                .tls = material()},
               RpcParts{.intake = intake,
@@ -251,7 +264,9 @@ void Service::Parts::openRpc(const Config& config, const Clock& clock,
                        .eyes = *engine_room,
                        .clock = clock,
                        .metrics = metrics,
-                       .access = access},
+                       .access = access,
+                       .memory = memory,
+                       .prepared_bytes = prepared_bytes},
               description);
   grpc_address = listeningAddress(config.grpc.address, rpc->port(), tls != nullptr);
   open_rpc = &*rpc;

@@ -50,6 +50,10 @@ struct LimitsConfig {
   uint32_t views_max = 2500;
 };
 
+struct MemoryConfig {
+  uint64_t budget = 0;  // bytes; 0 = three quarters of what the machine or its cgroup has
+};
+
 struct PipelineConfig {
   uint32_t decode_threads = 0;  // 0 = see threadCount
   uint32_t encode_threads = 0;
@@ -78,6 +82,7 @@ struct Config {
   AccessConfig access{};
   TlsConfig tls{};
   LimitsConfig limits{};
+  MemoryConfig memory{};
   PipelineConfig pipeline{};
   ContainmentConfig containment{};
   LogConfig log{};

@@ -111,6 +111,15 @@ std::vector<Setting> limitSettings(LimitsConfig& limits) {
   };
 }
 
+std::vector<Setting> memorySettings(MemoryConfig& memory) {
+  return {
+      {"memory.budget", "bytes",
+       "Memory that the server may take, frames, displays and viewers included. 0 is three "
+       "quarters of the machine's or the container's",
+       CountSetting{&memory.budget, 0, 64 * 1024 * kGiB}},
+  };
+}
+
 std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
   return {
       {"pipeline.decode_threads", "", "Threads that decode frames; 0 is one per core, up to 8",
@@ -150,7 +159,7 @@ std::vector<Setting> settingsOf(Config& config) {
   std::vector<Setting> settings = machineSettings(config);
   for (const std::vector<Setting>& part :
        {addressSettings(config.open, config.grpc, config.http), tlsSettings(config.tls),
-        accessSettings(config.access), limitSettings(config.limits),
+        accessSettings(config.access), limitSettings(config.limits), memorySettings(config.memory),
         pipelineSettings(config.pipeline), containmentSettings(config.containment)}) {
     settings.insert(settings.end(), part.begin(), part.end());
   }

@@ -33,6 +33,9 @@ const LabelValues kTraceMethods = {"walk", "sweep"};
 const LabelValues kCertificateChanges = {"taken", "refused"};
 const LabelValues kHttpAnswers = {"success", "redirect", "client_error", "server_error"};
 
+const LabelValues kMemoryUses = {"program",  "messages", "frames",  "structures",
+                                 "displays", "atlases",  "viewers", "connections"};
+
 Counter counter(prometheus::Registry& registry, const char* name, const char* help) {
   return Counter(prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add({}));
 }
@@ -171,6 +174,18 @@ Metrics::Metrics()
           store_->registry, "viewloom_certificate_changes_total",
           "Changed files of the certificate, by whether they were taken.", "outcome",
           kCertificateChanges)),
+      memory_budget_bytes(gauge(store_->registry, "viewloom_memory_budget_bytes",
+                                "Memory that this server may take (memory.budget).")),
+      memory_idle_bytes(gauge(store_->registry, "viewloom_memory_idle_bytes",
+                              "Memory that waits for reuse now.")),
+      memory_resident_bytes(gauge(store_->registry, "viewloom_memory_resident_bytes",
+                                  "Memory of the process, as the system counts it.")),
+      memory_reserved_bytes(gauges<MemoryUse>(store_->registry, "viewloom_memory_reserved_bytes",
+                                              "Memory that is reserved now, by what for.", "use",
+                                              kMemoryUses)),
+      memory_refused(counters<MemoryUse>(store_->registry, "viewloom_memory_refused_total",
+                                         "Requests for which the budget had no room, by what for.",
+                                         "use", kMemoryUses)),
       stage(stageHistograms(store_->registry)),
       output_delay(outputDelayHistogram(store_->registry)),
       grpc_connections(

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "base/memory_use.h"
 #include "base/trace_method.h"
 
 namespace prometheus {
@@ -125,6 +126,11 @@ class Metrics {
   Gauge http_connections;                        // open now
   Gauge certificate_end;  // viewloom_certificate_end_seconds; since 1970, 0 = no TLS
   Labelled<CertificateChange, Counter> certificate_changes;  // {outcome}
+  Gauge memory_budget_bytes;                                 // memory.budget
+  Gauge memory_idle_bytes;                                   // wait for reuse now
+  Gauge memory_resident_bytes;                               // of the process, as the system counts
+  Labelled<MemoryUse, Gauge> memory_reserved_bytes;          // {use}; now
+  Labelled<MemoryUse, Counter> memory_refused;               // {use}; no room in the budget
   Labelled<Stage, Histogram> stage;                          // viewloom_stage_seconds{stage}
 
   Histogram

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/check.h"
+#include "base/log.h"
 
 namespace viewloom {
 namespace {
@@ -137,16 +137,44 @@ void AtlasPublisher::publishInOrder(const AtlasRun& run) {
   // Published under the lock: two threads must not overtake each other.
   std::lock_guard lock(mutex_);
   const auto of_picture = pending_.find(run.job.picture_key);
-  VIEWLOOM_CHECK(of_picture != pending_.end());
+  if (of_picture == pending_.end()) return;  // given up
   std::deque<Pending>& runs = of_picture->second;
-  std::find_if(runs.begin(), runs.end(), [&](const Pending& pending) {
-    return pending.run.get() == &run;
-  })->is_complete = true;
+  for (Pending& pending : runs) {
+    if (pending.run.get() == &run) pending.is_complete = true;
+  }
+  publishCompleted(runs);
+  if (runs.empty()) pending_.erase(of_picture);
+}
+
+void AtlasPublisher::publishCompleted(std::deque<Pending>& runs) {
   while (!runs.empty() && runs.front().is_complete) {
     publish(*runs.front().run);
     runs.pop_front();
   }
-  if (runs.empty()) pending_.erase(of_picture);
+}
+
+void AtlasPublisher::giveUp(AtlasRun& run, const absl::Status& status) {
+  AtlasRunPtr given_up;  // let go after the lock: its ticket may report
+  {
+    std::lock_guard lock(mutex_);
+    const auto of_picture = pending_.find(run.job.picture_key);
+    if (of_picture == pending_.end()) return;
+    std::deque<Pending>& runs = of_picture->second;
+    const auto found = std::ranges::find_if(
+        runs, [&](const Pending& pending) { return pending.run.get() == &run; });
+    if (found == runs.end()) return;
+    given_up = std::move(found->run);
+    runs.erase(found);
+    given_up->abandon();
+    publishCompleted(runs);
+    if (runs.empty()) pending_.erase(of_picture);
+  }
+  log(LogLevel::kWarning, "a display of stream ", run.outputs.front().display->stream,
+      " is given up: ", status.message());
+  for (const AtlasOutput& output : run.outputs) {
+    links_.broadcaster.refuse(output.display->id, status);
+  }
+  on_complete_(run);
 }
 
 void AtlasPublisher::dropAll() {

@@ -29,6 +29,9 @@ class AtlasPublisher {
   void open(AtlasRun& run) const;
   // Every strip of the run is packed.
   void complete(const AtlasRun& run);
+  // Memory ran out for the run: it will not be completed, and its displays end with this status.
+  // Atlases behind it go on. Nothing happens to a run that is complete, or given up.
+  void giveUp(AtlasRun& run, const absl::Status& status);
   // Abandons the runs that will not be completed.
   void dropAll();
 
@@ -39,6 +42,8 @@ class AtlasPublisher {
   };
 
   void publishInOrder(const AtlasRun& run);
+  // With the lock.
+  void publishCompleted(std::deque<Pending>& runs);
   void publish(AtlasRun& run);
 
   const PipelineLinks& links_;

@@ -50,7 +50,8 @@ void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
   traced_ns_ = std::max(traced_ns_, now_ns);
 }
 
-void AtlasRun::abandon() const {
+void AtlasRun::abandon() {
+  is_abandoned_ = true;
   for (const AtlasOutput& output : outputs) {
     if (output.atlas) output.atlas->abandon();
   }

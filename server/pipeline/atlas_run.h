@@ -46,8 +46,9 @@ class AtlasRun {
 
   // Strips are made: what all of them have seen, together.
   void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
-  // It will not be completed.
-  void abandon() const;
+  // It will not be completed: work on it is left out from now on.
+  void abandon();
+  bool isAbandoned() const { return is_abandoned_; }
   // True for the last strip of the atlas.
   bool noteEncoded() { return --strips_left_ == 0; }
 
@@ -71,6 +72,7 @@ class AtlasRun {
 
  private:
   std::atomic<uint32_t> strips_left_;
+  std::atomic<bool> is_abandoned_ = false;
   mutable std::mutex mutex_;
   RayCounts counts_;
   int64_t traced_ns_ = 0;  // when the last strip was seen done

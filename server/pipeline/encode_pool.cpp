@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/thread_name.h"
+#include "pipeline/within_memory.h"
 
 namespace viewloom {
 namespace {
@@ -51,6 +52,7 @@ struct EncodePool::StripPixels {
 
 EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, uint32_t thread_count)
     : links_(links), publisher_(publisher), bytes_(kKeptBandCount) {
+  links_.memory.addIdle(bytes_.idleMemory());
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
       nameThread("encode");
@@ -81,30 +83,47 @@ void EncodePool::run() {
     const AtlasRunPtr run = task->batch->run;
     // By a clock that nobody turns by hand: it is no time that anybody is told.
     const auto begin = std::chrono::steady_clock::now();
-    serve(*std::move(task), encoder);
+    serve(*task, encoder);
+    finish(*std::move(task));
     const auto duration = std::chrono::steady_clock::now() - begin;
     tasks_.noteServed(*run, std::chrono::nanoseconds(duration).count());
   }
 }
 
-void EncodePool::serve(EncodeTask task, BandEncoder& encoder) {
+// What runs out of memory costs its own atlas alone.
+void EncodePool::serve(const EncodeTask& task, BandEncoder& encoder) {
+  AtlasRun& run = *task.batch->run;
+  const absl::Status status = withinMemory([&] {
+    if (!run.isAbandoned()) task.is_strip ? packStrip(task, encoder) : makePiece(task);
+  });
+  if (!status.ok()) publisher_.giveUp(run, status);
+}
+
+// Room for the next atlas before this one goes out.
+void EncodePool::finish(EncodeTask task) {
   const AtlasRunPtr run = task.batch->run;
-  StripWork& work = *task.batch->work;
-  if (!task.is_strip) {
-    work.makePiece(task.index);
-    tasks_.noteMade(*task.batch);  // after the last, others may pack and publish at once
-    return;
-  }
-  if (task.index == 0) run->noteTraced(work.counts(), links_.clock.nowNs());
+  if (!task.is_strip) return tasks_.noteMade(*task.batch);  // others may pack and publish at once
+  task.batch.reset();
+  if (!run->noteEncoded() || run->isAbandoned()) return;
+  const absl::Status status = withinMemory([&] { publisher_.complete(*run); });
+  if (!status.ok()) publisher_.giveUp(*run, status);
+}
+
+void EncodePool::makePiece(const EncodeTask& task) {
+  task.batch->work->makePiece(task.index);
+}
+
+void EncodePool::packStrip(const EncodeTask& task, BandEncoder& encoder) {
+  AtlasRun& run = *task.batch->run;
+  const StripWork& work = *task.batch->work;
+  if (task.index == 0) run.noteTraced(work.counts(), links_.clock.nowNs());
   const uint32_t strip = work.shape.first_strip + task.index;
   const StripPlanes planes = work.planes(strip);
   BandPixels color =
-      rowsOf(colorPixels(planes.rgba, planes.ycbcr, planes.color_px, run->planes.color),
-             planes.first_row, run->strips.rowsOf(strip).row_count);
-  color.first_row = run->strips.rowInImage(strip);
-  encode(*run, {*run->picture->layout, planes, run->strips.imageOf(strip), color}, encoder);
-  task.batch.reset();  // room for the next atlas before this one goes out
-  if (run->noteEncoded()) publisher_.complete(*run);
+      rowsOf(colorPixels(planes.rgba, planes.ycbcr, planes.color_px, run.planes.color),
+             planes.first_row, run.strips.rowsOf(strip).row_count);
+  color.first_row = run.strips.rowInImage(strip);
+  encode(run, {*run.picture->layout, planes, run.strips.imageOf(strip), color}, encoder);
 }
 
 void EncodePool::encode(AtlasRun& run, const StripPixels& strip, BandEncoder& encoder) {

@@ -29,7 +29,10 @@ class EncodePool {
   struct StripPixels;
 
   void run();
-  void serve(EncodeTask task, BandEncoder& encoder);
+  void serve(const EncodeTask& task, BandEncoder& encoder);
+  void finish(EncodeTask task);
+  void makePiece(const EncodeTask& task);
+  void packStrip(const EncodeTask& task, BandEncoder& encoder);
   void encode(AtlasRun& run, const StripPixels& strip, BandEncoder& encoder);
   void encodeOutput(AtlasRun& run, const StripPixels& strip, AtlasOutput& output,
                     BandEncoder& encoder);

@@ -3,8 +3,10 @@
 
 #include <utility>
 
+#include "base/log.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
+#include "pipeline/within_memory.h"
 
 namespace viewloom {
 namespace {
@@ -64,6 +66,29 @@ bool PictureLoop::makePart(bool may_begin) {
 }
 
 bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
+  bool is_made = true;
+  const absl::Status status = run->isAbandoned()
+                                  ? absl::ResourceExhaustedError("its memory ran out elsewhere")
+                                  : withinMemory([&] { is_made = makeStep(run); });
+  if (!status.ok()) giveUp(run, status);
+  return is_made;
+}
+
+void PictureLoop::giveUp(const AtlasRunPtr& run, const absl::Status& status) {
+  run->making = nullptr;
+  begun_.remove(*run);
+  desk_.publisher.giveUp(*run, status);
+  desk_.board.finish(run->job.picture_key);
+}
+
+void PictureLoop::refusePicture(const std::string& picture_key, const absl::Status& status) {
+  log(LogLevel::kWarning, "a display is given up: ", status.message());
+  for (const ActiveDisplayPtr& display : links_.broadcaster.displays("")) {
+    if (display->picture_key == picture_key) links_.broadcaster.refuse(display->id, status);
+  }
+}
+
+bool PictureLoop::makeStep(const AtlasRunPtr& run) {
   if (!run->making && !beginMaking(run)) return false;
   const MakingStep step = run->making->step();
   if (!step.has_room) return false;
@@ -75,8 +100,10 @@ bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
 // False while there is no room for it.
 bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
   latchEyes(*run);
-  run->making = engine_.begin(orderOf(*run), [run, &encoders = desk_.encoders](StripWorkPtr work) {
-    encoders.push(std::make_shared<StripBatch>(run, std::move(work)));
+  run->making = engine_.begin(orderOf(*run), [run, &desk = desk_](StripWorkPtr work) {
+    const absl::Status status = withinMemory(
+        [&] { desk.encoders.push(std::make_shared<StripBatch>(run, std::move(work))); });
+    if (!status.ok()) desk.publisher.giveUp(*run, status);
   });
   if (!run->making) return false;
   run->planes = run->making->planes();
@@ -105,7 +132,10 @@ bool PictureLoop::hasRoomForEyes() const {
 void PictureLoop::beginDueJobs() {
   while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), hasRoomForEyes())) {
     const std::string picture_key = job->picture_key;
-    if (!begin(*job)) desk_.board.finish(picture_key);
+    bool has_begun = false;
+    const absl::Status status = withinMemory([&] { has_begun = begin(*job); });
+    if (!status.ok()) refusePicture(picture_key, status);
+    if (!has_begun) desk_.board.finish(picture_key);
   }
 }
 
@@ -145,8 +175,8 @@ bool PictureLoop::begin(AtlasJob& job) {
   for (const ActiveDisplayPtr& display : displays) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
   }
-  desk_.publisher.begin(run);
-  begun_.add(std::move(run));
+  begun_.add(run);
+  desk_.publisher.begin(std::move(run));
   return true;
 }
 

@@ -61,6 +61,10 @@ class PictureLoop {
   void handOver(AtlasJob job, size_t engine);
   absl::Status prepare(const AtlasJob& job, const std::optional<PlannedPicture>& planned) const;
   void latchEyes(AtlasRun& run);
+  // Stops the making of a run for which memory ran out.
+  void giveUp(const AtlasRunPtr& run, const absl::Status& status);
+  void refusePicture(const std::string& picture_key, const absl::Status& status);
+  bool makeStep(const AtlasRunPtr& run);
   bool beginMaking(const AtlasRunPtr& run);
   AtlasOrder orderOf(const AtlasRun& run) const;
   // Whether the engine makes it at once; else what it lacks is being prepared, and the picture may

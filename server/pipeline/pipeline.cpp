@@ -5,6 +5,7 @@
 #include <deque>
 #include <utility>
 
+#include "base/log.h"
 #include "display/atlas_layout.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
@@ -14,6 +15,7 @@
 #include "pipeline/stream_table.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/tick_loop.h"
+#include "pipeline/within_memory.h"
 
 namespace viewloom {
 namespace {
@@ -48,7 +50,7 @@ struct Pipeline::Loops {
              encoders,
              [this](size_t engine) { engine_wake_ups[engine].ring(); },
              has_failed},
-        streams(links.engines, options.structure_slots_per_stream,
+        streams(links.engines, links.memory, options.structure_slots_per_stream,
                 [this] { structure_wake_up.ring(); }),
         frames(links),
         retimes(links.metrics,
@@ -70,6 +72,7 @@ struct Pipeline::Loops {
   // A job for each picture of the stream; of those that tick, at their next tick. The ticket is of
   // the resident structure's frame, if that has not been reported.
   void serve(const PipelineStream& stream, const FrameTicketPtr& ticket);
+  void offerFrame(const FrameOrigin& origin, FramePtr frame, const FrameTicketPtr& ticket);
   // Offers a tick; false while the picture's last atlas is on its way.
   bool offerTick(const AtlasJob& job, const ActiveDisplayPtr& display);
   bool offerTrace(AtlasJob job, const DisplaySpec& spec);
@@ -106,6 +109,15 @@ void Pipeline::Loops::fail(const std::exception& error) {
   if (has_failed.exchange(true)) return;  // what follows from the first failure
   ringEngines();                          // they see it and end
   on_failure(error);
+}
+
+void Pipeline::Loops::offerFrame(const FrameOrigin& origin, FramePtr frame,
+                                 const FrameTicketPtr& ticket) {
+  if (is_draining) return ticket->noteRefused("the server is shutting down");
+  const auto replaced =
+      streams.open(origin.stream)->inbox.push({std::move(frame), origin.session, ticket});
+  if (replaced) links.metrics.replaced[HandOver::kStructure].add();
+  structure_wake_up.ring();
 }
 
 bool Pipeline::Loops::offer(AtlasJob job) {
@@ -145,7 +157,11 @@ bool Pipeline::Loops::offerTick(const AtlasJob& job, const ActiveDisplayPtr& dis
 
 void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
   try {
-    if (!showAsOfTick(job) || !offerTrace(job, spec)) ticks.giveBack(std::move(job));
+    bool is_offered = false;
+    const absl::Status status =
+        withinMemory([&] { is_offered = showAsOfTick(job) && offerTrace(job, spec); });
+    if (!status.ok()) log(LogLevel::kWarning, "a tick is left out: ", status.message());
+    if (!is_offered) ticks.giveBack(std::move(job));
   } catch (const std::exception& error) {
     links.on_failure(error);
   }
@@ -171,15 +187,19 @@ Pipeline::~Pipeline() {
 
 void Pipeline::offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) {
   const uint64_t number = frame->format.number;
-  auto ticket = std::make_shared<FrameTicket>(number, std::move(report));
-  if (loops_->is_draining) {
-    ticket->noteRefused("the server is shutting down");
-    return;
-  }
-  const auto replaced = loops_->streams.open(origin.stream)
-                            ->inbox.push({std::move(frame), origin.session, std::move(ticket)});
-  if (replaced) loops_->links.metrics.replaced[HandOver::kStructure].add();
-  loops_->structure_wake_up.ring();
+  FrameTicketPtr ticket;
+  const absl::Status status = withinMemory([&] {
+    ticket = std::make_shared<FrameTicket>(number, std::move(report));
+    loops_->offerFrame(origin, std::move(frame), ticket);
+  });
+  if (status.ok()) return;
+  const std::string reason(status.message());
+  if (ticket) return ticket->noteRefused(reason);
+  report({.number = number, .outcome = FrameOutcome::kRefused, .reason = reason});
+}
+
+uint64_t Pipeline::preparedBytes(const FrameFormat& format) const {
+  return loops_->links.engines.preparedBytes(format);
 }
 
 void Pipeline::forgetStream(const std::string& stream) {

@@ -31,6 +31,8 @@ class Pipeline final : public AtlasMaker {
 
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   void forgetStream(const std::string& stream) override;
+  // See Engines::preparedBytes.
+  uint64_t preparedBytes(const FrameFormat& format) const;
 
   void serveDisplays(const std::string& stream) override;
 

@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 
+#include "admission/memory_budget.h"
 #include "base/clock.h"
 #include "engine/engines.h"
 #include "metrics/metrics.h"
@@ -19,9 +20,10 @@ struct PipelineLinks {
   const Metrics& metrics;
   Broadcaster& broadcaster;
   StreamDirectory& directory;
-  // A thread of the pipeline cannot go on (device lost, out of memory); called once, from that
+  // A thread of the pipeline cannot go on (device lost); called once, from that
   // thread.
   std::function<void(const std::exception& error)> on_failure;
+  MemoryBudget& memory = unboundedMemory();  // what waits for reuse is told to it
 };
 
 }  // namespace viewloom

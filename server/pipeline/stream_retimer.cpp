@@ -13,7 +13,9 @@ StreamRetimer::StreamRetimer(const PipelineLinks& links, const FrameBuilder& bui
       builder_(builder),
       preparers_(links.engines),
       carried_{Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr},
-               Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr}} {}
+               Carried{.retimer = FrameRetimer(builder.workers()), .structure = nullptr}} {
+  links_.memory.addIdle(slots_.idleMemory());
+}
 
 ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried_ns, Which which,
                                    Guesses guesses) {

@@ -21,17 +21,20 @@ void PipelineStream::setMotion(const CameraMotion& motion) {
   newest_.motion = motion;
 }
 
-StreamTable::StreamTable(const Engines& engines, uint32_t slots_per_stream,
+StreamTable::StreamTable(const Engines& engines, MemoryBudget& memory, uint32_t slots_per_stream,
                          std::function<void()> on_slot_return)
     : engines_(engines),
+      memory_(memory),
       slots_per_stream_(slots_per_stream),
       on_slot_return_(std::move(on_slot_return)) {}
 
 PipelineStreamPtr StreamTable::open(const std::string& name) {
   std::lock_guard lock(mutex_);
   PipelineStreamPtr& stream = streams_[name];
-  if (!stream)
+  if (!stream) {
     stream = std::make_shared<PipelineStream>(name, engines_, slots_per_stream_, on_slot_return_);
+    memory_.addIdle(stream->slots.idleMemory());
+  }
   return stream;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/latest_mailbox.h"
 #include "base/slot_pool.h"
 #include "engine/engines.h"
@@ -57,7 +58,7 @@ using PipelineStreamPtr = std::shared_ptr<PipelineStream>;
 class StreamTable {
  public:
   // Each stream may hold so many structures: one is traced while the next is uploaded and built.
-  StreamTable(const Engines& engines, uint32_t slots_per_stream,
+  StreamTable(const Engines& engines, MemoryBudget& memory, uint32_t slots_per_stream,
               std::function<void()> on_slot_return);
 
   PipelineStreamPtr open(const std::string& name);
@@ -70,6 +71,7 @@ class StreamTable {
 
  private:
   const Engines& engines_;
+  MemoryBudget& memory_;
   const uint32_t slots_per_stream_;
   const std::function<void()> on_slot_return_;
   mutable std::mutex mutex_;

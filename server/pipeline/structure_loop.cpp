@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "pipeline/stream_retimer.h"
+#include "pipeline/within_memory.h"
 
 namespace viewloom {
 namespace {
@@ -49,9 +50,12 @@ void StructureLoop::stop() {
 void StructureLoop::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     bool is_idle = true;
-    for (const PipelineStreamPtr& stream : streams_.all()) {
-      if (!stop.stop_requested() && serve(*stream)) is_idle = false;
-    }
+    const absl::Status status = withinMemory([&] {
+      for (const PipelineStreamPtr& stream : streams_.all()) {
+        if (!stop.stop_requested() && serve(*stream)) is_idle = false;
+      }
+    });
+    if (!status.ok()) log(LogLevel::kWarning, "no memory is left to look for frames");
     if (is_idle) wake_up_.wait();
   }
 }
@@ -66,16 +70,16 @@ bool StructureLoop::serve(PipelineStream& stream) {
   const OfferedFrame* const next = stream.frames.next();
   if (next == nullptr) return false;
   std::shared_ptr<FrameForms> slot;
-  try {
-    slot = takeSlot(stream, next->frame);
-  } catch (const EngineOutOfMemory& error) {
-    const std::string problem = error.what();
-    log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", problem);
-    stream.frames.takeNext().ticket->noteRefused(problem);
-    return true;
-  }
-  if (!slot) return false;
-  build(stream, stream.frames.takeNext(), std::move(slot));
+  const absl::Status has_slot = withinMemory([&] { slot = takeSlot(stream, next->frame); });
+  if (has_slot.ok() && !slot) return false;
+  OfferedFrame offered = stream.frames.takeNext();
+  const FrameTicketPtr ticket = offered.ticket;
+  const absl::Status status =
+      has_slot.ok() ? withinMemory([&] { build(stream, std::move(offered), std::move(slot)); })
+                    : has_slot;
+  if (status.ok()) return true;
+  log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", status.message());
+  ticket->noteRefused(std::string(status.message()));
   return true;
 }
 

@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "base/log.h"
 #include "base/thread_name.h"
+#include "pipeline/within_memory.h"
 
 namespace viewloom {
 
@@ -40,7 +42,10 @@ void TickLoop::offer(const std::string& stream, const StreamInstant& newest,
 
 void TickLoop::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    for (TickSchedule::DueTick& due : takeDue()) offerTick(due);
+    const absl::Status status = withinMemory([this] {
+      for (TickSchedule::DueTick& due : takeDue()) offerTick(due);
+    });
+    if (!status.ok()) log(LogLevel::kWarning, "ticks are left out: ", status.message());
     if (const std::optional<int64_t> due_ns = soonestNs()) {
       wake_up_.waitFor(links_.clock.napUntil(*due_ns));
     } else {

@@ -26,6 +26,7 @@ void GrowingAtlas::put(size_t band, SharedBytes bytes) {
   Readers served;
   {
     std::lock_guard lock(mutex_);
+    if (state_ == State::kAbandoned) return;
     VIEWLOOM_CHECK(state_ == State::kGrowing && making_->bands[band].bytes == nullptr);
     making_->bands[band].bytes = std::move(bytes);
     served = takeServed();

@@ -44,7 +44,7 @@ class GrowingAtlas {
   const EncodedAtlas& atlas() const { return *atlas_; }
   State state() const;
 
-  // A band is packed; each once.
+  // A band is packed; each once. Nothing happens to one that is abandoned.
   void put(size_t band, SharedBytes bytes);
   // Every band is packed.
   AtlasPtr complete(const AtlasOutcome& outcome);

@@ -70,7 +70,8 @@ struct StreamDirectory::State {
   }
 
   absl::Status makeRoomFor(const std::string& stream);
-  std::vector<std::string> notLiveOldestFirst() const;
+  bool forgetOldest(int64_t unused_for_ns);
+  std::vector<std::string> notLiveOldestFirst(int64_t released_until_ns) const;
 };
 
 // Says which client has the stream and since when; worth another try for the same user.
@@ -84,10 +85,12 @@ absl::Status alreadyPublished(const KnownStream& known, const std::string& host,
   return !host.empty() && known.host == host ? worthRetry(status, kRetryDelay_ns) : status;
 }
 
-std::vector<std::string> StreamDirectory::State::notLiveOldestFirst() const {
+std::vector<std::string> StreamDirectory::State::notLiveOldestFirst(
+    int64_t released_until_ns) const {
   std::multimap<int64_t, std::string> by_release_ns;
   for (const auto& [name, known] : streams) {
-    if (known.claim_id == 0) by_release_ns.emplace(known.released_ns, name);
+    if (known.claim_id != 0 || known.released_ns > released_until_ns) continue;
+    by_release_ns.emplace(known.released_ns, name);
   }
   std::vector<std::string> names;
   for (const auto& [released_ns, name] : by_release_ns) names.push_back(name);
@@ -95,13 +98,13 @@ std::vector<std::string> StreamDirectory::State::notLiveOldestFirst() const {
 }
 
 // Called without the lock.
-absl::Status StreamDirectory::State::makeRoomFor(const std::string& stream) {
+bool StreamDirectory::State::forgetOldest(int64_t unused_for_ns) {
+  const int64_t released_until_ns = clock.nowNs() - unused_for_ns;
   std::vector<std::string> candidates;
   std::function<bool(const std::string&)> ask;
   {
     std::lock_guard lock(mutex);
-    if (streams.contains(stream) || streams.size() < stream_count_max) return absl::OkStatus();
-    candidates = notLiveOldestFirst();
+    candidates = notLiveOldestFirst(released_until_ns);
     ask = may_forget;
   }
   for (const std::string& candidate : candidates) {
@@ -110,8 +113,18 @@ absl::Status StreamDirectory::State::makeRoomFor(const std::string& stream) {
     const auto found = streams.find(candidate);
     if (found == streams.end() || found->second.claim_id != 0) continue;  // claimed since
     streams.erase(found);
-    return absl::OkStatus();
+    return true;
   }
+  return false;
+}
+
+// Called without the lock.
+absl::Status StreamDirectory::State::makeRoomFor(const std::string& stream) {
+  {
+    std::lock_guard lock(mutex);
+    if (streams.contains(stream) || streams.size() < stream_count_max) return absl::OkStatus();
+  }
+  if (forgetOldest(0)) return absl::OkStatus();
   return absl::ResourceExhaustedError(strCat("too many streams: this server accepts up to ",
                                              stream_count_max,
                                              "; end one, or raise limits.streams_max"));
@@ -179,6 +192,10 @@ std::vector<StreamEntry> StreamDirectory::list() const {
 void StreamDirectory::onRoomNeeded(std::function<bool(const std::string& stream)> may_forget) {
   std::lock_guard lock(state_->mutex);
   state_->may_forget = std::move(may_forget);
+}
+
+bool StreamDirectory::forgetOldest(int64_t unused_for_ns) {
+  return state_->forgetOldest(unused_for_ns);
 }
 
 void StreamDirectory::countReceived(const std::string& stream) {

@@ -53,9 +53,14 @@ class StreamDirectory {
   // Sorted by name.
   std::vector<StreamEntry> list() const;
 
-  // Asked, when the directory is full, about streams without a publisher, the one longest without
-  // it first. Whoever answers true lets go of what it keeps for the stream; its entry goes.
+  // Asked, when the directory is full or memory is short, about streams without a publisher, the
+  // one longest without it first. Whoever answers true lets go of what it keeps for the stream; its
+  // entry goes.
   void onRoomNeeded(std::function<bool(const std::string& stream)> may_forget);
+
+  // Forgets the stream that has been without a publisher longest, if that is at least so long, and
+  // if whoever is asked about it lets it go. False = there is none.
+  bool forgetOldest(int64_t unused_for_ns);
 
   // Each frame once, by whoever hands out its report.
   void countReceived(const std::string& stream);

@@ -2,6 +2,7 @@
 #include "base/worker_pool.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/thread_name.h"
 
@@ -37,10 +38,23 @@ void WorkerPool::forEach(uint32_t count, const Piece& piece) {
   takePieces(0);
   std::unique_lock lock(mutex_);
   ended_.wait(lock, [this] { return busy_count_ == 0; });
+  if (const std::exception_ptr failure = std::exchange(failure_, nullptr)) {
+    std::rethrow_exception(failure);
+  }
 }
 
 void WorkerPool::takePieces(uint32_t worker) {
-  for (uint32_t index = next_++; index < count_; index = next_++) (*piece_)(index, worker);
+  try {
+    for (uint32_t index = next_++; index < count_; index = next_++) (*piece_)(index, worker);
+  } catch (...) {
+    noteFailure();
+  }
+}
+
+void WorkerPool::noteFailure() {
+  next_ = count_;
+  const std::lock_guard lock(mutex_);
+  if (!failure_) failure_ = std::current_exception();
 }
 
 void WorkerPool::run(const std::stop_token& stop, uint32_t worker) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <stop_token>
@@ -26,13 +27,15 @@ class WorkerPool {
   uint32_t workerCount() const { return uint32_t(threads_.size()) + 1; }
 
   // Calls piece(index, worker) once for every index below `count`, and returns after all calls. A
-  // worker has one piece at a time; its number is below workerCount(). Pieces must not throw.
+  // worker has one piece at a time; its number is below workerCount(). Where a piece throws, those
+  // that have not begun are left out, and the first exception goes on to the caller.
   using Piece = std::function<void(uint32_t index, uint32_t worker)>;
   void forEach(uint32_t count, const Piece& piece);
 
  private:
   void run(const std::stop_token& stop, uint32_t worker);
   void takePieces(uint32_t worker);
+  void noteFailure();
 
   std::mutex task_mutex_;  // one caller at a time
   std::mutex mutex_;       // guards what follows, but for next_
@@ -42,6 +45,7 @@ class WorkerPool {
   uint32_t count_ = 0;
   uint64_t task_number_ = 0;
   uint32_t busy_count_ = 0;
+  std::exception_ptr failure_;
   std::atomic<uint32_t> next_ = 0;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };

@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "base/log.h"
 #include "base/thread_name.h"
+#include "gpu/device_error.h"
 
 namespace viewloom {
 
@@ -50,10 +52,20 @@ void KernelCompiler::run(const std::stop_token& stop) {
   }
 }
 
-void KernelCompiler::compileOne(const Kernel& kernel) {
+// Whoever waits asks again for a kernel for which there was no memory.
+void KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
   try {
     before_each_();
     kernel.compile();
+  } catch (const std::exception& error) {
+    if (!isOutOfDeviceMemory(error)) throw;
+    log(LogLevel::kWarning, "a kernel is not compiled: ", deviceErrorText(error));
+  }
+}
+
+void KernelCompiler::compileOne(const Kernel& kernel) {
+  try {
+    compileUnlessOutOfMemory(kernel);
     bool is_last = false;
     {
       std::lock_guard lock(mutex_);

@@ -43,6 +43,7 @@ class KernelCompiler {
   };
 
   void run(const std::stop_token& stop);
+  void compileUnlessOutOfMemory(const Kernel& kernel);
   void compileOne(const Kernel& kernel);
 
   const std::function<void(const std::exception& error)> on_failure_;

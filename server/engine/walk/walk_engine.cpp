@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "gpu/device_error.h"
+#include "walk/within_device_memory.h"
 
 namespace viewloom {
 namespace {
@@ -104,8 +105,8 @@ void WalkEngine::drain() {
 
 std::unique_ptr<Making> WalkEngine::begin(AtlasOrder order, HandOn hand_on) {
   order.planes.color = tracer_.colorForm(order.planes.color);
-  std::shared_ptr<StripTrace> trace =
-      strips_.take(WalkMaking::stripShape(order), order.is_for_eyes);
+  std::shared_ptr<StripTrace> trace = withinDeviceMemory(
+      [&] { return strips_.take(WalkMaking::stripShape(order), order.is_for_eyes); });
   if (!trace) return nullptr;
   const WalkTools tools{.timeline = works_.timeline,
                         .tracer = tracer_,

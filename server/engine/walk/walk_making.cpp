@@ -5,6 +5,7 @@
 
 #include "lens/host_structure.h"
 #include "trace/band_parts.h"
+#include "walk/within_device_memory.h"
 
 namespace viewloom {
 namespace {
@@ -142,6 +143,10 @@ TraceSlotShape WalkMaking::stripShape(const AtlasOrder& order) {
 }
 
 MakingStep WalkMaking::step() {
+  return withinDeviceMemory([this] { return makePart(); });
+}
+
+MakingStep WalkMaking::makePart() {
   if (!trace_) trace_ = tools_.strips.take(stripShape(order_), order_.is_for_eyes);
   if (!trace_) return {.has_room = false};
   const BandRows rows = order_.strips.rowsOf(strip_);

@@ -54,7 +54,7 @@ class WalkMaking final : public Making {
 
   const TraceOutputs& planes() const override { return order_.planes; }
   bool holdsRoom() const override { return trace_ != nullptr; }
-  // Waits until the device is no more than two parts behind.
+  // Waits until the device is no more than two parts behind. Throws EngineOutOfMemory.
   MakingStep step() override;
 
   // Kernels that the strips of such an atlas need and nobody has compiled.
@@ -63,6 +63,7 @@ class WalkMaking final : public Making {
   static TraceSlotShape stripShape(const AtlasOrder& order);
 
  private:
+  MakingStep makePart();
   void handOn(uint64_t timeline_value);
 
   const WalkTools tools_;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "gpu/device_error.h"
+#include "walk/within_device_memory.h"
 
 namespace viewloom {
 namespace {
@@ -24,17 +24,6 @@ uint64_t structureBytesOf(const Device& device, const std::vector<FrameShape>& s
   return bytes;
 }
 
-// Calls it, and says in words for users that the device has no memory left for that.
-template <typename Call>
-auto withinMemory(const Call& call) {
-  try {
-    return call();
-  } catch (const std::exception& error) {
-    if (!isOutOfDeviceMemory(error)) throw;
-    throw EngineOutOfMemory(deviceErrorText(error));
-  }
-}
-
 }  // namespace
 
 void WalkedFrame::take(FramePtr frame) {
@@ -43,7 +32,7 @@ void WalkedFrame::take(FramePtr frame) {
 }
 
 void WalkedFrame::reserve() {
-  withinMemory([this] {
+  withinDeviceMemory([this] {
     std::lock_guard lock(builds_->mutex);
     makeRoom();
   });
@@ -51,7 +40,7 @@ void WalkedFrame::reserve() {
 
 int64_t WalkedFrame::prepare(const Clock& clock) {
   if (!frame_) return 0;
-  return withinMemory([&] {
+  return withinDeviceMemory([&] {
     std::lock_guard lock(builds_->mutex);
     makeRoom();
     return build(clock);
