@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <new>
+
+#include <jerror.h>
 
 #include "base/check.h"
 #include "encode/quilt_exif.h"
@@ -20,8 +23,10 @@ constexpr size_t kMarker_bytes = 2;
 
 constexpr size_t kFirstStream_bytes = size_t{64} * 1024;
 
-// Called by jpeg_write_* on an error. Every parameter was checked before, so an error is our bug.
+// Called by jpeg_write_* on an error. Every parameter was checked before, so any error but a want of
+// memory is our bug.
 [[noreturn]] void failOnJpegError(j_common_ptr compressor) {
+  if (compressor->err->msg_code == JERR_OUT_OF_MEMORY) throw std::bad_alloc();
   compressor->err->output_message(compressor);
   failCheck(__FILE__, __LINE__, "libjpeg accepts the band");
 }
@@ -152,6 +157,7 @@ void JpegEncoder::writePlanes(const BandPixels& pixels) {
 }
 
 size_t JpegEncoder::compress(const BandPixels& pixels, const EncodingSpec& encoding) {
+  jpeg_abort_compress(&compressor_);  // memory may have run out in the middle of the last band
   setParameters(compressor_, pixels, encoding);
   jpeg_start_compress(&compressor_, TRUE);
   if (isChannel(pixels))

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <new>
+
+#include <zstd_errors.h>
 
 #include "base/check.h"
 
@@ -38,7 +41,7 @@ size_t packedRowBytes(const BandPixels& pixels) {
 }  // namespace
 
 LosslessEncoder::LosslessEncoder(BytePool& pool) : pool_(pool), context_(ZSTD_createCCtx()) {
-  VIEWLOOM_CHECK(context_ != nullptr);
+  if (!context_) throw std::bad_alloc();
   VIEWLOOM_CHECK(
       !ZSTD_isError(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, kZstdLevel)));
 }
@@ -84,6 +87,7 @@ SharedBytes LosslessEncoder::encodeZstd(const BandPixels& pixels) {
     ZSTD_inBuffer in = {.src = packed.data(), .size = packed.size(), .pos = 0};
     const size_t left =
         ZSTD_compressStream2(context_.get(), &out, &in, is_last ? ZSTD_e_end : ZSTD_e_continue);
+    if (ZSTD_getErrorCode(left) == ZSTD_error_memory_allocation) throw std::bad_alloc();
     VIEWLOOM_CHECK(!ZSTD_isError(left));
     VIEWLOOM_CHECK(in.pos == in.size && (!is_last || left == 0));  // `out` holds any outcome
   }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The server under test as a process, on ports of its choice."""
 
+import os
 import re
 import subprocess
 import sys
@@ -10,11 +11,13 @@ PROGRAM = sys.argv.pop(1)
 
 
 class Viewloomd:
-    def __init__(self, address="127.0.0.1:0", options=(), log=None):
-        """options: further ones of `viewloomd serve`. log: a file for what it logs."""
+    def __init__(self, address="127.0.0.1:0", options=(), log=None, environment=None):
+        """options: further ones of `viewloomd serve`. log: a file for what it logs. environment:
+        variables beside those of this process."""
         self.process = subprocess.Popen(
             [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0",
-             *options], stdout=subprocess.PIPE, stderr=log, text=True)
+             *options], stdout=subprocess.PIPE, stderr=log, text=True,
+            env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()
         self.address, self.url = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
 
