@@ -48,7 +48,7 @@ DisplayPrice smallDisplay() {
   return displayPrice(completeDisplaySpec(spec).value(), {});
 }
 
-// What one client needs at least.
+// Least bytes that one client needs.
 uint64_t leastBytes(const PreparedBytes& prepared_bytes) {
   const FrameFormat frame = smallFrame();
   const DisplayPrice display = smallDisplay();

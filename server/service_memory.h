@@ -41,7 +41,7 @@ class IdleStreams final : public IdleMemory {
   StreamDirectory& directory_;
 };
 
-// What the program itself takes, and the thread that gives unused memory back. Thread-safety: the
+// Memory of the program itself, and the thread that gives unused memory back. Thread-safety: the
 // constructor and the destructor only.
 class ServiceMemory {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an open display and each of its viewers cost in memory.
+// Price of an open display and of each of its viewers in memory.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct DisplayPrice {
   uint64_t encoded_bytes = 0;  // one atlas as it is sent
   uint64_t making_bytes = 0;   // planes of one atlas while it is made
 
-  // As long as it is open: its rays, its newest atlas, and the one that follows.
+  // Held while it is open: its rays, its newest atlas, and the one that follows.
   uint64_t displayBytes() const { return rays_bytes + 2 * encoded_bytes; }
   // A slow viewer is still sent an older atlas; its call has buffers.
   uint64_t viewerBytes() const;

@@ -6,6 +6,7 @@
 
 #include "base/str_cat.h"
 #include "frame/limits.h"
+#include "frame/plane_encoding.h"
 
 namespace viewloom {
 namespace {

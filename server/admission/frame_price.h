@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame costs in memory, by its header alone.
+// Price of a frame in memory, by its header alone.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace viewloom {
 struct FramePrice {
   // From the header until the frame is decoded: wire, inflated and decoded bytes together.
   uint64_t receiving_bytes = 0;
-  // As long as the decoded frame is held.
+  // Held as long as the decoded frame.
   uint64_t decoded_bytes = 0;
 };
 

@@ -21,7 +21,7 @@ namespace viewloom {
 // Somebody asks for memory.
 struct MemoryRequest {
   MemoryUse use = MemoryUse::kFrames;
-  // Whose share it counts in, such as the address of a client. Empty = the server's own.
+  // Client in whose share it counts, such as an address. Empty = the server's own.
   std::string identity{};
   uint64_t bytes = 0;
 };
@@ -81,9 +81,9 @@ class MemoryBudget {
   // For memory that is there already: granted in any case, so that others get less.
   Reservation charge(MemoryUse use, uint64_t bytes);
 
-  // What the identity would get now.
+  // Most that the identity would get now.
   uint64_t leftFor(const std::string& identity) const;
-  // What it would get if no other client were there.
+  // Most that a client would get if no other were there.
   uint64_t mostForOne() const;
 
   // Idle memory counts as long as somebody holds it.

@@ -92,9 +92,7 @@ absl::Status FrameAssembly::requireComplete() const {
 
 CollectedFrame FrameAssembly::take() {
   VIEWLOOM_CHECK(complete());
-  return {.format = std::move(format_),
-          .planes = std::move(planes_),
-          .memory = std::move(memory_)};
+  return {.format = std::move(format_), .planes = std::move(planes_), .memory = std::move(memory_)};
 }
 
 }  // namespace viewloom

@@ -107,8 +107,7 @@ struct FrameIntake::State {
       if (open->claimed_count == open->planes.size()) open_frames.pop_front();
       lock.unlock();
       open->decoded[plane] = unlessOutOfMemory([&] {
-        return decoder.decode(*open->planes[plane],
-                              std::move(open->frame.collected.planes[plane]));
+        return decoder.decode(*open->planes[plane], std::move(open->frame.collected.planes[plane]));
       });
       lock.lock();
       if (--open->unfinished_count > 0) continue;

@@ -23,8 +23,8 @@ constexpr size_t kMarker_bytes = 2;
 
 constexpr size_t kFirstStream_bytes = size_t{64} * 1024;
 
-// Called by jpeg_write_* on an error. Every parameter was checked before, so any error but a want of
-// memory is our bug.
+// Called by jpeg_write_* on an error. Every parameter was checked before, so an error is a want of
+// memory, or our bug.
 [[noreturn]] void failOnJpegError(j_common_ptr compressor) {
   if (compressor->err->msg_code == JERR_OUT_OF_MEMORY) throw std::bad_alloc();
   compressor->err->output_message(compressor);

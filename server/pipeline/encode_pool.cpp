@@ -90,7 +90,7 @@ void EncodePool::run() {
   }
 }
 
-// What runs out of memory costs its own atlas alone.
+// Work that runs out of memory costs its own atlas alone.
 void EncodePool::serve(const EncodeTask& task, BandEncoder& encoder) {
   AtlasRun& run = *task.batch->run;
   const absl::Status status = withinMemory([&] {

@@ -44,7 +44,7 @@ class WatchedDisplays {
  public:
   explicit WatchedDisplays(BroadcasterLimits limits) : limits_(limits) {}
 
-  // Of displays and viewers.
+  // Next id of a display or a viewer.
   uint64_t takeId() { return next_id_++; }
 
   // OK, or over which limit one more viewer is.

@@ -86,7 +86,7 @@ void BidiCall::OnDone() {
   const std::shared_ptr<BidiCall> self = std::move(self_);
 }
 
-// What a message is made of may be half taken, so that nothing can follow it.
+// Parts of a message may be half taken, so that nothing can follow it.
 std::optional<grpc::ByteBuffer> BidiCall::nextMessage() {
   try {
     return takeMessage();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What asks for more memory than is left is refused before the server takes any, and says what
-would fit. What clients have left goes back to the system. Arguments: viewloomd, the Python stubs."""
+"""A request for more memory than is left is refused before the server takes any, and the refusal
+says what would fit. Memory that clients have left goes back to the system. Arguments: viewloomd and
+the Python stubs."""
 import math
 import pathlib
 import queue
@@ -25,7 +26,7 @@ from viewloom.v1 import ingest_service_pb2 as ingest
 from viewloom.v1 import ingest_service_pb2_grpc as ingest_grpc
 
 BUDGET_BYTES = 1_500_000_000
-# What a refusal may cost: buffers of the libraries, not planes.
+# Most that a refusal may cost: buffers of the libraries, not planes.
 REFUSAL_BYTES_MAX = 48 << 20
 RETURNED_WITHIN_S = 10
 REST_SHARE = 1.05
@@ -158,7 +159,8 @@ class MemoryBudget(unittest.TestCase):
         small = self.publishing("small")
         small.send(header=header(64, 1, 64 * 64 * 4))
         for index in range(2):
-            small.send(chunk={"plane_index": index, "offset_bytes": 0, "data": b"\0" * (64 * 64 * 4)})
+            small.send(chunk={"plane_index": index, "offset_bytes": 0,
+                              "data": b"\0" * (64 * 64 * 4)})
         self.assertIsNone(small.refusal())
 
     def test_refuses_a_display_that_could_not_be_made(self):

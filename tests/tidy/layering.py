@@ -31,7 +31,7 @@ LAYERS = {
                              ["absl", "grpc", "nlohmann", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
     "server/metrics": (["base"], ["prometheus"]),
-    # What memory costs, and who gets it.
+    # Prices of memory, and its ledger.
     "server/admission": (["base", "frame", "display", SHADERS_SHARED], ["absl"]),
     "server/config": (["base", "usage"], ["absl", "toml++"]),
     # Knows neither door, and no stream but by its name.
@@ -70,8 +70,8 @@ LAYERS = {
                         ["absl"]),
     # Only make_engines includes the inside of an engine.
     "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", "admission",
-                         ENGINE, "engine/engines.h", "eye_poses", "retime", "temporal", "encode", "publish",
-                         "schedule", "metrics", SHADERS_SHARED],
+                         ENGINE, "engine/engines.h", "eye_poses", "retime", "temporal", "encode",
+                         "publish", "schedule", "metrics", SHADERS_SHARED],
                         ["absl", "glm"]),
     "server/rpc": (["base", "access", "frame", "decode", "display", "admission", "eye_poses",
                     "messages", "metrics", BAND, "publish", "tls"],

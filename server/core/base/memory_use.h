@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the memory of a server is used for.
+// Uses of a server's memory.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,6 @@ namespace {
 constexpr double kExposureMaxEv = 32;
 // A row may be padded up to the next page of this size.
 constexpr uint64_t kRowPaddingBytesMax = 65536;
-constexpr uint64_t kJpegHeaderBytesMax = uint64_t{1} << 20;
 // More than any zstd encoder adds to bytes it cannot compress.
 constexpr uint64_t zstdBytesMax(uint64_t content_bytes) {
   return content_bytes + content_bytes / 128 + 1024;
@@ -237,8 +236,8 @@ uint64_t heldBytes(const LayerFormat& layer) {
 
 uint64_t jpegBytesMax(uint64_t area_px) {
   // Three channels of 8x8 blocks whose 64 coefficients take at most 27 bits each, doubled by byte
-  // stuffing; and metadata segments.
-  return area_px * 3 * 27 * 2 / 8 + kJpegHeaderBytesMax;
+  // stuffing; 1 MiB for metadata segments.
+  return area_px * 3 * 27 * 2 / 8 + (1 << 20);
 }
 
 uint64_t wireRowBytes(const PlaneFormat& plane) {
@@ -255,19 +254,6 @@ uint64_t decodedBytes(const PlaneFormat& plane) {
       plane.encoding == PlaneEncoding::kRgb8 || plane.encoding == PlaneEncoding::kJpeg;
   const uint64_t pixel_bytes = becomes_rgba8 ? 4 : wirePixelBytes(plane.encoding);
   return plane.size_px.area() * pixel_bytes;
-}
-
-uint64_t inflatedBytesMax(const PlaneFormat& plane) {
-  if (plane.compression == PlaneCompression::kNone) return 0;
-  if (plane.encoding != PlaneEncoding::kJpeg) return uncompressedBytes(plane);
-  // A JPEG that is larger than its pixels is no picture. Up to a few pixels, headers are larger.
-  return std::min(jpegBytesMax(plane.size_px.area()), decodedBytes(plane) + kJpegHeaderBytesMax);
-}
-
-bool isHeldAsSent(const PlaneFormat& plane) {
-  return plane.encoding != PlaneEncoding::kRgb8 && plane.encoding != PlaneEncoding::kJpeg &&
-         plane.compression != PlaneCompression::kPredictedZstd &&
-         uncompressedBytes(plane) == decodedBytes(plane);
 }
 
 absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits) {

@@ -25,11 +25,6 @@ uint64_t jpegBytesMax(uint64_t area_px);
 uint64_t wireRowBytes(const PlaneFormat& plane);
 // Bytes of the plane before compression, with stride; 0 for JPEG.
 uint64_t uncompressedBytes(const PlaneFormat& plane);
-// Bytes of the plane between zstd and the next decoder: uncompressedBytes, or for JPEG the most that
-// is accepted. 0 without zstd.
-uint64_t inflatedBytesMax(const PlaneFormat& plane);
-// Whether the uncompressed bytes of the plane are what a Frame holds.
-bool isHeldAsSent(const PlaneFormat& plane);
 // Bytes a pixel of LayerPlanes::surface, for layers that mirror.
 inline constexpr uint32_t kSurfaceTexelBytes = 8;
 // Bytes of the plane once it is decoded: packed, RGB8 and JPEG as RGBA8.

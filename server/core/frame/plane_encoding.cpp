@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame/plane_encoding.h"
 
+#include <algorithm>
+
+#include "frame/limits.h"
+
 namespace viewloom {
 
 bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding) {
@@ -66,6 +70,20 @@ uint32_t wirePixelBytes(PlaneEncoding encoding) {
       return 0;
   }
   return 0;
+}
+
+uint64_t inflatedBytesMax(const PlaneFormat& plane) {
+  if (plane.compression == PlaneCompression::kNone) return 0;
+  if (plane.encoding != PlaneEncoding::kJpeg) return uncompressedBytes(plane);
+  // A JPEG that is larger than its pixels is no picture, but for its headers.
+  const uint64_t header_bytes = jpegBytesMax(0);
+  return std::min(jpegBytesMax(plane.size_px.area()), decodedBytes(plane) + header_bytes);
+}
+
+bool isHeldAsSent(const PlaneFormat& plane) {
+  return plane.encoding != PlaneEncoding::kRgb8 && plane.encoding != PlaneEncoding::kJpeg &&
+         plane.compression != PlaneCompression::kPredictedZstd &&
+         uncompressedBytes(plane) == decodedBytes(plane);
 }
 
 }  // namespace viewloom

@@ -13,5 +13,10 @@ bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding);
 const char* encodingsOf(PlaneKind kind);
 // Bytes of one pixel as sent; 0 for JPEG.
 uint32_t wirePixelBytes(PlaneEncoding encoding);
+// Bytes of the plane between zstd and the next decoder: its uncompressed bytes, or for JPEG the
+// most that is accepted. 0 without zstd.
+uint64_t inflatedBytesMax(const PlaneFormat& plane);
+// Whether the uncompressed bytes of the plane are held by a Frame without a change.
+bool isHeldAsSent(const PlaneFormat& plane);
 
 }  // namespace viewloom

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "frame/limits.h"
+#include "frame/plane_encoding.h"
 
 namespace viewloom::frame_price_test {
 namespace {

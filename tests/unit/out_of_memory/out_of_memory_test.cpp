@@ -48,11 +48,12 @@ CollectedFrame packedFrame(uint64_t number) {
                      .compression = PlaneCompression::kZstd};
   const std::vector<uint8_t> wire = zstdFrame(depth, ZstdSize::kStated);
   packed.wire_bytes = wire.size();
-  PlaneFormat color{.kind = PlaneKind::kColor, .encoding = PlaneEncoding::kRgb8, .size_px = kSize_px};
+  PlaneFormat color{
+      .kind = PlaneKind::kColor, .encoding = PlaneEncoding::kRgb8, .size_px = kSize_px};
   color.wire_bytes = uncompressedBytes(color);
-  CollectedFrame frame{.format = {.number = number,
-                                  .sources = {{.layers = {{.color = color, .depth = packed}}}}},
-                       .planes = {}};
+  CollectedFrame frame{
+      .format = {.number = number, .sources = {{.layers = {{.color = color, .depth = packed}}}}},
+      .planes = {}};
   frame.planes = {std::make_shared<const std::vector<uint8_t>>(color.wire_bytes, uint8_t{9}),
                   std::make_shared<const std::vector<uint8_t>>(wire)};
   return frame;
@@ -158,8 +159,7 @@ TEST(OutOfMemory, leavesAnEncoderFitForTheNextBand) {
 }
 
 TEST(OutOfMemory, isWorthAnotherTry) {
-  const absl::Status status =
-      unlessOutOfMemory([]() -> absl::Status { throw std::bad_alloc(); });
+  const absl::Status status = unlessOutOfMemory([]() -> absl::Status { throw std::bad_alloc(); });
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_NE(status.message().find("try again later"), std::string::npos);
 }

@@ -36,7 +36,7 @@ class TraceParams {
  public:
   TraceParams(const Device& device, const TraceSlotShape& shape);
 
-  // Of the upload; it is on the device once more.
+  // Bytes of the upload; the device has a copy.
   static uint64_t uploadBytesFor(const TraceSlotShape& shape);
   uint64_t sizeBytes() const { return upload_.sizeBytes() + params_.sizeBytes(); }
   // For the job's band; what is recorded next brings it to the device.

@@ -35,7 +35,7 @@ struct TraceSlotSizes {
   uint64_t linear = 0;
   uint64_t records = 0;
   uint64_t counters = 0;
-  // Of the device alone.
+  // Buffers of the device alone.
   uint64_t unpacked = 0;
   uint64_t answers = 0;
   uint64_t sample = 0;
