@@ -18,8 +18,11 @@ size_t roundedUp(size_t capacity_bytes) {
   return (capacity_bytes + step - 1) / step * step;
 }
 
-// A larger buffer than this would be missing where it is needed.
-constexpr size_t kWasteFactorMax = 4;
+// A larger buffer than this would be missing where it is needed, and all of it is in memory.
+size_t capacityMax(size_t capacity_bytes) {
+  constexpr size_t kLarge_bytes = size_t{1} << 20;
+  return roundedUp(capacity_bytes) * (capacity_bytes < kLarge_bytes ? 4 : 2);
+}
 
 }  // namespace
 
@@ -47,7 +50,7 @@ struct BytePool::Shelf final : IdleMemory {
     auto best = waiting.end();
     for (auto it = waiting.begin(); it != waiting.end(); ++it) {
       const size_t got = it->bytes->capacity();
-      if (got < capacity_bytes || got > roundedUp(capacity_bytes) * kWasteFactorMax) continue;
+      if (got < capacity_bytes || got > capacityMax(capacity_bytes)) continue;
       if (best == waiting.end() || got < best->bytes->capacity()) best = it;
     }
     if (best == waiting.end()) return nullptr;

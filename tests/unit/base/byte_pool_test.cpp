@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/idle_memory.h"
 #include "support/large_allocations.h"
 
 namespace viewloom::byte_pool_test {
@@ -115,6 +116,26 @@ TEST(BytePool, neverLendsOneBufferTwice) {
       }
     });
   }
+}
+
+TEST(BytePool, givesUpWhatWasNotUsedForSoLong) {
+  BytePool pool(4);
+  pool.take(1 << 20);
+  const uint64_t held_bytes = pool.idleMemory()->idleBytes();
+  EXPECT_GE(held_bytes, uint64_t{1} << 20);
+  EXPECT_EQ(pool.idleMemory()->releaseIdle(std::chrono::hours(1)), 0u);
+  const BytePool::Buffer lent = pool.take(1 << 20);
+  EXPECT_EQ(pool.idleMemory()->idleBytes(), 0u) << "lent buffers are not idle";
+  pool.take(1000);
+  EXPECT_GE(pool.idleMemory()->releaseIdle(std::chrono::nanoseconds(0)), 1000u);
+  EXPECT_EQ(pool.idleMemory()->idleBytes(), 0u);
+}
+
+TEST(BytePool, lendsNoBufferMuchLargerThanALargeRequest) {
+  BytePool pool(4);
+  pool.take(16 << 20);
+  const BytePool::Buffer buffer = pool.take(4 << 20);
+  EXPECT_LT(buffer->capacity(), size_t{8} << 20);
 }
 
 }  // namespace

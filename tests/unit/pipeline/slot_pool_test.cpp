@@ -86,5 +86,21 @@ TEST_F(SlotPoolTest, letsBorrowedSlotsOutliveIt) {
   EXPECT_EQ(returned_count, 1);
 }
 
+TEST_F(SlotPoolTest, givesUpFreeSlotsThatWereNotUsedForSoLong) {
+  auto lent = take(1);
+  take(2);
+  EXPECT_EQ(pool_.lentCount(), 1u);
+  pool_.idleMemory()->releaseIdle(std::chrono::hours(1));
+  take(2);
+  EXPECT_EQ(made_count_, 2);
+  pool_.idleMemory()->releaseIdle(std::chrono::nanoseconds(0));
+  take(2);
+  EXPECT_EQ(made_count_, 3);
+  EXPECT_FALSE(pool_.isEmpty());
+  lent.reset();
+  pool_.idleMemory()->releaseIdle(std::chrono::nanoseconds(0));
+  EXPECT_TRUE(pool_.isEmpty());
+}
+
 }  // namespace
 }  // namespace viewloom::slot_pool_test

@@ -242,5 +242,35 @@ TEST(Broadcaster, letsAWatcherLeaveFromWithinAnOffer) {
   EXPECT_THAT(broadcaster.displays("s"), IsEmpty());
 }
 
+TEST(Broadcaster, opensNoDisplayForWhichThereIsNoMemory) {
+  MemoryBudget memory(64'000'000);
+  Broadcaster broadcaster({}, memory);
+  const auto watcher = std::make_shared<Watcher>();
+  DisplaySpec large;
+  large.kind = QuiltSpec{.columns = 2, .rows = 2, .size_px = {8192, 8192}};
+  const auto refused = broadcaster.subscribe("s", *completeDisplaySpec(large), {}, watcher);
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(fieldOf(refused.status()), "quilt.size");
+  EXPECT_TRUE(broadcaster.displays("s").empty());
+  EXPECT_EQ(memory.reservedBytes(), 0u);
+}
+
+TEST(Broadcaster, givesTheMemoryOfADisplayBackWithItsLastViewer) {
+  MemoryBudget memory(1'000'000'000);
+  Broadcaster broadcaster({}, memory);
+  const auto watcher = std::make_shared<Watcher>();
+  auto first = join(broadcaster, "s", quiltOf(2), watcher);
+  const uint64_t display_bytes = memory.reservedBytes(MemoryUse::kDisplays);
+  const uint64_t viewer_bytes = memory.reservedBytes(MemoryUse::kViewers);
+  EXPECT_GT(display_bytes, 0u);
+  auto second = join(broadcaster, "s", quiltOf(2), watcher);
+  EXPECT_EQ(memory.reservedBytes(MemoryUse::kDisplays), display_bytes);
+  EXPECT_EQ(memory.reservedBytes(MemoryUse::kViewers), 2 * viewer_bytes);
+  first.reset();
+  EXPECT_EQ(memory.reservedBytes(), display_bytes + viewer_bytes);
+  second.reset();
+  EXPECT_EQ(memory.reservedBytes(), 0u);
+}
+
 }  // namespace
 }  // namespace viewloom::test::broadcaster_test

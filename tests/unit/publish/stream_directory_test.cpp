@@ -190,5 +190,28 @@ TEST_F(StreamDirectoryTest, givesAStreamToExactlyOneOfManyThreads) {
   EXPECT_EQ(directory_.list()[0].received_count, 800u);
 }
 
+TEST_F(StreamDirectoryTest, forgetsTheOldestOfThoseLongWithoutAPublisher) {
+  StreamDirectory directory(clock_, 8);
+  std::vector<std::string> asked;
+  directory.onRoomNeeded([&](const std::string& stream) {
+    asked.push_back(stream);
+    return stream != "watched";
+  });
+  for (const char* const stream : {"watched", "older", "newer"}) {
+    directory.claim(stream, "", {})->reset();
+    clock_.advance(10);
+  }
+  const auto live = directory.claim("live", "", {});
+  EXPECT_FALSE(directory.forgetOldest(1000));
+  EXPECT_TRUE(asked.empty());
+  EXPECT_TRUE(directory.forgetOldest(20));
+  EXPECT_FALSE(directory.exists("older"));
+  EXPECT_FALSE(directory.forgetOldest(20)) << "the newer one was released too lately";
+  EXPECT_TRUE(directory.forgetOldest(0));
+  EXPECT_FALSE(directory.forgetOldest(0));
+  EXPECT_TRUE(directory.exists("watched"));
+  EXPECT_TRUE(directory.exists("live"));
+}
+
 }  // namespace
 }  // namespace viewloom::stream_directory_test
