@@ -112,7 +112,7 @@ std::optional<Reservation> MemoryBudget::grant(const MemoryRequest& request) {
 
 std::optional<Reservation> MemoryBudget::tryReserve(const MemoryRequest& request) {
   std::optional<Reservation> granted = grant(request);
-  if (!granted) {
+  if (!granted && mayEverFit(request)) {
     releaseIdle(std::chrono::nanoseconds(0));
     granted = grant(request);
   }
@@ -152,10 +152,13 @@ uint64_t MemoryBudget::leftFor(const std::string& identity) const {
 }
 
 uint64_t MemoryBudget::mostForOne() const {
-  std::lock_guard lock(ledger_->mutex);
-  uint64_t of_clients = 0;
-  for (const auto& [identity, bytes] : ledger_->by_identity) of_clients += bytes;
-  return shareOf(minusOrZero(ledger_->total_bytes, ledger_->reserved_bytes - of_clients));
+  const uint64_t fixed_bytes =
+      reservedBytes(MemoryUse::kProgram) + reservedBytes(MemoryUse::kMessages);
+  return shareOf(minusOrZero(ledger_->total_bytes, fixed_bytes));
+}
+
+bool MemoryBudget::mayEverFit(const MemoryRequest& request) const {
+  return request.bytes <= (request.identity.empty() ? ledger_->total_bytes : mostForOne());
 }
 
 void MemoryBudget::addIdle(const std::shared_ptr<IdleMemory>& idle) {

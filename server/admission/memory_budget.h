@@ -83,7 +83,7 @@ class MemoryBudget {
 
   // Most that the identity would get now.
   uint64_t leftFor(const std::string& identity) const;
-  // Most that a client would get if no other were there.
+  // Most that a client would get if nobody else had anything, and nothing were being made.
   uint64_t mostForOne() const;
 
   // Idle memory counts as long as somebody holds it.
@@ -97,6 +97,8 @@ class MemoryBudget {
   uint64_t idleBytes() const;
 
  private:
+  // Otherwise it is refused at once: what others hold idle would be given up in vain.
+  bool mayEverFit(const MemoryRequest& request) const;
   std::optional<Reservation> grant(const MemoryRequest& request);
 
   const OnRefused on_refused_;

@@ -94,6 +94,16 @@ TEST(MemoryBudget, givesUpWhatIsIdleBeforeItRefuses) {
   EXPECT_EQ(shelf->last_unused_for.count(), 0);
 }
 
+TEST(MemoryBudget, givesUpNothingForWhatWouldNeverFit) {
+  MemoryBudget budget(1000);
+  const auto shelf = std::make_shared<Shelf>(100);
+  budget.addIdle(shelf);
+  EXPECT_FALSE(budget.tryReserve(of("a", 751)));
+  EXPECT_EQ(budget.idleBytes(), 100u);
+  EXPECT_TRUE(budget.tryReserve(of("a", 750)));
+  EXPECT_EQ(budget.idleBytes(), 0u);
+}
+
 TEST(MemoryBudget, forgetsIdleMemoryThatIsGone) {
   MemoryBudget budget(1000);
   budget.addIdle(std::make_shared<Shelf>(800));
