@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/stream_retimer.h"
 
+#include <optional>
 #include <utility>
 
+#include "admission/frame_price.h"
 #include "base/log.h"
 #include "schedule/retime_schedule.h"
 
@@ -25,6 +27,7 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
                         last.carried_ns == carried_ns && last.guesses == guesses;
   if (is_known) return last.structure;
   last.structure = nullptr;  // its slot may serve again
+  if (!makeRoom(*structure->moving_frame, last)) return structure;
   try {
     last.structure = build(*structure, carried_ns, guesses, last.retimer);
   } catch (const EngineOutOfMemory& error) {
@@ -36,6 +39,19 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
   last.carried_ns = carried_ns;
   last.guesses = guesses;
   return last.structure;
+}
+
+bool StreamRetimer::makeRoom(const Frame& frame, Carried& carried) const {
+  // Planes that are read and made, and the surfaces between them: four times the frame, about.
+  constexpr uint64_t kCopies = 4;
+  const uint64_t bytes = kCopies * framePrice(frame.format).decoded_bytes;
+  if (carried.memory.bytes() == bytes) return true;
+  carried.memory.release();
+  std::optional<Reservation> reserved = links_.memory.tryReserve(
+      {.use = MemoryUse::kStructures, .identity = frame.publisher, .bytes = bytes});
+  if (!reserved) return false;
+  carried.memory = *std::move(reserved);
+  return true;
 }
 
 ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t carried_ns,

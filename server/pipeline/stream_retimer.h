@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "admission/memory_budget.h"
 #include "pipeline/frame_builder.h"
 #include "retime/frame_retimer.h"
 #include "schedule/atlas_job.h"
@@ -30,6 +31,7 @@ class StreamRetimer {
  private:
   // The last one of its kind.
   struct Carried {
+    Reservation memory{};  // of the retimer, and of what it makes
     FrameRetimer retimer;
     uint64_t serial = 0;
     int64_t carried_ns = 0;
@@ -39,6 +41,8 @@ class StreamRetimer {
   // One slot of each kind is traced while the next is built.
   static constexpr size_t kSlotCount = 4;
 
+  // False = the budget has no room.
+  bool makeRoom(const Frame& frame, Carried& carried) const;
   ResidentPtr build(const ResidentStructure& structure, int64_t carried_ns, Guesses guesses,
                     FrameRetimer& retimer);
 
