@@ -6,7 +6,7 @@
 namespace viewloom {
 namespace {
 
-constexpr int64_t kRetryDelay_ns = 1'000'000'000;
+constexpr int64_t kTryAgain_ns = 1'000'000'000;
 
 }  // namespace
 
@@ -14,7 +14,7 @@ absl::Status outOfMemory() {
   return worthRetry(absl::ResourceExhaustedError(
                         "the server's machine has no memory left for this; try again later, or "
                         "lower memory.budget so that less is admitted"),
-                    kRetryDelay_ns);
+                    kTryAgain_ns);
 }
 
 }  // namespace viewloom

@@ -138,10 +138,10 @@ TEST(OutOfMemory, leavesAnEncoderFitForTheNextBand) {
   const std::vector<uint8_t> rgba(size_t{kWidth_px} * kRows * 4, 77);
   AtlasLayout layout;
   layout.size_px = layout.tile_size_px = {kWidth_px, kRows};
-  const BandPixels band{.bytes = rgba,
-                        .stride_bytes = size_t{kWidth_px} * 4,
+  const BandPixels band{.row_count = kRows,
                         .width_px = kWidth_px,
-                        .row_count = kRows};
+                        .bytes = rgba,
+                        .stride_bytes = size_t{kWidth_px} * 4};
   for (const BandEncoding color : {BandEncoding::kJpeg, BandEncoding::kZstd, BandEncoding::kRaw}) {
     const EncodingSpec encoding{.color = color};
     const size_t expected_bytes = BandEncoder(pool).encode(band, encoding, layout).bytes->size();
