@@ -23,8 +23,8 @@ class Caller {
   absl::Status mayUse(const std::string& stream) const;
   // Whether lists show the stream to the caller.
   bool sees(std::string_view stream) const;
-  // Whose share of memory and engine time its calls take: the proven identity's id. Where nobody
-  // has to prove one, the client at `host` (identityOfHost).
+  // Name of the one whose share of memory and engine time its calls take: the proven identity's
+  // id. Where nobody has to prove one, it is the client at `host` (identityOfHost).
   std::string shareName(std::string_view host) const;
   // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights. To be asked
   // now and then while a call lives.

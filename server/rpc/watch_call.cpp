@@ -29,7 +29,6 @@ class WatchCall::Seat final : public Subscriber {
   void end(const absl::Status& status) override {
     if (const auto call = call_.lock()) call->endSeat(number_, inField(status));
   }
-
   // Errors of the display name the field that asked for it.
   absl::Status inField(const absl::Status& status) const {
     const std::string of = fieldOf(status);

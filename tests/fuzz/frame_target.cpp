@@ -220,8 +220,10 @@ bool fuzzFrame(FuzzBytes bytes) {
   FrameAssembly assembly(format, pool);
   if (!collect(script, format, assembly)) return false;
   const CollectedFrame collected = assembly.take();
-  const absl::StatusOr<std::unique_ptr<Frame>> frame = decoder.decode(collected);
-  const FramePtr by_threads = intake.decode(collected);
+  const absl::StatusOr<std::unique_ptr<Frame>> frame =
+      decoder.decode({.format = collected.format, .planes = collected.planes});
+  const FramePtr by_threads =
+      intake.decode({.format = collected.format, .planes = collected.planes});
   VIEWLOOM_CHECK(frame.ok() == (by_threads != nullptr));
   if (!frame.ok()) return false;
   for (size_t s = 0; s < format.sources.size(); ++s) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame/limits.h"
@@ -52,12 +53,13 @@ class FrameDecoderTest : public testing::Test {
 };
 
 TEST_F(FrameDecoderTest, handsPackedPlanesOnWithoutACopy) {
-  const CollectedFrame collected = OneLayer().collected();
-  const absl::StatusOr<std::unique_ptr<Frame>> frame = decoder_.decode(collected);
+  CollectedFrame collected = OneLayer().collected();
+  const std::vector<SharedBytes> planes = collected.planes;
+  const absl::StatusOr<std::unique_ptr<Frame>> frame = decoder_.decode(std::move(collected));
   ASSERT_TRUE(frame.ok());
   EXPECT_EQ((*frame)->format.number, 5U);
-  EXPECT_EQ((*frame)->sources[0][0].color, collected.planes[0]);
-  EXPECT_EQ((*frame)->sources[0][0].depth, collected.planes[1]);
+  EXPECT_EQ((*frame)->sources[0][0].color, planes[0]);
+  EXPECT_EQ((*frame)->sources[0][0].depth, planes[1]);
 }
 
 TEST_F(FrameDecoderTest, findsDepthThatCameFirst) {

@@ -166,7 +166,7 @@ TEST_F(FrameIntakeTest, putsEveryPlaneInItsPlaceWhoeverDecodesIt) {
     frame.planes.push_back(std::make_shared<const std::vector<uint8_t>>(2, uint8_t(plane + 100)));
   }
   for (frame.format.number = 1; frame.format.number <= kFrames; ++frame.format.number) {
-    offer("a", frame);
+    offer("a", {.format = frame.format, .planes = frame.planes});
   }
   intake_.close();
   const FramePtr newest = sink_.newest();
