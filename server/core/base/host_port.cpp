@@ -53,9 +53,10 @@ std::optional<HostPort> parseHostPort(std::string_view text) {
 
 std::string identityOfHost(std::string_view host) {
   constexpr size_t kSubnetBytes = 8;
-  if (isLoopbackHost(host)) return "this machine";
+  if (isLoopbackHost(host)) return std::string(kThisMachine);
   in6_addr ipv6{};
-  if (inet_pton(AF_INET6, std::string(host).c_str(), &ipv6) != 1) return std::string(host);
+  const std::string without_zone(host.substr(0, host.find('%')));
+  if (inet_pton(AF_INET6, without_zone.c_str(), &ipv6) != 1) return std::string(host);
   std::array<char, INET6_ADDRSTRLEN> text{};
   if (IN6_IS_ADDR_V4MAPPED(&ipv6)) {
     const uint8_t* const mapped = &ipv6.s6_addr[sizeof ipv6.s6_addr - kIpv4Bytes];

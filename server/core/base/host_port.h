@@ -22,7 +22,10 @@ std::optional<HostPort> parseHostPort(std::string_view text);
 // Whether a host, without port and brackets, is a name or an address of the loopback interface.
 bool isLoopbackHost(std::string_view host);
 
-// The client at an address, for shares: "this machine" for loopback, the address for IPv4, and for
+// All clients on the server's own machine together.
+inline constexpr std::string_view kThisMachine = "this machine";
+
+// The client at an address, for shares: kThisMachine for loopback, the address for IPv4, and for
 // IPv6 the first 64 bits ("2001:db8:0:1::/64"), as one client has all addresses below. Other texts
 // stay as they are.
 std::string identityOfHost(std::string_view host);

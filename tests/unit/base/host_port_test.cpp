@@ -56,6 +56,7 @@ TEST(IdentityOfHost, isOneForAllAddressesOfAClient) {
   EXPECT_EQ(identityOfHost("::ffff:10.0.0.7"), "10.0.0.7");
   EXPECT_EQ(identityOfHost("2001:db8:0:1:aaaa::1"), "2001:db8:0:1::/64");
   EXPECT_EQ(identityOfHost("2001:db8:0:1::2"), "2001:db8:0:1::/64");
+  EXPECT_EQ(identityOfHost("fe80::1%eth0"), identityOfHost("fe80::2"));
   EXPECT_NE(identityOfHost("2001:db8:0:2::2"), identityOfHost("2001:db8:0:1::2"));
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/payer.h"
+
+#include "base/host_port.h"
+
+namespace viewloom {
+
+Payer Payer::ofHost(std::string_view host) {
+  return Payer(identityOfHost(host));
+}
+
+bool Payer::isLocal() const {
+  return name_ == kThisMachine;
+}
+
+}  // namespace viewloom

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "schedule/fair_shares.h"
+
+#include <algorithm>
+
+namespace viewloom {
+namespace {
+
+// Payers of one level that are remembered, of those without a debt.
+constexpr size_t kKeptCount = 256;
+
+const Payer kServer;
+
+template <typename Map, typename Key>
+auto* findIn(Map& map, const Key& key) {
+  const auto found = map.find(key);
+  return found == map.end() ? nullptr : &found->second;
+}
+
+// Keeps the candidates of which `valueOf` is the least.
+template <typename Candidates, typename ValueOf>
+void keepLeast(Candidates& candidates, const ValueOf& valueOf) {
+  const auto least = std::ranges::min_element(candidates, {}, valueOf);
+  if (least == candidates.end()) return;
+  const auto value = valueOf(*least);
+  std::erase_if(candidates, [&](const auto& candidate) { return valueOf(candidate) != value; });
+}
+
+template <typename Candidates>
+const auto& soonest(const Candidates& candidates) {
+  return *std::ranges::min_element(
+      candidates, {}, [](const auto& candidate) { return candidate.claim->deadline_ns; });
+}
+
+// Forgets payers without a debt, who are as good as new ones.
+template <typename Level, typename Map>
+void forgetSome(const Level& level, Map& payers) {
+  if (payers.size() <= kKeptCount) return;
+  std::erase_if(payers, [&](const auto& entry) { return entry.second.finish_ns <= level.now_ns; });
+}
+
+}  // namespace
+
+int64_t FairShares::Level::startOf(const Node& node) const {
+  return std::max(node.finish_ns, now_ns - kCredit_ns);
+}
+
+void FairShares::Level::move(Node& node, int64_t time_ns) {
+  const int64_t start_ns = startOf(node);
+  node.finish_ns = start_ns + time_ns;
+  now_ns = std::max(now_ns, start_ns);
+}
+
+const FairShares::Account* FairShares::find(const Payer& payer) const {
+  return findIn(accounts_, payer);
+}
+
+const Payer& FairShares::payerOf(const Claim& claim) const {
+  if (claim.payers.empty()) return kServer;
+  return *std::ranges::min_element(claim.payers, {},
+                                   [&](const Payer& payer) { return startOf(payer); });
+}
+
+std::optional<size_t> FairShares::nextOf(const std::vector<const Claim*>& claims) const {
+  std::lock_guard lock(mutex_);
+  return choose(claims);
+}
+
+bool FairShares::goesBefore(const Claim& first, const Claim& second) const {
+  return nextOf({&second, &first}) == 1U;
+}
+
+std::optional<size_t> FairShares::choose(const std::vector<const Claim*>& claims) const {
+  std::vector<Candidate> candidates;
+  for (size_t i = 0; i < claims.size(); ++i) {
+    if (claims[i] == nullptr) continue;
+    const Payer& payer = payerOf(*claims[i]);
+    candidates.push_back({i, claims[i], &payer, startOf(payer)});
+  }
+  if (candidates.empty()) return std::nullopt;
+  // Of two identities with equal shares, the one goes first that is asked about first.
+  const Payer payer = *std::ranges::min_element(candidates, {}, &Candidate::start_ns)->payer;
+  std::erase_if(candidates, [&](const Candidate& candidate) { return *candidate.payer != payer; });
+  const Account* const account = find(payer);
+  keepTurnOfEyes(account, candidates);
+  keepOneStream(account, candidates);
+  keepLeastDisplays(account, candidates);
+  return soonest(candidates).index;
+}
+
+void FairShares::keepTurnOfEyes(const Account* account, std::vector<Candidate>& candidates) {
+  const auto isTracked = [](const Candidate& candidate) { return candidate.claim->is_tracked; };
+  const auto tracked_count = size_t(std::ranges::count_if(candidates, isTracked));
+  if (tracked_count == 0 || tracked_count == candidates.size()) return;
+  const bool is_others_turn = account != nullptr && account->eyes.isOver();
+  std::erase_if(candidates,
+                [&](const Candidate& candidate) { return isTracked(candidate) == is_others_turn; });
+}
+
+// Of two streams with equal shares, the one goes first whose deadline is sooner.
+void FairShares::keepOneStream(const Account* account, std::vector<Candidate>& candidates) {
+  if (account != nullptr) {
+    keepLeast(candidates, [&](const Candidate& candidate) {
+      return account->level.startOf(findIn(account->streams, candidate.claim->stream));
+    });
+  }
+  const std::string& stream = soonest(candidates).claim->stream;
+  std::erase_if(candidates,
+                [&](const Candidate& candidate) { return candidate.claim->stream != stream; });
+}
+
+void FairShares::keepLeastDisplays(const Account* account, std::vector<Candidate>& candidates) {
+  if (account == nullptr) return;
+  const auto startOf = [&](const Candidate& candidate) {
+    const Stream* const stream = findIn(account->streams, candidate.claim->stream);
+    if (stream == nullptr) return int64_t{0};
+    return stream->level.placeOf(findIn(stream->displays, candidate.claim->display));
+  };
+  const int64_t least_ns = startOf(*std::ranges::min_element(candidates, {}, startOf));
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    return startOf(candidate) > least_ns + kInOrder_ns;
+  });
+}
+
+FairShares::Account& FairShares::accountOf(const Payer& payer) {
+  forgetSome(level_, accounts_);
+  return accounts_[payer];
+}
+
+void FairShares::move(const Claim& claim, int64_t time_ns) {
+  Account& account = accountOf(payerOf(claim));
+  level_.move(account, time_ns);
+  forgetSome(account.level, account.streams);
+  Stream& stream = account.streams[claim.stream];
+  account.level.move(stream, time_ns);
+  forgetSome(stream.level, stream.displays);
+  stream.level.move(stream.displays[claim.display], time_ns);
+}
+
+void FairShares::enter(const Claim& claim) {
+  std::lock_guard lock(mutex_);
+  for (const Payer& payer : claim.payers) {
+    Stream& stream = accountOf(payer).streams[claim.stream];
+    Node& display = stream.displays[claim.display];
+    display.finish_ns = stream.level.startOf(display);
+  }
+}
+
+void FairShares::begin(const Claim& claim, int64_t predicted_ns) {
+  std::lock_guard lock(mutex_);
+  move(claim, predicted_ns);
+}
+
+// Corrects the prediction. Where several pay, others may have come first since the piece began: the
+// correction is then theirs, and they have the next piece.
+void FairShares::finish(const Claim& claim, int64_t predicted_ns, int64_t measured_ns) {
+  std::lock_guard lock(mutex_);
+  Account& account = accountOf(payerOf(claim));
+  const int64_t more_ns = measured_ns - predicted_ns;
+  account.eyes.note(claim.is_tracked, measured_ns);
+  account.finish_ns += more_ns;
+  Stream& stream = account.streams[claim.stream];
+  stream.finish_ns += more_ns;
+  stream.displays[claim.display].finish_ns += more_ns;
+}
+
+}  // namespace viewloom
