@@ -161,9 +161,11 @@ struct FrameIntake::State {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
     const uint64_t session = waiting.collected.session;
+    const Payer publisher(waiting.collected.publisher);
     absl::StatusOr<FramePtr> frame = unlessOutOfMemory([&] { return join(open); });
     if (!frame.ok()) return reportRefused(waiting.report, number, frame.status());
-    sink.offerFrame({open.stream, session}, *std::move(frame), std::move(waiting.report));
+    sink.offerFrame({open.stream, session, publisher}, *std::move(frame),
+                    std::move(waiting.report));
   }
 };
 

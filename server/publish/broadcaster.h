@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "admission/memory_budget.h"
+#include "base/payer.h"
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "eye_poses/eye_track.h"
@@ -27,6 +28,7 @@ struct ActiveDisplay {
   std::string picture_key;
   EyeTrackPtr eyes;  // of a tracked display; else nullptr
   uint32_t subscriber_count = 0;
+  std::vector<Payer> viewers;  // of the subscribers, each once; they pay for it together
 };
 
 using ActiveDisplayPtr = std::shared_ptr<const ActiveDisplay>;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "admission/memory_budget.h"
+#include "base/payer.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -19,9 +20,14 @@ class Member {
  public:
   // `memory`: of the viewer, as long as it is here.
   Member(uint64_t id, std::shared_ptr<Subscriber> subscriber, Reservation memory)
-      : id_(id), subscriber_(std::move(subscriber)), memory_(std::move(memory)) {}
+      : id_(id),
+        subscriber_(std::move(subscriber)),
+        memory_(std::move(memory)),
+        payer_(subscriber_->identity()) {}
 
   uint64_t id() const { return id_; }
+  // Pays for the display, with the other viewers.
+  const Payer& payer() const { return payer_; }
 
   // An atlas that a joiner finds may race with one that just comes: the older is left out.
   void begin(const GrowingAtlasPtr& atlas) {
@@ -53,6 +59,7 @@ class Member {
   const uint64_t id_;
   const std::shared_ptr<Subscriber> subscriber_;
   const Reservation memory_;
+  const Payer payer_;
   std::mutex call_mutex_;
   std::atomic<bool> gone_ = false;
   uint64_t begun_sequence_ = 0;  // under call_mutex_, as is the next

@@ -13,7 +13,8 @@ namespace viewloom {
 // Called from any thread, one call at a time per subscriber. No method may block.
 class Subscriber : public AtlasReader {
  public:
-  // Client in whose share of the memory the display counts: an address; empty = the server's own.
+  // Client in whose share of memory and engine time the display counts: a proven identity or an
+  // address; empty = the server itself.
   virtual std::string identity() const { return ""; }
   // An atlas is being made. It is offered once it is whole; until then it may be abandoned.
   virtual void begin(GrowingAtlasPtr /*atlas*/) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/watched_displays.h"
 
+#include <set>
 #include <utility>
 
 #include "admission/display_price.h"
@@ -58,17 +59,20 @@ const WatchedDisplay* WatchedDisplays::find(uint64_t id) const {
   return found == displays_.end() ? nullptr : &found->second;
 }
 
-// Snapshots are immutable: a changed count is a new snapshot.
-void WatchedDisplays::noteMemberCount(WatchedDisplay& display) {
+// Snapshots are immutable: changed members are a new snapshot.
+void WatchedDisplays::noteMembers(WatchedDisplay& display) {
   auto changed = std::make_shared<ActiveDisplay>(*display.active);
   changed->subscriber_count = static_cast<uint32_t>(display.members.size());
+  std::set<Payer> viewers;
+  for (const MemberPtr& member : display.members) viewers.insert(member->payer());
+  changed->viewers.assign(viewers.begin(), viewers.end());
   display.active = std::move(changed);
 }
 
 void WatchedDisplays::add(WatchedDisplay& display, MemberPtr member) {
   display.members.push_back(std::move(member));
   ++member_count_;
-  noteMemberCount(display);
+  noteMembers(display);
 }
 
 bool WatchedDisplays::remove(uint64_t display_id, uint64_t member_id, std::string& stream) {
@@ -81,7 +85,7 @@ bool WatchedDisplays::remove(uint64_t display_id, uint64_t member_id, std::strin
     return true;
   });
   if (!display->members.empty()) {
-    noteMemberCount(*display);
+    noteMembers(*display);
     return false;
   }
   stream = display->active->stream;

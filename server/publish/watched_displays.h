@@ -67,7 +67,7 @@ class WatchedDisplays {
   std::vector<MemberPtr> close(uint64_t id);
 
  private:
-  static void noteMemberCount(WatchedDisplay& display);
+  static void noteMembers(WatchedDisplay& display);
 
   const BroadcasterLimits limits_;
   uint64_t next_id_ = 1;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/payer.h"
 #include "frame/frame.h"
 #include "frame/stage_times.h"
 
@@ -39,6 +40,7 @@ struct FrameOrigin {
   std::string stream;
   // Session of the publisher. With another session, everything learnt from the stream starts again.
   uint64_t session = 0;
+  Payer publisher = {};  // who pays for what is built of it
 };
 
 // Called exactly once for each frame, from any thread; must not block.
